@@ -1,0 +1,68 @@
+#pragma once
+// A muscle group of one leg: whose it is, its size against its template, its line of action, its moving nodes.
+// Mechanics: a linear elastic belly in the frame of its line of action, z from origin to insertion; a left muscle is
+// solved as a right one and reflected when drawn.
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+
+#include "components/lanes.h"
+
+namespace mobil {
+
+enum class MuscleGroup : std::uint8_t { hamstrings, quadriceps, triceps_surae };
+inline constexpr std::size_t muscle_group_count = 3;
+inline constexpr std::array<std::string_view, muscle_group_count> muscle_group_name = {"hamstrings", "quadriceps",
+                                                                                      "triceps_surae"};
+
+/// Linear elastic material. The defaults are the paper's (section 6.1).
+struct Material {
+  double density_kg_m3 = 1000.0;
+  double young_pa = 1.06667e4;
+  double poisson = 0.3333;
+};
+
+/// The human a muscle belongs to: entity index and generation, and the side of the body.
+template <class F>
+struct MuscleOwner {
+  Whole<F> index, generation, side;
+};
+
+/// Size of a belly against its template: S scales both directions across (area), l the length; r = S / l.
+/// Stiffness K = S·(E)·(A/r + B + r·C), lumped mass M = S²·l·M₁ with A, B, C, M₁ the template's where S is the linear
+/// scale across; see assets/stiffness_terms.h.
+template <class F>
+struct BellyScale {
+  F across, along;
+};
+
+/// Line of action. `force_n` = −stiffness·(length − rest_length), the visual force of a soft bar (equations 2 and 3 of
+/// the paper), not a physiological one. `rotation` and `start_m` carry the muscle's frame into the world: origin at the
+/// origin-side end of the belly's straight span, z along it. For a left muscle the frame is the mirror image's.
+template <class F>
+struct LineOfAction {
+  F length_m, rest_length_m;
+  F stiffness_n_per_m, force_n;
+  Vec3<F> start_m;
+  Quat<F> rotation;
+};
+
+/// What drives the far end of the belly along z this tick: displacement at the tick's start and end, m.
+template <class F>
+struct EndDisplacement {
+  F from_m, to_m;
+};
+
+/// Energies and volume of a deforming belly, written once a tick.
+template <class F>
+struct BellyReport {
+  F elongation_m, reaction_n, volume_ratio, kinetic_energy_j, strain_energy_j;
+};
+
+/// Run-time sized columns (three floats a node, node-major: x0 y0 z0 x1 …) of a table of one mesh template:
+/// displacement from the rest position in m, and velocity at the half step in m/s, in the muscle's frame.
+struct NodalDisplacement {};
+struct NodalVelocity {};
+
+}  // namespace mobil

@@ -1,0 +1,43 @@
+#pragma once
+// A drawable surface, whether generated or read from a file, and how its vertices follow the body.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "components/lanes.h"
+#include "components/segments.h"
+
+namespace mobil {
+
+/// Triangles wound outwards (counter-clockwise seen from outside). Positions in m.
+struct SurfaceMesh {
+  std::string name;
+  std::vector<Vec3<float>> position;
+  std::vector<std::uint32_t> triangle;  // three indices each
+};
+
+/// A surface fixed to one segment; positions in that segment's frame.
+struct BoneSurface {
+  Segment segment = Segment::pelvis;
+  SurfaceMesh mesh;
+};
+
+/// One vertex of a muscle surface: eight nodes of its cage with trilinear weights (sum 1), and how much it follows the
+/// cage, the bone of origin and the bone of insertion (sum 1).
+struct VertexBinding {
+  std::uint16_t node[8];
+  float node_weight[8];
+  float cage, origin, insertion;
+};
+
+/// A muscle surface in the anatomical position, world axes, the body standing at x = z = 0 (m), right side.
+/// Each vertex: p = cage · frame(rest_in_cage + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
+struct MuscleSurface {
+  SurfaceMesh mesh;
+  Segment origin = Segment::pelvis, insertion = Segment::shank_right;
+  std::vector<VertexBinding> binding;
+  std::vector<Vec3<float>> rest_in_cage;  // the vertex in the muscle's rest frame, m
+};
+
+}  // namespace mobil

@@ -1,0 +1,49 @@
+// The `mobil` program: the face of the library for people and for scripts.
+// Exit status: 0 done, 1 ran but did not hold, 2 bad usage or input (one line on stderr says what and how to mend it).
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+#include "demo/commands.h"
+
+namespace {
+
+/// CLI11's message, cut to its first line, with the mend after it.
+std::string one_line(const CLI::App* app, const CLI::Error& error) {
+  std::string what = error.what();
+  what = what.substr(0, what.find('\n'));
+  return fmt::format("{}: {}; see '{} --help'\n", app->get_name(), what, app->get_name());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{
+      "mobil: crowds of virtual humans who walk, and whose muscles deform as they do.\n"
+      "Body and gait parameters go in; a walking skeleton, its lines of action, finite-element muscles and anatomical\n"
+      "surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
+      "mobil"};
+  app.set_version_flag("--version", "mobil 0.1.0");
+  app.require_subcommand(1);
+  app.failure_message(one_line);
+  app.footer("Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out");
+
+  int status = 0;
+  mobil::add_walk_command(app, status);
+  mobil::add_muscle_command(app, status);
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const int code = app.exit(error);
+    return code == 0 ? 0 : 2;
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("mobil: {}\n", error.what()).c_str(), stderr);
+    return 1;
+  }
+  return status;
+}

@@ -1,0 +1,43 @@
+# Sourced by demo/run and tests/run: the Debian packages each needs, and how they are installed when missing.
+# Sets nothing but functions; the caller has set -euo pipefail.
+
+build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
+  libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
+  ffmpeg"
+test_packages="libgtest-dev librapidcheck-dev libspectra-dev"
+
+# need PACKAGE…: installs what is missing through apt; whoever is not root is told the line to run instead.
+need() {
+  local missing=() p
+  for p in "$@"; do
+    dpkg-query -W -f='${Status}' "$p" 2>/dev/null | grep -q '^install ok installed' || missing+=("$p")
+  done
+  [ ${#missing[@]} -eq 0 ] && return 0
+  if [ "$(id -u)" -ne 0 ]; then
+    echo "missing packages; as root, run:  apt-get install -y ${missing[*]}" >&2
+    return 1
+  fi
+  echo "installing ${#missing[@]} packages: ${missing[*]}"
+  local log
+  log=$(mktemp)
+  if ! { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
+    tail -n 20 "$log" >&2
+    echo "apt-get install failed (log: $log); mend: check the network and apt sources, then run this again" >&2
+    return 1
+  fi
+  rm -f "$log"
+}
+
+# quietly NAME COMMAND…: runs a long step, shows nothing unless it fails, then the end of its log and where the rest is.
+quietly() {
+  local name=$1 log started=$SECONDS
+  shift
+  mkdir -p build/log
+  log=build/log/${name// /_}.log
+  if ! "$@" >"$log" 2>&1; then
+    tail -n 40 "$log" >&2
+    echo "$name failed; the whole log is in $log" >&2
+    return 1
+  fi
+  echo "$name: $((SECONDS - started)) s"
+}

@@ -1,0 +1,139 @@
+#include "demo/walk_options.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <span>
+
+#include "demo/units.h"
+
+namespace mobil {
+namespace {
+
+template <class T>
+struct Named {
+  std::string_view name;
+  T value;
+};
+
+template <class T, std::size_t N>
+Result<T> choose(std::string_view option, const std::string& text, const Named<T> (&choices)[N]) {
+  std::string known;
+  for (const auto& choice : choices) {
+    if (choice.name == text) return choice.value;
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", choice.name);
+  }
+  return fail(fmt::format("{} '{}': choose one of {}", option, text, known));
+}
+
+Result<double> read_quantity(std::string_view option, const std::string& text, Quantity quantity, double low,
+                             double high) {
+  const auto value = parse_quantity(text, quantity);
+  if (!value) return fail(fmt::format("{} {}", option, value.error().message));
+  if (*value < low || *value > high) {
+    return fail(fmt::format("{} {}: outside the valid range {:g} to {:g} (SI); choose a value inside it", option, text,
+                            low, high));
+  }
+  return value;
+}
+
+Result<Biotype> read_biotype(const std::string& text) {
+  if (text.empty()) return Biotype{};
+  Biotype biotype;
+  int used = 0;
+  const int read = std::sscanf(text.c_str(), "%f-%f-%f%n", &biotype.endo, &biotype.meso, &biotype.ecto, &used);
+  const bool whole = read == 3 && used == static_cast<int>(text.size());
+  const auto valid = [](float part) { return part >= 0.1F && part <= 12.0F; };
+  if (!whole || !valid(biotype.endo) || !valid(biotype.meso) || !valid(biotype.ecto)) {
+    return fail(fmt::format("--biotype '{}': write endo-meso-ecto, each 0.1 to 12, like 2-5-3", text));
+  }
+  return biotype;
+}
+
+}  // namespace
+
+void add_walk_options(CLI::App& command, WalkText& text) {
+  command.add_option("--height", text.height, "Stature, 1.2m to 2.2m")->capture_default_str()->group("Body");
+  command.add_option("--mass", text.mass, "Body mass, 30kg to 200kg")->capture_default_str()->group("Body");
+  command.add_option("--biotype", text.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3")->group("Body");
+  command.add_option("--constitution", text.constitution, "thin, average, athletic or heavy")
+      ->capture_default_str()
+      ->group("Body");
+  command.add_option("--speed", text.speed, "Walking speed (5km/h when no gait option is given)")->group("Gait");
+  command.add_option("--step-length", text.step_length, "Heel to opposite heel; any two of the three give the third")
+      ->group("Gait");
+  command.add_option("--step-frequency", text.step_frequency, "Steps per second, or 110steps/min")->group("Gait");
+  command.add_option("--seconds", text.seconds, "How long to walk, 0.1s to 600s")->capture_default_str()->group("Gait");
+  command
+      .add_option("--drive", text.drive,
+                  "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
+      ->capture_default_str()
+      ->group("Muscles");
+  command.add_option("--anatomy", text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv")
+      ->group("Pictures");
+  command.add_option("--view", text.view, "stick, wireframe or surface")->capture_default_str()->group("Pictures");
+  command.add_flag("--stereo", text.stereo, "Left and right eye side by side")->group("Pictures");
+  command.add_flag("--frames", text.frames, "Write frame_*.png, 1280x720, 30 a second")->group("Pictures");
+  command.add_flag("--video", text.video, "Write walk.mp4")->group("Pictures");
+  command.add_option("--out", text.out, "Folder for the results, made if missing")->capture_default_str();
+}
+
+Result<WalkOptions> read_walk_options(const WalkText& text) {
+  WalkOptions options;
+  options.frames = text.frames;
+  options.video = text.video;
+  options.stereo = text.stereo;
+  options.out = text.out;
+
+  const auto height = read_quantity("--height", text.height, Quantity::length, 1.2, 2.2);
+  if (!height) return tl::unexpected(height.error());
+  options.body.height_m = static_cast<float>(*height);
+  const auto mass = read_quantity("--mass", text.mass, Quantity::mass, 30, 200);
+  if (!mass) return tl::unexpected(mass.error());
+  options.body.mass_kg = static_cast<float>(*mass);
+  const auto biotype = read_biotype(text.biotype);
+  if (!biotype) return tl::unexpected(biotype.error());
+  options.body.biotype = *biotype;
+  static constexpr Named<Constitution> constitutions[] = {{"thin", Constitution::thin},
+                                                          {"average", Constitution::average},
+                                                          {"athletic", Constitution::athletic},
+                                                          {"heavy", Constitution::heavy}};
+  const auto constitution = choose("--constitution", text.constitution, constitutions);
+  if (!constitution) return tl::unexpected(constitution.error());
+  options.body.constitution = *constitution;
+
+  // The gait's own ranges depend on the body and are checked when the walk is resolved.
+  const auto optional = [](std::string_view option, const std::string& given, Quantity quantity,
+                           double most) -> Result<std::optional<float>> {
+    if (given.empty()) return std::optional<float>{};
+    const auto value = read_quantity(option, given, quantity, 0, most);
+    if (!value) return tl::unexpected(value.error());
+    return std::optional<float>(static_cast<float>(*value));
+  };
+  const auto speed = optional("--speed", text.speed, Quantity::speed, 10);
+  if (!speed) return tl::unexpected(speed.error());
+  options.gait.speed_m_s = *speed;
+  const auto length = optional("--step-length", text.step_length, Quantity::length, 3);
+  if (!length) return tl::unexpected(length.error());
+  options.gait.step_length_m = *length;
+  const auto frequency = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
+  if (!frequency) return tl::unexpected(frequency.error());
+  options.gait.step_frequency_hz = *frequency;
+  const auto seconds = read_quantity("--seconds", text.seconds, Quantity::time, 0.1, 600);
+  if (!seconds) return tl::unexpected(seconds.error());
+  options.seconds = *seconds;
+
+  static constexpr Named<bool> drives[] = {{"displacement", false}, {"force", true}};
+  const auto drive = choose("--drive", text.drive, drives);
+  if (!drive) return tl::unexpected(drive.error());
+  options.force_driven = *drive;
+  static constexpr Named<View> views[] = {
+      {"stick", View::stick}, {"wireframe", View::wireframe}, {"surface", View::surface}};
+  const auto view = choose("--view", text.view, views);
+  if (!view) return tl::unexpected(view.error());
+  options.view = *view;
+  if (!text.anatomy.empty()) options.anatomy = text.anatomy;
+  return options;
+}
+
+}  // namespace mobil

@@ -1,0 +1,41 @@
+#pragma once
+// What `mobil walk` was asked for, checked.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+enum class View { stick, wireframe, surface };
+
+struct WalkOptions {
+  BodyRequest body;
+  GaitRequest gait;
+  double seconds = 5;
+  bool force_driven = false;
+  std::optional<std::filesystem::path> anatomy;
+  View view = View::surface;
+  bool frames = false, video = false, stereo = false;
+  std::filesystem::path out = "out";
+};
+
+/// The options as text, as the command line hands them over; bound by `add_walk_options`.
+struct WalkText {
+  std::string height = "1.75", mass = "75", biotype, constitution = "average";
+  std::string speed, step_length, step_frequency, seconds = "5";
+  std::string drive = "displacement", anatomy, view = "surface", out = "out";
+  bool frames = false, video = false, stereo = false;
+};
+
+void add_walk_options(CLI::App& command, WalkText& text);
+
+/// Reads and checks every option. Errors name the option, the valid range and the mend.
+Result<WalkOptions> read_walk_options(const WalkText& text);
+
+}  // namespace mobil

@@ -1,0 +1,85 @@
+#pragma once
+// Structured blocks of eight-node hexahedra: what a muscle is made of. Nodes are numbered x fastest, z slowest, so that
+// the origin face (z = 0) is the first plane of nodes and the insertion face the last.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "components/lanes.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+using Cells = std::array<std::uint32_t, 3>;  // elements along x, y, z
+
+/// nx × ny × nz hexahedra over (nx+1)(ny+1)(nz+1) nodes; positions in m, in the muscle's frame (z from the origin-side
+/// to the insertion-side end).
+struct HexahedralMesh {
+  Cells cells{};
+  std::vector<Vec3<double>> node;
+};
+
+/// One cross-section of a bent block at the fraction t (0–1) of its length: where its centre lies off the z axis and
+/// the half-widths of its ellipse, m.
+struct CageStation {
+  float t, offset_x_m, offset_y_m, semi_x_m, semi_y_m;
+};
+
+using Quad = std::array<std::uint32_t, 4>;
+using Hexahedron = std::array<std::uint32_t, 8>;
+
+/// Largest block that is accepted; the couplings of a node take some 3 kB.
+inline constexpr std::uint32_t largest_mesh_nodes = 40000;
+
+constexpr std::uint32_t plane_nodes(const Cells& cells) {
+  return (cells[0] + 1) * (cells[1] + 1);
+}
+constexpr std::uint32_t node_count(const Cells& cells) {
+  return plane_nodes(cells) * (cells[2] + 1);
+}
+constexpr std::uint32_t element_count(const Cells& cells) {
+  return cells[0] * cells[1] * cells[2];
+}
+constexpr std::uint32_t node_index(const Cells& cells, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+  return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i;
+}
+
+/// First node of the insertion face; it has plane_nodes(cells) of them, to the end of the mesh.
+constexpr std::uint32_t first_insertion_node(const Cells& cells) {
+  return plane_nodes(cells) * cells[2];
+}
+
+/// The eight nodes of an element (x fastest): counter-clockwise round its lower face, then round its upper.
+Hexahedron element_nodes(const Cells& cells, std::uint32_t element);
+
+/// The block's boundary as quadrilaterals wound outwards.
+std::vector<Quad> boundary_quads(const Cells& cells);
+
+/// The insertion face's quadrilaterals, wound towards +z.
+std::vector<Quad> insertion_quads(const Cells& cells);
+
+/// The middle node of the insertion face, or the two or four nearest where cells are odd across.
+std::vector<std::uint32_t> insertion_centre(const Cells& cells);
+
+/// Cubes of edge `cell_size_m`, centred on the z axis, z from 0. Fails outside 1–256 cells a side, beyond
+/// `largest_mesh_nodes`, or for a size outside 1e-6–10 m.
+Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m);
+
+/// A belly along z from 0 to `length_m`: rounded cross-sections through the stations (t ascending from 0 to 1, linear
+/// between them). A section blends a square grid with its elliptical image (3 : 1), so that its edges' middles touch
+/// the ellipse and its corners stay elements. Fails on a bad station, or where an element would be inverted.
+Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m);
+
+/// Volume enclosed by the trilinear elements, m³ (exact).
+double volume(const HexahedralMesh& mesh);
+
+/// Smallest over the eight corners of det(e₁,e₂,e₃) / (|e₁||e₂||e₃|): 1 for a box, 0 or less where inverted.
+double scaled_jacobian(const HexahedralMesh& mesh, std::uint32_t element);
+double smallest_scaled_jacobian(const HexahedralMesh& mesh);
+
+/// Fails, naming the element, where one is inverted or flat.
+Result<void> check_elements(const HexahedralMesh& mesh);
+
+}  // namespace mobil

@@ -1,0 +1,112 @@
+#include "assets/export/gltf_buffers.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <limits>
+
+namespace mobil {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "a GLB holds little-endian numbers");
+
+enum Array : int { vertex_array = 0, index_array = 1, key_array = 2 };
+
+template <class T>
+std::size_t append(std::vector<unsigned char>& bytes, const T* value, std::size_t count) {
+  const std::size_t start = bytes.size(), size = count * sizeof(T);
+  bytes.resize(start + (size + 3) / 4 * 4);
+  if (size > 0) std::memcpy(bytes.data() + start, value, size);
+  return start;
+}
+
+int add_accessor(GltfDraft& draft, Array array, std::size_t offset, std::size_t count, int component, int type) {
+  tinygltf::Accessor accessor;
+  accessor.bufferView = array;
+  accessor.byteOffset = offset;
+  accessor.count = count;
+  accessor.componentType = component;
+  accessor.type = type;
+  draft.model.accessors.push_back(std::move(accessor));
+  return static_cast<int>(draft.model.accessors.size()) - 1;
+}
+
+void set_bounds(tinygltf::Accessor& accessor, const float* value, std::size_t width) {
+  for (std::size_t c = 0; c < width; ++c) {
+    float low = value[c], high = value[c];
+    for (std::size_t i = 1; i < accessor.count; ++i) {
+      low = std::min(low, value[i * width + c]);
+      high = std::max(high, value[i * width + c]);
+    }
+    accessor.minValues.push_back(static_cast<double>(low));
+    accessor.maxValues.push_back(static_cast<double>(high));
+  }
+}
+
+}  // namespace
+
+int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds) {
+  const auto count = static_cast<std::size_t>(column.cols());
+  const std::size_t offset = append(draft.vertices, column.data(), 3 * count);
+  const int accessor =
+      add_accessor(draft, vertex_array, offset, count, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3);
+  if (with_bounds) set_bounds(draft.model.accessors.back(), column.data(), 3);
+  return accessor;
+}
+
+int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count) {
+  if (vertex_count > 65535) {  // index 65535 itself restarts a primitive
+    const std::size_t offset = append(draft.indices, triangle.data(), triangle.size());
+    return add_accessor(draft, index_array, offset, triangle.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT,
+                        TINYGLTF_TYPE_SCALAR);
+  }
+  std::vector<std::uint16_t> narrow;
+  narrow.reserve(triangle.size());
+  for (const auto i : triangle) narrow.push_back(static_cast<std::uint16_t>(i));
+  const std::size_t offset = append(draft.indices, narrow.data(), narrow.size());
+  return add_accessor(draft, index_array, offset, narrow.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                      TINYGLTF_TYPE_SCALAR);
+}
+
+int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool with_bounds) {
+  const std::size_t width = type == TINYGLTF_TYPE_VEC4 ? 4 : type == TINYGLTF_TYPE_VEC3 ? 3 : 1;
+  const std::size_t offset = append(draft.keys, value.data(), value.size());
+  const int accessor =
+      add_accessor(draft, key_array, offset, value.size() / width, TINYGLTF_COMPONENT_TYPE_FLOAT, type);
+  if (with_bounds) set_bounds(draft.model.accessors.back(), value.data(), width);
+  return accessor;
+}
+
+Result<void> pack_buffers(GltfDraft& draft) {
+  const std::array<std::vector<unsigned char>*, 3> arrays = {&draft.vertices, &draft.indices, &draft.keys};
+  const std::array<int, 3> target = {TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, 0};
+  std::array<int, 3> view_of{-1, -1, -1};
+  const std::size_t total = draft.vertices.size() + draft.indices.size() + draft.keys.size();
+  if (total == 0) return {};
+  if (total > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames or coarser surfaces");
+  }
+  tinygltf::Buffer buffer;
+  buffer.data.reserve(total);
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    if (arrays[a]->empty()) continue;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.data.size();
+    view.byteLength = arrays[a]->size();
+    view.target = target[a];
+    if (a == vertex_array) view.byteStride = 3 * sizeof(float);
+    view_of[a] = static_cast<int>(draft.model.bufferViews.size());
+    draft.model.bufferViews.push_back(std::move(view));
+    buffer.data.insert(buffer.data.end(), arrays[a]->begin(), arrays[a]->end());
+    std::vector<unsigned char>().swap(*arrays[a]);
+  }
+  draft.model.buffers.push_back(std::move(buffer));
+  for (auto& accessor : draft.model.accessors) {
+    accessor.bufferView = view_of[static_cast<std::size_t>(accessor.bufferView)];
+  }
+  return {};
+}
+
+}  // namespace mobil

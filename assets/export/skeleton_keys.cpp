@@ -1,0 +1,98 @@
+#include "assets/export/skeleton_keys.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+namespace mobil {
+namespace {
+
+constexpr double still_m = 5e-6, still_rad = 2e-6;
+
+Eigen::Vector3d widened(const Vec3<float>& v) {
+  return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
+Eigen::Quaterniond widened(const Quat<float>& q) {
+  return Eigen::Quaterniond(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
+                            static_cast<double>(q.z))
+      .normalized();
+}
+Vec3<float> rounded(const Eigen::Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+Quat<float> rounded(const Eigen::Quaterniond& q) {
+  return {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()), static_cast<float>(q.w())};
+}
+
+/// Turns each quaternion to the side of the one before it, then keeps one of them if they all are the same rotation.
+std::vector<Quat<float>> rotation_keys(std::vector<Eigen::Quaterniond> local) {
+  if (local.front().w() < 0) local.front().coeffs() *= -1;
+  Eigen::Vector4d sum = Eigen::Vector4d::Zero();
+  for (std::size_t f = 0; f < local.size(); ++f) {
+    if (f > 0 && local[f].dot(local[f - 1]) < 0) local[f].coeffs() *= -1;
+    sum += local[f].coeffs();
+  }
+  if (sum.norm() > 0) {
+    const Eigen::Quaterniond mean(Eigen::Vector4d(sum.normalized()));
+    const bool still =
+        std::all_of(local.begin(), local.end(), [&](const auto& q) { return q.angularDistance(mean) < still_rad; });
+    if (still) return {rounded(mean)};
+  }
+  std::vector<Quat<float>> keys;
+  for (const auto& q : local) keys.push_back(rounded(q));
+  return keys;
+}
+
+std::vector<Vec3<float>> translation_keys(const std::vector<Eigen::Vector3d>& local, double tolerance_m) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const auto& t : local) mean += t;
+  mean /= static_cast<double>(local.size());
+  const bool still =
+      std::all_of(local.begin(), local.end(), [&](const auto& t) { return (t - mean).norm() < tolerance_m; });
+  if (still) return {rounded(mean)};
+  std::vector<Vec3<float>> keys;
+  for (const auto& t : local) keys.push_back(rounded(t));
+  return keys;
+}
+
+}  // namespace
+
+SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames) {
+  const std::size_t frame_count = frames.size();
+  double farthest_m = 0;
+  for (const auto& pose : frames) {
+    for (const auto& p : pose.position_m) farthest_m = std::max(farthest_m, widened(p).cwiseAbs().maxCoeff());
+  }
+  const double tolerance_m = still_m + 4.0 * farthest_m * static_cast<double>(std::numeric_limits<float>::epsilon());
+
+  SkeletonKeys keys;
+  keys.segment.resize(segment_count);
+  keys.world.assign(frame_count, std::vector<RigidTransform>(segment_count));
+  std::vector<Eigen::Vector3d> translation(frame_count);
+  std::vector<Eigen::Quaterniond> rotation(frame_count);
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const bool is_root = segment_parent[s] == static_cast<Segment>(s);
+    const auto parent = [&](std::size_t f) {
+      return is_root ? RigidTransform{Eigen::Vector3d::Zero(), Eigen::Quaterniond::Identity()}
+                     : keys.world[f][index(segment_parent[s])];
+    };
+    for (std::size_t f = 0; f < frame_count; ++f) {
+      const RigidTransform from = parent(f);
+      translation[f] = from.rotation.conjugate() * (widened(frames[f].position_m[s]) - from.position_m);
+      rotation[f] = (from.rotation.conjugate() * widened(frames[f].rotation[s])).normalized();
+    }
+    SegmentKeys& segment = keys.segment[s];
+    segment.translation_m = translation_keys(translation, tolerance_m);
+    segment.rotation = rotation_keys(rotation);
+    for (std::size_t f = 0; f < frame_count; ++f) {
+      const RigidTransform from = parent(f);
+      const auto& t = segment.translation_m[std::min(f, segment.translation_m.size() - 1)];
+      const auto& r = segment.rotation[std::min(f, segment.rotation.size() - 1)];
+      keys.world[f][s] = {from.position_m + from.rotation * widened(t), (from.rotation * widened(r)).normalized()};
+    }
+  }
+  return keys;
+}
+
+}  // namespace mobil

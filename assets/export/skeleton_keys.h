@@ -1,0 +1,35 @@
+#pragma once
+// World poses turned into what a nested node hierarchy wants: each segment's offset and rotation from its parent.
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "components/lanes.h"
+#include "components/pose.h"
+#include "components/segments.h"
+
+namespace mobil {
+
+/// One segment's transform from its parent (the pelvis's from the world): one entry where it never changes, else one
+/// per frame. Rotations have unit length and consistent signs from key to key.
+struct SegmentKeys {
+  std::vector<Vec3<float>> translation_m;
+  std::vector<Quat<float>> rotation;
+};
+
+struct RigidTransform {
+  Eigen::Vector3d position_m;
+  Eigen::Quaterniond rotation;
+};
+
+struct SkeletonKeys {
+  std::vector<SegmentKeys> segment;                // [segment]
+  std::vector<std::vector<RigidTransform>> world;  // [frame][segment], recomposed from the rounded keys
+};
+
+/// Each segment is measured from its parent as recomposed from the keys, so that rounding does not add up along the
+/// chain: every recomposed position is within about 5 µm + four roundings of its world position.
+/// Needs at least one frame, finite numbers and rotations of non-zero length.
+SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames);
+
+}  // namespace mobil

@@ -1,0 +1,44 @@
+#pragma once
+// Where each part of the anatomy's right leg comes to lie in one body: one map a bone, agreeing at the joint centres.
+
+#include <Eigen/Dense>
+
+#include "assets/import/anatomy_folder.h"
+#include "components/body.h"
+
+namespace mobil {
+
+/// p ↦ to + linear·(p − from), m; the foot's also bends along z, in front of and behind the ankle.
+struct BoneMap {
+  Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d linear = Eigen::Matrix3d::Identity();
+  double forward_factor = 1, backward_factor = 1;  // further factors along z in front of, and behind `from`
+
+  Eigen::Vector3d operator()(const Eigen::Vector3d& p) const;
+};
+
+/// Joint centres in the world with the body in the anatomical position at x = z = 0, right side, m.
+struct LegJoints {
+  Eigen::Vector3d pelvis, hip, knee, patella, ankle, ball;
+};
+
+struct BoneMaps {
+  BoneMap pelvis, thigh, patella, shank, foot;
+  Eigen::Vector3d hip, knee, ankle;  // of the anatomy, where the maps meet
+  double size = 1;                   // leg length against the anatomy's
+
+  const BoneMap& of(Segment right_segment) const;
+  /// Of a point of a muscle that runs from one segment to another: the maps from the first to the last along the leg,
+  /// blended over a few centimetres about the joints between, so that each end stays on its bone.
+  Eigen::Vector3d along_muscle(const Eigen::Vector3d& p, Segment origin, Segment insertion) const;
+};
+
+LegJoints leg_joints(const Body& body);
+
+/// Pelvis: hip centre on hip centre, its width by the spacing of the hip centres, height and depth by the leg's length.
+/// Thigh and shank: joint centres on joint centres, turned by the least rotation, across by the leg's length. Foot:
+/// upright, ankle on ankle, lowest point on the ground, heel and ball at the body's (their factors held to 0.75–1.35 of
+/// the leg's). Fails for a body whose lengths are not finite and positive.
+Result<BoneMaps> bone_maps(const Anatomy& anatomy, const Body& body);
+
+}  // namespace mobil

@@ -1,0 +1,88 @@
+#include "assets/import/fit_anatomy.h"
+
+#include <Eigen/Dense>
+
+#include "assets/import/bone_maps.h"
+#include "assets/import/simplify_surface.h"
+
+namespace mobil {
+namespace {
+
+using Eigen::Vector3d;
+
+Vector3d eigen(const Vec3<float>& v) {
+  return {v.x, v.y, v.z};
+}
+
+Vec3<float> single(const Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+Vector3d origin_of(Segment segment, const LegJoints& joints) {
+  switch (segment) {
+    case Segment::pelvis:
+      return joints.pelvis;
+    case Segment::thigh_right:
+      return joints.hip;
+    case Segment::patella_right:
+      return joints.patella;
+    case Segment::shank_right:
+      return joints.knee;
+    case Segment::foot_right:
+      return joints.ankle;
+    default:
+      return joints.ball;
+  }
+}
+
+std::string left_name(std::string name) {
+  constexpr std::string_view right = "_right";
+  if (name.ends_with(right)) name.resize(name.size() - right.size());
+  return name + "_left";
+}
+
+void add_bone(const AnatomyPart& part, const BoneMaps& maps, const LegJoints& joints, std::vector<BoneSurface>& bones) {
+  BoneSurface bone{part.origin, part.mesh};
+  const Vector3d origin = origin_of(part.origin, joints);
+  const BoneMap& map = maps.of(part.origin);
+  for (auto& p : bone.mesh.position) p = single(map(eigen(p)) - origin);
+  bones.push_back(bone);
+  if (part.midline) return;
+  BoneSurface left{part.origin == Segment::pelvis ? part.origin : on_side(part.origin, 1), mirrored(bone.mesh)};
+  left.mesh.name = left_name(left.mesh.name);
+  bones.push_back(std::move(left));
+}
+
+}  // namespace
+
+Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
+  const auto maps = bone_maps(anatomy, body);
+  if (!maps) return fail(maps.error().message);
+  const LegJoints joints = leg_joints(body);
+  FittedAnatomy fitted;
+  for (const auto& part : anatomy.part) {
+    if (part.kind == AnatomyKind::bone) {
+      add_bone(part, *maps, joints, fitted.bones);
+      continue;
+    }
+    const auto place = [&](const Vec3<float>& p) {
+      return single(maps->along_muscle(eigen(p), part.origin, part.insertion));
+    };
+    MuscleSurface surface;
+    surface.mesh = part.mesh;
+    surface.origin = part.origin;
+    surface.insertion = part.insertion;
+    for (auto& p : surface.mesh.position) p = place(p);
+    if (!part.group) {
+      fitted.others.push_back(std::move(surface));
+      continue;
+    }
+    FittedMuscle muscle{*part.group, std::move(surface), {}, {}};
+    if (part.origin_m) muscle.origin_m = place(*part.origin_m);
+    if (part.insertion_m) muscle.insertion_m = place(*part.insertion_m);
+    fitted.muscles.push_back(std::move(muscle));
+  }
+  return fitted;
+}
+
+}  // namespace mobil

@@ -1,0 +1,36 @@
+#pragma once
+// An anatomy fitted to one body's skeleton, bone by bone from the joint centres.
+
+#include <optional>
+#include <vector>
+
+#include "assets/import/anatomy_folder.h"
+#include "components/body.h"
+#include "components/muscle.h"
+#include "components/surface.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// A right-hand muscle (or the tendon) with the group whose cage drives it, and its attachments where they are known,
+/// m, in the frame of the surface.
+struct FittedMuscle {
+  MuscleGroup group;
+  MuscleSurface surface;
+  std::optional<Vec3<float>> origin_m, insertion_m;
+};
+
+/// `bones`: both sides, the left the mirror image of the right, each in its segment's frame (names end in _right,
+/// _left). `muscles`: right side, world axes, the body in the anatomical position at x = z = 0; not bound to a cage
+/// yet. `others`: surfaces of no group (skin, further muscles), as the muscles.
+struct FittedAnatomy {
+  std::vector<BoneSurface> bones;
+  std::vector<FittedMuscle> muscles;
+  std::vector<MuscleSurface> others;
+};
+
+/// Joint centres land on the body's, the lowest point of the foot's bones on the ground; see bone_maps for how each
+/// bone is stretched. Fails with one line for a body without positive lengths.
+Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body);
+
+}  // namespace mobil

@@ -1,0 +1,140 @@
+#include "assets/import/simplify_surface.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+namespace mobil {
+namespace {
+
+Eigen::Vector3d at(const SurfaceMesh& mesh, std::uint32_t vertex) {
+  const auto& p = mesh.position[vertex];
+  return {p.x, p.y, p.z};
+}
+
+void drop_unused(SurfaceMesh& mesh) {
+  constexpr auto unused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> moved(mesh.position.size(), unused);
+  for (const auto v : mesh.triangle) moved[v] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < moved.size(); ++v) {
+    if (moved[v] == unused) continue;
+    mesh.position[kept] = mesh.position[v];
+    moved[v] = kept++;
+  }
+  mesh.position.resize(kept);
+  for (auto& v : mesh.triangle) v = moved[v];
+}
+
+/// Rotated so that the smallest index comes first: equal for triangles of the same corners and winding.
+std::array<std::uint32_t, 3> canonical(std::array<std::uint32_t, 3> t) {
+  std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+  return t;
+}
+
+}  // namespace
+
+double signed_volume(const SurfaceMesh& mesh) {
+  if (mesh.position.empty()) return 0;
+  const Eigen::Vector3d origin = at(mesh, 0);
+  double sixfold = 0;
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
+    const Eigen::Vector3d a = at(mesh, mesh.triangle[t]) - origin, b = at(mesh, mesh.triangle[t + 1]) - origin,
+                          c = at(mesh, mesh.triangle[t + 2]) - origin;
+    sixfold += a.dot(b.cross(c));
+  }
+  return sixfold / 6;
+}
+
+void turn_over(SurfaceMesh& mesh) {
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) std::swap(mesh.triangle[t + 1], mesh.triangle[t + 2]);
+}
+
+SurfaceMesh mirrored(const SurfaceMesh& mesh) {
+  SurfaceMesh image = mesh;
+  for (auto& p : image.position) p.x = -p.x;
+  turn_over(image);
+  return image;
+}
+
+std::size_t remove_specks(SurfaceMesh& mesh, double share) {
+  std::vector<std::uint32_t> root(mesh.position.size());
+  std::iota(root.begin(), root.end(), 0U);
+  const auto find = [&](std::uint32_t v) {
+    while (root[v] != v) v = root[v] = root[root[v]];
+    return v;
+  };
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
+    for (std::size_t c = 1; c < 3; ++c) {
+      const auto a = find(mesh.triangle[t]), b = find(mesh.triangle[t + c]);
+      root[std::max(a, b)] = std::min(a, b);
+    }
+  }
+  std::map<std::uint32_t, std::size_t> triangles_of;
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) ++triangles_of[find(mesh.triangle[t])];
+  std::size_t largest = 0;
+  for (const auto& [piece, count] : triangles_of) largest = std::max(largest, count);
+  const auto total = static_cast<double>(mesh.triangle.size() / 3);
+  const auto stays = [&](std::size_t count) { return count == largest || static_cast<double>(count) >= share * total; };
+  std::vector<std::uint32_t> kept;
+  kept.reserve(mesh.triangle.size());
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
+    if (!stays(triangles_of[find(mesh.triangle[t])])) continue;
+    kept.insert(kept.end(), {mesh.triangle[t], mesh.triangle[t + 1], mesh.triangle[t + 2]});
+  }
+  const auto removed =
+      std::count_if(triangles_of.begin(), triangles_of.end(), [&](const auto& piece) { return !stays(piece.second); });
+  mesh.triangle = std::move(kept);
+  drop_unused(mesh);
+  return static_cast<std::size_t>(removed);
+}
+
+SurfaceMesh clustered(const SurfaceMesh& mesh, double cell_m) {
+  if (cell_m <= 0) return mesh;
+  std::vector<double> weight(mesh.position.size(), 0.0);
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
+    const Eigen::Vector3d a = at(mesh, mesh.triangle[t]);
+    const double area = (at(mesh, mesh.triangle[t + 1]) - a).cross(at(mesh, mesh.triangle[t + 2]) - a).norm();
+    for (std::size_t c = 0; c < 3; ++c) weight[mesh.triangle[t + c]] += area + 1e-12;
+  }
+  SurfaceMesh light;
+  light.name = mesh.name;
+  std::map<std::array<long, 3>, std::uint32_t> cell_index;
+  std::vector<std::uint32_t> cell_of(mesh.position.size());
+  std::vector<Eigen::Vector4d> sum;
+  for (std::uint32_t v = 0; v < mesh.position.size(); ++v) {
+    const Eigen::Vector3d p = at(mesh, v);
+    const std::array<long, 3> cell = {std::lround(std::floor(p.x() / cell_m)), std::lround(std::floor(p.y() / cell_m)),
+                                      std::lround(std::floor(p.z() / cell_m))};
+    const auto [found, is_new] = cell_index.try_emplace(cell, static_cast<std::uint32_t>(sum.size()));
+    if (is_new) sum.push_back(Eigen::Vector4d::Zero());
+    cell_of[v] = found->second;
+    sum[found->second] += weight[v] * Eigen::Vector4d(p.x(), p.y(), p.z(), 1);
+  }
+  for (const auto& s : sum) {
+    const Eigen::Vector3f p = (s.head<3>() / std::max(s.w(), 1e-300)).cast<float>();
+    light.position.push_back({p.x(), p.y(), p.z()});
+  }
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
+    const std::array<std::uint32_t, 3> corner = {cell_of[mesh.triangle[t]], cell_of[mesh.triangle[t + 1]],
+                                                 cell_of[mesh.triangle[t + 2]]};
+    if (corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0]) continue;
+    triangles.push_back(canonical(corner));
+  }
+  std::sort(triangles.begin(), triangles.end());
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+  for (const auto& t : triangles) {  // a sheet folded flat onto itself vanishes, both sides of it
+    if (std::binary_search(triangles.begin(), triangles.end(), canonical({t[0], t[2], t[1]}))) continue;
+    light.triangle.insert(light.triangle.end(), t.begin(), t.end());
+  }
+  drop_unused(light);
+  return light;
+}
+
+}  // namespace mobil

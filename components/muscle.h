@@ -14,7 +14,7 @@ namespace mobil {
 enum class MuscleGroup : std::uint8_t { hamstrings, quadriceps, triceps_surae };
 inline constexpr std::size_t muscle_group_count = 3;
 inline constexpr std::array<std::string_view, muscle_group_count> muscle_group_name = {"hamstrings", "quadriceps",
-                                                                                      "triceps_surae"};
+                                                                                       "triceps_surae"};
 
 /// Linear elastic material. The defaults are the paper's (section 6.1).
 struct Material {
@@ -54,7 +54,21 @@ struct EndDisplacement {
   F from_m, to_m;
 };
 
-/// Energies and volume of a deforming belly, written once a tick.
+/// What drives a far end held sideways and free along z: total force along +z at the tick's start and end, N.
+template <class F>
+struct EndForce {
+  F from_n, to_n;
+};
+
+/// What loads a free far end: total of a uniform traction over it at the tick's start and end, N.
+template <class F>
+struct EndTraction {
+  Vec3<F> from_n, to_n;
+};
+
+/// What a deforming belly did, written once a tick. Elongation: mean displacement of the far face along z. Reaction:
+/// elastic force along z at the far face, positive in tension. Volume over that at rest. Energies belong together: in
+/// free undamped motion their sum is constant to rounding (kinetic at the last half step, strain across it).
 template <class F>
 struct BellyReport {
   F elongation_m, reaction_n, volume_ratio, kinetic_energy_j, strain_energy_j;

@@ -1,0 +1,14 @@
+#pragma once
+// The subcommands of `mobil`. Each adds itself to the program and, when chosen, runs and sets the exit status: 0 done,
+// 1 ran but did not hold, 2 bad usage or input.
+
+namespace CLI {
+class App;
+}
+
+namespace mobil {
+
+void add_walk_command(CLI::App& app, int& exit_status);
+void add_muscle_command(CLI::App& app, int& exit_status);
+
+}  // namespace mobil

@@ -39,7 +39,7 @@ inline void set_world(Pose<float>& pose, std::size_t s, const Vector3d& p, const
                       static_cast<float>(q.w())};
 }
 
-/// A skeleton of fixed offsets whose right thigh and shank swing while the pelvis travels.
+/// Right thigh and shank swing, the pelvis travels, the right kneecap slides a millimetre; all other offsets are fixed.
 inline std::vector<Pose<float>> swinging(std::size_t frame_count) {
   std::vector<Pose<float>> frames(frame_count);
   for (std::size_t f = 0; f < frame_count; ++f) {
@@ -57,8 +57,9 @@ inline std::vector<Pose<float>> swinging(std::size_t frame_count) {
         p[s] = {0.02 * std::sin(2 * pi * t), 1.0 + 0.02 * std::cos(4 * pi * t), 1.4 * t};
         q[s] = Eigen::AngleAxisd(0.1 * std::sin(2 * pi * t), Vector3d::UnitY());
       } else {
+        const double slide = segment == Segment::patella_right ? 0.001 * std::sin(2 * pi * t) : 0.0;
         const Vector3d offset(0.01 * static_cast<double>(s % 5) - 0.02, segment < Segment::thigh_right ? 0.04 : -0.3,
-                              0.01);
+                              0.01 + slide);
         p[s] = p[parent] + q[parent] * offset;
         q[s] = q[parent] * local;
       }

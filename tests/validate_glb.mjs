@@ -1,6 +1,6 @@
 // Runs Khronos' glTF validator on one file. Usage: node validate_glb.mjs FILE.glb
 // Prints every message (error, warning, information, hint) and the counts. Exit status 0: no errors and no warnings;
-// 1: some; 2: bad usage; 77: the npm package gltf-validator was not found.
+// 1: some; 2: bad usage or no such file; 77: the npm package gltf-validator was not found.
 // It is looked for in MOBIL_NODE_MODULES, NODE_PATH, beside this script and above the working folder.
 import { readFileSync } from 'node:fs';
 import { createRequire } from 'node:module';
@@ -29,7 +29,14 @@ if (validator === null) {
                 'MOBIL_NODE_MODULES=FOLDER/node_modules');
   process.exit(77);
 }
-const report = await validator.validateBytes(new Uint8Array(readFileSync(file)), { maxIssues: 1000, format: 'glb' });
+let bytes;
+try {
+  bytes = new Uint8Array(readFileSync(file));
+} catch (error) {
+  console.error(`${file}: cannot be read (${error.code})`);
+  process.exit(2);
+}
+const report = await validator.validateBytes(bytes, { maxIssues: 1000, format: 'glb' });
 const severity = ['error', 'warning', 'information', 'hint'];
 for (const { severity: level, code, pointer, message } of report.issues.messages) {
   console.log(`${severity[level]}: ${code} at ${pointer ?? `byte ${message.offset}`}: ${message}`);

@@ -15,7 +15,7 @@ struct ExportOptions {
   int morph_targets = 4;              // at most this many a muscle, 0–8; viewers need to support only 8 morphed
                                       // attributes, which is 4 with normals
   float morph_tolerance_m = 0.5e-3F;  // fewer targets where every vertex stays closer than this
-  bool morph_normals = true;          // without: about 40 % smaller, muscles keep the shading of their mean shape
+  bool morph_normals = true;          // without: about a quarter smaller; muscles keep the shading of their mean shape
 };
 
 /// How far a muscle in the file is from the recorded one, over all its vertices and frames.

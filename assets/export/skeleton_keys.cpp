@@ -40,6 +40,7 @@ std::vector<Quat<float>> rotation_keys(std::vector<Eigen::Quaterniond> local) {
     if (still) return {rounded(mean)};
   }
   std::vector<Quat<float>> keys;
+  keys.reserve(local.size());
   for (const auto& q : local) keys.push_back(rounded(q));
   return keys;
 }
@@ -52,6 +53,7 @@ std::vector<Vec3<float>> translation_keys(const std::vector<Eigen::Vector3d>& lo
       std::all_of(local.begin(), local.end(), [&](const auto& t) { return (t - mean).norm() < tolerance_m; });
   if (still) return {rounded(mean)};
   std::vector<Vec3<float>> keys;
+  keys.reserve(local.size());
   for (const auto& t : local) keys.push_back(rounded(t));
   return keys;
 }

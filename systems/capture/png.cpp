@@ -1,0 +1,74 @@
+#include "systems/capture/png.h"
+
+#include <fmt/format.h>
+#include <png.h>
+
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+
+namespace mobil {
+namespace {
+
+bool opaque(const Image& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4) {
+    if (image.rgba[i] != 255) return false;
+  }
+  return true;
+}
+
+/// libpng leaves by longjmp when it fails, so nothing here has a destructor.
+bool encode(std::FILE* file, const Image& image, bool with_opacity) {
+  png_structp png =
+      png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, [](png_structp, png_const_charp) {});
+  if (png == nullptr) return false;
+  png_infop info = png_create_info_struct(png);
+  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+    png_destroy_write_struct(&png, &info);
+    return false;
+  }
+  png_init_io(png, file);
+  png_set_compression_level(png, 2);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               with_opacity ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+  png_write_info(png, info);
+  if (!with_opacity) png_set_filler(png, 0, PNG_FILLER_AFTER);
+  for (int y = 0; y < image.height; ++y) png_write_row(png, image.pixel(0, y));
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+}  // namespace
+
+Result<void> write_png(const std::string& path, const Image& image) {
+  if (image.width < 1 || image.height < 1 ||
+      image.rgba.size() != 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+    return fail(fmt::format("{}: a picture of {} x {} pixels with {} bytes cannot be written; it needs 4 bytes a pixel",
+                            path, image.width, image.height, image.rgba.size()));
+  }
+  const std::string partial = path + ".partial";
+  const auto refused = [&](const char* what) {
+    const int reason = errno;
+    return fail(
+        fmt::format("{}: cannot {} this picture ({}); name a file in a folder that exists, is writable and has room",
+                    path, what, reason != 0 ? std::strerror(reason) : "unknown reason"));
+  };
+  errno = 0;
+  std::FILE* file = std::fopen(partial.c_str(), "wb");
+  if (file == nullptr) return refused("create");
+  bool written = encode(file, image, !opaque(image));
+  written = std::fflush(file) == 0 && written;
+  const int reason = errno;
+  if (std::fclose(file) == 0 && written && std::rename(partial.c_str(), path.c_str()) == 0) return {};
+  if (!written) errno = reason;
+  auto error = refused("write");
+  std::remove(partial.c_str());
+  return error;
+}
+
+}  // namespace mobil

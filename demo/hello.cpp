@@ -1,0 +1,39 @@
+// The forty-line game loop: one man walks, his leg muscles deform, and every frame reads where he is.
+
+#include <cstdio>
+
+#include "systems/simulation.h"
+
+int main() {
+  mobil::Simulation simulation;
+
+  mobil::BodyRequest body;
+  body.height_m = 1.80F;
+  body.mass_kg = 80;
+  body.constitution = mobil::Constitution::athletic;
+  mobil::GaitRequest gait;
+  gait.speed_m_s = 5 / 3.6F;
+
+  const auto human = simulation.spawn(body, gait);
+  if (!human) {
+    std::fprintf(stderr, "%s\n", human.error().message.c_str());
+    return 2;
+  }
+  // An effect is a component: without this line nobody pays for muscles.
+  if (const auto added = simulation.add_leg_muscles(*human); !added) {
+    std::fprintf(stderr, "%s\n", added.error().message.c_str());
+    return 2;
+  }
+
+  for (int frame = 0; frame < 90; ++frame) {
+    const auto advance = simulation.advance(1.0 / 30);  // as many fixed ticks of 1/60 s as fit
+    if (frame % 15 != 0) continue;
+    const auto pose = simulation.get<mobil::Pose>(*human);
+    const auto knee = simulation.get<mobil::JointAngles>(*human);
+    const auto hamstrings = simulation.muscle(*human, mobil::MuscleGroup::hamstrings, mobil::right);
+    const auto line = simulation.get<mobil::LineOfAction>(hamstrings);
+    std::printf("%4.1f s  pelvis at z = %.2f m  right knee %4.1f deg  hamstrings %.1f mm from rest  (%u ticks)\n",
+                simulation.time_s(), pose->position_m[0].z, knee->knee_flexion[mobil::right] * 57.2958F,
+                1000 * (line->length_m - line->rest_length_m), advance.ticks);
+  }
+}

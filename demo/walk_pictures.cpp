@@ -1,0 +1,174 @@
+#include "demo/walk_pictures.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "systems/capture/png.h"
+#include "systems/capture/renderer.h"
+#include "systems/capture/video.h"
+
+namespace mobil {
+namespace {
+
+constexpr int width = 1280, height = 720;
+constexpr Colour line_red{0.80F, 0.16F, 0.12F};
+constexpr float eye_separation_m = 0.064F;
+
+/// From the front and the walker's right, at the height of the hips, far enough to hold the whole body.
+Camera follow(const Pose<float>& pose, const Body& body) {
+  const float stature = body.request.height_m;
+  const Vec3<float> at = pose.position_m[index(Segment::pelvis)];
+  Camera camera;
+  camera.target = {0.2F * at.x, 0.50F * stature, at.z + 0.1F * stature};
+  camera.eye = {camera.target.x - 2.05F * stature, 0.62F * stature, camera.target.z + 1.15F * stature};
+  camera.vertical_fov_deg = 30;
+  return camera;
+}
+
+/// sRGB as the renderer takes it, from the recording's linear colour.
+Colour display_colour(const Vec3<float>& linear) {
+  const auto encode = [](float x) { return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F; };
+  return {encode(linear.x), encode(linear.y), encode(linear.z)};
+}
+
+/// The sticks of one frame: every segment from its joint to its parent's, and the ends of the limbs.
+std::vector<Vec3<float>> sticks(const Pose<float>& pose, const Body& body) {
+  const auto place = [&](Segment s, const Vec3<float>& p) {
+    const auto& q = pose.rotation[index(s)];
+    const Vec3<float> t{2 * (q.y * p.z - q.z * p.y), 2 * (q.z * p.x - q.x * p.z), 2 * (q.x * p.y - q.y * p.x)};
+    const auto& o = pose.position_m[index(s)];
+    return Vec3<float>{o.x + p.x + q.w * t.x + (q.y * t.z - q.z * t.y), o.y + p.y + q.w * t.y + (q.z * t.x - q.x * t.z),
+                       o.z + p.z + q.w * t.z + (q.x * t.y - q.y * t.x)};
+  };
+  std::vector<Vec3<float>> ends;
+  std::array<bool, segment_count> has_child{};
+  for (std::size_t s = 1; s < segment_count; ++s) {
+    ends.push_back(pose.position_m[index(segment_parent[s])]);
+    ends.push_back(pose.position_m[s]);
+    has_child[index(segment_parent[s])] = true;
+  }
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    if (has_child[s]) continue;
+    ends.push_back(pose.position_m[s]);
+    ends.push_back(place(static_cast<Segment>(s), body.tip_m[s]));
+  }
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Segment foot = on_side(Segment::foot_right, side);
+    ends.push_back(pose.position_m[index(foot)]);
+    ends.push_back(place(foot, body.heel_m));
+  }
+  return ends;
+}
+
+/// Copies a picture into the left or right half of a wider one.
+void set_beside(const Image& half, Image& whole, int column) {
+  for (int y = 0; y < half.height; ++y) {
+    const auto* from = half.pixel(0, y);
+    auto* to = whole.rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(whole.width) +
+                                        static_cast<std::size_t>(column));
+    std::copy(from, from + 4 * static_cast<std::size_t>(half.width), to);
+  }
+}
+
+/// Everything that is drawn in one frame; the scene looks into it.
+struct FrameScene {
+  std::vector<DrawMesh> meshes;
+  std::vector<Placement> placement;
+  std::vector<Vec3<float>> stick, joint;
+  std::vector<DrawLines> lines;
+  std::vector<DrawPoints> points;
+};
+
+void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameScene& scene) {
+  const WalkRecording& recording = *drawing.recording;
+  const Pose<float>& pose = recording.frames[frame];
+  scene.meshes.clear();
+  scene.lines.clear();
+  scene.points.clear();
+  if (view == View::stick) {
+    scene.stick = sticks(pose, *drawing.body);
+    scene.joint.assign(pose.position_m, pose.position_m + segment_count);
+    scene.lines.push_back({.position = scene.stick, .colour = bone_ivory, .width = 0.022F, .unit = LineUnit::metre});
+    scene.points.push_back({.position = scene.joint, .colour = joint_steel, .radius_m = 0.018F});
+    scene.lines.push_back(
+        {.position = drawing.action_line[frame], .colour = line_red, .width = 0.016F, .unit = LineUnit::metre});
+    return;
+  }
+  const bool wireframe = view == View::wireframe;
+  scene.placement.resize(recording.bones.size());
+  for (std::size_t i = 0; i < recording.bones.size(); ++i) {
+    const BoneSurface& bone = recording.bones[i];
+    const std::size_t s = index(bone.segment);
+    scene.placement[i] = {.position = pose.position_m[s], .rotation = pose.rotation[s]};
+    scene.meshes.push_back({.position = bone.mesh.position,
+                            .triangle = bone.mesh.triangle,
+                            .colour = bone_ivory,
+                            .wireframe = wireframe,
+                            .placement = {&scene.placement[i], 1},
+                            .key = i + 1});
+  }
+  for (const RecordedMuscle& muscle : recording.muscles) {
+    scene.meshes.push_back({.position = muscle.position_m[frame],
+                            .triangle = muscle.triangle,
+                            .colour = display_colour(muscle.colour),
+                            .wetness = 0.5F,
+                            .wireframe = wireframe});
+  }
+}
+
+}  // namespace
+
+Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options,
+                            const std::function<void(std::size_t)>& progress) {
+  const int eye_width = options.stereo ? width / 2 : width;
+  auto renderer = Renderer::create(eye_width, height);
+  if (!renderer) return tl::unexpected(renderer.error());
+  std::optional<VideoWriter> video;
+  if (options.video) {
+    auto opened = VideoWriter::create((options.out / "walk.mp4").string(), width, height,
+                                      static_cast<int>(std::lround(1 / drawing.recording->frame_s)));
+    if (!opened) return tl::unexpected(opened.error());
+    video = std::move(*opened);
+  }
+
+  FrameScene contents;
+  Image eye;
+  Image whole{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
+  for (std::size_t frame = 0; frame < drawing.recording->frames.size(); ++frame) {
+    fill_scene(drawing, options.view, frame, contents);
+    const Camera camera = follow(drawing.recording->frames[frame], *drawing.body);
+    const StereoPair pair = stereo_pair(camera, eye_separation_m);
+    Scene scene;
+    scene.meshes = contents.meshes;
+    scene.lines = contents.lines;
+    scene.points = contents.points;
+    scene.light = {-0.55F, 0.80F, 0.45F};
+    const auto render = [&](const Camera& from, Image& image) {
+      scene.camera = from;
+      return renderer->render(scene, image);
+    };
+    if (options.stereo) {
+      for (const bool left_eye : {true, false}) {
+        if (auto done = render(left_eye ? pair.left : pair.right, eye); !done) return done;
+        set_beside(eye, whole, left_eye ? 0 : eye_width);
+      }
+    } else if (auto done = render(camera, whole); !done) {
+      return done;
+    }
+    if (options.frames) {
+      const auto path = options.out / fmt::format("frame_{:04}.png", frame);
+      if (auto done = write_png(path.string(), whole); !done) return done;
+    }
+    if (video) {
+      if (auto done = video->add(whole); !done) return done;
+    }
+    progress(frame + 1);
+  }
+  if (video) return video->finish();
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,63 @@
+#include "demo/walk_tables.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <numbers>
+
+namespace mobil {
+namespace {
+
+constexpr std::string_view side_name[2] = {"right", "left"};
+constexpr float degrees = 180.0F / std::numbers::pi_v<float>;
+
+}  // namespace
+
+MotionTable::MotionTable() {
+  text = "time_s,phase_right,phase_left,com_x_m,com_y_m,com_z_m,pelvis_rotation_deg,pelvis_list_deg,pelvis_tilt_deg";
+  for (const auto side : side_name) {
+    for (const auto* angle : {"hip_flexion", "knee_flexion", "ankle_dorsiflexion", "shoulder_flexion", "elbow_flexion"}) {
+      text += fmt::format(",{}_{}_deg", angle, side);
+    }
+    text += fmt::format(",grf_vertical_{0}_n,grf_anterior_{0}_n,hip_moment_{0}_nm,knee_moment_{0}_nm,ankle_moment_{0}_nm",
+                        side);
+    for (const auto* point : {"heel", "toe"}) {
+      for (const char axis : {'x', 'y', 'z'}) text += fmt::format(",{}_{}_{}_m", point, axis, side);
+    }
+  }
+  text += '\n';
+}
+
+void MotionTable::add(double time_s, const JointAngles<float>& angles, const Feet<float>& feet,
+                      const CentreOfMass<float>& com) {
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}", time_s, feet.phase[right],
+                 feet.phase[left], com.position_m.x, com.position_m.y, com.position_m.z,
+                 angles.pelvis_rotation * degrees, angles.pelvis_list * degrees, angles.pelvis_tilt * degrees);
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (const float angle : {angles.hip_flexion[side], angles.knee_flexion[side], angles.ankle_dorsiflexion[side],
+                              angles.shoulder_flexion[side], angles.elbow_flexion[side]}) {
+      fmt::format_to(out, ",{:.4f}", angle * degrees);
+    }
+    text += ",,,,,";
+    for (const auto& point : {feet.heel_m[side], feet.toe_m[side]}) {
+      fmt::format_to(out, ",{:.6f},{:.6f},{:.6f}", point.x, point.y, point.z);
+    }
+  }
+  text += '\n';
+}
+
+MuscleTable::MuscleTable()
+    : text(
+          "time_s,side,group,line_length_m,rest_length_m,line_ratio,stiffness_n_per_m,force_n,belly_elongation_m,"
+          "volume_ratio,kinetic_energy_j,strain_energy_j,method\n") {}
+
+void MuscleTable::add(double time_s, Side side, MuscleGroup group, const LineOfAction<float>& line,
+                      const BellyReport<float>& belly, std::string_view method) {
+  fmt::format_to(std::back_inserter(text), "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6e},{:.6e},{}\n",
+                 time_s, side_name[side], muscle_group_name[static_cast<std::size_t>(group)], line.length_m,
+                 line.rest_length_m, line.length_m / line.rest_length_m, line.stiffness_n_per_m, line.force_n,
+                 belly.elongation_m, belly.volume_ratio, belly.kinetic_energy_j, belly.strain_energy_j, method);
+}
+
+}  // namespace mobil

@@ -1,0 +1,202 @@
+#pragma once
+// What a system may take, and what each kind of parameter says about it. The scheduler reads a system's signature:
+//
+//   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
+//   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
+//   Previous<C>              reads what the component was before this tick's writers
+//   Lookup<C>                reads the component of other entities, this tick's
+//   TagValue<Tag>, Shared<T> the table's tag or shared resource
+//   Tick, float              the tick; a plain float is its length in s
+//   Rows                     who the lanes are
+//
+// It runs on every block of every table that has all components, fields and tags named.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <type_traits>
+
+#include "engine/key.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+struct Tick {
+  float dt_s = 0;
+  std::uint32_t index = 0;
+};
+
+/// The lanes of one block: sixteen entities, of which the first `live` are rows and the rest parked copies of the
+/// first.
+struct Rows {
+  const Entity* entity;
+  std::uint32_t live;
+};
+
+/// A field of one block: word w of lane l at data[16·w + l], 64-byte aligned.
+template <class Tag>
+struct Field {
+  std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
+  std::uint32_t words;
+};
+
+/// A component as it was before this tick: the system runs ahead of all that write it.
+template <template <class> class C>
+struct Previous {
+  const C<Lanes<float>>* block;
+
+  const C<Lanes<float>>& operator*() const { return *block; }
+  const C<Lanes<float>>* operator->() const { return block; }
+};
+
+/// Rows of component C of any entity.
+template <template <class> class C>
+class Lookup {
+ public:
+  explicit Lookup(const World& world) : world_(&world) {}
+
+  /// Word 0 of that entity's row; word w is 16·w further on. Null when the entity is stale or has no such component.
+  const float* find(Entity entity) const {
+    const auto place = world_->find(entity);
+    if (!place) return nullptr;
+    const std::uint32_t column = place.table->column(type_id<C<float>>());
+    if (column == Table::no_column) return nullptr;
+    return place.table->block(place.row / lane_count) + column * lane_count + place.row % lane_count;
+  }
+
+ private:
+  const World* world_;
+};
+
+/// What one parameter does with a component or field (`none`: nothing that order depends on).
+struct Access {
+  enum class Mode : std::uint8_t { none, read, write, previous, lookup };
+
+  Mode mode = Mode::none;
+  std::uint64_t id = 0;
+  std::string_view name;
+};
+
+/// A parameter as found in one table.
+struct Bound {
+  std::uint32_t first_word = 0;
+  std::uint32_t words = 0;
+  std::uint64_t tag = 0;
+  const void* resource = nullptr;
+};
+
+/// One block, about to be worked on.
+struct BlockView {
+  const World& world;
+  Table& table;
+  std::size_t block;
+  Tick tick;
+};
+
+/// How a parameter of type P is declared (`access`), found in a table (`bind`, false where the table lacks it) and made
+/// for a block (`make`).
+template <class P>
+struct Parameter;
+
+template <class P>
+struct Parameter<const P&> : Parameter<P> {};
+
+/// Those that any table can serve.
+struct AnywhereParameter {
+  static constexpr Access access() { return {}; }
+  static bool bind(const World&, const Table&, Bound&) { return true; }
+};
+
+template <Access::Mode mode, class T>
+struct ColumnParameter {
+  static constexpr Access access() { return {mode, type_id<T>(), type_name<T>()}; }
+  static bool bind(const World&, const Table& table, Bound& bound) {
+    const KeyPart* part = find_part(table.key(), type_id<T>());
+    if (part == nullptr || part->kind == PartKind::tag) return false;
+    bound.first_word = table.column(part->id);
+    bound.words = static_cast<std::uint32_t>(part->value);
+    return true;
+  }
+  static float* data(const BlockView& view, const Bound& bound) {
+    return view.table.block(view.block) + bound.first_word * lane_count;
+  }
+};
+
+template <class T>
+struct TagParameter {
+  static constexpr Access access() { return {}; }
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    const KeyPart* part = find_part(table.key(), type_id<T>());
+    if (part == nullptr || part->kind != PartKind::tag) return false;
+    bound.tag = part->value;
+    bound.resource = world.resource(part->value);
+    return true;
+  }
+};
+
+template <template <class> class C>
+struct Parameter<C<Lanes<float>>&> : ColumnParameter<Access::Mode::write, C<float>> {
+  static C<Lanes<float>>& make(const BlockView& view, const Bound& bound) {
+    static_assert(ComponentLayout<C>::words > 0);
+    return *reinterpret_cast<C<Lanes<float>>*>(Parameter::data(view, bound));
+  }
+};
+
+template <template <class> class C>
+struct Parameter<const C<Lanes<float>>&> : ColumnParameter<Access::Mode::read, C<float>> {
+  static const C<Lanes<float>>& make(const BlockView& view, const Bound& bound) {
+    return Parameter<C<Lanes<float>>&>::make(view, bound);
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Previous<C>> : ColumnParameter<Access::Mode::previous, C<float>> {
+  static Previous<C> make(const BlockView& view, const Bound& bound) {
+    return {&Parameter<C<Lanes<float>>&>::make(view, bound)};
+  }
+};
+
+template <class Tag>
+struct Parameter<Field<Tag>>
+    : ColumnParameter<std::is_const_v<Tag> ? Access::Mode::read : Access::Mode::write, std::remove_const_t<Tag>> {
+  static Field<Tag> make(const BlockView& view, const Bound& bound) {
+    return {Parameter::data(view, bound), bound.words};
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Lookup<C>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::lookup, type_id<C<float>>(), type_name<C<float>>()}; }
+  static Lookup<C> make(const BlockView& view, const Bound&) { return Lookup<C>(view.world); }
+};
+
+template <class Tag>
+struct Parameter<TagValue<Tag>> : TagParameter<Tag> {
+  static TagValue<Tag> make(const BlockView&, const Bound& bound) { return {bound.tag}; }
+};
+
+template <class T>
+struct Parameter<Shared<T>> : TagParameter<T> {
+  static Shared<T> make(const BlockView&, const Bound& bound) {
+    return {static_cast<const T*>(bound.resource), bound.tag};
+  }
+};
+
+template <>
+struct Parameter<Tick> : AnywhereParameter {
+  static Tick make(const BlockView& view, const Bound&) { return view.tick; }
+};
+
+template <>
+struct Parameter<float> : AnywhereParameter {
+  static float make(const BlockView& view, const Bound&) { return view.tick.dt_s; }
+};
+
+template <>
+struct Parameter<Rows> : AnywhereParameter {
+  static Rows make(const BlockView& view, const Bound&) {
+    return {view.table.entities(view.block), view.table.live(view.block)};
+  }
+};
+
+}  // namespace mobil

@@ -1,0 +1,78 @@
+#pragma once
+// Handles. An entity is a number that was given out once; whoever holds it after the entity is gone is told so.
+
+#include <cstdint>
+#include <limits>
+#include <memory_resource>
+#include <vector>
+
+namespace mobil {
+
+/// A handle: plain data, may be stored, copied and sent. The default one is nobody and never alive.
+struct Entity {
+  std::uint32_t index = 0;
+  std::uint32_t generation = 0;
+
+  friend bool operator==(const Entity&, const Entity&) = default;
+};
+
+/// What became of a request on one entity. Nothing was changed unless it is `ok`.
+enum class Status : std::uint8_t {
+  ok,
+  stale_entity,   ///< the entity was destroyed, or never was
+  missing,        ///< it has no such component, field or tag
+  already_there,  ///< it has that component, field or tag already
+  wrong_width,    ///< the span is not as long as the field
+};
+
+/// Who is alive, and where: the table (its number in the world) and the row. Slots are reused last in, first out, each
+/// time with the next generation; a slot whose generations are used up is retired.
+class EntityRegister {
+ public:
+  struct Location {
+    std::uint32_t table, row;
+  };
+
+  explicit EntityRegister(std::pmr::memory_resource* memory) : slots_(memory) {}
+
+  Entity create() {
+    std::uint32_t index = first_free_;
+    if (index == nobody) {
+      index = static_cast<std::uint32_t>(slots_.size());
+      slots_.push_back({1, {0, 0}});
+    } else {
+      first_free_ = slots_[index].location.row;
+      slots_[index].location = {0, 0};
+    }
+    return {index, slots_[index].generation};
+  }
+
+  /// Null when the handle is stale.
+  Location* find(Entity entity) { return alive(entity) ? &slots_[entity.index].location : nullptr; }
+  const Location* find(Entity entity) const { return alive(entity) ? &slots_[entity.index].location : nullptr; }
+
+  bool alive(Entity entity) const {
+    return entity.index < slots_.size() && slots_[entity.index].generation == entity.generation &&
+           slots_[entity.index].location.table != nobody;
+  }
+
+  /// Frees the slot of a living entity.
+  void destroy(Entity entity) {
+    Slot& slot = slots_[entity.index];
+    slot.location.table = nobody;
+    if (++slot.generation == 0) return;
+    slot.location.row = first_free_;
+    first_free_ = entity.index;
+  }
+
+ private:
+  static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
+  struct Slot {
+    std::uint32_t generation;
+    Location location;  // of a free slot: {nobody, the next free one}
+  };
+  std::pmr::vector<Slot> slots_;
+  std::uint32_t first_free_ = nobody;
+};
+
+}  // namespace mobil

@@ -1,0 +1,75 @@
+#include "engine/jobs.h"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
+
+#if defined(__SSE2__)
+#include <pmmintrin.h>
+#include <xmmintrin.h>
+#endif
+
+namespace mobil {
+
+struct Threads::Arena {
+  explicit Arena(int count) : arena(count) {}
+  tbb::task_arena arena;
+};
+
+Threads::Threads(int count) : arena_(std::make_unique<Arena>(count > 0 ? count : int{tbb::task_arena::automatic})) {}
+Threads::~Threads() = default;
+Threads::Threads(Threads&&) noexcept = default;
+Threads& Threads::operator=(Threads&&) noexcept = default;
+
+int Threads::count() const {
+  return arena_->arena.max_concurrency();
+}
+
+Jobs Threads::jobs() const {
+  if (count() == 1) return {};
+  return {arena_.get(), [](void* user, std::size_t count, Jobs::Body body, void* context) {
+            static_cast<Arena*>(user)->arena.execute([=] {
+              tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
+                                [=](const auto& range) { body(context, range.begin(), range.end()); });
+            });
+          }};
+}
+
+namespace {
+#if defined(__SSE2__)
+constexpr unsigned long flush_bits = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON;
+unsigned long control() {
+  return _mm_getcsr();
+}
+void set_control(unsigned long word) {
+  _mm_setcsr(static_cast<unsigned>(word));
+}
+#elif defined(__aarch64__)
+constexpr unsigned long flush_bits = 1UL << 24;
+unsigned long control() {
+  unsigned long word;
+  asm volatile("mrs %0, fpcr" : "=r"(word));
+  return word;
+}
+void set_control(unsigned long word) {
+  asm volatile("msr fpcr, %0" ::"r"(word));
+}
+#else
+constexpr unsigned long flush_bits = 0;
+unsigned long control() {
+  return 0;
+}
+void set_control(unsigned long) {}
+#endif
+}  // namespace
+
+FlushDenormals::FlushDenormals() : before_(control()) {
+  set_control(before_ | flush_bits);
+}
+
+// Only the two bits go back: exception flags that were raised meanwhile stay raised.
+FlushDenormals::~FlushDenormals() {
+  set_control((control() & ~flush_bits) | (before_ & flush_bits));
+}
+
+}  // namespace mobil

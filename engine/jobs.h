@@ -1,0 +1,50 @@
+#pragma once
+// Who does the work of a tick: one thread, a pool of ours, or the caller's own job system.
+
+#include <cstddef>
+#include <memory>
+
+namespace mobil {
+
+/// A job system as plain data. `parallel_for` calls `body(context, begin, end)` on disjoint ranges that together are
+/// [0, count), on whatever threads it likes, and returns when all have. Results never depend on how it cuts.
+struct Jobs {
+  using Body = void (*)(void* context, std::size_t begin, std::size_t end);
+
+  void* user = nullptr;
+  void (*parallel_for)(void* user, std::size_t count, Body body, void* context) =
+      [](void*, std::size_t count, Body body, void* context) { body(context, 0, count); };
+};
+
+/// A pool (oneTBB). One thread runs everything inline and starts nothing; 0 means as many as the machine has. More than
+/// the machine has are allowed and not used.
+class Threads {
+ public:
+  explicit Threads(int count = 0);
+  ~Threads();
+  Threads(Threads&&) noexcept;
+  Threads& operator=(Threads&&) noexcept;
+
+  int count() const;
+  /// Valid as long as this pool lives, also after it has been moved.
+  Jobs jobs() const;
+
+ private:
+  struct Arena;
+  std::unique_ptr<Arena> arena_;
+};
+
+/// While one lives, this thread's arithmetic takes denormal numbers for zero (on x86 and 64-bit ARM); after it the
+/// thread is as it was.
+class FlushDenormals {
+ public:
+  FlushDenormals();
+  ~FlushDenormals();
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+ private:
+  unsigned long before_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,133 @@
+#pragma once
+// What an entity can be made of, and the key that those parts form together. There are three kinds:
+//   component  Pose<float>                  a row of 4-byte words, the same number in every table
+//   field      FieldWidth<NodalVelocity>    a row of floats whose number the table's key fixes
+//   tag        TagValue<Substeps>, Shared<Mesh>   one value for the whole table, part of its key
+// Parts are told apart by a hash of their type's name: nothing is registered, nothing is global.
+
+#include <algorithm>
+#include <cstdint>
+#include <initializer_list>
+#include <memory_resource>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "components/lanes.h"
+
+namespace mobil {
+
+/// The type's name as the compiler spells it, with its namespace.
+template <class T>
+constexpr auto type_name() {
+  const std::string_view spelled = __PRETTY_FUNCTION__;
+  const auto start = spelled.find("T = ") + 4;
+  return spelled.substr(start, spelled.size() - 1 - start);
+}
+
+/// FNV-1a of the type's name.
+template <class T>
+constexpr std::uint64_t type_id() {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const char c : type_name<T>()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  return hash;
+}
+
+enum class PartKind : std::uint8_t { component, field, tag };
+
+/// One part of a table's key. `value`: words a row of a component or field, the value of a tag.
+struct KeyPart {
+  std::uint64_t id = 0;
+  PartKind kind = PartKind::component;
+  std::uint64_t value = 0;
+  std::string_view name;
+
+  friend bool operator==(const KeyPart& a, const KeyPart& b) {
+    return a.id == b.id && a.kind == b.kind && a.value == b.value;
+  }
+};
+
+/// Parts sorted by id, each id once. Two entities share a table when their keys are equal.
+using TableKey = std::pmr::vector<KeyPart>;
+
+inline TableKey::const_iterator lower_bound(const TableKey& key, std::uint64_t id) {
+  return std::lower_bound(key.begin(), key.end(), id, [](const KeyPart& part, std::uint64_t i) { return part.id < i; });
+}
+
+/// The part of that id, or null.
+inline const KeyPart* find_part(const TableKey& key, std::uint64_t id) {
+  const auto at = lower_bound(key, id);
+  return at != key.end() && at->id == id ? &*at : nullptr;
+}
+
+inline void insert_part(TableKey& key, const KeyPart& part) {
+  key.insert(lower_bound(key, part.id), part);
+}
+
+/// A field to be: `words` floats a row, zero at first. `Tag` is a plain struct that names it.
+template <class Tag>
+struct FieldWidth {
+  std::uint32_t words = 0;
+};
+
+/// A small number that all rows of a table share, named by a plain struct. Also how a system is told of it.
+template <class Tag>
+struct TagValue {
+  std::uint64_t value = 0;
+};
+
+/// An immutable resource that all rows of a table share; `World::share` makes it, the world owns it. Also how a system
+/// is handed it.
+template <class T>
+struct Shared {
+  const T* resource = nullptr;
+  std::uint64_t index = 0;
+
+  const T& operator*() const { return *resource; }
+  const T* operator->() const { return resource; }
+};
+
+/// A component's layout: word w of lane l of a block lies at block[16·w + l]. That needs members that are F, Whole<F>
+/// or arrays and structs of those; what of it can be checked is checked here.
+template <template <class> class C>
+struct ComponentLayout {
+  static_assert(std::is_trivially_copyable_v<C<float>> && std::is_trivially_copyable_v<C<Lanes<float>>>);
+  static_assert(sizeof(C<float>) % 4 == 0 && alignof(C<float>) == 4, "a component holds 4-byte words only");
+  static_assert(sizeof(C<Lanes<float>>) == lane_count * sizeof(C<float>), "every member depends on F");
+  static_assert(alignof(C<Lanes<float>>) == alignof(Lanes<float>));
+  static constexpr std::uint32_t words = sizeof(C<float>) / 4;
+};
+
+template <template <class> class C>
+constexpr KeyPart component_part() {
+  return {type_id<C<float>>(), PartKind::component, ComponentLayout<C>::words, type_name<C<float>>()};
+}
+
+template <template <class> class C>
+constexpr KeyPart key_part(const C<float>&) {
+  return component_part<C>();
+}
+template <class Tag>
+constexpr KeyPart key_part(const FieldWidth<Tag>& field) {
+  return {type_id<Tag>(), PartKind::field, field.words, type_name<Tag>()};
+}
+template <class Tag>
+constexpr KeyPart key_part(const TagValue<Tag>& tag) {
+  return {type_id<Tag>(), PartKind::tag, tag.value, type_name<Tag>()};
+}
+template <class T>
+constexpr KeyPart key_part(const Shared<T>& shared) {
+  return {type_id<T>(), PartKind::tag, shared.index, type_name<T>()};
+}
+
+template <class P>
+inline constexpr std::uint64_t part_id = key_part(P{}).id;
+
+constexpr bool distinct(std::initializer_list<std::uint64_t> ids) {
+  for (auto a = ids.begin(); a != ids.end(); ++a) {
+    if (std::find(a + 1, ids.end(), *a) != ids.end()) return false;
+  }
+  return true;
+}
+
+}  // namespace mobil

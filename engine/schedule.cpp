@@ -1,0 +1,114 @@
+#include "engine/schedule.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "engine/schedule_order.h"
+
+namespace mobil {
+
+/// One system's run over all its blocks, shared by the threads that do it.
+struct Schedule::Pass {
+  const System& system;
+  const std::vector<Match>& matches;
+  const World& world;
+  Tick tick;
+};
+
+Schedule::Schedule(std::vector<System> systems)
+    : systems_(std::move(systems)), timings_(systems_.size()), matches_(systems_.size()) {}
+
+void Schedule::match(World& world) {
+  if (world_ != world.identity()) {
+    for (auto& matches : matches_) matches.clear();
+    tables_seen_ = 0;
+    world_ = world.identity();
+  }
+  for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
+    Table& table = world.tables()[tables_seen_];
+    for (std::size_t s = 0; s < systems_.size(); ++s) {
+      std::vector<Bound> bound(systems_[s].accesses.size());
+      if (systems_[s].bind(world, table, bound.data())) matches_[s].push_back({&table, 0, std::move(bound)});
+    }
+  }
+}
+
+void Schedule::run_blocks(void* context, std::size_t begin, std::size_t end) {
+  const FlushDenormals flush;
+  const Pass& pass = *static_cast<const Pass*>(context);
+  auto match = std::upper_bound(pass.matches.begin(), pass.matches.end(), begin,
+                                [](std::size_t block, const Match& m) { return block < m.first_block; }) -
+               1;
+  for (std::size_t b = begin; b < end; ++b) {
+    while (b - match->first_block >= match->table->block_count()) ++match;
+    pass.system.run({pass.world, *match->table, b - match->first_block, pass.tick}, match->bound.data());
+  }
+}
+
+void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
+  match(world);
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t blocks = 0;
+    for (Match& m : matches_[s]) {
+      m.first_block = blocks;
+      blocks += m.table->block_count();
+    }
+    Pass pass{systems_[s], matches_[s], world, tick};
+    if (blocks > 0) jobs.parallel_for(jobs.user, blocks, &run_blocks, &pass);
+    timings_[s].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    ++timings_[s].calls;
+  }
+}
+
+const Timing* Schedule::timing(std::string_view name) const {
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    if (systems_[s].name == name) return &timings_[s];
+  }
+  return nullptr;
+}
+
+void Schedule::reset_timings() {
+  std::fill(timings_.begin(), timings_.end(), Timing{});
+}
+
+namespace {
+/// "mobil::Pose<float>" as people say it: Pose.
+std::string_view short_name(std::string_view name) {
+  if (name.ends_with("<float>")) name.remove_suffix(7);
+  const auto colon = name.rfind("::");
+  return colon == std::string_view::npos ? name : name.substr(colon + 2);
+}
+
+void list(std::string& text, const System& system, Access::Mode mode, std::string_view verb) {
+  bool first = true;
+  for (const Access& access : system.accesses) {
+    if (access.mode != mode) continue;
+    text.append(first ? "; " : ", ").append(first ? verb : "").append(first ? " " : "").append(short_name(access.name));
+    first = false;
+  }
+}
+}  // namespace
+
+std::string Schedule::describe() const {
+  std::string text;
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    text += std::to_string(s + 1) + ". " + systems_[s].name;
+    list(text, systems_[s], Access::Mode::read, "reads");
+    list(text, systems_[s], Access::Mode::previous, "reads last tick's");
+    list(text, systems_[s], Access::Mode::lookup, "looks up");
+    list(text, systems_[s], Access::Mode::write, "writes");
+    text += '\n';
+  }
+  return text;
+}
+
+Result<Schedule> ScheduleBuilder::build() const {
+  const auto order = schedule_order(systems_);
+  if (!order) return tl::unexpected(order.error());
+  std::vector<System> sorted;
+  for (const std::size_t s : *order) sorted.push_back(systems_[s]);
+  return Schedule(std::move(sorted));
+}
+
+}  // namespace mobil

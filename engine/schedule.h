@@ -1,0 +1,134 @@
+#pragma once
+// Which systems run, on what, and in which order: all read off their signatures (engine/access.h).
+//
+//   ScheduleBuilder systems;
+//   systems.add("gait", &gait).add("kinematics", &kinematics).add("sway", &sway).after("kinematics");
+//   Result<Schedule> schedule = systems.build();
+//   schedule->run(world, {1.0F / 60, 0}, threads.jobs());
+//
+// Order: who reads a component runs after who writes it; who reads it as Previous runs before. Where `after` says
+// otherwise, `after` wins. Two writers of one component need an `after`, be it on different tables. Ties go by the
+// order of adding, so that the order is always the same.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/access.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+/// A system with its type taken off.
+struct System {
+  std::string name;
+  std::vector<Access> accesses;    // one a parameter
+  std::vector<std::string> after;  // names of systems that must have run
+  bool (*bind)(const World&, const Table&, Bound*) = nullptr;
+  std::function<void(const BlockView&, const Bound*)> run;
+};
+
+/// How often a system ran, and for how long (wall) in all.
+struct Timing {
+  std::uint64_t calls = 0;
+  double seconds = 0;
+};
+
+class Schedule {
+ public:
+  /// One tick. Every system over all blocks of its tables, one system after the other. Takes memory only when tables
+  /// have been made since the last run or another world comes along. Denormals are zero while a system runs.
+  void run(World& world, Tick tick, const Jobs& jobs = {});
+
+  /// In the order of running.
+  std::span<const System> systems() const { return systems_; }
+  std::span<const Timing> timings() const { return timings_; }
+  /// Null when there is no system of that name.
+  const Timing* timing(std::string_view name) const;
+  void reset_timings();
+
+  /// The order as text, a line a system: what it reads and writes.
+  std::string describe() const;
+
+ private:
+  friend class ScheduleBuilder;
+  struct Match {
+    Table* table;
+    std::size_t first_block;  // among all blocks of the system, this tick
+    std::vector<Bound> bound;
+  };
+  struct Pass;
+  static void run_blocks(void* pass, std::size_t begin, std::size_t end);
+
+  explicit Schedule(std::vector<System> systems);
+  void match(World& world);
+
+  std::vector<System> systems_;
+  std::vector<Timing> timings_;
+  std::vector<std::vector<Match>> matches_;  // by system
+  std::size_t tables_seen_ = 0;
+  std::shared_ptr<const char> world_;
+};
+
+class ScheduleBuilder {
+ public:
+  /// A free function or a lambda whose parameters are those of engine/access.h. It is called from several threads at
+  /// once, for different blocks.
+  template <class F>
+  ScheduleBuilder& add(std::string name, F function) {
+    systems_.push_back(erase(std::move(name), std::move(function), Signature<F>{}));
+    return *this;
+  }
+  /// The system added last runs after that one.
+  ScheduleBuilder& after(std::string name) {
+    systems_.back().after.push_back(std::move(name));
+    return *this;
+  }
+
+  /// Fails on two systems of one name, on an `after` that names nobody, on a system that takes a component twice and
+  /// writes it, on writers that nobody ordered and on circles.
+  Result<Schedule> build() const;
+
+ private:
+  template <class... P>
+  struct Parameters {};
+  template <class F>
+  struct Signature : Signature<decltype(&F::operator())> {};
+  template <class... P>
+  struct Signature<void (*)(P...)> : Parameters<P...> {};
+  template <class... P>
+  struct Signature<void (*)(P...) noexcept> : Parameters<P...> {};
+  template <class F, class... P>
+  struct Signature<void (F::*)(P...) const> : Parameters<P...> {};
+  template <class F, class... P>
+  struct Signature<void (F::*)(P...) const noexcept> : Parameters<P...> {};
+
+  template <class F, class... P>
+  static System erase(std::string name, F function, Parameters<P...>) {
+    System system;
+    system.name = std::move(name);
+    system.accesses = {Parameter<P>::access()...};
+    system.bind = [](const World& world, const Table& table, [[maybe_unused]] Bound* bound) {
+      return (Parameter<P>::bind(world, table, *bound++) && ...);
+    };
+    system.run = [function = std::move(function)](const BlockView& view, [[maybe_unused]] const Bound* bound) {
+      [&]<std::size_t... i>(std::index_sequence<i...>) {
+        function(Parameter<P>::make(view, bound[i])...);
+      }
+      (std::index_sequence_for<P...>{});
+    };
+    return system;
+  }
+
+  std::vector<System> systems_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,196 @@
+#pragma once
+// Entities and what they are made of. Every combination of parts is a table; adding or removing a part moves the
+// entity's row to another one. See engine/key.h for the kinds of parts.
+//
+//   World world;
+//   const auto mesh = world.share(std::make_shared<const Mesh>(…));
+//   const Entity muscle = world.create(BellyScale<float>{1, 1}, FieldWidth<NodalVelocity>{243}, TagValue<Substeps>{5},
+//   mesh); world.add(muscle, EndForce<float>{0, 1});       // Status::ok world.get<EndForce>(muscle)->to_n; // 1
+//   world.set(muscle, TagValue<Substeps>{6});       // moves to the table of those with six
+//   world.remove<NodalVelocity>(muscle);
+//   world.destroy(muscle);                          // from here on everything answers Status::stale_entity
+//
+// Structure changes between ticks, by one thread; systems (engine/schedule.h) change values only.
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "engine/entity.h"
+#include "engine/key.h"
+#include "engine/table.h"
+
+namespace mobil {
+
+/// Where an entity lies; `table` is null for a stale one. Good until the next change of structure.
+template <class T>
+struct Place {
+  T* table = nullptr;
+  std::uint32_t row = 0;
+
+  explicit operator bool() const { return table != nullptr; }
+};
+
+class World {
+ public:
+  /// All tables and registers take their memory from `memory`, which must outlive the world.
+  explicit World(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  /// An entity of these parts: component rows (their first values), FieldWidth (zeros), TagValue, Shared; each type
+  /// once.
+  template <class... P>
+  Entity create(const P&... parts);
+  Status destroy(Entity entity);
+  bool alive(Entity entity) const { return entities_.alive(entity); }
+
+  /// One more part. Values of the others are kept.
+  template <class P>
+  Status add(Entity entity, const P& part);
+  /// Another value for a component or tag that is there.
+  template <template <class> class C>
+  Status set(Entity entity, const C<float>& row);
+  template <class Tag>
+  Status set(Entity entity, const TagValue<Tag>& tag) {
+    return replace_tag(entity, key_part(tag));
+  }
+  template <class T>
+  Status set(Entity entity, const Shared<T>& shared) {
+    return replace_tag(entity, key_part(shared));
+  }
+  /// One part less: a component by its template (`remove<Pose>`), a field or tag by its type.
+  template <template <class> class C>
+  Status remove(Entity entity) {
+    return remove_part(entity, type_id<C<float>>());
+  }
+  template <class Tag>
+  Status remove(Entity entity) {
+    return remove_part(entity, type_id<Tag>());
+  }
+
+  template <template <class> class C>
+  bool has(Entity entity) const {
+    return part_of(entity, type_id<C<float>>()).has_value();
+  }
+  template <class Tag>
+  bool has(Entity entity) const {
+    return part_of(entity, type_id<Tag>()).has_value();
+  }
+  /// An entity's row of a component.
+  template <template <class> class C>
+  tl::expected<C<float>, Status> get(Entity entity) const;
+  /// The value of an entity's tag; of a field, its words a row.
+  template <class Tag>
+  tl::expected<std::uint64_t, Status> get(Entity entity) const {
+    return part_of(entity, type_id<Tag>()).map([](const KeyPart& part) { return part.value; });
+  }
+  /// An entity's shared resource, null when stale or missing.
+  template <class T>
+  const T* shared(Entity entity) const {
+    const auto part = part_of(entity, type_id<T>());
+    return part ? static_cast<const T*>(resource(part->value)) : nullptr;
+  }
+  /// All of one entity's floats of a field; the span is exactly as long as the field is wide.
+  template <class Tag>
+  Status get_field(Entity entity, std::span<float> out) const {
+    return read_field(entity, type_id<Tag>(), out);
+  }
+  template <class Tag>
+  Status set_field(Entity entity, std::span<const float> in) {
+    return write_field(entity, type_id<Tag>(), in);
+  }
+
+  /// Takes a share in an immutable resource until the world ends. The same resource gives the same handle again.
+  template <class T>
+  Shared<T> share(std::shared_ptr<const T> resource) {
+    const T* raw = resource.get();
+    return {raw, own(std::move(resource))};
+  }
+  /// The resource of that index, null when there is none.
+  const void* resource(std::uint64_t index) const {
+    return index < resources_.size() ? resources_[index].get() : nullptr;
+  }
+
+  Place<Table> find(Entity entity);
+  Place<const Table> find(Entity entity) const;
+  /// In the order of their creation, empty ones too; a table lives and stays put as long as the world.
+  std::pmr::deque<Table>& tables() { return tables_; }
+  const std::pmr::deque<Table>& tables() const { return tables_; }
+
+  /// Tells worlds apart even when one is made at the address of another that is gone.
+  const std::shared_ptr<const char>& identity() const { return identity_; }
+
+ private:
+  Place<Table> create_row(const TableKey& key, Entity& entity);
+  Status add_part(Entity entity, const KeyPart& part);
+  Status remove_part(Entity entity, std::uint64_t id);
+  Status replace_tag(Entity entity, const KeyPart& tag);
+  void move(Entity entity, const TableKey& key);
+  std::uint32_t table_of(const TableKey& key);
+  tl::expected<KeyPart, Status> part_of(Entity entity, std::uint64_t id) const;
+  Status read_field(Entity entity, std::uint64_t id, std::span<float> out) const;
+  Status write_field(Entity entity, std::uint64_t id, std::span<const float> in);
+  std::uint64_t own(std::shared_ptr<const void> resource);
+
+  template <template <class> class C>
+  static void write_part(Place<Table> place, const C<float>& row) {
+    place.table->write(place.row, place.table->column(type_id<C<float>>()), ComponentLayout<C>::words, &row);
+  }
+  template <class Tag>
+  static void write_part(Place<Table>, const FieldWidth<Tag>&) {}
+  template <class Tag>
+  static void write_part(Place<Table>, const TagValue<Tag>&) {}
+  template <class T>
+  static void write_part(Place<Table>, const Shared<T>&) {}
+
+  std::pmr::memory_resource* memory_;
+  EntityRegister entities_;
+  std::pmr::deque<Table> tables_;
+  std::pmr::vector<std::shared_ptr<const void>> resources_;
+  TableKey scratch_;  // the key being put together, kept for its memory
+  std::shared_ptr<const char> identity_;
+};
+
+template <class... P>
+Entity World::create(const P&... parts) {
+  static_assert(distinct({part_id<P>...}), "each component, field and tag once");
+  scratch_.clear();
+  (insert_part(scratch_, key_part(parts)), ...);
+  Entity entity;
+  [[maybe_unused]] const Place<Table> place = create_row(scratch_, entity);
+  (write_part(place, parts), ...);
+  return entity;
+}
+
+template <class P>
+Status World::add(Entity entity, const P& part) {
+  const Status status = add_part(entity, key_part(part));
+  if (status == Status::ok) write_part(find(entity), part);
+  return status;
+}
+
+template <template <class> class C>
+Status World::set(Entity entity, const C<float>& row) {
+  const auto part = part_of(entity, type_id<C<float>>());
+  if (!part) return part.error();
+  write_part(find(entity), row);
+  return Status::ok;
+}
+
+template <template <class> class C>
+tl::expected<C<float>, Status> World::get(Entity entity) const {
+  const auto part = part_of(entity, type_id<C<float>>());
+  if (!part) return tl::unexpected(part.error());
+  C<float> row;
+  const auto place = find(entity);
+  place.table->read(place.row, place.table->column(part->id), ComponentLayout<C>::words, &row);
+  return row;
+}
+
+}  // namespace mobil

@@ -1,0 +1,63 @@
+#pragma once
+// Closed surfaces from few numbers: tubes lofted through elliptical sections, and ellipsoids.
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "components/surface.h"
+
+namespace mobil {
+
+/// One elliptical section: its centre, its two semi-axes, and the angle (rad) of the first from the tube's reference
+/// direction u towards v = normal × u. `bow` bends the section: its points move along its second axis by
+/// bow · (1 − 2ξ²), where ξ (−1 to 1) runs along the first. All lengths in the caller's unit.
+struct TubeStation {
+  Vec3<double> centre;
+  double semi_u, semi_v;
+  double angle = 0;
+  double bow = 0;
+};
+
+/// How a tube is built on its stations. Sections are orthogonal to the centre line, or to `normal` where it is given
+/// (either sense; parallel sections never cut each other). `reference` is made orthogonal to the normal.
+struct TubeShape {
+  Vec3<double> reference{0, 0, 1};
+  std::optional<Vec3<double>> normal = std::nullopt;
+  int rings = 12;     // along the tube, caps apart; at least 2
+  int segments = 10;  // round the tube; at least 3
+  double cap = 0.6;   // length of the rounded ends over the end section's smaller semi-axis
+};
+
+/// One point along a tube between its stations, as `loft` interpolates it: centre, and the symmetric matrix that
+/// carries the unit circle onto the section in (u, v).
+struct TubeSection {
+  Vec3<double> centre, tangent;
+  double uu, uv, vv;
+  double angle, bow;
+};
+
+/// The section at the fraction `t` (0–1) of the polyline's length through the centres. Centres follow a Catmull–Rom
+/// curve on chord lengths, sections a monotone cubic of the matrix's entries. Needs at least two stations whose
+/// neighbours differ, with positive semi-axes.
+TubeSection tube_section(std::span<const TubeStation> stations, double t);
+
+/// A closed surface through the stations, wound outwards. Needs what tube_section needs.
+SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape = {});
+
+/// A closed ellipsoid with its axes along x, y and z.
+SurfaceMesh ellipsoid(const Vec3<double>& centre, const Vec3<double>& semi, int rings = 8, int segments = 10);
+
+/// Puts `part` beside what `mesh` holds already.
+void append(SurfaceMesh& mesh, const SurfaceMesh& part);
+
+/// Reflected in the plane x = 0, the triangles turned so that they stay wound outwards.
+SurfaceMesh mirror_image(const SurfaceMesh& mesh);
+
+/// Every position times `factor` (positive).
+void scale(SurfaceMesh& mesh, double factor);
+
+/// Volume enclosed, in the cube of the mesh's unit; overlapping parts count twice.
+double enclosed_volume(const SurfaceMesh& mesh);
+
+}  // namespace mobil

@@ -1,0 +1,32 @@
+#pragma once
+// A load over time as a table: what `mobil muscle --load` reads.
+
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+#include "components/lanes.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// Total force on a face in N at moments in s, ascending; two rows of the same moment are a jump.
+struct ForceHistory {
+  struct Row {
+    double time_s;
+    Vec3<double> force_n;
+  };
+  std::vector<Row> row;
+};
+
+/// Linear between rows, zero before the first, held after the last. At a jump, the later row's.
+Vec3<double> force_at(const ForceHistory& history, double time_s);
+
+/// Reads CSV text with the header `time_s,force_x_n,force_y_n,force_z_n`; `name` is for messages. Fails, naming the
+/// line, on another header, a row that is not four finite numbers, a moment before the row above it, or no rows.
+Result<ForceHistory> parse_force_history(std::string_view text, std::string_view name);
+
+/// The same from a file; also fails where it cannot be read.
+Result<ForceHistory> read_force_history(const std::filesystem::path& path);
+
+}  // namespace mobil

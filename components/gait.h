@@ -23,15 +23,15 @@ struct GaitStyle {
   float strike_pitch_deg = 20.0F;        // toes up at heel strike
   float strike_knee_deg = 5.0F;
   float foot_flat_cycle = 0.08F;         // of the cycle, from heel strike
-  float stance_knee_deg = 7.0F;          // least flexion before the heel rises
-  float toe_off_knee_deg = 36.0F;
-  float knee_release_cycle = 0.40F;      // when the trailing knee starts to yield
+  float stance_knee_deg = 8.0F;          // least flexion before the heel rises
+  float toe_off_knee_deg = 31.0F;
+  float knee_release_cycle = 0.37F;      // when the trailing knee starts to yield
   float swing_knee_deg = 62.0F;          // greatest flexion asked of the swing
-  float swing_ankle_deg = 1.0F;          // dorsiflexion in mid-swing
+  float swing_ankle_deg = 2.0F;          // dorsiflexion in mid-swing
   float toe_clearance_m = 0.012F;
-  float foot_pivot_h = 0.020F;           // support pivot ahead of the ankle
-  float mid_stance_height = 0.988F;      // hip over the ground in mid-stance, of its standing height
-  float hip_fall = 0.52F;                // fall of the hip toward double support, of a stiff leg's
+  float foot_pivot_h = 0.012F;           // support pivot ahead of the ankle
+  float mid_stance_height = 0.995F;      // hip over the ground in mid-stance, of its standing height
+  float hip_fall = 0.47F;                // fall of the hip toward double support, of a stiff leg's
   float leg_stiffness_n_per_m = 16000.0F;  // at 1.8 m; the same for light and heavy people
   float leg_damping = 0.40F;             // of critical
   float roll_over = 0.35F;               // travel of the centre of pressure, of the hip's
@@ -71,7 +71,7 @@ inline constexpr std::array<GaitParameter, 33> gait_parameters = {{
     {"swing_ankle_deg", &GaitStyle::swing_ankle_deg, -15.0F, 15.0F},
     {"toe_clearance_m", &GaitStyle::toe_clearance_m, 0.0F, 0.10F},
     {"foot_pivot_h", &GaitStyle::foot_pivot_h, -0.02F, 0.06F},
-    {"mid_stance_height", &GaitStyle::mid_stance_height, 0.90F, 0.995F},
+    {"mid_stance_height", &GaitStyle::mid_stance_height, 0.90F, 1.0F},
     {"hip_fall", &GaitStyle::hip_fall, 0.2F, 1.0F},
     {"leg_stiffness_n_per_m", &GaitStyle::leg_stiffness_n_per_m, 8000.0F, 60000.0F},
     {"leg_damping", &GaitStyle::leg_damping, 0.2F, 1.0F},

@@ -1,0 +1,198 @@
+// From a body and a gait to the curves of its step.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/gait.h"
+#include "systems/step_leg.h"
+#include "systems/step_math.h"
+#include "systems/step_swing.h"
+
+namespace mobil {
+namespace {
+
+using namespace step;
+
+constexpr std::size_t intervals = knot_count - 1;
+
+/// How high the hip passes mid-stance. Legs of one stiffness sink under the weight that a body of this height carries
+/// beyond 22 kg/m²; they sink less and less, and a light body's cannot become longer than straight.
+double mid_height(const Body& body, const GaitStyle& style, double stiffness) {
+  const double height = body.request.height_m, stand = body.hip_height_m;
+  const double excess = (body.request.mass_kg - 22.0 * height * height) * gravity / (stiffness * stand);
+  constexpr double most = 0.05;
+  const double sag = most * excess / std::sqrt(most * most + excess * excess);
+  return stand * (style.mid_stance_height - (excess > 0.0 ? sag : 0.1 * sag));
+}
+
+/// Highest place of the middle of the hips at heel strike from which the leading leg reaches the ground.
+double reachable_height(const Leg& leg) {
+  const Foot foot = leg.planted(leg.strike_pitch);
+  const Point offset = leg.hip_offset(0.0);
+  const double behind = -0.5 * leg.step_length + leg.pivot_forward + offset.forward - foot.ankle.forward;
+  const double aside = offset.out - foot.ankle.out;
+  const double reach = leg.reach(leg.strike_knee);
+  return foot.ankle.up + std::sqrt(std::fmax(reach * reach - behind * behind - aside * aside, 0.0)) - offset.up;
+}
+
+SupportRequest support_request(const Body& body, const Gait& gait, const Leg& leg) {
+  const GaitStyle& style = gait.style;
+  const double mass = body.request.mass_kg, height = body.request.height_m;
+  // Winter's fractions: leg 0.161, head-arms-trunk 0.678 of the mass; the trunk's length is 0.288 of the height.
+  const double trunk = 0.288 * height, leg_gyration = 0.326 * (leg.thigh + leg.shank);
+  SupportRequest r{};
+  r.model = {0.161 * mass,
+             0.553,
+             0.161 * mass * leg_gyration * leg_gyration,
+             0.161 * mass,
+             0.678 * mass,
+             0.626 * trunk,
+             0.678 * mass * 0.496 * 0.496 * trunk * trunk};
+  const double stiffness = style.leg_stiffness_n_per_m * height / 1.8;
+  r.duration_s = leg.duration;
+  r.step_length_m = leg.step_length;
+  r.mid_height_m = mid_height(body, style, stiffness);
+  const double stiff = r.mid_height_m - std::sqrt(std::fmax(
+      r.mid_height_m * r.mid_height_m - 0.25 * leg.step_length * leg.step_length, 0.0));
+  r.strike_height_m = std::fmin(r.mid_height_m - style.hip_fall * stiff, reachable_height(leg));
+  r.stiffness_n_per_m = stiffness;
+  r.damping_n_s_per_m = 2.0 * style.leg_damping * std::sqrt(stiffness * mass);
+  r.roll_over = style.roll_over;
+  r.trunk_lean_rad = style.trunk_lean_deg * degree;
+  const double topple = r.model.trunk_mass * gravity * r.model.trunk_centre;
+  const double inertia = r.model.trunk_inertia + r.model.trunk_mass * r.model.trunk_centre * r.model.trunk_centre;
+  r.trunk_stiffness_nm = style.trunk_stiffness * topple;
+  r.trunk_damping_nm_s = std::sqrt(r.trunk_stiffness_nm * inertia);
+  return r;
+}
+
+/// Greatest knee flexion at toe-off that still lets the foot, heel up, span from ground to hip; negative if none does.
+double toe_off_knee_limit(const Leg& leg) {
+  const Point hip = leg.hip(leg.toe_off);
+  const double over = leg.ankle_height - leg.toe_joint_height, along = hip.forward - leg.ball_forward;
+  const double aside = hip.out - leg.half_width, up = hip.up - leg.toe_joint_height;
+  const double radius = std::sqrt(leg.ball_forward * leg.ball_forward + over * over);
+  const double distance = std::sqrt(along * along + aside * aside + up * up);
+  constexpr double fold = 14.0 * degree;  // the foot stays this far from pointing straight at the hip
+  const double least = std::sqrt(radius * radius + distance * distance -
+                                 2.0 * radius * distance * sin_cos(fold).cosine);
+  return least < leg.reach(0.0) ? leg.knee(least) : -1.0;
+}
+
+/// Knots of a curve given densely by `value(i)` at i = 0 … dense (a multiple of the intervals); slopes by central
+/// differences, at the ends by the given ones (per second).
+template <class Value>
+void fit(Curve<float>& curve, std::size_t dense, double span, double first_rate, double last_rate, Value value) {
+  const std::size_t every = dense / intervals;
+  for (std::size_t k = 0; k < knot_count; ++k) {
+    const std::size_t i = k * every;
+    double slope;
+    if (k == 0) slope = first_rate * span / intervals;
+    else if (k == intervals) slope = last_rate * span / intervals;
+    else slope = (8.0 * (value(i + 1) - value(i - 1)) - (value(i + 2) - value(i - 2))) / 12.0 * static_cast<double>(every);
+    curve.value[k] = static_cast<float>(value(i));
+    curve.slope[k] = static_cast<float>(slope);
+  }
+}
+
+template <class Function>
+double rate_of(Function function, double t, double h) {
+  return (function(t + h) - function(t - h)) / (2.0 * h);
+}
+
+}  // namespace
+
+Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
+  const GaitStyle& style = gait.style;
+  Leg leg = make_leg(body, gait);
+  Result<SupportStep> support = solve_support(support_request(body, gait, leg));
+  if (!support) return fail(support.error().message);
+  leg.hip_path = support->sample;
+
+  const double limit = toe_off_knee_limit(leg);
+  if (limit < 0.5 * leg.stance_knee)
+    return fail(fmt::format("gait: a step of {:.2f} m at {:.2f} m/s is too long for legs of {:.2f} m; choose a shorter "
+                            "step or a lower speed",
+                            leg.step_length, gait.speed_m_s, leg.thigh + leg.shank));
+  leg.toe_off_knee = std::fmin(leg.toe_off_knee, limit);
+  leg.stance_knee = std::fmin(leg.stance_knee, 0.9 * leg.toe_off_knee);
+  constexpr std::size_t dense = 96;
+  for (std::size_t i = 0; i <= dense; ++i) {
+    const double t = leg.toe_off * static_cast<double>(i) / dense;
+    const double reach = leg.angles(leg.hip(t), leg.stance(t).ankle).reach;
+    if (!(reach < 0.9999 * leg.reach(0.0)))
+      return fail(fmt::format("gait: a step of {:.2f} m at {:.2f} m/s would stretch the standing leg beyond straight; "
+                              "choose a shorter step or a lower mid_stance_height",
+                              leg.step_length, gait.speed_m_s));
+  }
+  Result<Swing> swing = solve_swing(leg, swing_model(leg, body.request.mass_kg), style);
+  if (!swing) return fail(swing.error().message);
+
+  StepPlan<float> plan{};
+  auto set = [](float& field, double value) { field = static_cast<float>(value); };
+  set(plan.duration_s, leg.duration);
+  set(plan.double_support_s, leg.double_support);
+  set(plan.flat_s, leg.flat);
+  set(plan.step_length_m, leg.step_length);
+  set(plan.half_width_m, leg.half_width);
+  set(plan.toe_out_sin, sin_cos(leg.toe_out).sine);
+  set(plan.toe_out_cos, sin_cos(leg.toe_out).cosine);
+  set(plan.strike_pitch, leg.strike_pitch);
+  set(plan.swing_out_from_m, swing->sample.front().ankle.out);
+  set(plan.swing_out_to_m, swing->sample.back().ankle.out);
+  set(plan.pelvis_rotation, leg.rotation);
+  set(plan.pelvis_list, leg.list);
+  set(plan.pelvis_shift_m, leg.shift);
+  set(plan.pelvis_tilt, style.pelvis_tilt_deg * degree);
+  set(plan.pelvis_tilt_wave, style.pelvis_tilt_wave_deg * degree);
+  set(plan.shoulder_rotation, style.shoulder_rotation);
+  const double stride = std::fmin(leg.step_length / (0.43 * body.request.height_m), 1.25);
+  const double pace = std::fmin(1.5 * gait.speed_m_s / std::sqrt(gravity * body.hip_height_m), 1.0) * stride;
+  set(plan.arm_back, style.arm_back_deg * degree * pace);
+  set(plan.arm_forward, style.arm_forward_deg * degree * pace);
+  set(plan.elbow_back, style.elbow_back_deg * degree);
+  set(plan.elbow_forward, (style.elbow_back_deg + (style.elbow_forward_deg - style.elbow_back_deg) * pace) * degree);
+  set(plan.arm_abduction, style.arm_abduction_deg * degree);
+  set(plan.forearm_pronation, style.forearm_pronation_deg * degree);
+  set(plan.finger_flexion, style.finger_flexion_deg * degree);
+
+  const std::vector<HipSample>& hips = leg.hip_path;
+  const HipSample& start = hips.front();
+  fit(plan.hip_forward_m, dense, leg.duration, start.forward_velocity, start.forward_velocity,
+      [&](std::size_t i) { return leg.pivot_forward + hips[i].forward_m; });
+  fit(plan.hip_up_m, dense, leg.duration, start.up_velocity, start.up_velocity,
+      [&](std::size_t i) { return hips[i].up_m; });
+  fit(plan.trunk_pitch, dense, leg.duration, start.trunk_rate, start.trunk_rate,
+      [&](std::size_t i) { return hips[i].trunk_rad; });
+
+  const double h = 1e-4 * leg.duration;
+  auto pitch = [&](double t) { return leg.stance(t).pitch; };
+  const double off_rate = rate_of(pitch, leg.toe_off, h);
+  const double standing_span = leg.toe_off - leg.flat, swing_span = 2.0 * leg.duration - leg.toe_off;
+  fit(plan.foot_pitch[0], dense, standing_span, 0.0, off_rate,
+      [&](std::size_t i) { return pitch(leg.flat + standing_span * static_cast<double>(i) / dense); });
+  const std::vector<SwingSample>& s = swing->sample;
+  fit(plan.foot_pitch[1], dense, swing_span, off_rate, rate_of(pitch, 0.0, h),
+      [&](std::size_t i) { return s[i].pitch; });
+  auto ankle = [&](double t) { return leg.stance(t).ankle; };
+  fit(plan.swing_forward_m, dense, swing_span, rate_of([&](double t) { return ankle(t).forward; }, leg.toe_off, h),
+      rate_of([&](double t) { return ankle(t).forward; }, 0.0, h), [&](std::size_t i) { return s[i].ankle.forward; });
+  fit(plan.swing_up_m, dense, swing_span, rate_of([&](double t) { return ankle(t).up; }, leg.toe_off, h),
+      rate_of([&](double t) { return ankle(t).up; }, 0.0, h), [&](std::size_t i) { return s[i].ankle.up; });
+  fit(plan.swing_toes, dense, swing_span, -off_rate, 0.0, [&](std::size_t i) { return s[i].toes; });
+
+  double back = 1e9, forward = -1e9;
+  for (std::size_t i = 0; i <= dense; ++i) {
+    const double t = leg.toe_off * static_cast<double>(i) / dense;
+    const double thigh = leg.angles(leg.hip(t), leg.stance(t).ankle).thigh;
+    back = std::min({back, thigh, s[i].state.q[0]});
+    forward = std::max({forward, thigh, s[i].state.q[0]});
+  }
+  set(plan.thigh_back, back);
+  set(plan.thigh_forward, forward);
+  return plan;
+}
+
+}  // namespace mobil

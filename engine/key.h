@@ -3,9 +3,11 @@
 //   component  Pose<float>                  a row of 4-byte words, the same number in every table
 //   field      FieldWidth<NodalVelocity>    a row of floats whose number the table's key fixes
 //   tag        TagValue<Substeps>, Shared<Mesh>   one value for the whole table, part of its key
-// Parts are told apart by a hash of their type's name: nothing is registered, nothing is global.
+// Parts are told apart by a hash of their type's full name, which must be unique in a program: nothing is registered,
+// nothing is global.
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <memory_resource>
@@ -17,13 +19,16 @@
 
 namespace mobil {
 
-/// The type's name as the compiler spells it, with its namespace.
+namespace spelling {
+/// The type's name as the compiler spells it. (In a namespace of its own because gcc leaves out the one it is in.)
 template <class T>
 constexpr auto type_name() {
   const std::string_view spelled = __PRETTY_FUNCTION__;
-  const auto start = spelled.find("T = ") + 4;
+  const std::size_t start = spelled.find("T = ") + 4;
   return spelled.substr(start, spelled.size() - 1 - start);
 }
+}  // namespace spelling
+using spelling::type_name;
 
 /// FNV-1a of the type's name.
 template <class T>

@@ -38,7 +38,7 @@ std::uint32_t Table::live(std::size_t b) const {
 
 void Table::reserve_row() {
   if (rows_ < blocks_.size() * lane_count) return;
-  blocks_.reserve(blocks_.size() + 1);
+  if (blocks_.size() == blocks_.capacity()) blocks_.reserve(2 * blocks_.size() + 1);
   entities_.resize((blocks_.size() + 1) * lane_count);
   blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
 }

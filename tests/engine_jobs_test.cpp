@@ -1,0 +1,90 @@
+// Threads and their floating-point modes.
+#include "engine/jobs.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <limits>
+#include <vector>
+
+#include "engine/schedule.h"
+
+namespace mobil {
+namespace {
+template <class F>
+struct Faint {
+  F x;
+};
+
+/// Half of the smallest normal number, computed where nobody can know it beforehand.
+float half_of_smallest() {
+  volatile float smallest = std::numeric_limits<float>::min();
+  return smallest * 0.5F;
+}
+float twice_a_denormal() {
+  volatile float denormal = std::numeric_limits<float>::denorm_min();
+  return denormal * 2.0F;
+}
+
+#if defined(__SSE2__) || defined(__aarch64__)
+TEST(EngineJobs, DenormalsAreZeroInsideAndBackOutside) {
+  ASSERT_GT(half_of_smallest(), 0.0F);
+  {
+    const FlushDenormals flush;
+    EXPECT_EQ(half_of_smallest(), 0.0F);
+    EXPECT_EQ(twice_a_denormal(), 0.0F);
+    {
+      const FlushDenormals again;
+      EXPECT_EQ(half_of_smallest(), 0.0F);
+    }
+    EXPECT_EQ(half_of_smallest(), 0.0F);
+  }
+  EXPECT_GT(half_of_smallest(), 0.0F);
+  EXPECT_GT(twice_a_denormal(), 0.0F);
+}
+
+TEST(EngineJobs, SystemsRunWithoutDenormalsOnEveryThreadAndCallersKeepTheirs) {
+  World world;
+  std::vector<Entity> all;
+  for (int i = 0; i < 2000; ++i) all.push_back(world.create(Faint<float>{1}));
+  auto schedule = ScheduleBuilder()
+                      .add("faint",
+                           [](Faint<Lanes<float>>& faint) {
+                             for (float& x : faint.x.lane) x = half_of_smallest() + twice_a_denormal();
+                           })
+                      .build();
+  const Threads threads(2);
+  schedule->run(world, {}, threads.jobs());
+  for (const Entity e : all) EXPECT_EQ(world.get<Faint>(e)->x, 0.0F);
+  std::atomic<int> lost = 0;  // the pool's threads are as they were
+  const Jobs jobs = threads.jobs();
+  jobs.parallel_for(
+      jobs.user, 1000,
+      [](void* context, std::size_t, std::size_t) {
+        if (half_of_smallest() <= 0.0F) ++*static_cast<std::atomic<int>*>(context);
+      },
+      &lost);
+  EXPECT_EQ(lost, 0);
+  EXPECT_GT(half_of_smallest(), 0.0F);
+}
+#endif
+
+TEST(EngineJobs, EveryIndexIsDoneOnce) {
+  for (const int count : {0, 1, 2, 3}) {
+    Threads first(count);
+    const Jobs jobs = first.jobs();
+    const Threads moved = std::move(first);
+    for (const std::size_t size : {1U, 7U, 1000U}) {
+      std::vector<int> done(size, 0);
+      jobs.parallel_for(
+          jobs.user, size,
+          [](void* context, std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) ++(*static_cast<std::vector<int>*>(context))[i];
+          },
+          &done);
+      EXPECT_EQ(done, std::vector<int>(size, 1));
+    }
+  }
+}
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,281 @@
+// The order of systems, what they are handed, and that neither threads nor blocks show in the result.
+#include "engine/schedule.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace mobil {
+namespace {
+template <class F>
+struct A {
+  F x;
+};
+template <class F>
+struct B {
+  F x;
+};
+template <class F>
+struct C {
+  F x;
+};
+template <class F>
+struct Friend {
+  Whole<F> index, generation;
+};
+struct Nodes {};
+struct Substeps {};
+struct Mesh {
+  float gain;
+};
+using LA = A<Lanes<float>>;
+using LB = B<Lanes<float>>;
+using LC = C<Lanes<float>>;
+
+void write_a(LA&) {}
+void write_b(LB&) {}
+void a_to_b(const LA&, LB&) {}
+void b_to_c(const LB&, LC&) {}
+void c_to_a(const LC&, LA&) {}
+
+std::string order_of(const ScheduleBuilder& builder) {
+  const auto schedule = builder.build();
+  if (!schedule) return schedule.error().message;
+  std::string names;
+  for (const System& system : schedule->systems()) names += (names.empty() ? "" : " ") + system.name;
+  return names;
+}
+
+TEST(EngineSchedule, AReaderRunsAfterTheWriter) {
+  EXPECT_EQ(order_of(ScheduleBuilder().add("c", &b_to_c).add("b", &a_to_b).add("a", &write_a)), "a b c");
+}
+
+TEST(EngineSchedule, UnrelatedSystemsKeepTheOrderOfAdding) {
+  EXPECT_EQ(order_of(ScheduleBuilder().add("z", &write_b).add("a", &write_a).add("m", [](Tick) {})), "z a m");
+}
+
+TEST(EngineSchedule, ALookupAndAFieldAreReadsToo) {
+  EXPECT_EQ(order_of(ScheduleBuilder().add("look", [](Lookup<A>, LB&) {}).add("write", &write_a)), "write look");
+  EXPECT_EQ(order_of(ScheduleBuilder().add("look", [](Field<const Nodes>) {}).add("write", [](Field<Nodes>) {})),
+            "write look");
+}
+
+TEST(EngineSchedule, PreviousReadsAheadOfTheWriterAndBreaksACircle) {
+  EXPECT_EQ(order_of(ScheduleBuilder().add("a", &write_a).add("p", [](Previous<A>, LB&) {})), "p a");
+  ScheduleBuilder circle;
+  circle.add("ab", &a_to_b).add("bc", &b_to_c).add("ca", &c_to_a);
+  EXPECT_EQ(order_of(circle),
+            "schedule: 'ab' waits for 'ca' waits for 'bc' waits for 'ab'; let one read last tick's value (Previous<…>) "
+            "or order them with .after(…)");
+  ScheduleBuilder open;
+  open.add("ab", &a_to_b).add("bc", &b_to_c).add("ca", [](Previous<C>, LA&) {});
+  EXPECT_EQ(order_of(open), "ca ab bc");
+}
+
+TEST(EngineSchedule, AfterOrdersWritersAndWinsOverTheRule) {
+  EXPECT_EQ(order_of(ScheduleBuilder().add("one", &write_a).add("two", &write_a)),
+            "schedule: systems 'one' and 'two' both write mobil::" + std::string(type_name<A<float>>()).substr(7) +
+                "; say which comes second with .after(…)");
+  EXPECT_EQ(order_of(ScheduleBuilder().add("one", &write_a).after("two").add("two", &write_a).add("read", &a_to_b)),
+            "two one read");
+  EXPECT_EQ(order_of(ScheduleBuilder().add("write", &write_a).after("read").add("read", &a_to_b)), "read write");
+  // through a third one
+  EXPECT_EQ(
+      order_of(
+          ScheduleBuilder().add("one", &write_a).add("mid", &write_b).after("one").add("two", &write_a).after("mid")),
+      "one mid two");
+}
+
+TEST(EngineSchedule, MistakesAreNamedAtStartUp) {
+  EXPECT_EQ(order_of(ScheduleBuilder().add("x", &write_a).add("x", &write_b)),
+            "schedule: two systems are named 'x'; rename one");
+  EXPECT_EQ(order_of(ScheduleBuilder().add("x", &write_a).after("y")),
+            "schedule: system 'x' is to run after 'y', which was never added; add it or drop the after");
+  EXPECT_EQ(order_of(ScheduleBuilder().add("x", &write_a).after("x")).substr(0, 32),
+            "schedule: 'x' waits for 'x'; let");
+  for (const auto& twice :
+       {ScheduleBuilder().add("x", [](const LA&, LA&) {}), ScheduleBuilder().add("x", [](Lookup<A>, LA&) {}),
+        ScheduleBuilder().add("x", [](Previous<A>, LA&) {})}) {
+    EXPECT_NE(order_of(twice).find("'x' takes"), std::string::npos);
+  }
+}
+
+/// A random set of systems, each writing one column of its own and reading some others': built without a circle it must
+/// respect every read; the same in whatever order they are added.
+RC_GTEST_PROP(EngineSchedule, EveryOrderOfAddingRespectsEveryRead, ()) {
+  struct Node {
+    void (*read_two)(ScheduleBuilder&);
+  };
+  std::vector<std::pair<std::string, Node>> nodes = {
+      {"a", {[](ScheduleBuilder& s) { s.add("a", [](LA&) {}); }}},
+      {"b", {[](ScheduleBuilder& s) { s.add("b", [](const LA&, LB&) {}); }}},
+      {"c", {[](ScheduleBuilder& s) { s.add("c", [](const LB&, LC&) {}); }}},
+      {"n", {[](ScheduleBuilder& s) { s.add("n", [](const LA&, Lookup<C>, Field<Nodes>) {}); }}},
+      {"p", {[](ScheduleBuilder& s) { s.add("p", [](Previous<B>, Field<const Nodes>) {}).after("a"); }}},
+      {"q", {[](ScheduleBuilder& s) { s.add("q", [](Previous<A>, Friend<Lanes<float>>&) {}); }}}};
+  nodes[4].second.read_two = [](ScheduleBuilder& s) { s.add("p", [](Previous<C>) {}).after("a"); };
+  const auto shuffle = *rc::gen::container<std::vector<unsigned>>(nodes.size(), rc::gen::arbitrary<unsigned>());
+  for (std::size_t i = nodes.size() - 1; i > 0; --i) std::swap(nodes[i], nodes[shuffle[i] % (i + 1)]);
+  ScheduleBuilder builder;
+  for (const auto& [name, node] : nodes) node.read_two(builder);
+  const std::string order = order_of(builder);
+  const auto ahead = [&](const char* first, const char* second) { return order.find(first) < order.find(second); };
+  RC_ASSERT(order.size() == 11U);
+  RC_ASSERT(ahead("a", "b") && ahead("b", "c") && ahead("c", "n") && ahead("a", "p") && ahead("p", "c") &&
+            ahead("q", "a"));
+}
+
+TEST(EngineSchedule, DescribesItself) {
+  const auto schedule =
+      ScheduleBuilder().add("mix", [](const LA&, Lookup<B>, Previous<C>, Field<Nodes>, Rows, float) {}).build();
+  EXPECT_EQ(schedule->describe(), "1. mix; reads A; reads last tick's C; looks up B; writes Nodes\n");
+}
+
+TEST(EngineSchedule, HandsEveryParameterItsOwn) {
+  World world;
+  const auto mesh = world.share(std::make_shared<const Mesh>(Mesh{3}));
+  std::vector<Entity> all;
+  for (unsigned i = 0; i < 21; ++i) {
+    all.push_back(world.create(A<float>{static_cast<float>(i)}, B<float>{}, FieldWidth<Nodes>{2},
+                               TagValue<Substeps>{4 + i % 2}, mesh));
+  }
+  const Entity without = world.create(A<float>{100}, B<float>{-1});
+  const auto fill = [](Field<Nodes> nodes, const LA& a, const Rows& rows) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      nodes.data[l] = a.x[l];
+      nodes.data[lane_count + l] = static_cast<float>(rows.entity[l].index);
+    }
+  };
+  const auto sum = [gain = 2.0F](Field<const Nodes> nodes, TagValue<Substeps> substeps, Shared<Mesh> m, Tick tick,
+                                 LB& b) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      b.x[l] = gain * nodes.data[l] + nodes.data[lane_count + l] * m->gain + static_cast<float>(substeps.value) +
+               static_cast<float>(nodes.words * tick.index) + tick.dt_s;
+    }
+  };
+  auto schedule = ScheduleBuilder().add("sum", sum).add("fill", fill).build();
+  schedule->run(world, {0.5F, 1000});
+  for (unsigned i = 0; i < 21; ++i) {
+    const auto n = static_cast<float>(i);
+    EXPECT_EQ(world.get<B>(all[i])->x,
+              2 * n + 3 * static_cast<float>(all[i].index) + static_cast<float>(4 + i % 2) + 2000.5F);
+  }
+  EXPECT_EQ(world.get<B>(without)->x, -1);
+}
+
+TEST(EngineSchedule, SeesTablesThatComeLaterAndOtherWorlds) {
+  const auto count = [](LA& a) {
+    for (float& x : a.x.lane) x += 1;
+  };
+  auto schedule = ScheduleBuilder().add("count", count).build();
+  auto world = std::make_unique<World>();
+  const Entity first = world->create(A<float>{});
+  schedule->run(*world, {});
+  const Entity second = world->create(A<float>{}, B<float>{});
+  schedule->run(*world, {});
+  EXPECT_EQ(world->get<A>(first)->x, 2);
+  EXPECT_EQ(world->get<A>(second)->x, 1);
+  EXPECT_EQ(world->remove<A>(first), Status::ok);
+  schedule->run(*world, {});
+  EXPECT_EQ(world->get<A>(second)->x, 2);
+  for (int i = 0; i < 5; ++i) {  // very likely at the same address again
+    world = std::make_unique<World>();
+    const Entity other = world->create(B<float>{}, C<float>{}, A<float>{});
+    schedule->run(*world, {});
+    EXPECT_EQ(world->get<A>(other)->x, 1);
+  }
+}
+
+TEST(EngineSchedule, CountsCallsAndTime) {
+  auto schedule = ScheduleBuilder().add("a", &write_a).build();
+  World world;
+  world.create(A<float>{});
+  for (int i = 0; i < 3; ++i) schedule->run(world, {});
+  EXPECT_EQ(schedule->timing("a")->calls, 3U);
+  EXPECT_GE(schedule->timing("a")->seconds, 0.0);
+  EXPECT_EQ(schedule->timing("b"), nullptr);
+  schedule->reset_timings();
+  EXPECT_EQ(schedule->timing("a")->calls, 0U);
+}
+
+// --- the same bits however the work is cut ---
+
+void grow(LA& a, float tick_s) {
+  for (float& x : a.x.lane) x = x * 1.25F + tick_s;
+}
+void follow(const Friend<Lanes<float>>& f, const Lookup<A>& lookup, LB& b) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const float* x = lookup.find({f.index[l], f.generation[l]});
+    b.x[l] = x != nullptr ? b.x[l] * 0.5F + *x : -1.0F;
+  }
+}
+
+/// Every entity's bits after some ticks, by handle.
+std::map<std::uint32_t, float> outcome(unsigned people, unsigned gone, const Jobs& jobs) {
+  World world;
+  std::vector<Entity> all;
+  for (unsigned i = 0; i < people; ++i) {
+    const Entity before = all.empty() ? Entity{} : all[i / 2];
+    const Friend<float> f{before.index, before.generation};
+    const A<float> a{static_cast<float>(i) * 0.1F};
+    all.push_back(i % 3 == 0 ? world.create(a, f, B<float>{}) : world.create(a, f, B<float>{}, C<float>{}));
+  }
+  auto schedule = ScheduleBuilder().add("follow", &follow).add("grow", &grow).build();
+  for (std::uint32_t tick = 0; tick < 4; ++tick) {
+    schedule->run(world, {0.1F, tick}, jobs);
+    if (gone < people) world.destroy(all[(gone + tick) % people]);
+  }
+  std::map<std::uint32_t, float> values;
+  for (const Entity e : all) {
+    if (world.alive(e)) values[e.index] = world.get<B>(e)->x;
+  }
+  return values;
+}
+
+RC_GTEST_PROP(EngineSchedule, TheResultIsTheSameOnAnyThreadsAndAnyCut, ()) {
+  const auto people = *rc::gen::inRange(1U, 400U);
+  const auto gone = *rc::gen::inRange(0U, 400U);
+  std::size_t cut = *rc::gen::inRange<std::size_t>(1, 9);
+  // backwards, in ranges of `cut`, each twice asked for nothing
+  Jobs backwards{&cut, [](void* user, std::size_t count, Jobs::Body body, void* context) {
+                   const std::size_t step = *static_cast<std::size_t*>(user);
+                   for (std::size_t end = count; end > 0; end -= std::min(step, end)) {
+                     body(context, end - std::min(step, end), end);
+                   }
+                 }};
+  const auto alone = outcome(people, gone, {});
+  RC_ASSERT(!alone.empty() || people <= 4);
+  RC_ASSERT(outcome(people, gone, backwards) == alone);
+  for (const int count : {1, 2, 3}) {
+    const Threads threads(count);
+    RC_ASSERT(threads.count() == count);
+    RC_ASSERT(outcome(people, gone, threads.jobs()) == alone);
+  }
+}
+
+TEST(EngineSchedule, RunsEveryBlockOnce) {
+  World world;
+  std::vector<Entity> all;
+  for (unsigned i = 0; i < 1000; ++i) {
+    all.push_back(i % 7 == 0 ? world.create(A<float>{}, TagValue<Substeps>{i % 5}) : world.create(A<float>{}));
+  }
+  auto schedule = ScheduleBuilder()
+                      .add("count",
+                           [](LA& a) {
+                             for (float& x : a.x.lane) x += 1;
+                           })
+                      .build();
+  const Threads threads(2);
+  for (int i = 1; i <= 50; ++i) {
+    schedule->run(world, {}, threads.jobs());
+    for (const Entity e : all) ASSERT_EQ(world.get<A>(e)->x, static_cast<float>(i));
+  }
+}
+}  // namespace
+}  // namespace mobil

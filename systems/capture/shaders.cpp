@@ -23,11 +23,12 @@ const char* const shadow = R"(
 uniform sampler2DShadow shadow_map;
 const vec2 disc[8] = vec2[8](vec2(0.35, 0.05), vec2(-0.25, 0.40), vec2(-0.30, -0.35), vec2(0.30, -0.65),
                              vec2(0.75, 0.55), vec2(-0.15, 0.95), vec2(-0.90, 0.10), vec2(-0.50, -0.85));
-float lit(vec3 p, float texels) {
-  if (light.w == 0.0) return 1.0;
+float lit(vec3 p, float texels, bool faces_lamp) {
   vec3 s = (shadow_from_world * vec4(p, 1.0)).xyz;
-  float sum = 0.0;
-  for (int i = 0; i < SAMPLES; ++i) sum += texture(shadow_map, vec3(s.xy + disc[i] * (texels * fill.w), s.z));
+  bool within = light.w > 0.0 && faces_lamp && all(lessThan(abs(s.xy - 0.5), vec2(0.5)));
+  int count = within ? SAMPLES : 0;
+  float sum = within ? 0.0 : float(SAMPLES);
+  for (int i = 0; i < count; ++i) sum += texture(shadow_map, vec3(s.xy + disc[i] * (texels * fill.w), s.z));
   return sum / float(SAMPLES);
 }
 )";
@@ -101,7 +102,7 @@ in vec3 world_normal;
 out vec4 colour;
 void main() {
   vec3 n = normalize(world_normal);
-  float key = lit(world + n * (1.6 * light.w), 1.6);
+  float key = lit(world + n * (1.6 * light.w), 1.6, dot(n, light.xyz) > -0.12);
   colour = vec4(shade(albedo.rgb, albedo.w, n, world, key), 1.0);
 }
 )";
@@ -253,7 +254,7 @@ void main() {
   vec3 floor_colour = vec3(0.70, 0.705, 0.71);
   floor_colour *= 1.0 - 0.22 * fine;
   floor_colour *= 1.0 - 0.48 * coarse;
-  floor_colour *= mix(vec3(0.40, 0.43, 0.48), vec3(1.0), lit(world, 3.0));
+  floor_colour *= mix(vec3(0.40, 0.43, 0.48), vec3(1.0), lit(world, 3.0, true));
   vec3 far = room();
   colour = vec4(pow(mix(floor_colour, far, smoothstep(0.25, 0.95, away / eye.w)), vec3(1.0 / 2.2)), 1.0);
 }

@@ -1,8 +1,11 @@
 #include "engine/jobs.h"
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
 
 #if defined(__SSE2__)
 #include <pmmintrin.h>
@@ -16,7 +19,14 @@ struct Threads::Arena {
   tbb::task_arena arena;
 };
 
-Threads::Threads(int count) : arena_(std::make_unique<Arena>(count > 0 ? count : int{tbb::task_arena::automatic})) {}
+namespace {
+int threads_for(int asked) {
+  const int available = tbb::info::default_concurrency();
+  return asked > 0 ? std::min(asked, available) : available;
+}
+}  // namespace
+
+Threads::Threads(int count) : arena_(std::make_unique<Arena>(threads_for(count))) {}
 Threads::~Threads() = default;
 Threads::Threads(Threads&&) noexcept = default;
 Threads& Threads::operator=(Threads&&) noexcept = default;

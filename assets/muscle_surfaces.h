@@ -1,0 +1,32 @@
+#pragma once
+// The muscles of the right leg as lofted surfaces, from measured sections and the body's own volumes.
+
+#include <array>
+#include <vector>
+
+#include "components/body.h"
+#include "components/muscle.h"
+#include "components/surface.h"
+
+namespace mobil {
+
+/// A muscle surface with the group whose cage drives it. `tendon`: one a vertex, 0 in the belly to 1 in the tendon.
+/// A ligament follows its two bones alone: bind it with bind_ligament, all others with bind_surface
+/// (surface_binding.h).
+struct GroupSurface {
+  MuscleGroup group;
+  MuscleSurface surface;
+  std::vector<float> tendon;
+  bool ligament = false;
+};
+
+/// Eleven members, then the calcaneal tendon and the patellar ligament; right side, world axes, the body standing in
+/// the anatomical position at x = z = 0, m; closed, wound outwards, not bound yet. Each follows its measured path
+/// (muscle_sections.h) on this body's bones; its girth is set so that it encloses the member's volume, growing away
+/// from the bone, and it is cut back where it would enter the femur or the tibia.
+std::vector<GroupSurface> make_muscle_surfaces(const Body& body);
+
+/// Volume of each of the eleven members in this body, m³, in the order of muscle_shapes().
+std::array<double, 11> member_volumes_m3(const Body& body);
+
+}  // namespace mobil

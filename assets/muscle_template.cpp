@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -40,30 +40,54 @@ std::vector<float> far_shares(const HexahedralMesh& mesh) {
   return share;
 }
 
-void push(std::vector<float>& words, std::initializer_list<double> values) {
-  for (const double v : values) words.push_back(static_cast<float>(v));
+std::array<double, KernelArrays::individual_words> words_of(const StencilPair& p) {
+  return {p.a_xx, p.a_xy, p.a_yx, p.a_yy, p.a_zz, p.b_xz, p.b_yz, p.b_zx, p.b_zy, p.c_xx, p.c_yy, p.c_zz};
+}
+
+/// Appends one node's row, rounded, and what its own coupling lacks for the row (first plane included) to sum to zero.
+template <std::size_t count>
+void push_row(const StiffnessTerms& terms, std::uint32_t i, std::uint32_t j, std::uint32_t k,
+              std::array<double, count> (*words)(const StencilPair&), std::vector<float>& row,
+              std::vector<float>& rest) {
+  const std::uint32_t node = node_index(terms.cells, i, j, k);
+  std::array<double, count> own{};
+  std::size_t own_at = 0;
+  for_each_neighbour(terms.cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
+    const auto exact = words(terms.pair[node * stencil_size + slot]);
+    const bool fixed = m < plane_nodes(terms.cells);
+    if (m == node) own_at = row.size();
+    for (std::size_t w = 0; w < count; ++w) {
+      const auto rounded = static_cast<float>(exact[w]);
+      if (m != node) own[w] -= fixed ? exact[w] : static_cast<double>(rounded);
+      if (!fixed) row.push_back(rounded);
+    }
+  });
+  for (std::size_t w = 0; w < count; ++w) {
+    row[own_at + w] = static_cast<float>(own[w]);
+    rest.push_back(static_cast<float>(own[w] - static_cast<double>(row[own_at + w])));
+  }
 }
 
 KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
   KernelArrays kernel;
   const Cells& cells = mesh.cells;
   kernel.plane_pair.assign(cells[2] + 1, 0);
+  kernel.individual_rest.assign(plane_nodes(cells) * KernelArrays::individual_words, 0);
+  kernel.shared_rest.assign(plane_nodes(cells) * KernelArrays::shared_words, 0);
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    const std::uint32_t n = node_index(cells, i, j, k);
     if (k == 0) return;
     if (i == 0 && j == 0) kernel.plane_pair[k] = kernel.shared.size() / KernelArrays::shared_words;
-    for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
-      if (m < plane_nodes(cells)) return;
-      const StencilPair& p = terms.pair[n * stencil_size + slot];
-      push(kernel.individual,
-           {p.a_xx, p.a_xy, p.a_yx, p.a_yy, p.a_zz, p.b_xz, p.b_yz, p.b_zx, p.b_zy, p.c_xx, p.c_yy, p.c_zz});
-      for (const double b : stiffness_block(p, 1, 1)) kernel.shared.push_back(static_cast<float>(b));
-    });
+    push_row<KernelArrays::individual_words>(terms, i, j, k, words_of, kernel.individual, kernel.individual_rest);
+    push_row<KernelArrays::shared_words>(
+        terms, i, j, k, [](const StencilPair& p) { return stiffness_block(p, 1, 1); }, kernel.shared,
+        kernel.shared_rest);
   });
   for (std::size_t n = 0; n < mesh.node.size(); ++n) {
     kernel.mass_kg.push_back(static_cast<float>(terms.lumped_mass_kg[n]));
     kernel.inverse_mass.push_back(static_cast<float>(1 / terms.lumped_mass_kg[n]));
-    push(kernel.rest_m, {mesh.node[n].x, mesh.node[n].y, mesh.node[n].z});
+    for (const double x : {mesh.node[n].x, mesh.node[n].y, mesh.node[n].z}) {
+      kernel.rest_m.push_back(static_cast<float>(x));
+    }
   }
   kernel.far_share = far_shares(mesh);
   kernel.skin = boundary_quads(cells);

@@ -26,6 +26,9 @@ struct KernelArrays {
   static constexpr std::size_t individual_words = 12;  // a pair's A, B, C, as in StencilPair
   static constexpr std::size_t shared_words = 9;       // a pair's 3×3 block at S = l = 1, row-major
   std::vector<float> individual, shared;
+  // What single precision left of each node's coupling to itself, in the same words, one entry a node. With it a
+  // translation costs no force, however the couplings were rounded: else slender bellies would bend to a wrong beat.
+  std::vector<float> individual_rest, shared_rest;
   std::vector<std::size_t> plane_pair;       // first pair of each plane k, 0 for the planes 0 and 1
   std::vector<float> mass_kg, inverse_mass;  // one a node
   std::vector<float> far_share;              // part of a uniform traction on each node of the far face; sum 1

@@ -38,9 +38,10 @@ using V = hn::Vec<FloatTag>;
 constexpr FloatTag d;
 constexpr std::size_t node_stride = 3 * lane_count;
 
-/// Factors of A, B and C for each lane.
+/// Factors of A, B and C for each lane. S²/l goes in two parts: a slender belly bends some ten thousand times more
+/// easily than it stretches, so that the three terms must cancel to all the digits there are.
 struct Factors {
-  V a, b, c;
+  V a, b, c, c_rest;
 };
 
 using Vector = Vec3<V>;
@@ -55,10 +56,15 @@ HWY_INLINE V load_once(const float* p) {
   return value;
 }
 
-/// (K·u) of node (i, j, k), N. `coefficient` points at its row and moves to the next one.
+template <Stiffness stiffness>
+constexpr std::size_t words =
+    stiffness == Stiffness::individual ? KernelArrays::individual_words : KernelArrays::shared_words;
+
+/// (K·u) of node (i, j, k), N. `coefficient` points at its row and moves to the next one, `rest` at the rest of its own
+/// coupling.
 template <Stiffness stiffness>
 HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32_t j, std::uint32_t k, const float* u,
-                                const Factors& factor, const float*& coefficient) {
+                                const Factors& factor, const float*& coefficient, const float* rest) {
   const std::uint32_t width = cells[0] + 1;
   const std::uint32_t i_low = i > 0 ? i - 1 : 0;
   const std::uint32_t j_low = j > 0 ? j - 1 : 0;
@@ -68,48 +74,52 @@ HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32
   const std::uint32_t k_high = std::min(k + 1, cells[2]);
   const float* c = coefficient;
   V s0 = hn::Zero(d), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
+  const auto add_neighbour = [&](const float* p, const float* q) HWY_ATTR {
+    const V x = load_once(p);
+    const V y = load_once(p + lane_count);
+    const V z = load_once(p + 2 * lane_count);
+    const auto add = [q](std::size_t word, V value, V sum)
+                         HWY_ATTR { return hn::MulAdd(hn::Set(d, q[word]), value, sum); };
+    if constexpr (stiffness == Stiffness::individual) {
+      s0 = add(0, x, s0);  // A: xx xy yx yy zz
+      s1 = add(2, x, s1);
+      s2 = add(4, z, s2);
+      s3 = add(5, z, s3);  // B: xz yz zx zy
+      s4 = add(6, z, s4);
+      s5 = add(7, x, s5);
+      s6 = add(9, x, s6);  // C: xx yy zz
+      s7 = add(10, y, s7);
+      s8 = add(11, z, s8);
+      s0 = add(1, y, s0);
+      s1 = add(3, y, s1);
+      s5 = add(8, y, s5);
+    } else {
+      s0 = add(0, x, s0);
+      s1 = add(3, x, s1);
+      s2 = add(6, x, s2);
+      s3 = add(1, y, s3);
+      s4 = add(4, y, s4);
+      s5 = add(7, y, s5);
+      s6 = add(2, z, s6);
+      s7 = add(5, z, s7);
+      s8 = add(8, z, s8);
+    }
+  };
   for (std::uint32_t kk = k_low; kk <= k_high; ++kk) {
     for (std::uint32_t jj = j_low; jj <= j_high; ++jj) {
       const float* p = u + node_stride * ((kk * (cells[1] + 1) + jj) * width + i_low);
       for (std::uint32_t ii = i_low; ii <= i_high; ++ii, p += node_stride) {
-        const V x = load_once(p);
-        const V y = load_once(p + lane_count);
-        const V z = load_once(p + 2 * lane_count);
-        const auto add = [c](std::size_t word, V value, V sum)
-                             HWY_ATTR { return hn::MulAdd(hn::Set(d, c[word]), value, sum); };
-        if constexpr (stiffness == Stiffness::individual) {
-          s0 = add(0, x, s0);  // A: xx xy yx yy zz
-          s1 = add(2, x, s1);
-          s2 = add(4, z, s2);
-          s3 = add(5, z, s3);  // B: xz yz zx zy
-          s4 = add(6, z, s4);
-          s5 = add(7, x, s5);
-          s6 = add(9, x, s6);  // C: xx yy zz
-          s7 = add(10, y, s7);
-          s8 = add(11, z, s8);
-          s0 = add(1, y, s0);
-          s1 = add(3, y, s1);
-          s5 = add(8, y, s5);
-          c += KernelArrays::individual_words;
-        } else {
-          s0 = add(0, x, s0);
-          s1 = add(3, x, s1);
-          s2 = add(6, x, s2);
-          s3 = add(1, y, s3);
-          s4 = add(4, y, s4);
-          s5 = add(7, y, s5);
-          s6 = add(2, z, s6);
-          s7 = add(5, z, s7);
-          s8 = add(8, z, s8);
-          c += KernelArrays::shared_words;
-        }
+        add_neighbour(p, c);
+        c += words<stiffness>;
       }
     }
   }
+  add_neighbour(u + node_stride * ((k * (cells[1] + 1) + j) * width + i), rest);
   coefficient = c;
   if constexpr (stiffness == Stiffness::individual) {
-    const auto join = [&factor](V a, V b, V e)
-                          HWY_ATTR { return hn::MulAdd(factor.a, a, hn::MulAdd(factor.b, b, hn::Mul(factor.c, e))); };
+    const auto join = [&factor](V a, V b, V e) HWY_ATTR {
+      return hn::MulAdd(factor.a, a, hn::MulAdd(factor.b, b, hn::MulAdd(factor.c, e, hn::Mul(factor.c_rest, e))));
+    };
     return {join(s0, s3, s6), join(s1, s4, s7), join(s2, s5, s8)};
   } else {
     return {hn::Add(hn::Add(s0, s3), s6), hn::Add(hn::Add(s1, s4), s7), hn::Add(hn::Add(s2, s5), s8)};
@@ -152,6 +162,13 @@ struct Bellies {
   V keep, push, step;  // (1 − αΔt/2)/(1 + αΔt/2), Δt/(S²·l·(1 + αΔt/2)), Δt
 };
 
+/// What single precision left of a node's coupling to itself.
+template <Stiffness stiffness>
+HWY_INLINE const float* rests(const KernelArrays& kernel, std::uint32_t node) {
+  return (stiffness == Stiffness::individual ? kernel.individual_rest : kernel.shared_rest).data() +
+         words<stiffness> * std::size_t{node};
+}
+
 /// Velocities of the planes of nodes from `first` to `last`, in one of the three ways of the far face (inner planes:
 /// free, no load). With `energy`, adds uₙᵀ·K·uₙ₊₁ of these nodes to `work`. `end` is the traction's total, or, of a
 /// held face, its next displacement along z.
@@ -164,13 +181,15 @@ HWY_NOINLINE void advance_velocity(const Bellies& belly, std::uint32_t first, st
   const float* const u = belly.u;
   V sum = work;
   std::uint32_t n = first * plane_nodes(cells);
+  const float* rest = rests<stiffness>(belly.kernel, n);
   const float* inverse_mass = belly.kernel.inverse_mass.data() + n;
   const float* share = belly.kernel.far_share.data();
   float* v = belly.v + node_stride * n;
   for (std::uint32_t k = first; k <= last; ++k) {
     for (std::uint32_t j = 0; j <= cells[1]; ++j) {
       for (std::uint32_t i = 0; i <= cells[0]; ++i, ++n, v += node_stride) {
-        const Vector elastic = elastic_force<stiffness>(cells, i, j, k, u, factor, coefficient);
+        const Vector elastic = elastic_force<stiffness>(cells, i, j, k, u, factor, coefficient, rest);
+        rest += words<stiffness>;
         if constexpr (way == FarEnd::held) {
           sum = hn::MulAdd(elastic.z, end.z, sum);
         } else {
@@ -242,7 +261,8 @@ HWY_INLINE void report_state(const Bellies& belly, V across, V along, const floa
   std::uint32_t n = far;
   for (std::uint32_t j = 0; j <= cells[1]; ++j) {
     for (std::uint32_t i = 0; i <= cells[0]; ++i, ++n) {
-      const Vector f = elastic_force<stiffness>(cells, i, j, cells[2], belly.u, belly.factor, far_coefficients);
+      const Vector f = elastic_force<stiffness>(cells, i, j, cells[2], belly.u, belly.factor, far_coefficients,
+                                                rests<stiffness>(kernel, n));
       reaction = hn::Add(reaction, f.z);
       elongation = hn::MulAdd(hn::Set(d, kernel.far_share[n - far]),
                               hn::Load(d, belly.u + node_stride * n + 2 * lane_count), elongation);
@@ -271,14 +291,14 @@ void tick_of_lanes(const Task& task, std::size_t first_lane) {
   const Cells& cells = task.muscle.mesh.cells;
   constexpr bool individual = stiffness == Stiffness::individual;
   const float* const coefficients = individual ? kernel.individual.data() : kernel.shared.data();
-  const float* const far_coefficients =
-      coefficients +
-      kernel.plane_pair[cells[2]] * (individual ? KernelArrays::individual_words : KernelArrays::shared_words);
+  const float* const far_coefficients = coefficients + kernel.plane_pair[cells[2]] * words<stiffness>;
   const auto lanes = [first_lane](const Lanes<float>* l)
                          HWY_ATTR { return l == nullptr ? hn::Zero(d) : hn::Load(d, l->lane + first_lane); };
 
   const V across = lanes(&task.scale.across), along = lanes(&task.scale.along);
   const V area_scale = hn::Mul(across, across);
+  const V c = hn::Div(area_scale, along);
+  const V c_rest = hn::Div(hn::Add(hn::NegMulAdd(c, along, area_scale), hn::MulSub(across, across, area_scale)), along);
   const V mass_scale = hn::Mul(area_scale, along);
   const float dt = task.tick_s / static_cast<float>(task.substeps);
   const float half_damping = 0.5F * kernel.damping_per_s * dt;
@@ -286,7 +306,7 @@ void tick_of_lanes(const Task& task, std::size_t first_lane) {
                       cells,
                       task.displacement + first_lane,
                       task.velocity + first_lane,
-                      {along, across, hn::Div(area_scale, along)},
+                      {along, across, c, c_rest},
                       mass_scale,
                       hn::Set(d, (1.0F - half_damping) / (1.0F + half_damping)),
                       hn::Div(hn::Set(d, dt / (1.0F + half_damping)), mass_scale),

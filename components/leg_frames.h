@@ -1,0 +1,23 @@
+#pragma once
+// Where the bones of one leg are, as its lines of action need them.
+
+#include "components/lanes.h"
+
+namespace mobil {
+
+/// World places (m) of a leg's joint centres and world rotations of its bones. Of a left leg: the mirror image
+/// (position x → −x, quaternion (x, y, z, w) → (x, −y, −z, w)), so that every leg here is a right one.
+template <class F>
+struct LegFrames {
+  Vec3<F> hip_m, knee_m, ankle_m;
+  Quat<F> pelvis, thigh, shank, foot;
+};
+
+/// Sizes of a leg over those of the leg that the published paths belong to: lengths of thigh and shank, and of both
+/// together for what lies across them.
+template <class F>
+struct LegScale {
+  F thigh, shank, across;
+};
+
+}  // namespace mobil

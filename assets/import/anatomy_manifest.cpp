@@ -159,10 +159,12 @@ Result<LandmarkTable> read_landmarks(const std::string& folder) {
                     table->path, length));
   }
   const double x_left = *hip_left ? (**hip_left)[0] : -joint[0][0];
-  if (joint[0][2] <= joint[1][2] || joint[1][2] <= joint[2][2] || x_left <= joint[0][0]) {
+  const bool upright =
+      joint[0][2] > joint[1][2] && joint[1][2] > joint[2][2] && joint[0][2] - joint[2][2] > 0.8 * length;
+  if (!upright || x_left <= joint[0][0]) {
     return fail(
         fmt::format("{}: hip, knee and ankle do not lie one below the other along z with the right leg at "
-                    "smaller x; expected axes: +x left, +y back, +z up",
+                    "smaller x; expected a standing leg, axes +x left, +y back, +z up: turn the folder's frame",
                     table->path));
   }
   const auto metres = [&](const Point& p) { return to_mobil(p[0], p[1], p[2], read.metres_per_unit); };

@@ -8,8 +8,14 @@
 #include <assimp/Importer.hpp>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <string_view>
 #include <unordered_map>
 
 namespace mobil {
@@ -43,20 +49,22 @@ class Gatherer {
     return {};
   }
 
+  [[nodiscard]] std::size_t faces() const { return faces_; }
   MeshFile take() { return std::move(file_); }
 
  private:
   Result<void> add_mesh(const aiMesh& mesh, const aiMatrix4x4& transform) {
     std::vector<std::uint32_t> joined(mesh.mNumVertices);
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
-      const aiVector3D p = transform * mesh.mVertices[i];
+      const aiVector3D& p = mesh.mVertices[i];
       if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
         return fail(fmt::format(
             "{}: vertex {} is ({}, {}, {}); every coordinate must be a finite number: export the mesh again", path_,
             i + 1, p.x, p.y, p.z));
       }
-      joined[i] = vertex(p);
+      joined[i] = vertex(transform * p);
     }
+    faces_ += mesh.mNumFaces;
     for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
       const aiFace& face = mesh.mFaces[f];
       if (face.mNumIndices < 3) {
@@ -93,9 +101,60 @@ class Gatherer {
   }
 
   std::string path_;
+  std::size_t faces_ = 0;
   MeshFile file_;
   std::unordered_map<Bits, std::uint32_t, BitsHash> index_;
 };
+
+std::string file_text(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// What assimp 5.2 takes without a word, or never returns from: a PLY whose header has no end, an ASCII STL cut short.
+/// Of a PLY, the count of faces its header promises.
+Result<std::optional<std::size_t>> check_ends(const std::string& path) {
+  const auto cut_short = [&](std::string_view missing) {
+    return fail(fmt::format("{}: no '{}' in it; the file is cut short: copy or export it again", path, missing));
+  };
+  std::array<char, 5> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  const std::string_view magic(start.data(), start.size());
+  if (magic.starts_with("ply")) {
+    std::istringstream lines(file_text(path));
+    std::size_t promised_lines = 0, faces = 0, data_lines = 0;
+    bool ascii = false, ended = false;
+    for (std::string line; !ended && std::getline(lines, line);) {
+      std::istringstream words(line);
+      std::string word, name;
+      std::size_t count = 0;
+      words >> word >> name >> count;
+      ended = word == "end_header";
+      ascii = ascii || (word == "format" && name == "ascii");
+      if (word != "element") continue;
+      promised_lines += count;
+      if (name == "face") faces = count;
+    }
+    if (!ended) return cut_short("end_header");
+    if (faces == 0) return fail(fmt::format("{}: its header promises no face; export it as triangles", path));
+    for (std::string line; ascii && std::getline(lines, line);) data_lines += line.size() > 1 ? 1 : 0;
+    if (ascii && data_lines < promised_lines) {
+      return fail(
+          fmt::format("{}: {} lines where its header promises {}; the file is cut short: copy or export it again", path,
+                      data_lines, promised_lines));
+    }
+    return std::optional(faces);
+  }
+  if (magic == "solid") {
+    constexpr std::size_t head = 84, facet = 50;
+    const std::string text = file_text(path);
+    std::uint32_t count = 0;
+    if (text.size() >= head) std::memcpy(&count, text.data() + head - sizeof count, sizeof count);
+    const bool binary = text.size() == head + facet * count;
+    if (!binary && text.find("endsolid") == std::string::npos) return cut_short("endsolid");
+  }
+  return std::optional<std::size_t>();
+}
 
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
@@ -108,6 +167,8 @@ Result<MeshFile> read_mesh(const std::string& path) try {
   if (!std::filesystem::is_regular_file(path)) {
     return fail(fmt::format("{}: no such file; put the mesh there or take its row out of the manifest", path));
   }
+  const auto promised_faces = check_ends(path);
+  if (!promised_faces) return fail(promised_faces.error().message);
   Assimp::Importer importer;
   // No post-processing: it trusts indices, which are only checked here.
   const aiScene* scene = importer.ReadFile(path, 0);
@@ -120,6 +181,10 @@ Result<MeshFile> read_mesh(const std::string& path) try {
   Gatherer gatherer(path);
   if (auto added = gatherer.add_node(*scene, *scene->mRootNode, aiMatrix4x4()); !added)
     return fail(added.error().message);
+  if (*promised_faces && **promised_faces != gatherer.faces()) {
+    return fail(fmt::format("{}: {} faces where its header promises {}; the file is cut short: copy or export it again",
+                            path, gatherer.faces(), **promised_faces));
+  }
   MeshFile file = gatherer.take();
   if (file.mesh.triangle.empty()) {
     return fail(fmt::format(

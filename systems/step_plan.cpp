@@ -177,10 +177,17 @@ Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
   fit(plan.foot_pitch[1], dense, swing_span, off_rate, rate_of(pitch, 0.0, h),
       [&](std::size_t i) { return s[i].pitch; });
   auto ankle = [&](double t) { return leg.stance(t).ankle; };
+  // The ankle leaves the ground smoothly; how it lands is the swing's own, heel strike being an impact.
+  auto landing = [&](auto value) {
+    return (25.0 * value(dense) - 48.0 * value(dense - 1) + 36.0 * value(dense - 2) - 16.0 * value(dense - 3) +
+            3.0 * value(dense - 4)) * static_cast<double>(dense) / (12.0 * swing_span);
+  };
+  auto swing_forward = [&](std::size_t i) { return s[i].ankle.forward; };
+  auto swing_up = [&](std::size_t i) { return s[i].ankle.up; };
   fit(plan.swing_forward_m, dense, swing_span, rate_of([&](double t) { return ankle(t).forward; }, leg.toe_off, h),
-      rate_of([&](double t) { return ankle(t).forward; }, 0.0, h), [&](std::size_t i) { return s[i].ankle.forward; });
+      landing(swing_forward), swing_forward);
   fit(plan.swing_up_m, dense, swing_span, rate_of([&](double t) { return ankle(t).up; }, leg.toe_off, h),
-      rate_of([&](double t) { return ankle(t).up; }, 0.0, h), [&](std::size_t i) { return s[i].ankle.up; });
+      landing(swing_up), swing_up);
   fit(plan.swing_toes, dense, swing_span, -off_rate, 0.0, [&](std::size_t i) { return s[i].toes; });
 
   double back = 1e9, forward = -1e9;

@@ -13,10 +13,10 @@ namespace {
 constexpr int integration_steps = 96;
 /// When the knee is bent most.
 constexpr int bent_sample = 30;
-/// Part of the loaded leg's rates that the swing takes up before the heel strikes; the rest is the impact.
-constexpr double landing = 0.2;
+/// How fast the leg goes back over the foothold as the heel strikes, of what would stop the foot over the ground.
+constexpr double landing = 0.5;
 /// Passive knee, in units of the shank's inertia and the swing's pace.
-constexpr double passive_spring = 1.0, passive_damper = 0.15;
+constexpr double passive_spring = 1.0, passive_damper = 0.4;
 
 /// Angles of the leg standing at time t, and their rates by central difference: its path is smooth there.
 SwingState standing(const Leg& leg, double t) {
@@ -61,7 +61,9 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
   const double end = 2.0 * leg.duration, span = end - leg.toe_off, h = span / integration_steps;
   const SwingState first = standing(leg, leg.toe_off);
   SwingState target = standing(leg, 0.0);
-  for (double& rate : target.rate) rate *= landing;
+  // The loaded leg folds faster than any swing could: heel strike is an impact. Before it the leg moves as one, back
+  // against the body's advance.
+  target.rate.fill(-landing * leg.step_length / (leg.duration * (leg.thigh + leg.shank)));
   const double weight = gravity * (model.thigh_mass + model.shank_mass);
   const double unit = weight * leg.thigh * 0.3;
 

@@ -44,7 +44,7 @@ struct MeshDraw {
 };
 
 const void* offset(std::size_t bytes) {
-  return reinterpret_cast<const void*>(bytes);
+  return reinterpret_cast<const void*>(bytes);  // NOLINT: as OpenGL wants it
 }
 
 void attribute(unsigned location, int size, std::size_t stride, std::size_t at, unsigned divisor) {
@@ -316,7 +316,7 @@ Result<void> Renderer::render(const Scene& scene, Image& image) {
   const CurrentContext current(d.context);
   if (!current) return fail("the renderer is in use on another thread; render on one thread at a time");
   glBindVertexArray(d.vertex_array);
-  if (const auto collected = d.collect(scene); !collected) return collected;
+  if (auto collected = d.collect(scene); !collected) return collected;
   const auto blocks = frame_blocks(scene, d.width, d.height, d.casters);
   if (!blocks) return tl::unexpected(blocks.error());
   const std::array<const FrameBlock*, 2> sources = {&blocks->camera, &blocks->lamp};

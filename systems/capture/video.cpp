@@ -86,6 +86,7 @@ std::vector<std::string> ffmpeg_arguments(const std::string& to, int width, int 
 /// Starts ffmpeg from the PATH, without a shell. Returns 0 or an errno.
 int start(const std::vector<std::string>& arguments, int input, int log, pid_t& process) {
   std::vector<char*> argv;
+  argv.reserve(arguments.size() + 1);
   for (const auto& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;

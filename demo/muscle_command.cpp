@@ -20,7 +20,7 @@
 #include "assets/output_file.h"
 #include "demo/commands.h"
 #include "demo/units.h"
-#include "systems/deformation.h"
+#include "systems/deformation/deformation.h"
 
 namespace mobil {
 namespace {

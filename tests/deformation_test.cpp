@@ -1,5 +1,5 @@
 // The sixteen-lane kernel against a dense double-precision model, and what must hold of any such kernel.
-#include "systems/deformation.h"
+#include "systems/deformation/deformation.h"
 
 #include <gtest/gtest.h>
 #include <hwy/targets.h>

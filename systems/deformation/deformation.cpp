@@ -1,7 +1,7 @@
-#include "systems/deformation.h"
+#include "systems/deformation/deformation.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation.cpp"
+#define HWY_TARGET_INCLUDE "systems/deformation/deformation.cpp"
 #include <hwy/foreach_target.h>
 
 #include <algorithm>

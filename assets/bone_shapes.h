@@ -25,8 +25,8 @@ struct Station {
 };
 
 void add_tube(SurfaceMesh& mesh, std::initializer_list<Station> stations, const TubeShape& shape);
-void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<double>& semi, int rings = 6,
-                   int segments = 10);
+void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<double>& semi, int rings = 5,
+                   int segments = 9);
 /// Adds `part` and its mirror image.
 void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part);
 

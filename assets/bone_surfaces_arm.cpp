@@ -15,7 +15,7 @@ void add_long_bone(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_
                                            {quarter, r_middle, r_middle},
                                            {three, r_middle, r_middle},
                                            {far, r_far, r_far}};
-  append(mesh, loft(line, {.reference = forward, .rings = 7, .segments = 8, .cap = 0.7}));
+  append(mesh, loft(line, {.reference = forward, .rings = 5, .segments = 7, .cap = 0.7}));
 }
 
 }  // namespace
@@ -30,7 +30,7 @@ SurfaceMesh clavicle_and_scapula(const Proportions& p) {
         {0.62 * s.x, 14, 0.25 * s.z, 6, 6.5},
         {0.85 * s.x, s.y + 17, 0.72 * s.z, 5.5, 8},
         {0.98 * s.x, s.y + 24, 0.88 * s.z, 5, 9}},
-       {.reference = up, .rings = 18, .segments = 10});
+       {.reference = up, .rings = 10, .segments = 6});
   // Blade, drawn from the shoulder's centre: sections from the lower angle up, turned with the back of the ribs.
   const auto at = [&](double x, double y, double z, double a, double b, double angle) {
     return Station{s.x + x, s.y + y, s.z + z, a, b, angle};
@@ -38,17 +38,17 @@ SurfaceMesh clavicle_and_scapula(const Proportions& p) {
   tube({at(78, -128, -92, 7, 3.5, -48), at(74, -100, -90, 15, 3, -48), at(66, -65, -83, 28, 2.6, -47),
         at(56, -28, -69, 43, 2.6, -46), at(50, 0, -52, 55, 2.8, -46), at(54, 20, -55, 44, 2.6, -44),
         at(66, 38, -62, 22, 2.6, -44), at(76, 46, -66, 8, 2.6, -44)},
-       {.reference = forward, .normal = up, .rings = 22, .segments = 14, .cap = 0.6});
+       {.reference = forward, .normal = up, .rings = 14, .segments = 14, .cap = 0.6});
   tube({at(80, -132, -96, 4.5, 5, 0), at(88, -95, -102, 3.5, 4, 0), at(94, -40, -104, 3.2, 4, 0),
         at(92, 10, -95, 3.2, 4, 0), at(82, 46, -74, 3.5, 3.5, 0)},
-       {.reference = {1, 0, 0}, .rings = 14, .segments = 8});  // medial border
+       {.reference = {1, 0, 0}, .rings = 10, .segments = 6});  // medial border
   tube({at(76, -130, -92, 5, 4, 0), at(46, -70, -66, 5, 4, 0), at(20, -24, -22, 6.5, 6, 0)},
-       {.reference = {1, 0, 0}, .rings = 10, .segments = 8});  // lateral border
+       {.reference = {1, 0, 0}, .rings = 8, .segments = 6});  // lateral border
   tube({at(90, 10, -98, 5, 4, 0), at(60, 17, -88, 8, 4, 0), at(28, 24, -62, 9, 4.5, 0), at(2, 30, -40, 8, 7, 0),
         at(-12, 29, -18, 4.5, 12, 0), at(-8, 27, -2, 4, 10, 0)},
-       {.reference = up, .rings = 18, .segments = 10});  // spine and acromion
+       {.reference = up, .rings = 10, .segments = 6});  // spine and acromion
   tube({at(22, 6, -6, 9, 9, 0), at(22, 22, 4, 6.5, 6.5, 0), at(12, 25, 18, 5.5, 6, 0), at(2, 18, 26, 5, 5, 0)},
-       {.reference = up, .rings = 10, .segments = 8});              // coracoid process
+       {.reference = up, .rings = 8, .segments = 6});               // coracoid process
   add_ellipsoid(mesh, {s.x + 21, s.y - 2, s.z - 12}, {8, 19, 14});  // glenoid
   return mesh;
 }
@@ -68,7 +68,7 @@ SurfaceMesh humerus(const Proportions& p) {
             {-1, -0.80 * l, 2, 9, 14},
             {0, -0.90 * l, 1, 8, 22},
             {0, -0.965 * l, 1, 8, 29}},
-           {.reference = forward, .normal = up, .rings = 22, .segments = 12});
+           {.reference = forward, .normal = up, .rings = 16, .segments = 11});
   add_ellipsoid(mesh, {25, -0.955 * l, -3}, {9, 12, 8});  // medial epicondyle
   add_ellipsoid(mesh, {-23, -0.965 * l, 0}, {8, 13, 8});  // lateral
   add_tube(mesh, {{22, -l - 3, 3, 14, 14}, {8, -l, 3, 9.5, 9.5}, {-4, -l, 3, 11, 11}, {-20, -l, 5, 11, 11}},
@@ -89,7 +89,7 @@ SurfaceMesh radius_and_ulna(const Proportions& p) {
             {-18, -0.80 * l, 2, 8, 10},
             {-12, -0.93 * l, 1, 10, 15},
             {-11, -l + 4, 0, 10.5, 16}},
-           {.reference = forward, .normal = up, .rings = 24, .segments = 10, .cap = 0.3});
+           {.reference = forward, .normal = up, .rings = 16, .segments = 9, .cap = 0.3});
   add_tube(mesh, {{-22, -l + 8, 0, 8, 6}, {-25, -l - 5, 1, 5, 4}}, {.reference = forward, .rings = 3, .segments = 8});
   add_tube(mesh,
            {{10, 14, -18, 8, 10},
@@ -101,7 +101,7 @@ SurfaceMesh radius_and_ulna(const Proportions& p) {
             {14, -0.82 * l, -2, 6, 5.5},
             {16, -0.93 * l, -2, 7.5, 7},
             {16, -l + 8, -2, 8, 8}},
-           {.reference = forward, .normal = up, .rings = 24, .segments = 10, .cap = 0.5});
+           {.reference = forward, .normal = up, .rings = 16, .segments = 9, .cap = 0.5});
   add_tube(mesh, {{10, -14, -2, 8, 9}, {10, -20, 9, 5, 7}}, {.reference = up, .rings = 3, .segments = 8});  // coronoid
   add_ellipsoid(mesh, {19, -l + 2, -5}, {3.5, 7, 3.5}, 4, 8);
   return mesh;

@@ -26,7 +26,7 @@ void add_long_bone(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_
                                            {0.5 * (near + middle), r_middle, r_middle},
                                            {0.4 * middle + 0.6 * far, r_middle, r_middle},
                                            {far, r_far, r_far}};
-  append(mesh, loft(line, {.reference = up, .rings = 7, .segments = 8, .cap = 0.7}));
+  append(mesh, loft(line, {.reference = up, .rings = 5, .segments = 7, .cap = 0.7}));
 }
 
 /// The measured foot is drawn in mm from the ankle; lengthwise it follows the body's, forward of the ankle.
@@ -58,7 +58,7 @@ SurfaceMesh femur(const Proportions& p) {
   const auto at = [&](double level, double lateral, double anterior) {
     return leg_point(leg, level, lateral, anterior);
   };
-  SurfaceMesh mesh = shaft(leg, femur_sections(), 0, 34, 14);
+  SurfaceMesh mesh = shaft(leg, femur_sections(), 0, 26, 12);
   add_ellipsoid(mesh, {0, 0, 0}, {23, 23, 23}, 9, 14);
   const Vec a = at(0.015, 12, -1), b = at(0.04, 26, -4), c = at(0.075, 42, -8);
   add_tube(mesh, {{a.x, a.y, a.z, 16, 17}, {b.x, b.y, b.z, 13.5, 16}, {c.x, c.y, c.z, 17, 24}},
@@ -85,14 +85,14 @@ SurfaceMesh patella() {
   SurfaceMesh mesh;
   add_tube(mesh,
            {{0, 17, -1, 15, 6}, {0, 9, 0, 20, 9}, {0, -2, 0, 20.5, 9.5}, {0, -12, 0, 14, 8}, {0, -20, -2, 5, 4.5}},
-           {.reference = {1, 0, 0}, .normal = up, .rings = 9, .segments = 12, .cap = 0.5});
+           {.reference = {1, 0, 0}, .normal = up, .rings = 8, .segments = 12, .cap = 0.5});
   return mesh;
 }
 
 SurfaceMesh tibia_and_fibula(const Proportions& p) {
   LegFrame leg = p.leg;
-  SurfaceMesh mesh = shaft(leg, tibia_sections(), 1, 30, 14);
-  append(mesh, shaft(leg, fibula_sections(), 1, 24, 10));
+  SurfaceMesh mesh = shaft(leg, tibia_sections(), 1, 22, 12);
+  append(mesh, shaft(leg, fibula_sections(), 1, 16, 8));
   leg.hip = {0, leg.thigh_length, 0};  // the shank's frame begins at the knee
   const auto at = [&](double level, double lateral, double anterior) {
     return leg_point(leg, level, lateral, anterior);
@@ -120,11 +120,11 @@ SurfaceMesh foot(const Proportions& p) {
        {0, -34, -14, 19, 14},
        {-2, -30, 4, 17, 15},
        {-8, -30, 24, 13, 13}},
-      {.reference = up, .normal = forward, .rings = 10, .segments = 12, .cap = 0.5});
+      {.reference = up, .normal = forward, .rings = 8, .segments = 11, .cap = 0.5});
   put({{10, -22, 2, 7, 8}, {13, -22, 10, 6, 9}}, {.reference = up, .rings = 3, .segments = 8});  // sustentaculum
   // talus: the trochlea under the shank, neck and head
   put({{0, -6, -18, 9, 12}, {0, -4, -6, 15, 17}, {1, -3, 6, 15, 18}, {5, -9, 20, 11, 13}, {8, -13, 31, 12, 14}},
-      {.reference = up, .normal = forward, .rings = 10, .segments = 12, .cap = 0.6});
+      {.reference = up, .normal = forward, .rings = 8, .segments = 11, .cap = 0.6});
   const auto block = [&](double x, double y, double z, double a, double b, double c) {
     add_ellipsoid(mesh, at(x, y, z), {a, b, c * at.forward_factor});
   };

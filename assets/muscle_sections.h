@@ -1,33 +1,169 @@
 #pragma once
-// Cross-sections of the leg's muscles, in the terms and from the source of leg_sections.h: centroids and ellipses of
-// equal second moments, the semi-axes reduced to the measured area where a section is not an ellipse.
+// The shapes of the leg's muscles as horizontal sections, upper end first, tendons included (the quadriceps down to the
+// kneecap). Columns as in LegSection: level, lateral and anterior place (mm), semi-axes (mm), angle (degrees).
+//
+// Source: measured for this project from the surfaces of BodyParts3D 3.0 (© The Database Center for Life Science,
+// licensed under CC Attribution-Share Alike 2.1 Japan): area, centroid and second moments of the cut of each surface.
 
-#include <cstddef>
-#include <span>
-#include <string_view>
+#include <array>
 
 #include "assets/leg_sections.h"
-#include "components/muscle.h"
-#include "components/segments.h"
 
-namespace mobil {
+namespace mobil::sections {
 
-inline constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
+inline constexpr std::array<LegSection, 14> semimembranosus = {{{0.165F, -36.2F, -25.7F, 11.1F, 4.7F, 107},
+                                                                {0.217F, -38, -24.9F, 12.3F, 6.7F, 92},
+                                                                {0.3F, -39.6F, -23.1F, 18.2F, 7.5F, 86},
+                                                                {0.383F, -38.8F, -22.1F, 23.3F, 9.3F, 90},
+                                                                {0.466F, -38.7F, -20.4F, 26.8F, 11.6F, 94},
+                                                                {0.548F, -38.3F, -18.9F, 27.3F, 14.9F, 101},
+                                                                {0.631F, -33.7F, -17.7F, 26.8F, 16.7F, 109},
+                                                                {0.714F, -28.3F, -18.4F, 26.8F, 16.1F, 118},
+                                                                {0.797F, -24.3F, -19.1F, 27.9F, 16.1F, 118},
+                                                                {0.88F, -25.1F, -18.3F, 25.4F, 16.3F, 120},
+                                                                {0.962F, -32.8F, -17.2F, 19.7F, 9.7F, 139},
+                                                                {1.047F, -37.4F, -13.2F, 12.8F, 3.5F, 155},
+                                                                {1.132F, -31.9F, 5.5F, 11, 3, 9},
+                                                                {1.181F, -21.2F, 11.4F, 7, 2.5F, 31}}};
+inline constexpr std::array<LegSection, 14> semitendinosus = {{{0.146F, -30.5F, -38.5F, 10.1F, 4.9F, 91},
+                                                               {0.203F, -28, -36.7F, 11.6F, 7.6F, 96},
+                                                               {0.294F, -29.4F, -37.9F, 15.2F, 10, 96},
+                                                               {0.386F, -29.7F, -40.3F, 15.9F, 11.4F, 103},
+                                                               {0.477F, -28.3F, -40.9F, 16.6F, 11.3F, 104},
+                                                               {0.568F, -25.7F, -41, 16.2F, 10, 101},
+                                                               {0.659F, -24.7F, -41.1F, 14.9F, 8.3F, 102},
+                                                               {0.75F, -25.2F, -39.8F, 12.9F, 6.6F, 106},
+                                                               {0.842F, -28.4F, -38, 9.5F, 4.5F, 102},
+                                                               {0.933F, -32.8F, -34.4F, 6.2F, 3.4F, 105},
+                                                               {1.025F, -37.1F, -26.9F, 4.5F, 3, 145},
+                                                               {1.119F, -33.4F, -13.9F, 5.8F, 2.6F, 174},
+                                                               {1.213F, -21.2F, 5.5F, 8.4F, 3, 17},
+                                                               {1.267F, -17, 11.4F, 4.9F, 0.8F, 11}}};
+inline constexpr std::array<LegSection, 14> biceps_femoris_long_head = {{{0.122F, -20, -44.5F, 9.1F, 4.4F, 75},
+                                                                         {0.176F, -13.6F, -42.1F, 9.7F, 7.5F, 77},
+                                                                         {0.26F, -3.2F, -32.1F, 15.9F, 14.1F, 13},
+                                                                         {0.345F, 2, -26.4F, 22.4F, 19.5F, 58},
+                                                                         {0.43F, 5.9F, -26.3F, 27, 20.7F, 47},
+                                                                         {0.514F, 8.1F, -28.1F, 27.1F, 21.8F, 50},
+                                                                         {0.599F, 11.4F, -28.3F, 26.3F, 21, 59},
+                                                                         {0.683F, 14.6F, -28.2F, 24.1F, 18.4F, 63},
+                                                                         {0.768F, 17.8F, -26.3F, 21.2F, 14.8F, 78},
+                                                                         {0.852F, 22.4F, -22.7F, 19.3F, 10.6F, 82},
+                                                                         {0.937F, 32.1F, -20.6F, 14.7F, 6.5F, 68},
+                                                                         {1.022F, 45.2F, -16.1F, 10.8F, 2.8F, 30},
+                                                                         {1.11F, 45.2F, -11.2F, 11.3F, 3.7F, 7},
+                                                                         {1.159F, 43.6F, -12.8F, 9.2F, 2, 34}}};
+inline constexpr std::array<LegSection, 14> biceps_femoris_short_head = {{{0.406F, 20.6F, -0.1F, 2.1F, 0.7F, 111},
+                                                                          {0.444F, 21.1F, -1.5F, 4.4F, 2.3F, 120},
+                                                                          {0.503F, 21.4F, -2.6F, 7.3F, 4.5F, 123},
+                                                                          {0.563F, 20.1F, -2.9F, 8.8F, 6.1F, 114},
+                                                                          {0.623F, 18.8F, -3.3F, 10, 7.2F, 113},
+                                                                          {0.683F, 18.4F, -3.5F, 10.9F, 8.3F, 111},
+                                                                          {0.742F, 19.4F, -4.4F, 11.8F, 9.7F, 104},
+                                                                          {0.802F, 22, -5.3F, 12.5F, 10.6F, 99},
+                                                                          {0.862F, 24.8F, -5.7F, 11.9F, 10.9F, 98},
+                                                                          {0.922F, 30.4F, -6.6F, 10.9F, 9, 177},
+                                                                          {0.981F, 38.6F, -10.5F, 11.1F, 3.9F, 17},
+                                                                          {1.042F, 41.2F, -13.4F, 8.5F, 3.5F, 18},
+                                                                          {1.104F, 41.2F, -14.3F, 6.1F, 3.7F, 28},
+                                                                          {1.139F, 42.7F, -9.2F, 5.8F, 2.2F, 172}}};
+inline constexpr std::array<LegSection, 14> rectus_femoris = {{{-0.116F, 22, 14.4F, 10.7F, 4.2F, 15},
+                                                               {-0.058F, 24.9F, 16.8F, 13, 9.4F, 162},
+                                                               {0.033F, 29.8F, 23.2F, 16.5F, 10.6F, 92},
+                                                               {0.124F, 29.5F, 28.7F, 24.7F, 14.1F, 92},
+                                                               {0.215F, 31.3F, 37.3F, 29.8F, 15, 92},
+                                                               {0.306F, 34.8F, 48.7F, 31.2F, 14.5F, 100},
+                                                               {0.397F, 35.4F, 58.2F, 30.1F, 13.6F, 100},
+                                                               {0.488F, 32.6F, 64, 26.6F, 11.8F, 94},
+                                                               {0.579F, 28.3F, 65.8F, 22.1F, 9.8F, 93},
+                                                               {0.67F, 24.4F, 65, 17.3F, 8.1F, 91},
+                                                               {0.761F, 20, 61.5F, 15.2F, 6.1F, 90},
+                                                               {0.852F, 15.4F, 55.9F, 12.6F, 4.8F, 87},
+                                                               {0.943F, 12.7F, 47.8F, 10.8F, 3.9F, 95},
+                                                               {0.995F, 6.8F, 41, 16.1F, 4.3F, 92}}};
+inline constexpr std::array<LegSection, 14> vastus_medialis = {{{0.187F, 17.7F, 12.5F, 3.4F, 1.6F, 26},
+                                                                {0.229F, 14.8F, 18.6F, 7, 3.1F, 159},
+                                                                {0.296F, 8.7F, 28.8F, 13.3F, 6.8F, 147},
+                                                                {0.362F, 4.1F, 34.3F, 18.9F, 10.1F, 162},
+                                                                {0.429F, 1.5F, 40.8F, 21.1F, 11, 165},
+                                                                {0.495F, -1, 44.7F, 21.3F, 12.6F, 169},
+                                                                {0.562F, -3.8F, 46.7F, 21.2F, 14.8F, 175},
+                                                                {0.629F, -7.7F, 46, 22.6F, 16.4F, 12},
+                                                                {0.695F, -11.6F, 43.8F, 24.4F, 18, 25},
+                                                                {0.762F, -15.4F, 41.2F, 26.1F, 18, 32},
+                                                                {0.828F, -18.1F, 38.3F, 27.2F, 17.2F, 34},
+                                                                {0.895F, -18.8F, 36, 27.1F, 15.8F, 46},
+                                                                {0.962F, -15.4F, 36.3F, 22, 10.8F, 64},
+                                                                {1, -9.6F, 36, 15.5F, 6.1F, 88}}};
+inline constexpr std::array<LegSection, 14> vastus_intermedius = {{{0.152F, 34.7F, 10.3F, 7, 1.6F, 96},
+                                                                   {0.196F, 31.8F, 13.5F, 14.5F, 4.3F, 104},
+                                                                   {0.265F, 31.3F, 22.2F, 18.1F, 8.6F, 112},
+                                                                   {0.334F, 31.6F, 30.2F, 20.6F, 11.2F, 120},
+                                                                   {0.404F, 31.1F, 35, 21.8F, 13.7F, 120},
+                                                                   {0.473F, 30.8F, 37.9F, 22.3F, 15.4F, 121},
+                                                                   {0.543F, 29.7F, 39, 23.4F, 16.3F, 126},
+                                                                   {0.612F, 28, 40.3F, 24.1F, 16.6F, 126},
+                                                                   {0.682F, 26.3F, 41, 24.6F, 16.4F, 124},
+                                                                   {0.751F, 24.3F, 41.2F, 24, 15.6F, 121},
+                                                                   {0.821F, 21.6F, 41.3F, 19.9F, 13.1F, 119},
+                                                                   {0.89F, 19, 40.2F, 14.7F, 7.8F, 126},
+                                                                   {0.959F, 17.7F, 38.3F, 13, 3.5F, 114},
+                                                                   {0.999F, 14.1F, 35.9F, 12.5F, 0.9F, 83}}};
+inline constexpr std::array<LegSection, 14> vastus_lateralis = {{{0.068F, 28.9F, 12.1F, 7.6F, 2.2F, 91},
+                                                                 {0.116F, 44.1F, 10.8F, 10.2F, 4.4F, 114},
+                                                                 {0.192F, 50.7F, 8.8F, 18, 9.7F, 176},
+                                                                 {0.269F, 51.9F, 7.3F, 27.7F, 12.8F, 24},
+                                                                 {0.345F, 51.9F, 8.8F, 34.1F, 15.4F, 31},
+                                                                 {0.421F, 52, 12.7F, 38.3F, 17.7F, 32},
+                                                                 {0.497F, 51.7F, 16.8F, 41.1F, 18.9F, 28},
+                                                                 {0.573F, 50.8F, 20.4F, 42, 19.5F, 22},
+                                                                 {0.65F, 49.2F, 24, 40.7F, 19.2F, 18},
+                                                                 {0.726F, 47.2F, 27.2F, 36.4F, 17.6F, 14},
+                                                                 {0.802F, 43.1F, 27.8F, 30.7F, 14.4F, 10},
+                                                                 {0.878F, 39.1F, 31.9F, 25, 11.2F, 176},
+                                                                 {0.954F, 33, 35.3F, 15.8F, 8.2F, 160},
+                                                                 {0.998F, 29.8F, 35.1F, 9.9F, 3.6F, 148}}};
+inline constexpr std::array<LegSection, 14> gastrocnemius_medial = {{{0.903F, -13.9F, 3.6F, 6.3F, 2.5F, 136},
+                                                                     {0.941F, -14.2F, -7.5F, 12, 7.3F, 137},
+                                                                     {1, -10.6F, -25.7F, 13.4F, 9.2F, 69},
+                                                                     {1.061F, -13.5F, -33.7F, 17, 11.5F, 113},
+                                                                     {1.123F, -13.8F, -35.9F, 22, 13, 138},
+                                                                     {1.184F, -14.9F, -35.1F, 27.7F, 15.7F, 152},
+                                                                     {1.246F, -16.8F, -33.4F, 34.4F, 18.1F, 163},
+                                                                     {1.307F, -20.2F, -33.4F, 37.9F, 18.9F, 163},
+                                                                     {1.368F, -23.1F, -36.1F, 37.9F, 18.6F, 156},
+                                                                     {1.43F, -23, -39.3F, 34.6F, 16.2F, 143},
+                                                                     {1.491F, -19.9F, -41.3F, 29.9F, 13.4F, 130},
+                                                                     {1.553F, -16.6F, -40.3F, 23.6F, 9.6F, 119},
+                                                                     {1.614F, -13.6F, -36, 13.5F, 4.5F, 118},
+                                                                     {1.649F, -8.7F, -33.7F, 4.8F, 1.3F, 117}}};
+inline constexpr std::array<LegSection, 14> gastrocnemius_lateral = {{{0.944F, 28.6F, -8.6F, 11, 4.4F, 17},
+                                                                      {0.977F, 27.5F, -22.1F, 17.5F, 5.1F, 41},
+                                                                      {1.032F, 25.2F, -33.5F, 19.2F, 7, 61},
+                                                                      {1.087F, 26.1F, -36.9F, 22.7F, 10.5F, 60},
+                                                                      {1.142F, 26, -41, 24, 13.5F, 60},
+                                                                      {1.197F, 26.9F, -43.8F, 25.5F, 16.4F, 59},
+                                                                      {1.252F, 28.1F, -46.4F, 27.5F, 16.1F, 62},
+                                                                      {1.308F, 29, -48.2F, 29.3F, 14.9F, 62},
+                                                                      {1.363F, 29.3F, -49.1F, 29.5F, 13.2F, 63},
+                                                                      {1.418F, 29.2F, -48.2F, 27.9F, 11, 62},
+                                                                      {1.473F, 27.9F, -46.6F, 24.2F, 8.7F, 63},
+                                                                      {1.528F, 24.1F, -44.5F, 19.5F, 6.4F, 65},
+                                                                      {1.583F, 18.7F, -41.9F, 13.1F, 3.6F, 72},
+                                                                      {1.615F, 18.6F, -38.7F, 7.2F, 1.8F, 70}}};
+inline constexpr std::array<LegSection, 14> soleus = {{{1.149F, 31.2F, -18.2F, 8.2F, 1.8F, 106},
+                                                       {1.185F, 25.2F, -16.7F, 15.5F, 8.3F, 123},
+                                                       {1.241F, 19, -19.4F, 28.2F, 12.4F, 108},
+                                                       {1.298F, 12.9F, -20.1F, 36.5F, 14.7F, 106},
+                                                       {1.354F, 8.3F, -20.1F, 41.9F, 16.9F, 107},
+                                                       {1.411F, 2.7F, -19.4F, 43.8F, 18.2F, 110},
+                                                       {1.467F, -0.9F, -19.1F, 42.7F, 18, 112},
+                                                       {1.524F, -2.8F, -19.5F, 40.9F, 16.9F, 111},
+                                                       {1.58F, -2.3F, -20.8F, 37.2F, 14.7F, 110},
+                                                       {1.637F, -1.2F, -21.8F, 33, 11.7F, 107},
+                                                       {1.693F, 0.2F, -22.5F, 26.9F, 9.1F, 102},
+                                                       {1.75F, -0.1F, -23.9F, 19.7F, 6.4F, 99},
+                                                       {1.806F, -3.5F, -27.3F, 13.1F, 3.5F, 89},
+                                                       {1.838F, -8.4F, -28.9F, 6.5F, 1.9F, 88}}};
 
-/// One muscle of the right leg from its origin (first section) to its insertion (last); the quadriceps end at the upper
-/// edge of the kneecap. `lies_on`: the muscle of this list that it covers and is pushed out by.
-struct MuscleShape {
-  std::string_view name;
-  MuscleGroup group;
-  Segment origin, insertion;
-  std::span<const LegSection> sections;
-  std::size_t lies_on;
-};
-
-/// The eleven members of the three groups, then the calcaneal tendon.
-std::span<const MuscleShape> muscle_shapes();
-
-/// Where the measured man's kneecap stands: its upper edge's level, its centre in mm from the knee's.
-inline constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
-
-}  // namespace mobil
+}  // namespace mobil::sections

@@ -161,6 +161,10 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections) {
   for (std::size_t r = 0; r < ring_count; ++r) {
     for (const auto& bone : f.bones) keep_out(f, bone, std::span(mesh.position).subspan(1 + r * segments, segments));
   }
+  for (const auto& bone : f.bones) {
+    keep_out(f, bone, std::span(mesh.position).first(1));
+    keep_out(f, bone, std::span(mesh.position).last(1));
+  }
   return mesh;
 }
 

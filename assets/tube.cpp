@@ -119,7 +119,7 @@ TubeSection tube_section(std::span<const TubeStation> stations, double t) {
 }
 
 SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape) {
-  constexpr int cap_rings = 2;
+  const int cap_rings = shape.segments < 12 ? 1 : 2;
   SurfaceMesh mesh;
   std::optional<Vec> fixed;
   if (shape.normal) {

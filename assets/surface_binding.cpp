@@ -1,0 +1,134 @@
+#include "assets/surface_binding.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "assets/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+double plane_height(const HexahedralMesh& cage, std::uint32_t k) {
+  const std::uint32_t n = plane_nodes(cage.cells);
+  double sum = 0;
+  for (std::uint32_t i = 0; i < n; ++i) sum += cage.node[k * n + i].z;
+  return sum / n;
+}
+
+struct Position {
+  std::uint32_t element;
+  std::array<double, 3> local;  // 0–1 in the element
+};
+
+/// The element that holds the parameters (each 0 to the number of cells), and where in it they lie.
+Position split(const Cells& cells, const std::array<double, 3>& parameter) {
+  std::array<std::uint32_t, 3> cell{};
+  Position p{};
+  for (std::size_t d = 0; d < 3; ++d) {
+    cell[d] = std::min(static_cast<std::uint32_t>(parameter[d]), cells[d] - 1);
+    p.local[d] = parameter[d] - cell[d];
+  }
+  p.element = (cell[2] * cells[1] + cell[1]) * cells[0] + cell[0];
+  return p;
+}
+
+/// Corner order of element_nodes: round the lower face, then round the upper.
+constexpr std::array<std::array<int, 3>, 8> corner = {
+    {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}};
+
+std::array<double, 8> weights(const std::array<double, 3>& t) {
+  std::array<double, 8> w{};
+  for (std::size_t c = 0; c < 8; ++c) {
+    w[c] = 1;
+    for (std::size_t d = 0; d < 3; ++d) w[c] *= corner[c][d] == 1 ? t[d] : 1 - t[d];
+  }
+  return w;
+}
+
+/// The map at a position and its three derivatives by the parameters.
+std::array<Vec, 4> map(const HexahedralMesh& cage, const Position& p) {
+  const Hexahedron nodes = element_nodes(cage.cells, p.element);
+  const auto w = weights(p.local);
+  std::array<Vec, 4> r{};
+  for (std::size_t c = 0; c < 8; ++c) {
+    const Vec& node = cage.node[nodes[c]];
+    r[0] = r[0] + w[c] * node;
+    for (std::size_t d = 0; d < 3; ++d) {
+      double slope = corner[c][d] == 1 ? 1 : -1;
+      for (std::size_t e = 0; e < 3; ++e) {
+        if (e != d) slope *= corner[c][e] == 1 ? p.local[e] : 1 - p.local[e];
+      }
+      r[d + 1] = r[d + 1] + slope * node;
+    }
+  }
+  return r;
+}
+
+}  // namespace
+
+CagePlace place_in_cage(const HexahedralMesh& cage, const Vec3<double>& point) {
+  const Cells& cells = cage.cells;
+  std::array<double, 3> parameter = {0.5 * cells[0], 0.5 * cells[1], 0};
+  for (std::uint32_t k = 0; k < cells[2]; ++k) {
+    const double low = plane_height(cage, k), high = plane_height(cage, k + 1);
+    if (point.z > low) parameter[2] = k + std::min(1.0, (point.z - low) / (high - low));
+  }
+  double stride = 1;
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const auto r = map(cage, split(cells, parameter));
+    const Vec off = point - r[0];
+    const double det = dot(r[1], cross(r[2], r[3]));
+    if (std::abs(det) < 1e-30) break;
+    const std::array<double, 3> step = {dot(off, cross(r[2], r[3])) / det, dot(r[1], cross(off, r[3])) / det,
+                                        dot(r[1], cross(r[2], off)) / det};
+    double moved = 0;
+    for (std::size_t d = 0; d < 3; ++d) {
+      // at most a cell at a time: the neighbour's map is another one
+      const double next = std::clamp(parameter[d] + stride * std::clamp(step[d], -1.0, 1.0), 0.0, 1.0 * cells[d]);
+      moved = std::max(moved, std::abs(next - parameter[d]));
+      parameter[d] = next;
+    }
+    if (moved < 1e-12) break;
+    if (iteration > 20) stride = 0.5;  // out of a cycle between two cells
+  }
+  const Position p = split(cells, parameter);
+  return {element_nodes(cells, p.element), weights(p.local)};
+}
+
+void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, double blend_m) {
+  const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
+  surface.binding.clear();
+  surface.rest_in_cage.clear();
+  for (const auto& position : surface.mesh.position) {
+    const Vec q = rotated(conjugate(frame.rotation), to_double(position) - to_double(frame.start_m));
+    const CagePlace place = place_in_cage(cage, q);
+    VertexBinding b{};
+    for (std::size_t c = 0; c < 8; ++c) {
+      b.node[c] = static_cast<std::uint16_t>(place.node[c]);
+      b.node_weight[c] = static_cast<float>(place.weight[c]);
+    }
+    b.origin = static_cast<float>(1 - smoothstep(low - blend_m, low, q.z));
+    b.insertion = static_cast<float>(smoothstep(high, high + blend_m, q.z));
+    b.cage = 1 - b.origin - b.insertion;
+    surface.binding.push_back(b);
+    surface.rest_in_cage.push_back(to_float(q));
+  }
+}
+
+void bind_ligament(MuscleSurface& surface, const Vec3<float>& origin_m, const Vec3<float>& insertion_m) {
+  const Vec from = to_double(origin_m), along = to_double(insertion_m) - from;
+  surface.binding.clear();
+  surface.rest_in_cage.assign(surface.mesh.position.size(), {0, 0, 0});
+  for (const auto& position : surface.mesh.position) {
+    const double t = dot(to_double(position) - from, along) / dot(along, along);
+    VertexBinding b{};
+    b.node_weight[0] = 1;
+    b.insertion = static_cast<float>(smoothstep(0, 1, t));
+    b.origin = 1 - b.insertion;
+    surface.binding.push_back(b);
+  }
+}
+
+}  // namespace mobil

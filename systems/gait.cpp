@@ -50,10 +50,10 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
     return fail(fmt::format("gait: a speed of {:.3g} m/s is outside {:.2f}–{:.2f} m/s for a height of {:.2f} m; choose "
                             "a speed within that range",
                             speed, 0.3 * scale, 2.3 * scale, height));
-  if (!inside(length, 0.25 * leg, 1.15 * leg))
+  if (!inside(length, 0.25 * leg, 1.25 * leg))
     return fail(fmt::format("gait: a step length of {:.3g} m is outside {:.2f}–{:.2f} m for a height of {:.2f} m; "
                             "choose a step length within that range, or another step frequency",
-                            length, 0.25 * leg, 1.15 * leg, height));
+                            length, 0.25 * leg, 1.25 * leg, height));
   const double frequency = speed / length;
   if (!inside(frequency, 0.5 / scale, 3.0 / scale))
     return fail(fmt::format("gait: a step frequency of {:.3g} Hz is outside {:.2f}–{:.2f} Hz for a height of {:.2f} m; "

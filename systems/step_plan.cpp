@@ -22,7 +22,7 @@ constexpr std::size_t intervals = knot_count - 1;
 double mid_height(const Body& body, const GaitStyle& style, double stiffness) {
   const double height = body.request.height_m, stand = body.hip_height_m;
   const double excess = (body.request.mass_kg - 22.0 * height * height) * gravity / (stiffness * stand);
-  constexpr double most = 0.05;
+  constexpr double most = 0.018;
   const double sag = most * excess / std::sqrt(most * most + excess * excess);
   return stand * (style.mid_stance_height - (excess > 0.0 ? sag : 0.1 * sag));
 }
@@ -68,17 +68,22 @@ SupportRequest support_request(const Body& body, const Gait& gait, const Leg& le
   return r;
 }
 
-/// Greatest knee flexion at toe-off that still lets the foot, heel up, span from ground to hip; negative if none does.
-double toe_off_knee_limit(const Leg& leg) {
-  const Point hip = leg.hip(leg.toe_off);
-  const double over = leg.ankle_height - leg.toe_joint_height, along = hip.forward - leg.ball_forward;
-  const double aside = hip.out - leg.half_width, up = hip.up - leg.toe_joint_height;
-  const double radius = std::sqrt(leg.ball_forward * leg.ball_forward + over * over);
-  const double distance = std::sqrt(along * along + aside * aside + up * up);
-  constexpr double fold = 14.0 * degree;  // the foot stays this far from pointing straight at the hip
-  const double least = std::sqrt(radius * radius + distance * distance -
-                                 2.0 * radius * distance * sin_cos(fold).cosine);
-  return least < leg.reach(0.0) ? leg.knee(least) : -1.0;
+/// Bends the trailing knee less, and then ends double support earlier, until the foot leaves the ground no steeper than
+/// the calf allows. False if no toe-off is possible.
+bool fit_toe_off(Leg& leg) {
+  constexpr double steepest = 68.0 * degree, least_knee = 22.0 * degree, least_double_support = 0.04;
+  for (;;) {
+    const double reach = leg.angles(leg.hip(leg.toe_off), leg.planted(-steepest).ankle).reach;
+    const double limit = reach < leg.reach(0.0) ? leg.knee(reach) : 0.0;
+    const double shorter = 0.97 * leg.double_support;
+    if (limit >= std::fmin(least_knee, leg.toe_off_knee) || shorter < least_double_support * 2.0 * leg.duration) {
+      leg.toe_off_knee = std::fmin(leg.toe_off_knee, limit);
+      leg.stance_knee = std::fmin(leg.stance_knee, 0.7 * leg.toe_off_knee);
+      return limit > 6.0 * degree;
+    }
+    leg.double_support = shorter;
+    leg.toe_off = leg.duration + shorter;
+  }
 }
 
 /// Knots of a curve given densely by `value(i)` at i = 0 … dense (a multiple of the intervals); slopes by central
@@ -111,13 +116,10 @@ Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
   if (!support) return fail(support.error().message);
   leg.hip_path = support->sample;
 
-  const double limit = toe_off_knee_limit(leg);
-  if (limit < 0.5 * leg.stance_knee)
+  if (!fit_toe_off(leg))
     return fail(fmt::format("gait: a step of {:.2f} m at {:.2f} m/s is too long for legs of {:.2f} m; choose a shorter "
                             "step or a lower speed",
                             leg.step_length, gait.speed_m_s, leg.thigh + leg.shank));
-  leg.toe_off_knee = std::fmin(leg.toe_off_knee, limit);
-  leg.stance_knee = std::fmin(leg.stance_knee, 0.9 * leg.toe_off_knee);
   constexpr std::size_t dense = 96;
   for (std::size_t i = 0; i <= dense; ++i) {
     const double t = leg.toe_off * static_cast<double>(i) / dense;

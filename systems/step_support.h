@@ -12,7 +12,7 @@ namespace mobil::step {
 /// at `strike_height_m` and ends half a step length ahead at the same height.
 struct SupportRequest {
   SupportModel model;
-  double duration_s, step_length_m, double_support_s;
+  double duration_s, step_length_m;
   double strike_height_m;  // hip over the pivot at heel strike
   double mid_height_m;     // the same in mid-stance
   double stiffness_n_per_m, damping_n_s_per_m;

@@ -20,7 +20,8 @@ struct MusclePlan {
   /// Volume of the group, and the section of a bar of that volume and of the belly's length.
   double volume_m3 = 0, section_m2 = 0;
   /// The muscle frame in the anatomical position, the body standing at x = z = 0: origin at the belly's origin-side
-  /// end, z along it, y the proximal bone's anterior axis as far as orthogonal.
+  /// end, z along it, y the proximal bone's anterior axis carried without twist from that bone's long axis to z, x =
+  /// y×z.
   Vec3<double> start_m{};
   Quat<double> rotation{};
   /// What the surface beyond the belly's ends follows (right side).
@@ -38,13 +39,34 @@ Result<MusclePlan> make_muscle_plan(const Body& body, MuscleGroup group);
 /// k = E·s/L₀ (equation 3 of the paper), N/m. `section_m2`: a plan's own, or the effective one of its mesh.
 double bar_stiffness(const Material& material, double section_m2, double rest_length_m);
 
+/// Length of the belly of a group's template: that of the reference body.
+double reference_belly_m(MuscleGroup group);
+
+/// What physique does to a group's volume and section: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 % more for each
+/// point of mesomorphy above 4 (or less, below), within 0.7–1.6. Our choice: the published volumes do not tell them
+/// apart.
+double physique_factor(const BodyRequest& request);
+
 /// A leg's bones in the anatomical position, the body standing at x = z = 0.
 LegFrames<double> anatomical_leg(const Body& body);
+/// The body's thigh, shank and leg over the published ones.
 LegScale<double> leg_scale(const Body& body);
 
 /// Length (m) of one member's path, in double: what the tick's kernel computes in lanes.
 double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
-/// Volume-weighted mean of a group's members. Weights are the members' volumes in the reference body.
+/// Volume-weighted mean of a group's members.
 double group_length(MuscleGroup group, const LegScale<double>& scale, const LegFrames<double>& leg);
+/// The member's share of its group's volume in the reference body: its weight in the group's mean.
+double member_weight(const MemberMuscle& muscle);
+
+/// Knee flexion (rad) from the rotations of the two bones.
+double knee_flexion(const LegFrames<double>& leg);
+
+/// Natural cubic spline through a kneecap's track as t₀ + t₁u + Σ cₖ·max(u − k, 0)³, u = flexion / 20°.
+struct KneecapSpline {
+  Vec3<double> at_zero, slope;
+  std::array<Vec3<double>, kneecap_knots> cubic;
+};
+KneecapSpline kneecap_spline(const KneecapTrack& track);
 
 }  // namespace mobil

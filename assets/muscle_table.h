@@ -54,8 +54,8 @@ using KneecapTrack = std::array<Vec3<double>, kneecap_knots>;
 struct MemberMuscle {
   std::string_view name;
   MuscleGroup group;
-  std::span<const PathPoint> path;        // origin first
-  const KneecapTrack* kneecap = nullptr;  // what a path ends on after its last point, or null
+  std::span<const PathPoint> path;  // origin first
+  const KneecapTrack* kneecap;      // what a path ends on after its last point, or null
   /// Volume (cm³) = limb_share · (47 · mass · height + 1285) + offset_cm3, in kg and m.
   double limb_share, offset_cm3;
   /// As the published model has them (tendon slack length, aponeurosis included); kept for models with fibres.
@@ -76,13 +76,16 @@ const MemberMuscle* find_member_muscle(std::string_view name);
 /// Volume of a member in a body of that height and mass, cm³ (Handsfield et al. 2014).
 double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double mass_kg);
 
-/// How a group is drawn: from `anchor` towards the end of the path of `towards` that lies on the other side of the
-/// joint. Its belly's mesh begins `start_m` from the anchor and is `belly_m` long at the reference body's size.
+/// How a group is drawn, at the published leg's size: from `anchor` towards an insertion of one of its members. Its
+/// belly's mesh begins `start_m` from the anchor and is `belly_m` long; both scale as y of the bone `along` does.
+/// Hamstrings and triceps surae follow their largest member, semimembranosus and soleus, the latter from the middle of
+/// the calf under the knee, because soleus' published origin is the centroid of a long one. The quadriceps runs from
+/// the middle of its bellies to the middle of the kneecap: its largest member's line would leave the other three aside.
 struct GroupLine {
   MuscleGroup group;
   PathPoint anchor;
-  std::string_view towards;   // a member
-  std::size_t towards_point;  // of its path; the path's size: the kneecap
+  std::string_view towards;  // the member whose path's end it is
+  LegBone along;
   double start_m, belly_m;
   Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
 };

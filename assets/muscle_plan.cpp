@@ -1,0 +1,235 @@
+#include "assets/muscle_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "assets/anthropometry.h"
+#include "assets/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr double degree = std::numbers::pi / 180;
+
+Vec scaled(const PathPoint& p, const LegScale<double>& scale) {
+  const double along = p.bone == LegBone::thigh ? scale.thigh : p.bone == LegBone::shank ? scale.shank : scale.across;
+  return {scale.across * p.at_m.x, along * p.at_m.y, scale.across * p.at_m.z};
+}
+
+Vec world_point(const PathPoint& p, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const Vec at = scaled(p, scale);
+  switch (p.bone) {
+    case LegBone::pelvis:
+      return leg.hip_m + rotated(leg.pelvis, at);
+    case LegBone::thigh:
+      return leg.hip_m + rotated(leg.thigh, at);
+    case LegBone::shank:
+      return leg.knee_m + rotated(leg.shank, at);
+    case LegBone::foot:
+      break;
+  }
+  return leg.ankle_m + rotated(leg.foot, at);
+}
+
+/// 1 where the path bends round the point, 0 where it does not.
+double share_of_bend(const PathPoint& p, double flexion_deg) {
+  double share = 1;
+  if (p.from_deg > -180) share *= smoothstep(p.from_deg - path_blend_deg, p.from_deg + path_blend_deg, flexion_deg);
+  if (p.to_deg < 180) share *= 1 - smoothstep(p.to_deg - path_blend_deg, p.to_deg + path_blend_deg, flexion_deg);
+  return share;
+}
+
+bool always(const PathPoint& p) {
+  return p.from_deg <= -180 && p.to_deg >= 180;
+}
+
+Vec kneecap_at(const KneecapTrack& track, double flexion_deg) {
+  const KneecapSpline s = kneecap_spline(track);
+  const double u = flexion_deg / kneecap_knot_deg;
+  Vec at = s.at_zero + u * s.slope;
+  for (std::size_t k = 0; k < kneecap_knots; ++k) {
+    const double d = std::max(u - static_cast<double>(k), 0.0);
+    at = at + d * d * d * s.cubic[k];
+  }
+  return at;
+}
+
+/// The path's end at that knee flexion, as a point of its bone.
+PathPoint path_end(const MemberMuscle& muscle, double flexion_deg) {
+  if (muscle.kneecap == nullptr) return muscle.path.back();
+  return {LegBone::shank, kneecap_at(*muscle.kneecap, flexion_deg)};
+}
+
+/// First a, then b.
+Quat<double> product(const Quat<double>& b, const Quat<double>& a) {
+  return {b.w * a.x + b.x * a.w + b.y * a.z - b.z * a.y, b.w * a.y - b.x * a.z + b.y * a.w + b.z * a.x,
+          b.w * a.z + b.x * a.y - b.y * a.x + b.z * a.w, b.w * a.w - b.x * a.x - b.y * a.y - b.z * a.z};
+}
+
+/// The muscle frame: z along the unit vector, y the bone's anterior axis carried from the bone's −y to z by the
+/// smallest rotation.
+Quat<double> muscle_rotation(const Quat<double>& bone, const Vec& z) {
+  const Vec down = rotated(bone, {0, -1, 0});
+  const Vec axis = cross(down, z);
+  const double w = 1 + dot(down, z), length = std::sqrt(dot(axis, axis) + w * w);
+  const Quat<double> swing{axis.x / length, axis.y / length, axis.z / length, w / length};
+  const double half = std::numbers::sqrt2 / 2;
+  return product(swing, product(bone, {half, 0, 0, half}));
+}
+
+double along_scale(const GroupLine& line, const LegScale<double>& scale) {
+  return line.along == LegBone::shank ? scale.shank : scale.thigh;
+}
+
+double group_volume_m3(MuscleGroup group, double height_m, double mass_kg) {
+  double cm3 = 0;
+  for (const auto& muscle : members_of(group)) cm3 += handsfield_volume_cm3(muscle, height_m, mass_kg);
+  return 1e-6 * cm3;
+}
+
+LegScale<double> scale_of(double thigh_m, double shank_m) {
+  return {thigh_m / published_leg::thigh_m, shank_m / published_leg::shank_m,
+          (thigh_m + shank_m) / published_leg::leg_m};
+}
+
+}  // namespace
+
+KneecapSpline kneecap_spline(const KneecapTrack& track) {
+  constexpr std::size_t n = kneecap_knots;
+  // Second derivatives m: m₀ = mₙ₋₁ = 0, mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (tᵢ₋₁ − 2tᵢ + tᵢ₊₁), by elimination.
+  std::array<Vec, n> m{}, right{};
+  std::array<double, n> diagonal{};
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    right[i] = 6.0 * (track[i - 1] - 2.0 * track[i] + track[i + 1]);
+    diagonal[i] = 4;
+    if (i == 1) continue;
+    diagonal[i] -= 1 / diagonal[i - 1];
+    right[i] = right[i] - (1 / diagonal[i - 1]) * right[i - 1];
+  }
+  for (std::size_t i = n - 2; i > 0; --i) m[i] = (1 / diagonal[i]) * (right[i] - m[i + 1]);
+  KneecapSpline s{track[0], track[1] - track[0] - (1.0 / 6) * m[1], {}};
+  // The third derivative of piece k is mₖ₊₁ − mₖ; its jumps are the cubics' coefficients.
+  Vec before{};
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec third = k + 1 < n ? m[k + 1] - m[k] : Vec{};
+    s.cubic[k] = (1.0 / 6) * (third - before);
+    before = third;
+  }
+  return s;
+}
+
+LegScale<double> leg_scale(const Body& body) {
+  return scale_of(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
+}
+
+double reference_belly_m(MuscleGroup group) {
+  constexpr double height = reference_body_height_m;
+  const GroupLine& line = group_line(group);
+  return line.belly_m * along_scale(line, scale_of(fraction::thigh * height, fraction::shank * height));
+}
+
+LegFrames<double> anatomical_leg(const Body& body) {
+  const Vec hip = to_double(body.joint_offset_m[index(Segment::pelvis)]) +
+                  to_double(body.joint_offset_m[index(Segment::thigh_right)]);
+  const Vec knee = hip + to_double(body.joint_offset_m[index(Segment::shank_right)]);
+  const Vec ankle = knee + to_double(body.joint_offset_m[index(Segment::foot_right)]);
+  const Quat<double> identity{0, 0, 0, 1};
+  return {hip, knee, ankle, identity, identity, identity, identity};
+}
+
+double knee_flexion(const LegFrames<double>& leg) {
+  const Quat<double> q = product(conjugate(leg.thigh), leg.shank);
+  return 2 * std::atan2(q.w < 0 ? -q.x : q.x, std::abs(q.w));
+}
+
+double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const double flexion_deg = knee_flexion(leg) / degree;
+  const Vec end = world_point(path_end(muscle, flexion_deg), scale, leg);
+  Vec at = world_point(muscle.path.front(), scale, leg);
+  double sum = 0;
+  for (std::size_t i = 1; i < muscle.path.size(); ++i) {
+    Vec next = world_point(muscle.path[i], scale, leg);
+    if (!always(muscle.path[i])) {
+      // The straight line from where the path has come to the next point that always bends it.
+      std::size_t j = i + 1;
+      while (j < muscle.path.size() && !always(muscle.path[j])) ++j;
+      const Vec line = (j < muscle.path.size() ? world_point(muscle.path[j], scale, leg) : end) - at;
+      const double t = std::clamp(dot(next - at, line) / std::max(dot(line, line), 1e-12), 0.0, 1.0);
+      const Vec straight = at + t * line;
+      next = straight + share_of_bend(muscle.path[i], flexion_deg) * (next - straight);
+    }
+    sum += length(next - at);
+    at = next;
+  }
+  return muscle.kneecap == nullptr ? sum : sum + length(end - at);
+}
+
+double member_weight(const MemberMuscle& muscle) {
+  double all = 0;
+  for (const auto& m : members_of(muscle.group)) {
+    all += handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
+  }
+  return handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg) / all;
+}
+
+double group_length(MuscleGroup group, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  double sum = 0;
+  for (const auto& muscle : members_of(group)) sum += member_weight(muscle) * member_length(muscle, scale, leg);
+  return sum;
+}
+
+double physique_factor(const BodyRequest& request) {
+  constexpr std::array<double, 4> constitution = {0.85, 1.0, 1.20, 1.08};
+  const double meso = 1 + 0.06 * (static_cast<double>(request.biotype.meso) - 4);
+  return constitution[static_cast<std::size_t>(request.constitution)] * std::clamp(meso, 0.7, 1.6);
+}
+
+double bar_stiffness(const Material& material, double section_m2, double rest_length_m) {
+  return material.young_pa * section_m2 / rest_length_m;
+}
+
+Result<MusclePlan> make_muscle_plan(const Body& body, MuscleGroup group) {
+  const BodyRequest& request = body.request;
+  if (!(body.thigh_length_m > 0 && body.shank_length_m > 0 && request.height_m > 0 && request.mass_kg > 0)) {
+    return fail(fmt::format(
+        "muscles: a body with thigh {} m, shank {} m, height {} m and mass {} kg; all must be positive, use make_body",
+        body.thigh_length_m, body.shank_length_m, request.height_m, request.mass_kg));
+  }
+  if (static_cast<std::size_t>(group) >= muscle_group_count || request.constitution > Constitution::heavy) {
+    return fail("muscles: no such muscle group or constitution; choose one of the named values");
+  }
+  const GroupLine& line = group_line(group);
+  const LegScale<double> scale = leg_scale(body);
+  const LegFrames<double> leg = anatomical_leg(body);
+  const Vec anchor = world_point(line.anchor, scale, leg);
+  const Vec end = world_point(path_end(*find_member_muscle(line.towards), 0), scale, leg);
+  const Vec z = normalised(end - anchor);
+
+  MusclePlan plan;
+  plan.group = group;
+  plan.rest_length_m = group_length(group, scale, leg);
+  plan.belly_length_m = line.belly_m * along_scale(line, scale);
+  const double start = line.start_m * along_scale(line, scale);
+  plan.tendon_length_m = length(end - anchor) - start - plan.belly_length_m;
+  plan.volume_m3 = physique_factor(request) *
+                   group_volume_m3(group, static_cast<double>(request.height_m), static_cast<double>(request.mass_kg));
+  plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
+  plan.start_m = anchor + start * z;
+  plan.rotation = muscle_rotation({0, 0, 0, 1}, z);
+  plan.origin = line.origin;
+  plan.insertion = line.insertion;
+
+  const double belly = reference_belly_m(group);
+  const double section = group_volume_m3(group, reference_body_height_m, reference_body_mass_kg) / belly;
+  plan.scale = {static_cast<float>(std::sqrt(plan.section_m2 / section)),
+                static_cast<float>(plan.belly_length_m / belly)};
+  plan.leg_scale = {static_cast<float>(scale.thigh), static_cast<float>(scale.shank), static_cast<float>(scale.across)};
+  return plan;
+}
+
+}  // namespace mobil

@@ -6,14 +6,15 @@
 #include <optional>
 
 #include "assets/geometry.h"
-#include "assets/muscle_sections.h"
+#include "assets/muscle_plan.h"
+#include "assets/muscle_shapes.h"
+#include "assets/muscle_table.h"
 
 namespace mobil {
 namespace {
 
 using namespace geometry;
 
-constexpr std::size_t member_count = 11;
 constexpr int rings = 36, segments = 18;
 constexpr TubeShape muscle_shape{
     .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = rings, .segments = segments, .cap = 0.5};
@@ -82,7 +83,9 @@ double growth(const MuscleShape& shape, double girth, double level, Point direct
   return (1 - w) * at(a) + w * at(b);
 }
 
-std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, double girth, double girth_beneath) {
+/// `beneath`: the muscle that it lies on, or null.
+std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, double girth, const MuscleShape* beneath,
+                               double girth_beneath) {
   double largest = 0;
   for (const auto& s : shape.sections) largest = std::max(largest, area(s));
   std::vector<LegSection> out(shape.sections.begin(), shape.sections.end());
@@ -94,8 +97,7 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
     away = {away.l / distance, away.a / distance};
     const double thick = belly(s, largest);
     double shift = reach(s, away) * (girth - 1) * thick;
-    if (shape.lies_on != no_muscle)
-      shift += 2 * growth(muscle_shapes()[shape.lies_on], girth_beneath, level, away) * thick;
+    if (beneath != nullptr) shift += 2 * growth(*beneath, girth_beneath, level, away) * thick;
     const double factor = 1 + (girth - 1) * thick;
     Point moved{static_cast<double>(s.lateral) + shift * away.l, static_cast<double>(s.anterior) + shift * away.a};
     if (shape.group == MuscleGroup::quadriceps) {
@@ -208,14 +210,13 @@ GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
 
 }  // namespace
 
-std::array<double, 11> member_volumes_m3(const Body& body) {
-  // cm³ of a man of 1.70 m and 75 kg: the volumes behind the model of Rajagopal et al. 2016, in proportion to height
-  // times mass (Handsfield et al. 2014).
-  constexpr std::array<double, member_count> reference_cm3 = {253, 190, 214, 102, 277, 443, 281, 853, 265, 154, 454};
-  const double size =
-      static_cast<double>(body.request.height_m) * static_cast<double>(body.request.mass_kg) / (1.70 * 75);
-  std::array<double, member_count> volume{};
-  for (std::size_t m = 0; m < member_count; ++m) volume[m] = 1e-6 * size * reference_cm3[m];
+std::vector<double> member_volumes_m3(const Body& body) {
+  std::vector<double> volume;
+  for (const MemberMuscle& m : member_muscles()) {
+    volume.push_back(1e-6 * physique_factor(body.request) *
+                     handsfield_volume_cm3(m, static_cast<double>(body.request.height_m),
+                                           static_cast<double>(body.request.mass_kg)));
+  }
   return volume;
 }
 
@@ -231,14 +232,13 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   const auto shapes = muscle_shapes();
   const auto volumes = member_volumes_m3(body);
 
-  std::array<double, 12> girth;
-  girth.fill(1);
+  std::vector<double> girth(shapes.size(), 1.0);
   const auto surface_of = [&](std::size_t m, double g) {
-    const double beneath = shapes[m].lies_on == no_muscle ? 1 : girth[shapes[m].lies_on];
-    return fitted(f, shapes[m], g, beneath);
+    const std::size_t n = shapes[m].lies_on;
+    return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
   };
   for (const bool covering : {false, true}) {
-    for (std::size_t m = 0; m < member_count; ++m) {
+    for (std::size_t m = 0; m < volumes.size(); ++m) {
       if ((shapes[m].lies_on != no_muscle) != covering) continue;
       double low = 0.4, high = 2.5;
       for (int i = 0; i < 14; ++i) {
@@ -257,7 +257,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;
     s.tendon = tendon_shares(leg, sections, shapes[m].sections, s.surface.mesh);
-    if (m >= member_count) s.tendon.assign(s.tendon.size(), 1.0F);
+    if (m >= volumes.size()) s.tendon.assign(s.tendon.size(), 1.0F);
     all.push_back(std::move(s));
   }
   all.push_back(patellar_ligament(body, f));

@@ -1,7 +1,6 @@
 #pragma once
 // The muscles of the right leg as lofted surfaces, from measured sections and the body's own volumes.
 
-#include <array>
 #include <vector>
 
 #include "components/body.h"
@@ -22,11 +21,11 @@ struct GroupSurface {
 
 /// Eleven members, then the calcaneal tendon and the patellar ligament; right side, world axes, the body standing in
 /// the anatomical position at x = z = 0, m; closed, wound outwards, not bound yet. Each follows its measured path
-/// (muscle_sections.h) on this body's bones; its girth is set so that it encloses the member's volume, growing away
+/// (muscle_shapes.h) on this body's bones; its girth is set so that it encloses the member's volume, growing away
 /// from the bone, and it is cut back where it would enter the femur or the tibia.
 std::vector<GroupSurface> make_muscle_surfaces(const Body& body);
 
-/// Volume of each of the eleven members in this body, m³, in the order of muscle_shapes().
-std::array<double, 11> member_volumes_m3(const Body& body);
+/// Volume of each member in this body, its physique included, m³, in the order of member_muscles().
+std::vector<double> member_volumes_m3(const Body& body);
 
 }  // namespace mobil

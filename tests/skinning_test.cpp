@@ -12,7 +12,7 @@
 #include "assets/muscle_surfaces.h"
 #include "assets/surface_binding.h"
 #include "assets/tube.h"
-#include "systems/skinning.h"
+#include "systems/skinning/skinning.h"
 
 namespace mobil {
 namespace {

@@ -11,7 +11,7 @@
 #include "assets/anthropometry.h"
 #include "assets/bone_surfaces.h"
 #include "assets/geometry.h"
-#include "assets/muscle_sections.h"
+#include "assets/leg_sections.h"
 #include "assets/muscle_surfaces.h"
 #include "assets/tube.h"
 
@@ -222,6 +222,22 @@ TEST(MuscleSurfaces, AreClosedAndHoldTheirVolumes) {
       }
       for (const auto& p : mesh.position) ASSERT_LT(p.x, 0.02F) << mesh.name;  // the right leg
     }
+  }
+}
+
+TEST(MuscleSurfaces, PhysiqueChangesGirthNotLength) {
+  BodyRequest thin{.height_m = 1.8F, .mass_kg = 75}, athletic = thin;
+  thin.constitution = Constitution::thin;
+  athletic.constitution = Constitution::athletic;
+  athletic.biotype.meso = 6;
+  const auto a = make_muscle_surfaces(make_body(thin).value()), b = make_muscle_surfaces(make_body(athletic).value());
+  for (std::size_t m = 0; m < a.size(); ++m) {
+    const auto &p = a[m].surface.mesh, &q = b[m].surface.mesh;
+    const double ratio = enclosed_volume(q) / enclosed_volume(p);
+    if (a[m].tendon.end() == std::find(a[m].tendon.begin(), a[m].tendon.end(), 0.0F)) continue;
+    EXPECT_GT(ratio, 1.3) << p.name;
+    EXPECT_LT(length(to_double(p.position.front()) - to_double(q.position.front())), 0.01) << p.name;
+    EXPECT_LT(length(to_double(p.position.back()) - to_double(q.position.back())), 0.01) << p.name;
   }
 }
 

@@ -1,4 +1,4 @@
-#include "systems/skinning.h"
+#include "systems/skinning/skinning.h"
 
 #include <array>
 

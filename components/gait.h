@@ -13,32 +13,32 @@ namespace mobil {
 /// The parameters that tell one walker from another. Angles in degrees; lengths in fractions of body height where the
 /// name says _h; each has its range in `gait_parameters`.
 struct GaitStyle {
-  float pelvis_rotation_deg = 4.5F;      // to each side, transverse plane
-  float pelvis_list_deg = 4.0F;          // to each side, frontal plane
-  float pelvis_shift_h = 0.0125F;        // toward the stance foot
-  float pelvis_tilt_deg = 3.0F;          // mean, anterior
+  float pelvis_rotation_deg = 4.5F;  // to each side, transverse plane
+  float pelvis_list_deg = 4.0F;      // to each side, frontal plane
+  float pelvis_shift_h = 0.0125F;    // toward the stance foot
+  float pelvis_tilt_deg = 3.0F;      // mean, anterior
   float pelvis_tilt_wave_deg = 0.8F;
-  float step_width_h = 0.055F;           // between the ankles' lines
+  float step_width_h = 0.055F;  // between the ankles' lines
   float toe_out_deg = 6.0F;
-  float strike_pitch_deg = 20.0F;        // toes up at heel strike
+  float strike_pitch_deg = 20.0F;  // toes up at heel strike
   float strike_knee_deg = 5.0F;
-  float foot_flat_cycle = 0.08F;         // of the cycle, from heel strike
-  float stance_knee_deg = 8.0F;          // least flexion before the heel rises
+  float foot_flat_cycle = 0.08F;  // of the cycle, from heel strike
+  float stance_knee_deg = 8.0F;   // least flexion before the heel rises
   float toe_off_knee_deg = 31.0F;
-  float knee_release_cycle = 0.37F;      // when the trailing knee starts to yield
-  float swing_knee_deg = 62.0F;          // greatest flexion asked of the swing
-  float swing_ankle_deg = 3.0F;          // dorsiflexion in mid-swing
+  float knee_release_cycle = 0.37F;  // when the trailing knee starts to yield
+  float swing_knee_deg = 62.0F;      // greatest flexion asked of the swing
+  float swing_ankle_deg = 3.0F;      // dorsiflexion in mid-swing
   float toe_clearance_m = 0.012F;
-  float foot_pivot_h = 0.012F;           // support pivot ahead of the ankle
-  float mid_stance_height = 0.995F;      // hip over the ground in mid-stance, of its standing height
-  float hip_fall = 0.47F;                // fall of the hip toward double support, of a stiff leg's
+  float foot_pivot_h = 0.012F;             // support pivot ahead of the ankle
+  float mid_stance_height = 0.995F;        // hip over the ground in mid-stance, of its standing height
+  float hip_fall = 0.47F;                  // fall of the hip toward double support, of a stiff leg's
   float leg_stiffness_n_per_m = 16000.0F;  // at 1.8 m; the same for light and heavy people
-  float leg_damping = 0.40F;             // of critical
-  float roll_over = 0.35F;               // travel of the centre of pressure, of the hip's
+  float leg_damping = 0.40F;               // of critical
+  float roll_over = 0.35F;                 // travel of the centre of pressure, of the hip's
   float double_support_scale = 1.0F;
   float trunk_lean_deg = 2.0F;
-  float trunk_stiffness = 3.0F;          // of the trunk's toppling stiffness
-  float shoulder_rotation = 1.0F;        // against the pelvis, times its rotation
+  float trunk_stiffness = 3.0F;    // of the trunk's toppling stiffness
+  float shoulder_rotation = 1.0F;  // against the pelvis, times its rotation
   float arm_back_deg = 18.0F, arm_forward_deg = 16.0F;
   float elbow_back_deg = 10.0F, elbow_forward_deg = 35.0F;
   float arm_abduction_deg = 6.0F;
@@ -93,7 +93,7 @@ inline constexpr std::array<GaitParameter, 33> gait_parameters = {{
 /// one alone is completed by step length = 0.004 · steps per minute · height (Bruderlin & Calvert); none means 5 km/h;
 /// three must agree within 1 %.
 struct GaitRequest {
-  std::optional<float> speed_m_s, step_length_m, step_frequency_hz;
+  std::optional<float> speed_m_s{}, step_length_m{}, step_frequency_hz{};
   GaitStyle style{};
 };
 

@@ -7,7 +7,9 @@
 namespace mobil {
 namespace {
 
-bool inside(double value, double low, double high) { return value >= low && value <= high; }
+bool inside(double value, double low, double high) {
+  return value >= low && value <= high;
+}
 
 }  // namespace
 
@@ -32,9 +34,10 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
     speed = *speed_asked;
     length = *length_asked;
     if (frequency_asked && !(std::fabs(length * *frequency_asked / speed - 1.0) < 0.01))
-      return fail(fmt::format("gait: speed {} m/s is not step length {} m times step frequency {} Hz = {:.3g} m/s; "
-                              "leave one of the three out",
-                              speed, length, *frequency_asked, length * *frequency_asked));
+      return fail(
+          fmt::format("gait: speed {} m/s is not step length {} m times step frequency {} Hz = {:.3g} m/s; "
+                      "leave one of the three out",
+                      speed, length, *frequency_asked, length * *frequency_asked));
   } else if (frequency_asked && (speed_asked || length_asked)) {
     speed = speed_asked ? *speed_asked : *length_asked * *frequency_asked;
     length = speed / *frequency_asked;
@@ -47,18 +50,21 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
   }
 
   if (!inside(speed, 0.3 * scale, 2.3 * scale))
-    return fail(fmt::format("gait: a speed of {:.3g} m/s is outside {:.2f}–{:.2f} m/s for a height of {:.2f} m; choose "
-                            "a speed within that range",
-                            speed, 0.3 * scale, 2.3 * scale, height));
+    return fail(
+        fmt::format("gait: a speed of {:.3g} m/s is outside {:.2f}–{:.2f} m/s for a height of {:.2f} m; choose "
+                    "a speed within that range",
+                    speed, 0.3 * scale, 2.3 * scale, height));
   if (!inside(length, 0.25 * leg, 1.25 * leg))
-    return fail(fmt::format("gait: a step length of {:.3g} m is outside {:.2f}–{:.2f} m for a height of {:.2f} m; "
-                            "choose a step length within that range, or another step frequency",
-                            length, 0.25 * leg, 1.25 * leg, height));
+    return fail(
+        fmt::format("gait: a step length of {:.3g} m is outside {:.2f}–{:.2f} m for a height of {:.2f} m; "
+                    "choose a step length within that range, or another step frequency",
+                    length, 0.25 * leg, 1.25 * leg, height));
   const double frequency = speed / length;
   if (!inside(frequency, 0.5 / scale, 3.0 / scale))
-    return fail(fmt::format("gait: a step frequency of {:.3g} Hz is outside {:.2f}–{:.2f} Hz for a height of {:.2f} m; "
-                            "choose speed and step length nearer to each other",
-                            frequency, 0.5 / scale, 3.0 / scale, height));
+    return fail(
+        fmt::format("gait: a step frequency of {:.3g} Hz is outside {:.2f}–{:.2f} Hz for a height of {:.2f} m; "
+                    "choose speed and step length nearer to each other",
+                    frequency, 0.5 / scale, 3.0 / scale, height));
   Gait gait;
   gait.speed_m_s = static_cast<float>(speed);
   gait.step_length_m = static_cast<float>(length);

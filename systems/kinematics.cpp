@@ -97,8 +97,7 @@ HWY_INLINE FootMotion foot_motion(const StepPlan<Lanes<float>>& plan, const Wide
   const Wide swing_out = fma(ease, load(plan.swing_out_to_m) - from, from);
   foot.ankle.x = wide(out) * select(swinging, swing_out, stand_out);
   foot.ankle.y = select(swinging, curve_at(plan.swing_up_m, in_swing), up);
-  foot.ankle.z =
-      forward + select(swinging, curve_at(plan.swing_forward_m, in_swing), load(plan.toe_out_cos) * along);
+  foot.ankle.z = forward + select(swinging, curve_at(plan.swing_forward_m, in_swing), load(plan.toe_out_cos) * along);
   return foot;
 }
 
@@ -137,7 +136,8 @@ HWY_INLINE Wide pose_leg(const StepPlan<Lanes<float>>& plan, const FootMotion& f
   const Vec3<double> knee = unit_body.joint_offset[index(shank)], cap = unit_body.joint_offset[index(patella)];
   skeleton.rotation[index(patella)] = half_way;
   skeleton.position[index(patella)] =
-      skeleton.position[index(shank)] + rotate(half_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height));
+      skeleton.position[index(shank)] +
+      rotate(half_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height));
 
   const Wide yaw = atan2(load(plan.toe_out_sin), load(plan.toe_out_cos)) * wide(side == left ? 1.0F : -1.0F);
   const WideQuat outward = turn_y(yaw);
@@ -194,8 +194,8 @@ HWY_INLINE void pose_arm(const StepPlan<Lanes<float>>& plan, const Wide& opposit
   skeleton.hang(of(clavicle_right), skeleton.parent_rotation(of(clavicle_right)));
   const WideQuat& trunk = skeleton.rotation[index(of(clavicle_right))];
   // A part of the pronation is the upper arm's inward turn.
-  const WideQuat arm = trunk * (turn_z(load(plan.arm_abduction) * wide(out)) *
-                                (turn_x(-shoulder) * turn_y(wide(0.3F) * pronation)));
+  const WideQuat arm =
+      trunk * (turn_z(load(plan.arm_abduction) * wide(out)) * (turn_x(-shoulder) * turn_y(wide(0.3F) * pronation)));
   skeleton.hang(of(upper_arm_right), arm);
   skeleton.hang(of(forearm_right), arm * (turn_x(-elbow) * turn_y(wide(0.7F) * pronation)));
   const WideQuat& forearm = skeleton.rotation[index(of(forearm_right))];

@@ -22,7 +22,9 @@ struct WideQuat {
   Wide x, y, z, w;
 };
 
-HWY_INLINE WideVec operator+(const WideVec& a, const WideVec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+HWY_INLINE WideVec operator+(const WideVec& a, const WideVec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 
 HWY_INLINE WideVec scaled(const Vec3<double>& v, const Wide& by) {
   return {wide(static_cast<float>(v.x)) * by, wide(static_cast<float>(v.y)) * by, wide(static_cast<float>(v.z)) * by};
@@ -61,7 +63,9 @@ HWY_INLINE WideQuat turn_z(const Wide& angle) {
 }
 
 /// Turned about y, within that about z, within that about x.
-HWY_INLINE WideQuat turn_yzx(const Wide& y, const Wide& z, const Wide& x) { return turn_y(y) * (turn_z(z) * turn_x(x)); }
+HWY_INLINE WideQuat turn_yzx(const Wide& y, const Wide& z, const Wide& x) {
+  return turn_y(y) * (turn_z(z) * turn_x(x));
+}
 
 /// Value of one of two neighbouring curves (the second where `second` is 1, the first where it is 0) at u in [0, 1].
 HWY_INLINE Wide curve_at(const Curve<Lanes<float>>* curve, const Wide& second, const Wide& u) {
@@ -77,7 +81,9 @@ HWY_INLINE Wide curve_at(const Curve<Lanes<float>>* curve, const Wide& second, c
   const Wide two = wide(2.0F), one = wide(1.0F);
   return fma(r * r, fma(fma(two, t, one), a, t * da), (t * t) * (fma(fma(two, r, one), b, -(r * db))));
 }
-HWY_INLINE Wide curve_at(const Curve<Lanes<float>>& curve, const Wide& u) { return curve_at(&curve, wide(0.0F), u); }
+HWY_INLINE Wide curve_at(const Curve<Lanes<float>>& curve, const Wide& u) {
+  return curve_at(&curve, wide(0.0F), u);
+}
 
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

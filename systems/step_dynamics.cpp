@@ -34,8 +34,8 @@ std::array<double, 2> swing_acceleration(const SwingModel& m, const SwingState& 
   const SinCos d = sin_cos(thigh - shank), t = sin_cos(thigh), s = sin_cos(shank);
   const double moment = m.thigh_mass * m.thigh_centre + m.shank_mass * m.thigh_length;
   const double coupling = m.shank_mass * m.thigh_length * m.shank_centre;
-  const double a11 = m.thigh_inertia + m.thigh_mass * m.thigh_centre * m.thigh_centre +
-                     m.shank_mass * m.thigh_length * m.thigh_length;
+  const double a11 =
+      m.thigh_inertia + m.thigh_mass * m.thigh_centre * m.thigh_centre + m.shank_mass * m.thigh_length * m.thigh_length;
   const double a22 = m.shank_inertia + m.shank_mass * m.shank_centre * m.shank_centre;
   const double a12 = coupling * d.cosine;
   const double b1 = force[0] - coupling * d.sine * shank_rate * shank_rate -

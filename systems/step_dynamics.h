@@ -11,8 +11,8 @@ namespace mobil::step {
 /// Masses (kg), lengths (m) and moments of inertia (kg m²) of the support model: a leg of changing length ω whose
 /// centre of mass lies at κω from the foot, the swing leg's mass at the hip, the trunk (head and arms included) on it.
 struct SupportModel {
-  double leg_mass, leg_centre, leg_inertia;  // m₁, κ, I₁
-  double hip_mass;                           // m_h
+  double leg_mass, leg_centre, leg_inertia;        // m₁, κ, I₁
+  double hip_mass;                                 // m_h
   double trunk_mass, trunk_centre, trunk_inertia;  // m₂, r₂, I₂
 };
 

@@ -20,6 +20,26 @@ double hermite(double u, double h, double a, double a_rate, double b, double b_r
   return v * v * ((1.0 + 2.0 * u) * a + u * h * a_rate) + u * u * ((1.0 + 2.0 * v) * b - v * h * b_rate);
 }
 
+/// How high the hip passes mid-stance. Legs of one stiffness sink under the weight that a body of this height carries
+/// beyond 22 kg/m²; they sink less and less, and a light body's cannot become longer than straight.
+double mid_height(const Body& body, const GaitStyle& style, double stiffness) {
+  const double height = body.request.height_m, stand = body.hip_height_m;
+  const double excess = (body.request.mass_kg - 22.0 * height * height) * gravity / (stiffness * stand);
+  constexpr double most = 0.018;
+  const double sag = most * excess / std::sqrt(most * most + excess * excess);
+  return stand * (style.mid_stance_height - (excess > 0.0 ? sag : 0.1 * sag));
+}
+
+/// Highest place of the middle of the hips at heel strike from which the leading leg reaches the ground.
+double reachable_height(const Leg& leg) {
+  const Foot foot = leg.planted(leg.strike_pitch);
+  const Point offset = leg.hip_offset(0.0);
+  const double behind = -0.5 * leg.step_length + leg.pivot_forward + offset.forward - foot.ankle.forward;
+  const double aside = offset.out - foot.ankle.out;
+  const double reach = leg.reach(leg.strike_knee);
+  return foot.ankle.up + std::sqrt(std::fmax(reach * reach - behind * behind - aside * aside, 0.0)) - offset.up;
+}
+
 }  // namespace
 
 Leg make_leg(const Body& body, const Gait& gait) {
@@ -86,9 +106,8 @@ Point Leg::hip_offset(double t) const {
   namespace p = pelvis_phase;
   const double at = t / duration;
   const SinCos turned = sin_cos(rotation * sin_cos(pi * (at - p::rotation)).cosine);
-  const SinCos listed =
-      sin_cos(list * (p::list_first * sin_cos(pi * (at - p::list_first_phase)).cosine +
-                      p::list_third * sin_cos(3.0 * pi * (at - p::list_third_phase)).cosine));
+  const SinCos listed = sin_cos(list * (p::list_first * sin_cos(pi * (at - p::list_first_phase)).cosine +
+                                        p::list_third * sin_cos(3.0 * pi * (at - p::list_third_phase)).cosine));
   const double toward = shift * sin_cos(pi * (t - 0.5 * double_support) / duration).sine;
   return {hip_half_spacing * listed.cosine * turned.cosine + toward, hip_half_spacing * listed.sine,
           hip_half_spacing * listed.cosine * turned.sine};
@@ -130,9 +149,9 @@ Foot Leg::stance(double t) const {
   // The heel rises as much as the hip's distance asks for, given how far the knee is to be bent.
   const Point h = hip(t);
   const Point flat_ankle = planted(0.0).ankle;
-  const double flat_reach = std::sqrt((h.out - flat_ankle.out) * (h.out - flat_ankle.out) +
-                                      (h.up - flat_ankle.up) * (h.up - flat_ankle.up) +
-                                      (h.forward - flat_ankle.forward) * (h.forward - flat_ankle.forward));
+  const double flat_reach =
+      std::sqrt((h.out - flat_ankle.out) * (h.out - flat_ankle.out) + (h.up - flat_ankle.up) * (h.up - flat_ankle.up) +
+                (h.forward - flat_ankle.forward) * (h.forward - flat_ankle.forward));
   const double u = std::fmax((t - release) / (toe_off - release), 0.0);
   const double bent = stance_knee + (toe_off_knee - stance_knee) * u * u;
   double wanted = soft_min(flat_reach, reach(bent), 0.008 * (thigh + shank));
@@ -146,10 +165,9 @@ Foot Leg::stance(double t) const {
   const double over = ankle_height - toe_joint_height;
   const double radius = std::sqrt(ball_forward * ball_forward + over * over);
   const double distance = std::sqrt(along * along + up * up);
-  const double cosine = (radius * radius + distance * distance - (wanted * wanted - aside * aside)) /
-                        (2.0 * radius * distance);
-  const double pitch =
-      arc_tangent(up, along) + arc_cosine(std::fmin(cosine, 1.0)) - arc_tangent(over, -ball_forward);
+  const double cosine =
+      (radius * radius + distance * distance - (wanted * wanted - aside * aside)) / (2.0 * radius * distance);
+  const double pitch = arc_tangent(up, along) + arc_cosine(std::fmin(cosine, 1.0)) - arc_tangent(over, -ball_forward);
   return planted(std::fmin(pitch, 0.0));
 }
 
@@ -161,6 +179,33 @@ LegAngles Leg::angles(const Point& hip_at, const Point& ankle) const {
     return arc_cosine(std::fmin((near * near + distance * distance - far * far) / (2.0 * near * distance), 1.0));
   };
   return {direction + corner(thigh, shank), direction - corner(shank, thigh), distance};
+}
+
+SupportRequest support_request(const Body& body, const Gait& gait, const Leg& leg) {
+  const GaitStyle& style = gait.style;
+  const double mass = body.request.mass_kg, height = body.request.height_m;
+  // Winter's fractions: leg 0.161, head-arms-trunk 0.678 of the mass; the trunk's length is 0.288 of the height.
+  const double trunk = 0.288 * height, leg_gyration = 0.326 * (leg.thigh + leg.shank);
+  SupportRequest r{};
+  r.model = {0.161 * mass, 0.553,         0.161 * mass * leg_gyration * leg_gyration,  0.161 * mass,
+             0.678 * mass, 0.626 * trunk, 0.678 * mass * 0.496 * 0.496 * trunk * trunk};
+  const double stiffness = style.leg_stiffness_n_per_m * height / 1.8;
+  r.duration_s = leg.duration;
+  r.step_length_m = leg.step_length;
+  r.mid_height_m = mid_height(body, style, stiffness);
+  const double stiff =
+      r.mid_height_m -
+      std::sqrt(std::fmax(r.mid_height_m * r.mid_height_m - 0.25 * leg.step_length * leg.step_length, 0.0));
+  r.strike_height_m = std::fmin(r.mid_height_m - style.hip_fall * stiff, reachable_height(leg));
+  r.stiffness_n_per_m = stiffness;
+  r.damping_n_s_per_m = 2.0 * style.leg_damping * std::sqrt(stiffness * mass);
+  r.roll_over = style.roll_over;
+  r.trunk_lean_rad = style.trunk_lean_deg * degree;
+  const double topple = r.model.trunk_mass * gravity * r.model.trunk_centre;
+  const double inertia = r.model.trunk_inertia + r.model.trunk_mass * r.model.trunk_centre * r.model.trunk_centre;
+  r.trunk_stiffness_nm = style.trunk_stiffness * topple;
+  r.trunk_damping_nm_s = std::sqrt(r.trunk_stiffness_nm * inertia);
+  return r;
 }
 
 }  // namespace mobil::step

@@ -53,4 +53,7 @@ struct Leg {
 /// Geometry and timing of a body's leg at a gait, before the support step is known (hip_path empty).
 Leg make_leg(const Body& body, const Gait& gait);
 
+/// The support step that goes with it: masses, leg spring, and the heights between which the hip moves.
+SupportRequest support_request(const Body& body, const Gait& gait, const Leg& leg);
+
 }  // namespace mobil::step

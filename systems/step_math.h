@@ -27,10 +27,14 @@ inline SinCos sin_cos(double x) {
   for (int n = 16; n > 0; n -= 2) c = 1.0 - c * r2 / (n * (n - 1));
   s *= r;
   switch (static_cast<int>(quadrant - 4.0 * std::floor(quadrant / 4.0))) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -50,7 +54,9 @@ inline double arc_tangent(double y, double x) {
   return y < 0.0 ? -angle : angle;
 }
 
-inline double arc_cosine(double c) { return arc_tangent(std::sqrt(std::fmax(1.0 - c * c, 0.0)), c); }
+inline double arc_cosine(double c) {
+  return arc_tangent(std::sqrt(std::fmax(1.0 - c * c, 0.0)), c);
+}
 
 /// 0 below a, 1 above b, with continuous slope between.
 inline double smooth_step(double t, double a, double b) {

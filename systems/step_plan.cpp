@@ -17,57 +17,6 @@ using namespace step;
 
 constexpr std::size_t intervals = knot_count - 1;
 
-/// How high the hip passes mid-stance. Legs of one stiffness sink under the weight that a body of this height carries
-/// beyond 22 kg/m²; they sink less and less, and a light body's cannot become longer than straight.
-double mid_height(const Body& body, const GaitStyle& style, double stiffness) {
-  const double height = body.request.height_m, stand = body.hip_height_m;
-  const double excess = (body.request.mass_kg - 22.0 * height * height) * gravity / (stiffness * stand);
-  constexpr double most = 0.018;
-  const double sag = most * excess / std::sqrt(most * most + excess * excess);
-  return stand * (style.mid_stance_height - (excess > 0.0 ? sag : 0.1 * sag));
-}
-
-/// Highest place of the middle of the hips at heel strike from which the leading leg reaches the ground.
-double reachable_height(const Leg& leg) {
-  const Foot foot = leg.planted(leg.strike_pitch);
-  const Point offset = leg.hip_offset(0.0);
-  const double behind = -0.5 * leg.step_length + leg.pivot_forward + offset.forward - foot.ankle.forward;
-  const double aside = offset.out - foot.ankle.out;
-  const double reach = leg.reach(leg.strike_knee);
-  return foot.ankle.up + std::sqrt(std::fmax(reach * reach - behind * behind - aside * aside, 0.0)) - offset.up;
-}
-
-SupportRequest support_request(const Body& body, const Gait& gait, const Leg& leg) {
-  const GaitStyle& style = gait.style;
-  const double mass = body.request.mass_kg, height = body.request.height_m;
-  // Winter's fractions: leg 0.161, head-arms-trunk 0.678 of the mass; the trunk's length is 0.288 of the height.
-  const double trunk = 0.288 * height, leg_gyration = 0.326 * (leg.thigh + leg.shank);
-  SupportRequest r{};
-  r.model = {0.161 * mass,
-             0.553,
-             0.161 * mass * leg_gyration * leg_gyration,
-             0.161 * mass,
-             0.678 * mass,
-             0.626 * trunk,
-             0.678 * mass * 0.496 * 0.496 * trunk * trunk};
-  const double stiffness = style.leg_stiffness_n_per_m * height / 1.8;
-  r.duration_s = leg.duration;
-  r.step_length_m = leg.step_length;
-  r.mid_height_m = mid_height(body, style, stiffness);
-  const double stiff = r.mid_height_m - std::sqrt(std::fmax(
-      r.mid_height_m * r.mid_height_m - 0.25 * leg.step_length * leg.step_length, 0.0));
-  r.strike_height_m = std::fmin(r.mid_height_m - style.hip_fall * stiff, reachable_height(leg));
-  r.stiffness_n_per_m = stiffness;
-  r.damping_n_s_per_m = 2.0 * style.leg_damping * std::sqrt(stiffness * mass);
-  r.roll_over = style.roll_over;
-  r.trunk_lean_rad = style.trunk_lean_deg * degree;
-  const double topple = r.model.trunk_mass * gravity * r.model.trunk_centre;
-  const double inertia = r.model.trunk_inertia + r.model.trunk_mass * r.model.trunk_centre * r.model.trunk_centre;
-  r.trunk_stiffness_nm = style.trunk_stiffness * topple;
-  r.trunk_damping_nm_s = std::sqrt(r.trunk_stiffness_nm * inertia);
-  return r;
-}
-
 /// Bends the trailing knee less, and then ends double support earlier, until the foot leaves the ground no steeper than
 /// the calf allows. False if no toe-off is possible.
 bool fit_toe_off(Leg& leg) {
@@ -94,9 +43,12 @@ void fit(Curve<float>& curve, std::size_t dense, double span, double first_rate,
   for (std::size_t k = 0; k < knot_count; ++k) {
     const std::size_t i = k * every;
     double slope;
-    if (k == 0) slope = first_rate * span / intervals;
-    else if (k == intervals) slope = last_rate * span / intervals;
-    else slope = (8.0 * (value(i + 1) - value(i - 1)) - (value(i + 2) - value(i - 2))) / 12.0 * static_cast<double>(every);
+    if (k == 0)
+      slope = first_rate * span / intervals;
+    else if (k == intervals)
+      slope = last_rate * span / intervals;
+    else
+      slope = (8.0 * (value(i + 1) - value(i - 1)) - (value(i + 2) - value(i - 2))) / 12.0 * static_cast<double>(every);
     curve.value[k] = static_cast<float>(value(i));
     curve.slope[k] = static_cast<float>(slope);
   }
@@ -117,17 +69,19 @@ Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
   leg.hip_path = support->sample;
 
   if (!fit_toe_off(leg))
-    return fail(fmt::format("gait: a step of {:.2f} m at {:.2f} m/s is too long for legs of {:.2f} m; choose a shorter "
-                            "step or a lower speed",
-                            leg.step_length, gait.speed_m_s, leg.thigh + leg.shank));
+    return fail(
+        fmt::format("gait: a step of {:.2f} m at {:.2f} m/s is too long for legs of {:.2f} m; choose a shorter "
+                    "step or a lower speed",
+                    leg.step_length, gait.speed_m_s, leg.thigh + leg.shank));
   constexpr std::size_t dense = 96;
   for (std::size_t i = 0; i <= dense; ++i) {
     const double t = leg.toe_off * static_cast<double>(i) / dense;
     const double reach = leg.angles(leg.hip(t), leg.stance(t).ankle).reach;
     if (!(reach < 0.9999 * leg.reach(0.0)))
-      return fail(fmt::format("gait: a step of {:.2f} m at {:.2f} m/s would stretch the standing leg beyond straight; "
-                              "choose a shorter step or a lower mid_stance_height",
-                              leg.step_length, gait.speed_m_s));
+      return fail(
+          fmt::format("gait: a step of {:.2f} m at {:.2f} m/s would stretch the standing leg beyond straight; "
+                      "choose a shorter step or a lower mid_stance_height",
+                      leg.step_length, gait.speed_m_s));
   }
   Result<Swing> swing = solve_swing(leg, swing_model(leg, body.request.mass_kg), style);
   if (!swing) return fail(swing.error().message);
@@ -182,7 +136,8 @@ Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
   // The ankle leaves the ground smoothly; how it lands is the swing's own, heel strike being an impact.
   auto landing = [&](auto value) {
     return (25.0 * value(dense) - 48.0 * value(dense - 1) + 36.0 * value(dense - 2) - 16.0 * value(dense - 3) +
-            3.0 * value(dense - 4)) * static_cast<double>(dense) / (12.0 * swing_span);
+            3.0 * value(dense - 4)) *
+           static_cast<double>(dense) / (12.0 * swing_span);
   };
   auto swing_forward = [&](std::size_t i) { return s[i].ankle.forward; };
   auto swing_up = [&](std::size_t i) { return s[i].ankle.up; };

@@ -26,20 +26,26 @@ struct Problem {
 
   Unknown unknown(const std::array<double, 8>& x) const {
     const double speed = request.step_length_m / request.duration_s;
-    return {x[0] * speed / length0, x[1] * speed,       x[2] * weight * length0 * 0.1,
-            x[3] * length0 * 0.05,  x[4] * length0 * 0.05, x[5] * length0,
-            x[6] * 0.1, x[7] * 0.1 * speed / length0};
+    return {x[0] * speed / length0,
+            x[1] * speed,
+            x[2] * weight * length0 * 0.1,
+            x[3] * length0 * 0.05,
+            x[4] * length0 * 0.05,
+            x[5] * length0,
+            x[6] * 0.1,
+            x[7] * 0.1 * speed / length0};
   }
 
   std::array<double, 3> force(const Unknown& u, double t, const SupportState& s) const {
     const double duration = request.duration_s;
     const SinCos wave = sin_cos(2.0 * pi * (t / duration - lowest_phase));
     const double forward = request.step_length_m * (t / duration - 0.5);
-    const double up = 0.5 * (request.mid_height_m + request.strike_height_m) -
-                      u.push_off * wave.cosine - u.delay * wave.sine;
+    const double up =
+        0.5 * (request.mid_height_m + request.strike_height_m) - u.push_off * wave.cosine - u.delay * wave.sine;
     const double length = std::sqrt(forward * forward + up * up);
     const double length_rate = (forward * request.step_length_m / duration +
-                                up * (u.push_off * wave.sine - u.delay * wave.cosine) * 2.0 * pi / duration) / length;
+                                up * (u.push_off * wave.sine - u.delay * wave.cosine) * 2.0 * pi / duration) /
+                               length;
     const double bump = t < 0.4 * duration ? 0.5 * (1.0 - sin_cos(2.0 * pi * t / (0.4 * duration)).cosine) : 0.0;
     const double hip_torque = -request.trunk_stiffness_nm * (s.q[2] - request.trunk_lean_rad) -
                               request.trunk_damping_nm_s * s.rate[2] -

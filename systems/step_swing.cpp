@@ -23,8 +23,7 @@ SwingState standing(const Leg& leg, double t) {
   const double h = 1e-4 * leg.duration;
   auto at = [&](double when) { return leg.angles(leg.hip(when), leg.stance(when).ankle); };
   const LegAngles before = at(t - h), now = at(t), after = at(t + h);
-  return {{now.thigh, now.shank},
-          {(after.thigh - before.thigh) / (2.0 * h), (after.shank - before.shank) / (2.0 * h)}};
+  return {{now.thigh, now.shank}, {(after.thigh - before.thigh) / (2.0 * h), (after.shank - before.shank) / (2.0 * h)}};
 }
 
 double pitch_rate(const Leg& leg, double t) {
@@ -53,8 +52,13 @@ double clearance(const Leg& leg, const SwingSample& s) {
 SwingModel swing_model(const Leg& leg, double body_mass_kg) {
   const double shank_mass = 0.061 * body_mass_kg, thigh_mass = 0.100 * body_mass_kg;  // shank with foot
   const double thigh_gyration = 0.323 * leg.thigh, shank_gyration = 0.416 * leg.shank;
-  return {thigh_mass, leg.thigh, 0.433 * leg.thigh, thigh_mass * thigh_gyration * thigh_gyration,
-          shank_mass, 0.606 * leg.shank, shank_mass * shank_gyration * shank_gyration};
+  return {thigh_mass,
+          leg.thigh,
+          0.433 * leg.thigh,
+          thigh_mass * thigh_gyration * thigh_gyration,
+          shank_mass,
+          0.606 * leg.shank,
+          shank_mass * shank_gyration * shank_gyration};
 }
 
 Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitStyle& style) {
@@ -85,7 +89,8 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
       const double passive = knee_spring * std::fmax(flexion - knee_rest, 0.0) + knee_damper * flexing;
       const double at_hip = unit * (torque[0] * push(u, 0.0, 0.6) + torque[1] * push(u, 0.4, 1.0));
       const double at_knee = unit * (torque[2] * push(u, 0.0, 0.25) + torque[3] * push(u, 0.1, 0.5) +
-                                     torque[4] * push(u, 0.3, 0.8) + torque[5] * push(u, 0.6, 1.0)) + passive;
+                                     torque[4] * push(u, 0.3, 0.8) + torque[5] * push(u, 0.6, 1.0)) +
+                             passive;
       return swing_acceleration(model, at, {at_hip - at_knee, at_knee},
                                 hip[static_cast<std::size_t>(t / (0.5 * h) + 0.5)]);
     };
@@ -104,13 +109,18 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
       bent = at.q[0] - at.q[1];
       bending = at.rate[0] - at.rate[1];
     });
-    return std::array<double, 6>{s.q[0] - target.q[0], s.q[1] - target.q[1], (s.rate[0] - target.rate[0]) / pace,
-                                 (s.rate[1] - target.rate[1]) / pace, bent - style.swing_knee_deg * degree, bending / pace};
+    return std::array<double, 6>{s.q[0] - target.q[0],
+                                 s.q[1] - target.q[1],
+                                 (s.rate[0] - target.rate[0]) / pace,
+                                 (s.rate[1] - target.rate[1]) / pace,
+                                 bent - style.swing_knee_deg * degree,
+                                 bending / pace};
   };
   if (!shoot(residual, torque, 1e-9))
-    return fail(fmt::format("gait: no swing of {:.2f} s reaches the next foothold {:.2f} m ahead; choose a speed and "
-                            "step length nearer to a natural walk (1.4 m/s and 0.43 body heights)",
-                            span, 2.0 * leg.step_length));
+    return fail(
+        fmt::format("gait: no swing of {:.2f} s reaches the next foothold {:.2f} m ahead; choose a speed and "
+                    "step length nearer to a natural walk (1.4 m/s and 0.43 body heights)",
+                    span, 2.0 * leg.step_length));
 
   Swing swing;
   swing.target = target;
@@ -129,7 +139,8 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
     sample.state = s;
     sample.ankle = {out, at.up - std::sqrt(std::fmax(down * down - (out - at.out) * (out - at.out), 0.0)),
                     at.forward + leg.thigh * a.sine + leg.shank * b.sine};
-    const double fading = std::fmax(1.0 - u / early_ankle, 0.0), rising = std::fmax((u - late_ankle) / (1.0 - late_ankle), 0.0);
+    const double fading = std::fmax(1.0 - u / early_ankle, 0.0),
+                 rising = std::fmax((u - late_ankle) / (1.0 - late_ankle), 0.0);
     const double returning = std::fmax(1.0 - u / middle, 0.0);
     const double off_slope = (off_rate - first.rate[1]) * span - 2.0 * (ankle_middle - ankle_off) / middle;
     const double dorsiflexion = ankle_off + (ankle_middle - ankle_off) * (1.0 - returning * returning) +

@@ -128,7 +128,7 @@ constexpr std::array<GroupLine, muscle_group_count> lines = {{
      "rectus_femoris",
      LegBone::thigh,
      0,
-     0.301,
+     0.285,
      Segment::thigh_right,
      Segment::patella_right},
     {MuscleGroup::triceps_surae,

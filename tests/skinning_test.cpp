@@ -270,7 +270,7 @@ RC_GTEST_PROP(Skinning, LeftIsTheMirrorImageOfRight, ()) {
 }
 
 RC_GTEST_PROP(Skinning, OneLaneOfABlockEqualsAPlainArray, (bool large)) {
-  const HexahedralMesh mesh = cage(large ? Cells{8, 8, 20} : Cells{3, 3, 10});  // more than 1024 nodes, or fewer
+  const HexahedralMesh mesh = cage(large ? Cells{12, 12, 26} : Cells{3, 3, 10});  // more than 4096 nodes, or fewer
   static const Bound bound;
   MuscleSurface surface = bound.surface;
   bind_surface(surface, mesh, bound.frame, blend_m);

@@ -1,7 +1,12 @@
 #include "systems/skinning/skinning.h"
 
-#include <array>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/skinning/skinning.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
 
+#ifndef MOBIL_SYSTEMS_SKINNING_AFFINE
+#define MOBIL_SYSTEMS_SKINNING_AFFINE
 namespace mobil {
 namespace {
 
@@ -9,6 +14,116 @@ namespace {
 struct Affine {
   alignas(16) float column[4][4];
 };
+
+}  // namespace
+}  // namespace mobil
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+namespace {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// One vertex at a time, x y z in the lanes of one 128-bit register (in four of a target that has none).
+using Tag = hn::CappedTag<float, 4>;
+constexpr Tag tag;
+constexpr std::size_t lanes = hn::MaxLanes(Tag{}), parts = 4 / lanes;
+struct Four {
+  hn::Vec<Tag> part[parts];
+};
+
+HWY_INLINE Four load(const float* p) {
+  Four r;
+  for (std::size_t i = 0; i < parts; ++i) r.part[i] = hn::Load(tag, p + i * lanes);
+  return r;
+}
+HWY_INLINE void store(const Four& a, float* p) {
+  for (std::size_t i = 0; i < parts; ++i) hn::Store(a.part[i], tag, p + i * lanes);
+}
+/// s·a + b
+HWY_INLINE Four multiply_add(float s, const Four& a, const Four& b) {
+  Four r;
+  for (std::size_t i = 0; i < parts; ++i) r.part[i] = hn::MulAdd(hn::Set(tag, s), a.part[i], b.part[i]);
+  return r;
+}
+HWY_INLINE Four multiply(float s, const Four& a) {
+  Four r;
+  for (std::size_t i = 0; i < parts; ++i) r.part[i] = hn::Mul(hn::Set(tag, s), a.part[i]);
+  return r;
+}
+HWY_INLINE Four add(const Four& a, const Four& b) {
+  Four r;
+  for (std::size_t i = 0; i < parts; ++i) r.part[i] = hn::Add(a.part[i], b.part[i]);
+  return r;
+}
+
+struct Map {
+  Four x, y, z, at;
+};
+HWY_INLINE Map load(const Affine& a) {
+  return {load(a.column[0]), load(a.column[1]), load(a.column[2]), load(a.column[3])};
+}
+HWY_INLINE Four apply(const Map& m, float x, float y, float z) {
+  return add(multiply_add(x, m.x, multiply(y, m.y)), multiply_add(z, m.z, m.at));
+}
+
+/// Nodes up to this many are copied together first, which one lane of a block is not.
+constexpr std::size_t gathered_nodes = 4096;
+
+/// `node(n)`: the displacement of node n and a zero.
+template <class Node>
+HWY_INLINE void skin_vertices(const MuscleSurface& s, const Affine (&maps)[3], const Node& node, float sign,
+                              std::span<Vec3<float>> out) {
+  const Map frame = load(maps[0]), origin = load(maps[1]), insertion = load(maps[2]);
+  alignas(16) float u[4], place[4];
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    const VertexBinding& b = s.binding[v];
+    Four even = multiply(b.node_weight[0], node(b.node[0])), odd = multiply(b.node_weight[1], node(b.node[1]));
+    for (int i = 2; i < 8; i += 2) {
+      even = multiply_add(b.node_weight[i], node(b.node[i]), even);
+      odd = multiply_add(b.node_weight[i + 1], node(b.node[i + 1]), odd);
+    }
+    store(add(even, odd), u);
+    const Vec3<float>&q = s.rest_in_cage[v], &p = s.mesh.position[v];
+    const Four bones =
+        multiply_add(b.origin, apply(origin, p.x, p.y, p.z), multiply(b.insertion, apply(insertion, p.x, p.y, p.z)));
+    store(multiply_add(b.cage, apply(frame, q.x + u[0], q.y + u[1], q.z + u[2]), bones), place);
+    out[v] = {sign * place[0], place[1], place[2]};
+  }
+}
+
+void skin(const MuscleSurface& surface, const Affine (&maps)[3], const NodalLane& displacement, float sign,
+          std::span<Vec3<float>> out) {
+  const float* first = displacement.first;
+  const std::size_t stride = displacement.stride, nodes = displacement.nodes;
+  if (nodes > gathered_nodes) {
+    const auto strided = [=](std::size_t n) HWY_ATTR {
+      const float* at = first + 3 * n * stride;
+      alignas(16) const float u[4] = {at[0], at[stride], at[2 * stride], 0};
+      return load(u);
+    };
+    skin_vertices(surface, maps, strided, sign, out);
+    return;
+  }
+  alignas(16) float gathered[4 * gathered_nodes];
+  for (std::size_t n = 0; n < nodes; ++n) {
+    for (std::size_t c = 0; c < 3; ++c) gathered[4 * n + c] = first[(3 * n + c) * stride];
+    gathered[4 * n + 3] = 0;
+  }
+  const float* const together = gathered;
+  skin_vertices(
+      surface, maps, [=](std::size_t n) HWY_ATTR { return load(together + 4 * n); }, sign, out);
+}
+
+}  // namespace
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+namespace {
+
+HWY_EXPORT(skin);
 
 Quat<float> mirrored_rotation(const Quat<float>& q) {
   return {q.x, -q.y, -q.z, q.w};
@@ -42,37 +157,6 @@ Affine motion(const RigidPose& now, const RigidPose& rest) {
   return m;
 }
 
-/// to += weight · map(p)
-inline void add_mapped(float (&to)[4], float weight, const Affine& map, float x, float y, float z) {
-  for (int r = 0; r < 4; ++r) {
-    const float mapped = map.column[0][r] * x + map.column[1][r] * y + (map.column[2][r] * z + map.column[3][r]);
-    to[r] += weight * mapped;
-  }
-}
-
-/// Nodes up to this many are copied together first, which one lane of a block is not.
-constexpr std::size_t gathered_nodes = 1024;
-
-/// `node(n)`: something to index by 0 to 3, the displacement of node n and a zero.
-template <class Node>
-void skin(const MuscleSurface& s, const Affine& frame, const Affine& origin, const Affine& insertion, const Node& node,
-          float sign, std::span<Vec3<float>> out) {
-  for (std::size_t v = 0; v < out.size(); ++v) {
-    const VertexBinding& b = s.binding[v];
-    alignas(16) float moved[4] = {s.rest_in_cage[v].x, s.rest_in_cage[v].y, s.rest_in_cage[v].z, 0};
-    for (int i = 0; i < 8; ++i) {
-      const auto u = node(std::size_t{b.node[i]});
-      for (std::size_t r = 0; r < 4; ++r) moved[r] += b.node_weight[i] * u[r];
-    }
-    const Vec3<float>& p = s.mesh.position[v];
-    alignas(16) float sum[4] = {0, 0, 0, 0};
-    add_mapped(sum, b.cage, frame, moved[0], moved[1], moved[2]);
-    add_mapped(sum, b.origin, origin, p.x, p.y, p.z);
-    add_mapped(sum, b.insertion, insertion, p.x, p.y, p.z);
-    out[v] = {sign * sum[0], sum[1], sum[2]};
-  }
-}
-
 }  // namespace
 
 SkinPose skin_pose(const MuscleSurface& surface, Side side, const Body& body, const Pose<float>& pose,
@@ -97,25 +181,10 @@ void skin_surface(const MuscleSurface& surface, const SkinPose& pose, const Noda
   const auto bone = [mirrored](const RigidPose& now, const RigidPose& rest) {
     return mirrored ? motion(mirrored_pose(now), mirrored_pose(rest)) : motion(now, rest);
   };
-  const Affine frame = affine(pose.frame), origin = bone(pose.origin_now, pose.origin_rest),
-               insertion = bone(pose.insertion_now, pose.insertion_rest);
-  const float sign = mirrored ? -1.0F : 1.0F;
-  const auto [first, stride, nodes] = displacement;
-  if (nodes > gathered_nodes) {
-    const auto strided = [first = first, stride = stride](std::size_t n) {
-      const float* u = first + 3 * n * stride;
-      return std::array<float, 4>{u[0], u[stride], u[2 * stride], 0};
-    };
-    skin(surface, frame, origin, insertion, strided, sign, out);
-    return;
-  }
-  alignas(16) float gathered[4 * gathered_nodes];
-  for (std::size_t n = 0; n < nodes; ++n) {
-    for (std::size_t c = 0; c < 3; ++c) gathered[4 * n + c] = first[(3 * n + c) * stride];
-    gathered[4 * n + 3] = 0;
-  }
-  skin(
-      surface, frame, origin, insertion, [&](std::size_t n) { return &gathered[4 * n]; }, sign, out);
+  const Affine maps[3] = {affine(pose.frame), bone(pose.origin_now, pose.origin_rest),
+                          bone(pose.insertion_now, pose.insertion_rest)};
+  HWY_DYNAMIC_DISPATCH(skin)(surface, maps, displacement, mirrored ? -1.0F : 1.0F, out);
 }
 
 }  // namespace mobil
+#endif

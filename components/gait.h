@@ -21,7 +21,7 @@ struct GaitStyle {
   float step_width_h = 0.055F;  // between the ankles' lines
   float toe_out_deg = 6.0F;
   float strike_pitch_deg = 20.0F;  // toes up at heel strike
-  float strike_knee_deg = 5.0F;
+  float strike_knee_deg = 7.0F;
   float foot_flat_cycle = 0.08F;  // of the cycle, from heel strike
   float stance_knee_deg = 8.0F;   // least flexion before the heel rises
   float toe_off_knee_deg = 31.0F;
@@ -123,7 +123,7 @@ struct StepPlan {
   F toe_out_sin, toe_out_cos, strike_pitch;
   F swing_out_from_m, swing_out_to_m;  // the ankle's place to the side at toe-off and at heel strike
   F pelvis_rotation, pelvis_list, pelvis_shift_m, pelvis_tilt, pelvis_tilt_wave;
-  F shoulder_rotation, thigh_back, thigh_forward;  // range of the thigh, which the opposite arm follows
+  F shoulder_rotation, leg_back, leg_forward;  // range of the hip-to-ankle line, which the opposite arm follows
   F arm_back, arm_forward, elbow_back, elbow_forward, arm_abduction, forearm_pronation, finger_flexion;
   Curve<F> hip_forward_m, hip_up_m, trunk_pitch;  // over the step: the middle of the hips, the trunk's lean
   /// Toe-up pitch of the foot: [0] from foot flat to toe-off, [1] from toe-off to heel strike.

@@ -101,7 +101,7 @@ HWY_INLINE FootMotion foot_motion(const StepPlan<Lanes<float>>& plan, const Wide
   return foot;
 }
 
-/// Thigh, kneecap, shank, foot and toes of one side; returns the thigh's forward angle from the vertical.
+/// Thigh, kneecap, shank, foot and toes of one side; returns the forward angle of the line from hip to ankle.
 HWY_INLINE Wide pose_leg(const StepPlan<Lanes<float>>& plan, const FootMotion& foot, const PelvisMotion& motion,
                          std::size_t side, Skeleton& skeleton, JointAngles<Lanes<float>>& angles,
                          Feet<Lanes<float>>& feet) {
@@ -159,7 +159,7 @@ HWY_INLINE Wide pose_leg(const StepPlan<Lanes<float>>& plan, const FootMotion& f
   };
   put(heel, feet.heel_m[side]);
   put(toe, feet.toe_m[side]);
-  return thigh_angle;
+  return direction;
 }
 
 /// The column from the sacrum to the head: the pelvis's turn is undone and, up to the shoulders, reversed.
@@ -179,16 +179,16 @@ HWY_INLINE void pose_column(const StepPlan<Lanes<float>>& plan, const PelvisMoti
   }
 }
 
-/// One arm, swinging with the opposite thigh.
-HWY_INLINE void pose_arm(const StepPlan<Lanes<float>>& plan, const Wide& opposite_thigh, std::size_t side,
+/// One arm, swinging with the opposite leg.
+HWY_INLINE void pose_arm(const StepPlan<Lanes<float>>& plan, const Wide& opposite_leg, std::size_t side,
                          Skeleton& skeleton, JointAngles<Lanes<float>>& angles) {
   using enum Segment;
   auto of = [&](Segment s) { return on_side(s, side); };
   const float out = side == left ? 1.0F : -1.0F;
-  const Wide back = load(plan.thigh_back);
-  const Wide swing = (opposite_thigh - back) / max(load(plan.thigh_forward) - back, wide(1e-3F));
-  const Wide shoulder = fma(swing, load(plan.arm_forward) + load(plan.arm_back), -load(plan.arm_back));
-  const Wide elbow = fma(swing, load(plan.elbow_forward) - load(plan.elbow_back), load(plan.elbow_back));
+  const Wide back = load(plan.leg_back);
+  const Wide ahead = (opposite_leg - back) / max(load(plan.leg_forward) - back, wide(1e-3F));
+  const Wide shoulder = fma(ahead, load(plan.arm_forward) + load(plan.arm_back), -load(plan.arm_back));
+  const Wide elbow = fma(ahead, load(plan.elbow_forward) - load(plan.elbow_back), load(plan.elbow_back));
   const Wide pronation = load(plan.forearm_pronation) * wide(-out);
 
   skeleton.hang(of(clavicle_right), skeleton.parent_rotation(of(clavicle_right)));
@@ -234,17 +234,17 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
                                                curve_at(plan.hip_forward_m, u)};
   skeleton.rotation[index(Segment::pelvis)] = turn_yzx(pelvis.rotation, -pelvis.list, pelvis.tilt);
 
-  Wide thigh[2];
+  Wide swing[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const WideMask stands = side == right ? right_stands : equal(state.stance_side, left);
     const Wide lag = select(stands, time, time + step);
     const FootMotion foot = foot_motion(plan, skeleton.height, lag, select(stands, zero, -load(plan.step_length_m)),
                                         side == left ? 1.0F : -1.0F);
-    thigh[side] = pose_leg(plan, foot, pelvis, side, skeleton, angles, feet);
+    swing[side] = pose_leg(plan, foot, pelvis, side, skeleton, angles, feet);
     store(lag / (step + step), feet.phase[side]);
   }
   pose_column(plan, pelvis, curve_at(plan.trunk_pitch, u), skeleton);
-  for (std::size_t side = 0; side < 2; ++side) pose_arm(plan, thigh[1 - side], side, skeleton, angles);
+  for (std::size_t side = 0; side < 2; ++side) pose_arm(plan, swing[1 - side], side, skeleton, angles);
   store(pelvis.rotation, angles.pelvis_rotation);
   store(pelvis.list, angles.pelvis_list);
   store(pelvis.tilt, angles.pelvis_tilt);

@@ -178,7 +178,7 @@ LegAngles Leg::angles(const Point& hip_at, const Point& ankle) const {
   auto corner = [&](double near, double far) {
     return arc_cosine(std::fmin((near * near + distance * distance - far * far) / (2.0 * near * distance), 1.0));
   };
-  return {direction + corner(thigh, shank), direction - corner(shank, thigh), distance};
+  return {direction + corner(thigh, shank), direction - corner(shank, thigh), distance, direction};
 }
 
 SupportRequest support_request(const Body& body, const Gait& gait, const Leg& leg) {

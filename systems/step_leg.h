@@ -20,9 +20,10 @@ struct Foot {
   Point ankle;
 };
 
-/// Sagittal angles in the leg's plane from the downward vertical, forward positive, and the hip–ankle distance.
+/// Sagittal angles in the leg's plane from the downward vertical, forward positive, and the distance and the
+/// direction from hip to ankle.
 struct LegAngles {
-  double thigh, shank, reach;
+  double thigh, shank, reach, direction;
 };
 
 /// Lengths, timing and amplitudes of one individual's step, in m, s, rad.

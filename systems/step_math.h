@@ -19,14 +19,24 @@ struct SinCos {
 
 /// |x| < 1000 rad, error below 1e-13: reduction to ±π/4, Taylor series.
 inline SinCos sin_cos(double x) {
-  const double quadrant = std::floor(x / (pi / 2) + 0.5);
+  const double quadrant = std::floor(x * (2.0 / pi) + 0.5);
   const double r = (x - quadrant * 1.5707963267948966) - quadrant * 6.123233995736766e-17;
   const double r2 = r * r;
-  double s = 1.0, c = 1.0;
-  for (int n = 17; n > 1; n -= 2) s = 1.0 - s * r2 / (n * (n - 1));
-  for (int n = 16; n > 0; n -= 2) c = 1.0 - c * r2 / (n * (n - 1));
-  s *= r;
-  switch (static_cast<int>(quadrant - 4.0 * std::floor(quadrant / 4.0))) {
+  const double s =
+      r * (1.0 + r2 * (-1.0 / 6 +
+                       r2 * (1.0 / 120 +
+                             r2 * (-1.0 / 5040 + r2 * (1.0 / 362880 + r2 * (-1.0 / 39916800 +
+                                                                            r2 * (1.0 / 6227020800.0 +
+                                                                                  r2 * (-1.0 / 1307674368000.0))))))));
+  const double c =
+      1.0 +
+      r2 * (-1.0 / 2 +
+            r2 * (1.0 / 24 +
+                  r2 * (-1.0 / 720 +
+                        r2 * (1.0 / 40320 +
+                              r2 * (-1.0 / 3628800 + r2 * (1.0 / 479001600 + r2 * (-1.0 / 87178291200.0 +
+                                                                                   r2 * (1.0 / 20922789888000.0))))))));
+  switch (static_cast<int>(quadrant - 4.0 * std::floor(quadrant * 0.25))) {
     case 0:
       return {s, c};
     case 1:
@@ -46,8 +56,13 @@ inline double arc_tangent(double y, double x) {
   t = t / (1.0 + std::sqrt(1.0 + t * t));
   t = t / (1.0 + std::sqrt(1.0 + t * t));
   const double t2 = t * t;
-  double sum = 0.0;
-  for (int n = 19; n > 0; n -= 2) sum = 1.0 / n - t2 * sum;
+  const double sum =
+      1.0 + t2 * (-1.0 / 3 +
+                  t2 * (1.0 / 5 +
+                        t2 * (-1.0 / 7 +
+                              t2 * (1.0 / 9 +
+                                    t2 * (-1.0 / 11 +
+                                          t2 * (1.0 / 13 + t2 * (-1.0 / 15 + t2 * (1.0 / 17 + t2 * (-1.0 / 19)))))))));
   double angle = 4.0 * t * sum;
   if (ay > ax) angle = pi / 2 - angle;
   if (x < 0.0) angle = pi - angle;

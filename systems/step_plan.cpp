@@ -149,13 +149,15 @@ Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
 
   double back = 1e9, forward = -1e9;
   for (std::size_t i = 0; i <= dense; ++i) {
-    const double t = leg.toe_off * static_cast<double>(i) / dense;
-    const double thigh = leg.angles(leg.hip(t), leg.stance(t).ankle).thigh;
-    back = std::min({back, thigh, s[i].state.q[0]});
-    forward = std::max({forward, thigh, s[i].state.q[0]});
+    const double part = static_cast<double>(i) / dense;
+    const double standing = leg.toe_off * part, swinging = leg.toe_off + swing_span * part;
+    const double down = leg.angles(leg.hip(standing), leg.stance(standing).ankle).direction;
+    const double up = leg.angles(leg.hip(swinging), s[i].ankle).direction;
+    back = std::min({back, down, up});
+    forward = std::max({forward, down, up});
   }
-  set(plan.thigh_back, back);
-  set(plan.thigh_forward, forward);
+  set(plan.leg_back, back);
+  set(plan.leg_forward, forward);
   return plan;
 }
 

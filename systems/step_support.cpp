@@ -12,17 +12,26 @@ namespace {
 constexpr int integration_steps = 96;
 /// The hip is lowest just after heel strike and highest half a step later.
 constexpr double lowest_phase = 1.0 / 12.0;
+/// The leg's turning moment acts in the first fifth of the cycle.
+constexpr double turning = 0.4;
 constexpr int lowest_sample = 8, highest_sample = 56;
 
 /// Unknowns in units that make them of order one.
 struct Unknown {
-  double leg_rate, length_rate, leg_moment, push_off, delay, rest_length, trunk, trunk_rate;
+  double leg_rate, length_rate, leg_moment, push_off, delay, preload, trunk, trunk_rate;
+};
+
+/// What the forces know of the time alone, at every half step of the integration.
+struct Schedule {
+  SinCos wave;  // of the hip's rise and fall
+  double turn;  // of the leg's turning moment
 };
 
 struct Problem {
   const SupportRequest& request;
   double length0, leg0;  // ω(0) and φ: θ₁ runs from −φ to φ
   double weight;
+  std::array<Schedule, 2 * integration_steps + 1> schedule;
 
   Unknown unknown(const std::array<double, 8>& x) const {
     const double speed = request.step_length_m / request.duration_s;
@@ -38,7 +47,7 @@ struct Problem {
 
   std::array<double, 3> force(const Unknown& u, double t, const SupportState& s) const {
     const double duration = request.duration_s;
-    const SinCos wave = sin_cos(2.0 * pi * (t / duration - lowest_phase));
+    const auto [wave, turn] = schedule[static_cast<std::size_t>(t / duration * (2 * integration_steps) + 0.5)];
     const double forward = request.step_length_m * (t / duration - 0.5);
     const double up =
         0.5 * (request.mid_height_m + request.strike_height_m) - u.push_off * wave.cosine - u.delay * wave.sine;
@@ -46,13 +55,12 @@ struct Problem {
     const double length_rate = (forward * request.step_length_m / duration +
                                 up * (u.push_off * wave.sine - u.delay * wave.cosine) * 2.0 * pi / duration) /
                                length;
-    const double bump = t < 0.4 * duration ? 0.5 * (1.0 - sin_cos(2.0 * pi * t / (0.4 * duration)).cosine) : 0.0;
     const double hip_torque = -request.trunk_stiffness_nm * (s.q[2] - request.trunk_lean_rad) -
                               request.trunk_damping_nm_s * s.rate[2] -
                               request.model.trunk_mass * request.model.trunk_centre * gravity * request.trunk_lean_rad;
-    return {request.stiffness_n_per_m * (length + u.rest_length - s.q[0]) +
+    return {request.stiffness_n_per_m * (length + u.preload - s.q[0]) +
                 request.damping_n_s_per_m * (length_rate - s.rate[0]),
-            u.leg_moment * bump - hip_torque - request.roll_over * weight * s.q[0] * sin_cos(s.q[1]).sine, hip_torque};
+            u.leg_moment * turn - hip_torque - request.roll_over * weight * s.q[0] * sin_cos(s.q[1]).sine, hip_torque};
   }
 
   SupportState start(const Unknown& u) const {
@@ -84,15 +92,22 @@ std::array<double, 2> hip_velocity(const SupportState& s) {
 
 Result<SupportStep> solve_support(const SupportRequest& request) {
   const double half = 0.5 * request.step_length_m;
-  Problem problem{request, std::sqrt(half * half + request.strike_height_m * request.strike_height_m),
+  Problem problem{request,
+                  std::sqrt(half * half + request.strike_height_m * request.strike_height_m),
                   arc_tangent(half, request.strike_height_m),
-                  gravity * (request.model.leg_mass + request.model.hip_mass + request.model.trunk_mass)};
+                  gravity * (request.model.leg_mass + request.model.hip_mass + request.model.trunk_mass),
+                  {}};
+  for (std::size_t i = 0; i < problem.schedule.size(); ++i) {
+    const double u = static_cast<double>(i) / (2 * integration_steps);
+    problem.schedule[i] = {sin_cos(2.0 * pi * (u - lowest_phase)),
+                           u < turning ? 0.5 * (1.0 - sin_cos(2.0 * pi * u / turning).cosine) : 0.0};
+  }
   const double speed = request.step_length_m / request.duration_s;
   auto residual = [&](const std::array<double, 8>& x) {
     const Unknown u = problem.unknown(x);
-    double highest = 0.0, turning = 0.0;
+    double highest = 0.0, falling = 0.0;
     const SupportState end = problem.run(u, [&](int i, const SupportState& s, const std::array<double, 3>&) {
-      if (i == lowest_sample) turning = hip_velocity(s)[1];
+      if (i == lowest_sample) falling = hip_velocity(s)[1];
       if (i == highest_sample) highest = s.q[0] * sin_cos(s.q[1]).cosine;
     });
     const auto v0 = hip_velocity(problem.start(u)), v1 = hip_velocity(end);
@@ -101,7 +116,7 @@ Result<SupportStep> solve_support(const SupportRequest& request) {
                                  (v1[0] - v0[0]) / speed,
                                  (v1[1] - v0[1]) / speed,
                                  (highest - request.mid_height_m) / problem.length0 * 10.0,
-                                 turning / speed,
+                                 falling / speed,
                                  (end.q[2] - u.trunk) * 10.0,
                                  (end.rate[2] - u.trunk_rate) * problem.length0 / speed};
   };
@@ -116,7 +131,8 @@ Result<SupportStep> solve_support(const SupportRequest& request) {
   SupportStep step;
   step.leg_moment_nm = u.leg_moment;
   step.push_off_m = u.push_off;
-  step.rest_length_m = u.rest_length;
+  step.delay_m = u.delay;
+  step.preload_m = u.preload;
   step.first = problem.start(u);
   step.sample.reserve(integration_steps + 1);
   step.last = problem.run(u, [&](int, const SupportState& s, const std::array<double, 3>& a) {

@@ -27,17 +27,20 @@ struct HipSample {
 };
 
 /// The solved step: samples at equal times from heel strike to the next heel strike, and what was found: the leg's
-/// and trunk's rates at heel strike, the moment that turns the leg (acting in the first two fifths of the step) and
-/// the push-off that lengthens it.
+/// and trunk's states at both ends, the moment that turns the leg in the first fifth of the cycle, and how the leg's
+/// neutral length moves: half the hip's rise and fall, the part of it a quarter wave later, and the preload.
 struct SupportStep {
   std::vector<HipSample> sample;
   SupportState first, last;
-  double leg_moment_nm, push_off_m, rest_length_m;
+  double leg_moment_nm, push_off_m, delay_m, preload_m;
 };
 
-/// Newton shooting on {θ̇₁(0), ω̇(0), F_θ₁, push-off, θ₂(0), θ̇₂(0)} for {θ₁(T), ω(T), hip velocity (2), θ₂, θ̇₂}
-/// periodic to 1e-9 of their scales. F_ω = k (L + P s(t) − ω) − c ω̇ where s rises through mid-step and falls while the
-/// next foot takes over. Fails, naming the step, where no periodic step exists.
+/// Newton shooting on {θ̇₁(0), ω̇(0), F_θ₁, push-off, delay, preload, θ₂(0), θ̇₂(0)} for {θ₁(T), ω(T), hip velocity (2),
+/// hip height in mid-stance, no vertical speed just after heel strike, θ₂(T), θ̇₂(T)}, periodic to 1e-9 of their scales.
+/// F_ω = k (ℓ + λ − ω) + c (ℓ̇ − ω̇): ℓ(t) is the length that knee and ankle give a leg whose hip goes evenly forward and
+/// rises and falls as a sinusoid, λ the preload that bears the weight. F_θ₂ holds the trunk upright as a spring and
+/// damper; F_θ₁ is its reaction, the turning moment, and the centre of pressure's travel under the foot. Fails, naming
+/// the step, where no periodic step exists.
 Result<SupportStep> solve_support(const SupportRequest& request);
 
 }  // namespace mobil::step

@@ -75,6 +75,13 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
   for (std::size_t i = 0; i < hip.size(); ++i)
     hip[i] = leg.hip_acceleration(leg.toe_off + 0.5 * h * static_cast<double>(i));
 
+  std::array<std::array<double, 6>, 2 * integration_steps + 1> pushes;
+  for (std::size_t i = 0; i < pushes.size(); ++i) {
+    const double u = static_cast<double>(i) / (2 * integration_steps);
+    pushes[i] = {push(u, 0.0, 0.6),  push(u, 0.4, 1.0),  // hip
+                 push(u, 0.0, 0.25), push(u, 0.1, 0.5), push(u, 0.3, 0.8), push(u, 0.6, 1.0)};
+  }
+
   // The knee's passive spring resists flexion beyond its rest angle, the damper both ways.
   const double inertia = model.shank_inertia + model.shank_mass * model.shank_centre * model.shank_centre;
   const double pace = 2.0 * pi / span;
@@ -84,15 +91,14 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
   auto run = [&](const std::array<double, 6>& torque, auto visit) {
     SwingState s = first;
     auto acceleration = [&](double t, const SwingState& at) {
-      const double u = t / span;
+      const auto i = static_cast<std::size_t>(t / (0.5 * h) + 0.5);
+      const std::array<double, 6>& p = pushes[i];
       const double flexion = at.q[0] - at.q[1], flexing = at.rate[0] - at.rate[1];
       const double passive = knee_spring * std::fmax(flexion - knee_rest, 0.0) + knee_damper * flexing;
-      const double at_hip = unit * (torque[0] * push(u, 0.0, 0.6) + torque[1] * push(u, 0.4, 1.0));
-      const double at_knee = unit * (torque[2] * push(u, 0.0, 0.25) + torque[3] * push(u, 0.1, 0.5) +
-                                     torque[4] * push(u, 0.3, 0.8) + torque[5] * push(u, 0.6, 1.0)) +
-                             passive;
-      return swing_acceleration(model, at, {at_hip - at_knee, at_knee},
-                                hip[static_cast<std::size_t>(t / (0.5 * h) + 0.5)]);
+      const double at_hip = unit * (torque[0] * p[0] + torque[1] * p[1]);
+      const double at_knee =
+          unit * (torque[2] * p[2] + torque[3] * p[3] + torque[4] * p[4] + torque[5] * p[5]) + passive;
+      return swing_acceleration(model, at, {at_hip - at_knee, at_knee}, hip[i]);
     };
     for (int i = 0; i < integration_steps; ++i) {
       visit(i, s);

@@ -17,7 +17,8 @@ struct SwingSample {
   double pitch, toes;
 };
 
-/// Torques found (N m): at hip and knee, early and late in the swing. Samples at equal times, ends included.
+/// Torques found (N m): at the hip early and late, at the knee in four overlapping pushes. Samples at equal times,
+/// ends included.
 struct Swing {
   std::vector<SwingSample> sample;
   SwingState target;
@@ -28,10 +29,10 @@ struct Swing {
 /// Thigh and shank with foot of a body of this mass and leg.
 SwingModel swing_model(const Leg& leg, double body_mass_kg);
 
-/// Newton shooting on four torques, {hip, knee} × {early, late}, for the thigh's and shank's angles and rates at heel
-/// strike; the knee also has a passive spring and damper that limit its flexion. The foot follows by interpolation
-/// between its dorsiflexion at toe-off, in mid-swing and at heel strike, and is lifted where it would touch the
-/// ground. Fails, naming the step, where no such swing exists.
+/// Newton shooting on six torques, two pushes at the hip and four at the knee, for the angles and rates of thigh and
+/// shank at heel strike and the knee's greatest flexion; the knee also has a passive spring and damper. The foot
+/// follows by interpolation between its dorsiflexion at toe-off, in mid-swing and at heel strike, and is lifted where
+/// it would come nearer to the ground than toe_clearance_m. Fails, naming the step, where no such swing exists.
 Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitStyle& style);
 
 }  // namespace mobil::step

@@ -17,8 +17,8 @@ Result<void> write_file(const std::filesystem::path& path, std::string_view text
     out.flush();
     if (!out) {
       std::filesystem::remove(temporary, ignored);
-      return fail(fmt::format("{}: cannot be written; choose a folder that exists, is writable and has space",
-                              path.string()));
+      return fail(
+          fmt::format("{}: cannot be written; choose a folder that exists, is writable and has space", path.string()));
     }
   }
   std::error_code error;

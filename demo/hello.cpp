@@ -34,6 +34,6 @@ int main() {
     const auto line = simulation.get<mobil::LineOfAction>(hamstrings);
     std::printf("%4.1f s  pelvis at z = %.2f m  right knee %4.1f deg  hamstrings %.1f mm from rest  (%u ticks)\n",
                 simulation.time_s(), pose->position_m[0].z, knee->knee_flexion[mobil::right] * 57.2958F,
-                1000 * (line->length_m - line->rest_length_m), advance.ticks);
+                1000 * (line->length_m - line->rest_length_m), advance.count);
   }
 }

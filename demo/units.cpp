@@ -22,11 +22,16 @@ constexpr Unit times[] = {{"s", 1}, {"ms", 0.001}, {"min", 60}};
 
 std::span<const Unit> units(Quantity quantity) {
   switch (quantity) {
-    case Quantity::length: return lengths;
-    case Quantity::mass: return masses;
-    case Quantity::speed: return speeds;
-    case Quantity::frequency: return frequencies;
-    case Quantity::time: return times;
+    case Quantity::length:
+      return lengths;
+    case Quantity::mass:
+      return masses;
+    case Quantity::speed:
+      return speeds;
+    case Quantity::frequency:
+      return frequencies;
+    case Quantity::time:
+      return times;
   }
   return {};
 }

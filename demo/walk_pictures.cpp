@@ -167,7 +167,7 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
     }
     progress(frame + 1);
   }
-  if (video) return video->finish();
+  if (video) return video->close();
   return {};
 }
 

@@ -16,11 +16,12 @@ constexpr float degrees = 180.0F / std::numbers::pi_v<float>;
 MotionTable::MotionTable() {
   text = "time_s,phase_right,phase_left,com_x_m,com_y_m,com_z_m,pelvis_rotation_deg,pelvis_list_deg,pelvis_tilt_deg";
   for (const auto side : side_name) {
-    for (const auto* angle : {"hip_flexion", "knee_flexion", "ankle_dorsiflexion", "shoulder_flexion", "elbow_flexion"}) {
+    for (const auto* angle :
+         {"hip_flexion", "knee_flexion", "ankle_dorsiflexion", "shoulder_flexion", "elbow_flexion"}) {
       text += fmt::format(",{}_{}_deg", angle, side);
     }
-    text += fmt::format(",grf_vertical_{0}_n,grf_anterior_{0}_n,hip_moment_{0}_nm,knee_moment_{0}_nm,ankle_moment_{0}_nm",
-                        side);
+    text += fmt::format(
+        ",grf_vertical_{0}_n,grf_anterior_{0}_n,hip_moment_{0}_nm,knee_moment_{0}_nm,ankle_moment_{0}_nm", side);
     for (const auto* point : {"heel", "toe"}) {
       for (const char axis : {'x', 'y', 'z'}) text += fmt::format(",{}_{}_{}_m", point, axis, side);
     }
@@ -54,10 +55,11 @@ MuscleTable::MuscleTable()
 
 void MuscleTable::add(double time_s, Side side, MuscleGroup group, const LineOfAction<float>& line,
                       const BellyReport<float>& belly, std::string_view method) {
-  fmt::format_to(std::back_inserter(text), "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6e},{:.6e},{}\n",
-                 time_s, side_name[side], muscle_group_name[static_cast<std::size_t>(group)], line.length_m,
-                 line.rest_length_m, line.length_m / line.rest_length_m, line.stiffness_n_per_m, line.force_n,
-                 belly.elongation_m, belly.volume_ratio, belly.kinetic_energy_j, belly.strain_energy_j, method);
+  fmt::format_to(std::back_inserter(text),
+                 "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6e},{:.6e},{}\n", time_s,
+                 side_name[side], muscle_group_name[static_cast<std::size_t>(group)], line.length_m, line.rest_length_m,
+                 line.length_m / line.rest_length_m, line.stiffness_n_per_m, line.force_n, belly.elongation_m,
+                 belly.volume_ratio, belly.kinetic_energy_j, belly.strain_energy_j, method);
 }
 
 }  // namespace mobil

@@ -1,0 +1,148 @@
+#include "demo/figure.h"
+
+#include <algorithm>
+
+#include "assets/bone_surfaces.h"
+#include "assets/import/fit_anatomy.h"
+#include "assets/muscle_surfaces.h"
+#include "assets/surface_binding.h"
+#include "systems/skinning/skinning.h"
+
+namespace mobil {
+namespace {
+
+constexpr double blend_per_height = 0.04 / 1.80;
+constexpr Vec3<float> belly_colour{0.40F, 0.055F, 0.04F}, tendon_colour{0.62F, 0.53F, 0.42F};
+
+/// The cage of one person's muscle group: the template's nodes at the person's size.
+HexahedralMesh individual_cage(const MuscleTemplate& shape, const BellyScale<float>& scale) {
+  HexahedralMesh cage = shape.mesh;
+  for (auto& node : cage.node) {
+    node.x *= static_cast<double>(scale.across);
+    node.y *= static_cast<double>(scale.across);
+    node.z *= static_cast<double>(scale.along);
+  }
+  return cage;
+}
+
+bool is_tendon(const std::string& name) {
+  return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
+}
+
+/// Binds a surface to the cage of its group in this person.
+void bind(const Simulation& simulation, const Human& human, MuscleGroup group, MuscleSurface& surface) {
+  const auto g = static_cast<std::size_t>(group);
+  const MusclePlan& plan = human.muscle_plan[g];
+  const auto* shape = simulation.world().shared<MuscleTemplate>(human.muscle[g][right]);
+  const RestFrame frame{
+      {static_cast<float>(plan.start_m.x), static_cast<float>(plan.start_m.y), static_cast<float>(plan.start_m.z)},
+      {static_cast<float>(plan.rotation.x), static_cast<float>(plan.rotation.y), static_cast<float>(plan.rotation.z),
+       static_cast<float>(plan.rotation.w)}};
+  bind_surface(surface, individual_cage(*shape, plan.scale), frame,
+               blend_per_height * static_cast<double>(human.body.request.height_m));
+}
+
+/// Centre of the highest or lowest hundredth of a surface: where a ligament begins or ends.
+Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
+  auto by_height = mesh.position;
+  std::sort(by_height.begin(), by_height.end(),
+            [top](const Vec3<float>& a, const Vec3<float>& b) { return top ? a.y > b.y : a.y < b.y; });
+  const std::size_t count = std::max<std::size_t>(1, by_height.size() / 100);
+  Vec3<float> mean{0, 0, 0};
+  for (std::size_t i = 0; i < count; ++i) {
+    mean = {mean.x + by_height[i].x, mean.y + by_height[i].y, mean.z + by_height[i].z};
+  }
+  const float share = 1.0F / static_cast<float>(count);
+  return {mean.x * share, mean.y * share, mean.z * share};
+}
+
+void add_muscle(const Simulation& simulation, const Human& human, MuscleGroup group, MuscleSurface surface,
+                bool ligament, Figure& figure) {
+  if (ligament) {
+    const auto from = extreme(surface.mesh, true);
+    const auto to = extreme(surface.mesh, false);
+    bind_ligament(surface, from, to);
+  } else {
+    bind(simulation, human, group, surface);
+  }
+  const Vec3<float> colour = is_tendon(surface.mesh.name) ? tendon_colour : belly_colour;
+  figure.muscles.push_back({group, colour, std::move(surface)});
+}
+
+Result<Figure> real_figure(const Simulation& simulation, const Human& human, const std::filesystem::path& folder) {
+  const auto anatomy = load_anatomy(folder.string());
+  if (!anatomy) return tl::unexpected(anatomy.error());
+  auto fitted = fit_anatomy(*anatomy, human.body);
+  if (!fitted) return tl::unexpected(fitted.error());
+  Figure figure;
+  // The folder holds a pelvis and legs; the rest of the skeleton is generated.
+  std::array<bool, segment_count> real{};
+  for (const auto& bone : fitted->bones) real[index(bone.segment)] = true;
+  figure.bones = std::move(fitted->bones);
+  for (auto& bone : make_bone_surfaces(human.body)) {
+    if (!real[index(bone.segment)]) figure.bones.push_back(std::move(bone));
+  }
+  for (auto& muscle : fitted->muscles) {
+    add_muscle(simulation, human, muscle.group, std::move(muscle.surface), false, figure);
+  }
+  return figure;
+}
+
+}  // namespace
+
+Result<Figure> make_figure(const Simulation& simulation, const Human& human,
+                           const std::optional<std::filesystem::path>& anatomy) {
+  if (anatomy) return real_figure(simulation, human, *anatomy);
+  Figure figure;
+  figure.bones = make_bone_surfaces(human.body);
+  for (auto& muscle : make_muscle_surfaces(human.body)) {
+    add_muscle(simulation, human, muscle.group, std::move(muscle.surface), muscle.ligament, figure);
+  }
+  return figure;
+}
+
+WalkRecording begin_recording(const Figure& figure, float frame_s) {
+  WalkRecording recording;
+  recording.frame_s = frame_s;
+  recording.bones = figure.bones;
+  for (const auto& muscle : figure.muscles) {
+    std::string name = muscle.surface.mesh.name;
+    if (name.ends_with("_right")) name.resize(name.size() - 6);
+    for (std::size_t side = 0; side < 2; ++side) {
+      RecordedMuscle recorded;
+      recorded.name = name + (side == right ? "_right" : "_left");
+      recorded.segment = on_side(
+          group_line(muscle.group).insertion == Segment::foot_right ? Segment::shank_right : Segment::thigh_right,
+          side);
+      recorded.colour = muscle.colour;
+      recorded.triangle = muscle.surface.mesh.triangle;
+      if (side == left) {
+        for (std::size_t i = 0; i < recorded.triangle.size(); i += 3) {
+          std::swap(recorded.triangle[i + 1], recorded.triangle[i + 2]);
+        }
+      }
+      recording.muscles.push_back(std::move(recorded));
+    }
+  }
+  return recording;
+}
+
+void record_frame(const Figure& figure, const Simulation& simulation, const Human& human, WalkRecording& recording) {
+  const auto pose = simulation.get<Pose>(human.entity);
+  if (!pose) return;
+  recording.frames.push_back(*pose);
+  std::size_t next = 0;
+  for (const auto& muscle : figure.muscles) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Entity entity = human.muscle[static_cast<std::size_t>(muscle.group)][side];
+      const auto line = simulation.get<LineOfAction>(entity);
+      const auto nodes = simulation.nodal_displacement(entity);
+      auto& out = recording.muscles[next++].position_m.emplace_back(muscle.surface.mesh.position.size());
+      if (!line || nodes.first == nullptr) continue;
+      const SkinPose skin = skin_pose(muscle.surface, static_cast<Side>(side), human.body, *pose, *line);
+      skin_surface(muscle.surface, skin, {nodes.first, lane_count, nodes.nodes}, side == left, out);
+    }
+  }
+}
+
+}  // namespace mobil

@@ -1,0 +1,88 @@
+#include "demo/walk_summary.h"
+
+#include <nlohmann/json.hpp>
+
+namespace mobil {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view constitution_name[] = {"thin", "average", "athletic", "heavy"};
+
+Json muscles_json(const Simulation& simulation, const Human& human) {
+  Json muscles = Json::array();
+  for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Entity entity = human.muscle[g][side];
+      const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
+      const auto scale = simulation.get<BellyScale>(entity);
+      const auto substeps = simulation.world().get<Substeps>(entity);
+      const auto line = simulation.get<LineOfAction>(entity);
+      if (shape == nullptr || !scale || !substeps || !line) continue;
+      const double critical =
+          critical_step(shape->critical_steps, static_cast<double>(scale->across), static_cast<double>(scale->along))
+              .value_or(0.0);
+      const MusclePlan& plan = human.muscle_plan[g];
+      muscles.push_back({{"group", muscle_group_name[g]},
+                         {"side", side == right ? "right" : "left"},
+                         {"nodes", node_count(shape->mesh.cells)},
+                         {"rest_length_m", line->rest_length_m},
+                         {"belly_length_m", plan.belly_length_m},
+                         {"section_m2", plan.section_m2},
+                         {"stiffness_n_per_m", line->stiffness_n_per_m},
+                         {"dt_s", simulation.tick_s() / static_cast<double>(*substeps)},
+                         {"critical_dt_s", critical},
+                         {"substeps_per_tick", *substeps}});
+    }
+  }
+  return muscles;
+}
+
+}  // namespace
+
+std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
+                         const WalkCost& cost, const std::vector<MuscleFidelity>& exported) {
+  const BodyRequest& body = human.body.request;
+  Json summary;
+  summary["body"] = {{"height_m", body.height_m},
+                     {"mass_kg", body.mass_kg},
+                     {"biotype", {body.biotype.endo, body.biotype.meso, body.biotype.ecto}},
+                     {"constitution", constitution_name[static_cast<std::size_t>(body.constitution)]},
+                     {"hip_height_m", human.body.hip_height_m}};
+  summary["gait"] = {{"speed_m_s", human.gait.speed_m_s},
+                     {"step_length_m", human.gait.step_length_m},
+                     {"step_frequency_hz", human.gait.step_frequency_hz},
+                     {"double_support_cycle", human.gait.double_support_cycle}};
+  summary["drive"] = options.force_driven ? "force" : "displacement";
+  summary["anatomy"] = options.anatomy ? Json(options.anatomy->string()) : Json("built-in");
+
+  const double simulated = simulation.time_s();
+  const double ticks = simulation.ticks();
+  Json stages = Json::object();
+  const auto systems = simulation.schedule().systems();
+  const auto timings = simulation.schedule().timings();
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    stages[systems[i].name] = {{"us_per_tick", 1e6 * timings[i].seconds / ticks},
+                               {"times_faster_than_real_time", simulated / timings[i].seconds}};
+  }
+  summary["time"] = {{"simulated_s", simulated},
+                     {"ticks", simulation.ticks()},
+                     {"tick_s", simulation.tick_s()},
+                     {"simulation_wall_s", cost.simulation_s},
+                     {"us_per_tick", 1e6 * cost.simulation_s / ticks},
+                     {"times_faster_than_real_time", simulated / cost.simulation_s},
+                     {"command_wall_s", cost.wall_s},
+                     {"stages", stages}};
+  summary["muscles"] = muscles_json(simulation, human);
+  Json glb = Json::array();
+  for (const auto& muscle : exported) {
+    glb.push_back({{"name", muscle.name},
+                   {"morph_targets", muscle.morph_targets},
+                   {"max_error_m", muscle.max_error_m},
+                   {"rms_error_m", muscle.rms_error_m}});
+  }
+  summary["glb"] = glb;
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace mobil

@@ -1,0 +1,143 @@
+#pragma once
+// The front door: spawn people, give them muscles, advance time, read what became of them.
+//
+//   Simulation simulation;
+//   const Entity human = *simulation.spawn({.height_m = 1.80F, .mass_kg = 80});
+//   simulation.add_leg_muscles(human);
+//   simulation.advance(frame_seconds);
+//   simulation.get<Pose>(human)->position_m[index(Segment::head)];
+//
+// Everything else is a table: `world()` has all components, `schedule()` all systems in the order they run. Nothing is
+// global; any number of simulations may live side by side. One thread at a time may use one.
+
+#include <array>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "assets/axial_stiffness.h"
+#include "assets/muscle_plan.h"
+#include "assets/muscle_template.h"
+#include "components/body.h"
+#include "components/gait.h"
+#include "components/muscle.h"
+#include "components/pose.h"
+#include "engine/clock.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/schedule.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+struct SimulationOptions {
+  double tick_s = 1.0 / 60;
+  double max_frame_s = 0.25;  // of a longer frame the rest is dropped and reported
+  int threads = 1;            // of the built-in pool; 0: as many as the machine has
+  std::optional<Jobs> jobs;   // the caller's own job system instead
+  std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+};
+
+/// How the far end of a belly is driven: `displacement` makes it follow the line of action exactly, `force` pulls it
+/// with the spring force of the paper's equations 2 and 3.
+enum class Drive : std::uint8_t { displacement, force };
+
+/// The number of equal steps a tick is cut into; a tag of every muscle table.
+struct Substeps {};
+
+struct MuscleLines;  // systems/line_of_action.h
+
+/// One walking person as set up at spawn; what changes is in the world.
+struct Human {
+  Entity entity;
+  Body body;
+  Gait gait;
+  std::vector<MusclePlan> muscle_plan;                             // by group; empty without muscles
+  std::array<std::array<Entity, 2>, muscle_group_count> muscle{};  // [group][side]
+};
+
+/// One individual's nodal displacement within its block: component c of node n (m) at first[(3·n + c)·16].
+struct NodalView {
+  const float* first = nullptr;
+  std::uint32_t nodes = 0;
+};
+
+class Simulation {
+ public:
+  /// Throws std::invalid_argument when tick_s or max_frame_s is out of range (engine/clock.h).
+  explicit Simulation(const SimulationOptions& options = {});
+
+  /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
+  /// unreachable, one line each; the simulation is as it was.
+  Result<Entity> spawn(const BodyRequest& body, const GaitRequest& gait = {});
+  /// Stale handles answer Status::stale_entity.
+  Status despawn(Entity human);
+
+  /// The effect of leg muscles: lines of action and finite-element bellies of hamstrings, quadriceps and triceps surae,
+  /// both legs, at rest where the person stands in the stride. Errors: a stale handle, muscles that are there already.
+  Result<void> add_leg_muscles(Entity human, Drive drive = Drive::displacement, const Material& material = {});
+  Status remove_leg_muscles(Entity human);
+
+  /// Runs as many whole ticks as fit into the accumulated time.
+  Ticks advance(double seconds);
+  /// Runs one tick.
+  void tick();
+  std::uint32_t ticks() const { return tick_; }
+  double tick_s() const { return clock_.tick_s(); }
+  double time_s() const { return tick_ * clock_.tick_s(); }
+
+  /// An entity's row of a component, or why there is none.
+  template <template <class> class C>
+  tl::expected<C<float>, Status> get(Entity entity) const {
+    return world_.get<C>(entity);
+  }
+  /// What a person was set up as; null for a stale handle.
+  const Human* human(Entity entity) const;
+  /// A person's muscle; a stale handle where there is none.
+  Entity muscle(Entity human, MuscleGroup group, Side side) const;
+
+  /// A muscle's nodes where they are now, in its frame; `first` is null for a stale handle. Until the next spawn.
+  NodalView nodal_displacement(Entity muscle) const;
+
+  World& world() { return world_; }
+  const World& world() const { return world_; }
+  Schedule& schedule() { return *schedule_; }
+  const Schedule& schedule() const { return *schedule_; }
+
+ private:
+  struct Template {
+    Drive drive;
+    Material material;
+    MuscleGroup group;
+    std::shared_ptr<const MuscleTemplate> shape;
+    std::shared_ptr<const MuscleLines> lines;
+    AxialStiffness axial;
+    StaticStretch stretch;  // of the template's own size
+  };
+
+  struct Belly {
+    MusclePlan plan;
+    const Template* shape;
+    std::uint32_t substeps;
+  };
+
+  template <template <class> class End>
+  Entity create_muscle(Entity human, Side side, const Belly& belly, const Pose<float>& pose);
+  Result<const Template*> muscle_template(MuscleGroup group, Drive drive, const Material& material);
+  Human* find(Entity entity);
+
+  World world_;
+  Clock clock_;
+  std::optional<Threads> threads_;
+  Jobs jobs_;
+  std::optional<Schedule> schedule_;
+  std::vector<std::unique_ptr<Human>> humans_;  // by entity index
+  std::vector<std::unique_ptr<Template>> templates_;
+  std::uint32_t tick_ = 0;
+};
+
+/// The systems of a simulation in the order of their data, for a schedule.
+Result<Schedule> make_schedule();
+
+}  // namespace mobil

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "assets/geometry.h"
 
@@ -66,13 +67,22 @@ std::array<Vec, 4> map(const HexahedralMesh& cage, const Position& p) {
   return r;
 }
 
-}  // namespace
+/// Looks points up in one cage whose planes' heights are known.
+struct CageSearch {
+  const HexahedralMesh& cage;
+  std::vector<double> height;
 
-CagePlace place_in_cage(const HexahedralMesh& cage, const Vec3<double>& point) {
+  explicit CageSearch(const HexahedralMesh& mesh) : cage(mesh) {
+    for (std::uint32_t k = 0; k <= mesh.cells[2]; ++k) height.push_back(plane_height(mesh, k));
+  }
+  CagePlace place(const Vec& point) const;
+};
+
+CagePlace CageSearch::place(const Vec& point) const {
   const Cells& cells = cage.cells;
   std::array<double, 3> parameter = {0.5 * cells[0], 0.5 * cells[1], 0};
   for (std::uint32_t k = 0; k < cells[2]; ++k) {
-    const double low = plane_height(cage, k), high = plane_height(cage, k + 1);
+    const double low = height[k], high = height[k + 1];
     if (point.z > low) parameter[2] = k + std::min(1.0, (point.z - low) / (high - low));
   }
   double stride = 1;
@@ -97,23 +107,69 @@ CagePlace place_in_cage(const HexahedralMesh& cage, const Vec3<double>& point) {
   return {element_nodes(cells, p.element), weights(p.local)};
 }
 
-void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, double blend_m) {
-  const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
+Vec in_frame(const RestFrame& frame, const Vec3<float>& position) {
+  return rotated(conjugate(frame.rotation), to_double(position) - to_double(frame.start_m));
+}
+
+}  // namespace
+
+CagePlace place_in_cage(const HexahedralMesh& cage, const Vec3<double>& point) {
+  return CageSearch(cage).place(point);
+}
+
+void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
+                  const Passages& passages) {
+  const CageSearch search(cage);
   surface.binding.clear();
   surface.rest_in_cage.clear();
   for (const auto& position : surface.mesh.position) {
-    const Vec q = rotated(conjugate(frame.rotation), to_double(position) - to_double(frame.start_m));
-    const CagePlace place = place_in_cage(cage, q);
+    const Vec q = in_frame(frame, position);
+    const CagePlace place = search.place(q);
     VertexBinding b{};
     for (std::size_t c = 0; c < 8; ++c) {
       b.node[c] = static_cast<std::uint16_t>(place.node[c]);
       b.node_weight[c] = static_cast<float>(place.weight[c]);
     }
-    b.origin = static_cast<float>(1 - smoothstep(low - blend_m, low, q.z));
-    b.insertion = static_cast<float>(smoothstep(high, high + blend_m, q.z));
+    b.origin = static_cast<float>(1 - smoothstep(passages.origin_to, passages.origin_from, q.z));
+    b.insertion = static_cast<float>(smoothstep(passages.insertion_from, passages.insertion_to, q.z));
     b.cage = 1 - b.origin - b.insertion;
     surface.binding.push_back(b);
     surface.rest_in_cage.push_back(to_float(q));
+  }
+}
+
+void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, double blend_m) {
+  const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
+  bind_surface(surface, cage, frame, Passages{low - blend_m, low, high, high + blend_m});
+}
+
+void bind_surfaces(std::span<MuscleSurface* const> surfaces, const HexahedralMesh& cage, const RestFrame& frame,
+                   double least_m) {
+  constexpr double on_bone = 0.55, attached = 0.95;
+  const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
+  struct Beyond {
+    double origin = 0, insertion = 0;
+  };
+  std::vector<Beyond> beyond;
+  Beyond farthest;
+  for (const MuscleSurface* surface : surfaces) {
+    Beyond b;
+    for (const auto& position : surface->mesh.position) {
+      const double z = in_frame(frame, position).z;
+      b.origin = std::max(b.origin, low - z);
+      b.insertion = std::max(b.insertion, z - high);
+    }
+    beyond.push_back(b);
+    farthest = {std::max(farthest.origin, b.origin), std::max(farthest.insertion, b.insertion)};
+  }
+  for (std::size_t s = 0; s < surfaces.size(); ++s) {
+    const auto own = [](double self, double group) { return attached * (self < on_bone * group ? group : self); };
+    Passages p{};
+    p.origin_to = low - own(beyond[s].origin, farthest.origin);
+    p.origin_from = std::max(low, p.origin_to + least_m);
+    p.insertion_to = high + own(beyond[s].insertion, farthest.insertion);
+    p.insertion_from = std::min(high, p.insertion_to - least_m);
+    bind_surface(*surfaces[s], cage, frame, p);
   }
 }
 

@@ -1,6 +1,9 @@
 #pragma once
 // How a surface's vertices come to follow a deforming cage and two bones.
 
+#include <array>
+#include <span>
+
 #include "assets/hexahedral_mesh.h"
 #include "components/surface.h"
 
@@ -23,11 +26,26 @@ struct RestFrame {
   Quat<float> rotation;
 };
 
+/// Heights over the cage's origin face (m, along z, ascending) between which a surface passes from the bone of origin
+/// to the cage, and from the cage to the bone of insertion.
+struct Passages {
+  double origin_to, origin_from, insertion_from, insertion_to;
+};
+
 /// Fills `binding` and `rest_in_cage` of a surface in the standing body's world axes. The cage is this individual's
-/// own, in the muscle's frame. Between the cage's end faces a vertex follows the cage alone; over `blend_m` beyond them
-/// it passes smoothly to the bone of origin or of insertion. About 0.04 m for a body of 1.80 m looks right. Needs a
-/// cage of at most 65,536 nodes and blend_m > 0.
+/// own, in the muscle's frame. Weights are smooth in z (C¹). Needs a cage of at most 65,536 nodes, and passages that
+/// ascend.
+void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, const Passages& passages);
+
+/// The same with passages of `blend_m` right beyond the cage's end faces, for a surface on its own.
 void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, double blend_m);
+
+/// Binds the surfaces that one cage drives. Between the cage's end faces they follow the cage alone; beyond them they
+/// pass to their bones, each to the end of its own tendon, so that a joint on the way bends it smoothly. A surface that
+/// ends less than 0.55 as far out as the farthest one ends in a tendon and not on the bone, and goes with the farthest.
+/// A passage is `least_m` long at least (0.04 m looks right for a body of 1.80 m): for it, it begins inside the cage.
+void bind_surfaces(std::span<MuscleSurface* const> surfaces, const HexahedralMesh& cage, const RestFrame& frame,
+                   double least_m);
 
 /// Binds a surface to its two bones alone: smoothly from the origin at `origin_m` to the insertion at `insertion_m` (m,
 /// world, the body standing; not the same point), by place along the line between them.

@@ -20,6 +20,7 @@ namespace {
 using namespace geometry;
 
 constexpr double blend_m = 0.04;
+constexpr Passages at_the_faces{-blend_m, 0, 0.25, 0.25 + blend_m};  // of the cage below
 
 Body body() {
   return make_body({.height_m = 1.8F, .mass_kg = 80}).value();
@@ -59,7 +60,8 @@ struct Bound {
   MuscleSurface surface;
 
   explicit Bound(std::size_t member = 0) : surface(make_muscle_surfaces(b)[member].surface) {
-    bind_surface(surface, mesh, frame, blend_m);
+    MuscleSurface* const all[] = {&surface};
+    bind_surfaces(all, mesh, frame, blend_m);
   }
   Pose<float> rest_pose() const {
     Pose<float> pose{};
@@ -143,6 +145,33 @@ TEST(Binding, WeightsArePartitionsOfOne) {
   }
 }
 
+TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
+  // All of triceps surae: the calcaneal tendon reaches the heel, the others end in it and go with it.
+  const Bound base(10);
+  auto muscles = make_muscle_surfaces(base.b);
+  const Vec knee = to_double(base.rest_pose().position_m[index(Segment::shank_right)]);
+  const RestFrame frame{to_float(knee + Vec{0, -0.01, -0.02}), rotation({1, 0, 0}, 1.5708)};
+  std::vector<MuscleSurface*> group;
+  for (auto& m : muscles) {
+    if (m.group == MuscleGroup::triceps_surae) group.push_back(&m.surface);
+  }
+  ASSERT_EQ(group.size(), 4U);
+  bind_surfaces(group, base.mesh, frame, blend_m);
+  const auto& tendon = *group.back();
+  EXPECT_EQ(tendon.binding.back().insertion, 1.0F);
+  for (const MuscleSurface* s : group) {
+    for (std::size_t v = 0; v < s->binding.size(); ++v) {
+      EXPECT_NEAR(s->binding[v].cage + s->binding[v].origin + s->binding[v].insertion, 1.0F, 1e-6F);
+      for (std::size_t w = 0; w < tendon.binding.size(); ++w) {
+        const bool together = std::abs(s->rest_in_cage[v].z - tendon.rest_in_cage[w].z) < 1e-3F;
+        if (together) {
+          EXPECT_NEAR(s->binding[v].insertion, tendon.binding[w].insertion, 0.02F);
+        }
+      }
+    }
+  }
+}
+
 TEST(Skinning, RestsWhereItWasDrawn) {
   for (std::size_t m = 0; m < 12; ++m) {
     const Bound bound(m);
@@ -180,7 +209,7 @@ RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
     const Vec q = to_double(p) + Vec{0.001, 0, 0.125};
     p = to_float(rotated(bound.frame.rotation, q) + to_double(bound.frame.start_m));
   }
-  bind_surface(inner, bound.mesh, bound.frame, blend_m);
+  bind_surface(inner, bound.mesh, bound.frame, at_the_faces);
   double gradient[3][3];
   for (auto& row : gradient) {
     for (double& g : row) g = *rc::gen::inRange(-30, 31) * 0.01;

@@ -29,17 +29,22 @@ bool is_tendon(const std::string& name) {
   return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
 }
 
-/// Binds a surface to the cage of its group in this person.
-void bind(const Simulation& simulation, const Human& human, MuscleGroup group, MuscleSurface& surface) {
-  const auto g = static_cast<std::size_t>(group);
-  const MusclePlan& plan = human.muscle_plan[g];
-  const auto* shape = simulation.world().shared<MuscleTemplate>(human.muscle[g][right]);
-  const RestFrame frame{
-      {static_cast<float>(plan.start_m.x), static_cast<float>(plan.start_m.y), static_cast<float>(plan.start_m.z)},
-      {static_cast<float>(plan.rotation.x), static_cast<float>(plan.rotation.y), static_cast<float>(plan.rotation.z),
-       static_cast<float>(plan.rotation.w)}};
-  bind_surface(surface, individual_cage(*shape, plan.scale), frame,
-               blend_per_height * static_cast<double>(human.body.request.height_m));
+/// Binds the surfaces of each group to the group's cage in this person.
+void bind_muscles(const Simulation& simulation, const Human& human, Figure& figure, const std::vector<bool>& ligament) {
+  for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
+    const MusclePlan& plan = human.muscle_plan[g];
+    const auto* shape = simulation.world().shared<MuscleTemplate>(human.muscle[g][right]);
+    const RestFrame frame{
+        {static_cast<float>(plan.start_m.x), static_cast<float>(plan.start_m.y), static_cast<float>(plan.start_m.z)},
+        {static_cast<float>(plan.rotation.x), static_cast<float>(plan.rotation.y), static_cast<float>(plan.rotation.z),
+         static_cast<float>(plan.rotation.w)}};
+    std::vector<MuscleSurface*> together;
+    for (std::size_t i = 0; i < figure.muscles.size(); ++i) {
+      if (figure.muscles[i].group == plan.group && !ligament[i]) together.push_back(&figure.muscles[i].surface);
+    }
+    bind_surfaces(together, individual_cage(*shape, plan.scale), frame,
+                  blend_per_height * static_cast<double>(human.body.request.height_m));
+  }
 }
 
 /// Centre of the highest or lowest hundredth of a surface: where a ligament begins or ends.
@@ -56,17 +61,17 @@ Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
   return {mean.x * share, mean.y * share, mean.z * share};
 }
 
-void add_muscle(const Simulation& simulation, const Human& human, MuscleGroup group, MuscleSurface surface,
-                bool ligament, Figure& figure) {
-  if (ligament) {
-    const auto from = extreme(surface.mesh, true);
-    const auto to = extreme(surface.mesh, false);
-    bind_ligament(surface, from, to);
-  } else {
-    bind(simulation, human, group, surface);
-  }
+FigureMuscle figure_muscle(MuscleGroup group, MuscleSurface surface) {
   const Vec3<float> colour = is_tendon(surface.mesh.name) ? tendon_colour : belly_colour;
-  figure.muscles.push_back({group, colour, std::move(surface)});
+  return {group, colour, std::move(surface)};
+}
+
+/// Real quadriceps meshes run past the kneecap down to the tibia; those end there.
+void end_on_shank_below_kneecap(const Body& body, MuscleSurface& surface) {
+  const float knee = body.hip_height_m - body.thigh_length_m;
+  if (surface.insertion == Segment::patella_right && extreme(surface.mesh, false).y < knee) {
+    surface.insertion = Segment::shank_right;
+  }
 }
 
 Result<Figure> real_figure(const Simulation& simulation, const Human& human, const std::filesystem::path& folder) {
@@ -83,8 +88,10 @@ Result<Figure> real_figure(const Simulation& simulation, const Human& human, con
     if (!real[index(bone.segment)]) figure.bones.push_back(std::move(bone));
   }
   for (auto& muscle : fitted->muscles) {
-    add_muscle(simulation, human, muscle.group, std::move(muscle.surface), false, figure);
+    end_on_shank_below_kneecap(human.body, muscle.surface);
+    figure.muscles.push_back(figure_muscle(muscle.group, std::move(muscle.surface)));
   }
+  bind_muscles(simulation, human, figure, std::vector<bool>(figure.muscles.size(), false));
   return figure;
 }
 
@@ -95,9 +102,15 @@ Result<Figure> make_figure(const Simulation& simulation, const Human& human,
   if (anatomy) return real_figure(simulation, human, *anatomy);
   Figure figure;
   figure.bones = make_bone_surfaces(human.body);
+  std::vector<bool> ligament;
   for (auto& muscle : make_muscle_surfaces(human.body)) {
-    add_muscle(simulation, human, muscle.group, std::move(muscle.surface), muscle.ligament, figure);
+    ligament.push_back(muscle.ligament);
+    if (muscle.ligament) {
+      bind_ligament(muscle.surface, extreme(muscle.surface.mesh, true), extreme(muscle.surface.mesh, false));
+    }
+    figure.muscles.push_back(figure_muscle(muscle.group, std::move(muscle.surface)));
   }
+  bind_muscles(simulation, human, figure, ligament);
   return figure;
 }
 

@@ -23,8 +23,8 @@ Camera follow(const Pose<float>& pose, const Body& body) {
   const Vec3<float> at = pose.position_m[index(Segment::pelvis)];
   Camera camera;
   camera.target = {0.2F * at.x, 0.50F * stature, at.z + 0.1F * stature};
-  camera.eye = {camera.target.x - 2.05F * stature, 0.62F * stature, camera.target.z + 1.15F * stature};
-  camera.vertical_fov_deg = 30;
+  camera.eye = {camera.target.x - 2.0F * stature, 0.60F * stature, camera.target.z + 1.1F * stature};
+  camera.vertical_fov_deg = 28;
   return camera;
 }
 

@@ -31,14 +31,14 @@ void add_long_bone(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_
 
 /// The measured foot is drawn in mm from the ankle; lengthwise it follows the body's, forward of the ankle.
 struct FootScale {
-  double forward_factor, ground;  // ground: height of the sole's lowest bone under the ankle
+  double forward_factor;
 
   Vec operator()(double x, double y, double z) const { return {x, y, z > 0 ? z * forward_factor : z}; }
 };
 constexpr double measured_ball = 122;
 
 FootScale foot_scale(const Proportions& p) {
-  return {p.tip[index(Segment::foot_right)].z / measured_ball, 0};
+  return {p.tip[index(Segment::foot_right)].z / measured_ball};
 }
 
 struct Ray {

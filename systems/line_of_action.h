@@ -17,9 +17,10 @@ struct MuscleLines {
   struct Point {
     LegBone bone;
     Vec3<float> at_m;
-    /// Where along the path the straight line ends that this point bends (an index among the member's points), or 0 if
-    /// the point always bends it; and that bend as share = s((from), +) · (1 − s((to), +)) of the knee's flexion (rad).
+    /// Of a point that bends the path at some knee angles only: which of the member's points (their number: the path's
+    /// end) closes the straight line that it bends. 0: it always bends it.
     std::size_t straight_to = 0;
+    /// Knee flexions (rad) at which it begins to bend the path, and to let go of it.
     float from_rad = 0, to_rad = 0;
   };
   struct Member {

@@ -97,13 +97,27 @@ struct GaitRequest {
   GaitStyle style{};
 };
 
-/// A walk that was found consistent and within range, by `resolve_gait` (systems/gait.h).
+/// A walk that was found consistent and within range, by `resolve_gait` (systems/gait/gait.h).
 struct Gait {
   float speed_m_s = 0, step_length_m = 0, step_frequency_hz = 0;
   /// One double support as a fraction of the cycle of two steps.
   float double_support_cycle = 0;
   GaitStyle style{};
 };
+
+/// When in a step the pelvis turns, lists, tilts and shifts: phases as fractions of the step from heel strike of the
+/// stance leg, from the first harmonics of Schwartz, Rozumalski & Trost 2008 (free speed). Seen from the stance leg:
+///   rotation (that side forward) = A cos π(t/T − rotation)
+///   list (that side up) = A (first cos π(t/T − first phase) + third cos 3π(t/T − third phase))
+///   tilt (anterior) = mean + A cos 2π(t/T − tilt)
+///   shift (toward that side) = A sin π(t/T − half a double support)
+/// The odd harmonics change sign from one step to the next as the sides change, so all are smooth through heel strike.
+namespace pelvis_phase {
+inline constexpr double rotation = 0.16;
+inline constexpr double list_first = 0.70, list_first_phase = 0.272;
+inline constexpr double list_third = 0.30, list_third_phase = 0.314;
+inline constexpr double tilt = -0.166;
+}  // namespace pelvis_phase
 
 /// A smooth curve over a known time: cubic Hermite through equally spaced knots; slopes are per interval, not per
 /// second.

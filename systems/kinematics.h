@@ -1,26 +1,2 @@
 #pragma once
-// From the solved step and the walker's clock to the pose of all 48 segments.
-
-#include "components/body.h"
-#include "components/gait.h"
-#include "components/pose.h"
-
-namespace mobil {
-
-/// Writes every segment's world position and rotation, the joint angles and the feet's ground points. Hips follow the
-/// step's curves, turned, listed, tilted and shifted as kinematics_pelvis.h says; the standing foot turns about its
-/// planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with the knee pointing
-/// forward; the column undoes the pelvis up to the head; each arm follows the opposite leg. No state of its own: any
-/// time of any step may be asked.
-void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                   const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                   Feet<Lanes<float>>& feet);
-
-/// Centre of mass of the whole body, from the masses and centres of its segments.
-void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
-                    CentreOfMass<Lanes<float>>& centre);
-
-/// The anatomical position: standing at the origin facing +Z, all rotations identity.
-void pose_anatomical(const BodySize<Lanes<float>>& size, Pose<Lanes<float>>& pose);
-
-}  // namespace mobil
+#include "systems/kinematics/kinematics.h"

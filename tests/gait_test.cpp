@@ -1,5 +1,5 @@
 // Walking requests, the equations of a step against a Lagrangian differentiated here, and the solved steps.
-#include "systems/gait.h"
+#include "systems/gait/gait.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,9 @@
 #include <random>
 
 #include "assets/anthropometry.h"
-#include "systems/step_leg.h"
-#include "systems/step_math.h"
-#include "systems/step_swing.h"
+#include "systems/gait/step_leg.h"
+#include "systems/gait/step_math.h"
+#include "systems/gait/step_swing.h"
 
 namespace mobil {
 namespace {

@@ -1,5 +1,5 @@
 // Random walkers, sixteen at a time: feet that stand still, legs that keep their length, motion without jumps.
-#include "systems/kinematics.h"
+#include "systems/kinematics/kinematics.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 
 #include "assets/anthropometry.h"
-#include "systems/gait.h"
+#include "systems/gait/gait.h"
 
 namespace mobil {
 namespace {

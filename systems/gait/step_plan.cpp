@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "systems/gait.h"
-#include "systems/step_leg.h"
-#include "systems/step_math.h"
-#include "systems/step_swing.h"
+#include "systems/gait/gait.h"
+#include "systems/gait/step_leg.h"
+#include "systems/gait/step_math.h"
+#include "systems/gait/step_swing.h"
 
 namespace mobil {
 namespace {

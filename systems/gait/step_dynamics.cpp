@@ -1,6 +1,6 @@
-#include "systems/step_dynamics.h"
+#include "systems/gait/step_dynamics.h"
 
-#include "systems/step_math.h"
+#include "systems/gait/step_math.h"
 
 namespace mobil::step {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "systems/step_dynamics.h"
+#include "systems/gait/step_dynamics.h"
 
 namespace mobil::step {
 

@@ -1,11 +1,10 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/kinematics.cpp"
+#define HWY_TARGET_INCLUDE "systems/kinematics/kinematics.cpp"
 #include <hwy/foreach_target.h>
 
 #include "assets/anthropometry.h"
-#include "systems/kinematics.h"
-#include "systems/kinematics_pelvis.h"
-#include "systems/kinematics_wide-inl.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/kinematics/kinematics_wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {

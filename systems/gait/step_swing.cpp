@@ -1,11 +1,11 @@
-#include "systems/step_swing.h"
+#include "systems/gait/step_swing.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "systems/step_math.h"
+#include "systems/gait/step_math.h"
 
 namespace mobil::step {
 namespace {

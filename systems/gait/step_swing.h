@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "systems/step_leg.h"
+#include "systems/gait/step_leg.h"
 
 namespace mobil::step {
 

@@ -1,9 +1,9 @@
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/gait_advance.cpp"
+#define HWY_TARGET_INCLUDE "systems/gait/gait_advance.cpp"
 #include <hwy/foreach_target.h>
 
 #include "engine/wide-inl.h"
-#include "systems/gait.h"
+#include "systems/gait/gait.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {

@@ -7,7 +7,7 @@
 
 #include "components/body.h"
 #include "components/gait.h"
-#include "systems/step_support.h"
+#include "systems/gait/step_support.h"
 
 namespace mobil::step {
 

@@ -1,10 +1,9 @@
-#include "systems/step_leg.h"
+#include "systems/gait/step_leg.h"
 
 #include <cmath>
 
 #include "assets/anthropometry.h"
-#include "systems/kinematics_pelvis.h"
-#include "systems/step_math.h"
+#include "systems/gait/step_math.h"
 
 namespace mobil::step {
 namespace {

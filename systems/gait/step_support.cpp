@@ -1,10 +1,10 @@
-#include "systems/step_support.h"
+#include "systems/gait/step_support.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "systems/step_math.h"
+#include "systems/gait/step_math.h"
 
 namespace mobil::step {
 namespace {

@@ -1,4 +1,4 @@
-#include "systems/gait.h"
+#include "systems/gait/gait.h"
 
 #include <fmt/format.h>
 

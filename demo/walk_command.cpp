@@ -139,6 +139,7 @@ void add_walk_command(CLI::App& app, int& exit_status) {
       "Ground reactions and joint moments in motion.csv are empty cells: they are not simulated yet.\n"
       "Example: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video");
   auto text = std::make_shared<WalkText>();
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
   add_walk_options(*command, *text);
   command->callback([text, &exit_status] {
     const auto options = read_walk_options(*text);

@@ -8,9 +8,9 @@
 
 #include "assets/anthropometry.h"
 #include "systems/deformation/deformation.h"
-#include "systems/gait.h"
-#include "systems/kinematics.h"
-#include "systems/line_of_action.h"
+#include "systems/gait/gait.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/lines/line_of_action.h"
 
 namespace mobil {
 namespace {
@@ -273,7 +273,7 @@ Result<const Simulation::Template*> Simulation::muscle_template(MuscleGroup grou
   for (const auto& made : templates_) {
     if (made->group == group && made->drive == drive && same(made->material, material)) return made.get();
   }
-  auto mesh = bend_block(belly_cells, group_cage(group), group_line(group).belly_m);
+  auto mesh = bend_block(belly_cells, group_cage(group), reference_belly_m(group));
   if (!mesh) return tl::unexpected(mesh.error());
   MuscleOptions options;
   options.far_end = drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;

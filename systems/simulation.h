@@ -46,7 +46,7 @@ enum class Drive : std::uint8_t { displacement, force };
 /// The number of equal steps a tick is cut into; a tag of every muscle table.
 struct Substeps {};
 
-struct MuscleLines;  // systems/line_of_action.h
+struct MuscleLines;  // systems/lines/line_of_action.h
 
 /// One walking person as set up at spawn; what changes is in the world.
 struct Human {

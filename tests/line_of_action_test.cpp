@@ -1,5 +1,5 @@
 // Lines of action in lanes against the same paths in double, and what must hold for any pose.
-#include "systems/line_of_action.h"
+#include "systems/lines/line_of_action.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
-#include "systems/line_of_action.h"
+#include "systems/lines/line_of_action.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/line_of_action.cpp"
+#define HWY_TARGET_INCLUDE "systems/lines/line_of_action.cpp"
 #include <hwy/foreach_target.h>
 
 #include "engine/wide-inl.h"

@@ -12,6 +12,7 @@
 #include "assets/output_file.h"
 #include "demo/commands.h"
 #include "demo/figure.h"
+#include "demo/walk_lines.h"
 #include "demo/walk_options.h"
 #include "demo/walk_pictures.h"
 #include "demo/walk_summary.h"
@@ -35,30 +36,11 @@ void show_progress(const char* what, std::size_t done, std::size_t of) {
              done == of ? "\n" : "");
 }
 
-/// The ends of each muscle's straight span now, in the world.
-std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human& human) {
-  std::vector<Vec3<float>> ends;
-  for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      const auto line = simulation.get<LineOfAction>(human.muscle[g][side]);
-      if (!line) continue;
-      const float mirror = side == left ? -1.0F : 1.0F;
-      const float span = static_cast<float>(human.muscle_plan[g].belly_length_m) + line->length_m - line->rest_length_m;
-      const auto& q = line->rotation;
-      const Vec3<float> z{2 * (q.x * q.z + q.w * q.y), 2 * (q.y * q.z - q.w * q.x), 1 - 2 * (q.x * q.x + q.y * q.y)};
-      const auto& start = line->start_m;
-      ends.push_back({mirror * start.x, start.y, start.z});
-      ends.push_back({mirror * (start.x + span * z.x), start.y + span * z.y, start.z + span * z.z});
-    }
-  }
-  return ends;
-}
-
 struct Walked {
   MotionTable motion;
   MuscleTable muscles;
   WalkRecording recording;
-  std::vector<std::vector<Vec3<float>>> action_line;
+  std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
   double simulation_s = 0;
 };
 
@@ -88,7 +70,8 @@ Walked walk(Simulation& simulation, const Human& human, const Figure& figure, co
     write_rows(simulation, human, method, walked);
     if (i % ticks_per_frame == 0) {
       record_frame(figure, simulation, human, walked.recording);
-      walked.action_line.push_back(action_lines(simulation, human));
+      if (options.view == View::stick) walked.action_line.push_back(action_lines(simulation, human));
+      if (options.view == View::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
     }
   }
   return walked;
@@ -112,7 +95,7 @@ Result<void> run_walk(const WalkOptions& options) {
   const auto exported = write_glb(options.out / "walk.glb", walked.recording);
   if (!exported) return tl::unexpected(exported.error());
   if (options.frames || options.video) {
-    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line};
+    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
     const std::size_t frames = walked.recording.frames.size();
     const auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
     if (!done) return done;

@@ -71,7 +71,7 @@ void add_walk_options(CLI::App& command, WalkText& text) {
       ->group("Muscles");
   command.add_option("--anatomy", text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv")
       ->group("Pictures");
-  command.add_option("--view", text.view, "stick, wireframe or surface")->capture_default_str()->group("Pictures");
+  command.add_option("--view", text.view, "stick (lines of action), wireframe (finite-element meshes) or surface")->capture_default_str()->group("Pictures");
   command.add_flag("--stereo", text.stereo, "Left and right eye side by side")->group("Pictures");
   command.add_flag("--frames", text.frames, "Write frame_*.png, 1280x720, 30 a second")->group("Pictures");
   command.add_flag("--video", text.video, "Write walk.mp4")->group("Pictures");

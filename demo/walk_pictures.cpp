@@ -97,7 +97,6 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
         {.position = drawing.action_line[frame], .colour = line_red, .width = 0.016F, .unit = LineUnit::metre});
     return;
   }
-  const bool wireframe = view == View::wireframe;
   scene.placement.resize(recording.bones.size());
   for (std::size_t i = 0; i < recording.bones.size(); ++i) {
     const BoneSurface& bone = recording.bones[i];
@@ -106,16 +105,18 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
     scene.meshes.push_back({.position = bone.mesh.position,
                             .triangle = bone.mesh.triangle,
                             .colour = bone_ivory,
-                            .wireframe = wireframe,
                             .placement = {&scene.placement[i], 1},
                             .key = i + 1});
+  }
+  if (view == View::wireframe) {
+    scene.lines.push_back({.position = drawing.mesh_edge[frame], .colour = line_red, .width = 1.6F});
+    return;
   }
   for (const RecordedMuscle& muscle : recording.muscles) {
     scene.meshes.push_back({.position = muscle.position_m[frame],
                             .triangle = muscle.triangle,
                             .colour = display_colour(muscle.colour),
-                            .wetness = 0.5F,
-                            .wireframe = wireframe});
+                            .wetness = 0.5F});
   }
 }
 

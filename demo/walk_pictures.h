@@ -12,12 +12,12 @@
 
 namespace mobil {
 
-/// What pictures show beyond the recording: the lines of action of each frame, two ends each, in the world (m), and the
-/// rest of a stick figure.
+/// What pictures show beyond the recording, by frame, two ends a line, in the world (m): lines of action (the stick
+/// view needs them), edges of the finite-element meshes (the wireframe view).
 struct WalkDrawing {
   const WalkRecording* recording = nullptr;
   const Body* body = nullptr;
-  std::vector<std::vector<Vec3<float>>> action_line;  // [frame][2 · muscle + end]
+  std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
 };
 
 /// Renders every frame at 1280×720 with the camera following, as PNGs and/or a video, as `options` says; `progress` is

@@ -277,6 +277,8 @@ Result<const Simulation::Template*> Simulation::muscle_template(MuscleGroup grou
   if (!mesh) return tl::unexpected(mesh.error());
   MuscleOptions options;
   options.far_end = drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;
+  options.lowest_ratio = 0.4;  // bodies in range have 0.44 to 3.06
+  options.highest_ratio = 3.2;
   auto shape = make_muscle_template(std::move(*mesh), material, options);
   if (!shape) return tl::unexpected(shape.error());
   auto made = std::make_unique<Template>(Template{drive, material, group, nullptr, nullptr, {}, {}});

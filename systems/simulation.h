@@ -33,9 +33,9 @@ namespace mobil {
 
 struct SimulationOptions {
   double tick_s = 1.0 / 60;
-  double max_frame_s = 0.25;  // of a longer frame the rest is dropped and reported
-  int threads = 1;            // of the built-in pool; 0: as many as the machine has
-  std::optional<Jobs> jobs;   // the caller's own job system instead
+  double max_frame_s = 0.25;   // of a longer frame the rest is dropped and reported
+  int threads = 1;             // of the built-in pool; 0: as many as the machine has
+  std::optional<Jobs> jobs{};  // the caller's own job system instead
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 

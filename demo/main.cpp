@@ -6,20 +6,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
-#include <string>
 
 #include "demo/commands.h"
-
-namespace {
-
-/// CLI11's message, cut to its first line, with the mend after it.
-std::string one_line(const CLI::App* app, const CLI::Error& error) {
-  std::string what = error.what();
-  what = what.substr(0, what.find('\n'));
-  return fmt::format("{}: {}; see '{} --help'\n", app->get_name(), what, app->get_name());
-}
-
-}  // namespace
+#include "demo/usage.h"
 
 int main(int argc, char** argv) {
   CLI::App app{
@@ -29,7 +18,6 @@ int main(int argc, char** argv) {
       "mobil"};
   app.set_version_flag("--version", "mobil 0.1.0");
   app.require_subcommand(1);
-  app.failure_message(one_line);
   app.footer("Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out");
 
   int status = 0;
@@ -39,8 +27,10 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    const int code = app.exit(error);
-    return code == 0 ? 0 : 2;
+    const bool unknown_subcommand = app.get_subcommands().empty() && !app.remaining().empty();
+    if (error.get_exit_code() == 0 && !unknown_subcommand) return app.exit(error);  // --help, --version
+    std::fputs(mobil::explain_usage(app, error, argc, argv).c_str(), stderr);
+    return 2;
   } catch (const std::exception& error) {
     std::fputs(fmt::format("mobil: {}\n", error.what()).c_str(), stderr);
     return 1;

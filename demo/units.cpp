@@ -38,6 +38,10 @@ std::span<const Unit> units(Quantity quantity) {
 
 }  // namespace
 
+std::string_view si_unit(Quantity quantity) {
+  return units(quantity).front().name;
+}
+
 Result<double> parse_quantity(const std::string& text, Quantity quantity) {
   std::string known;
   for (const auto& unit : units(quantity)) known += fmt::format("{}{}", known.empty() ? "" : ", ", unit.name);

@@ -31,8 +31,8 @@ Result<double> read_quantity(std::string_view option, const std::string& text, Q
   const auto value = parse_quantity(text, quantity);
   if (!value) return fail(fmt::format("{} {}", option, value.error().message));
   if (*value < low || *value > high) {
-    return fail(fmt::format("{} {}: outside the valid range {:g} to {:g} (SI); choose a value inside it", option, text,
-                            low, high));
+    return fail(fmt::format("{} {}: outside the valid range {:g} to {:g} {}; choose a value inside it", option, text,
+                            low, high, si_unit(quantity)));
   }
   return value;
 }
@@ -71,11 +71,18 @@ void add_walk_options(CLI::App& command, WalkText& text) {
       ->group("Muscles");
   command.add_option("--anatomy", text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv")
       ->group("Pictures");
-  command.add_option("--view", text.view, "stick (lines of action), wireframe (finite-element meshes) or surface")->capture_default_str()->group("Pictures");
+  command.add_option("--view", text.view, "stick (lines of action), wireframe (finite-element meshes) or surface")
+      ->capture_default_str()
+      ->group("Pictures");
   command.add_flag("--stereo", text.stereo, "Left and right eye side by side")->group("Pictures");
   command.add_flag("--frames", text.frames, "Write frame_*.png, 1280x720, 30 a second")->group("Pictures");
   command.add_flag("--video", text.video, "Write walk.mp4")->group("Pictures");
   command.add_option("--out", text.out, "Folder for the results, made if missing")->capture_default_str();
+  for (CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_items_expected() > 0; })) {
+    option->check([](const std::string& value) {
+      return value.empty() ? std::string("is empty; give a value or leave the option out") : std::string();
+    });
+  }
 }
 
 Result<WalkOptions> read_walk_options(const WalkText& text) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 namespace mobil {
 namespace {
@@ -35,7 +36,7 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
     length = *length_asked;
     if (frequency_asked && !(std::fabs(length * *frequency_asked / speed - 1.0) < 0.01))
       return fail(
-          fmt::format("gait: speed {} m/s is not step length {} m times step frequency {} Hz = {:.3g} m/s; "
+          fmt::format("gait: speed {:.4g} m/s is not step length {:.4g} m times step frequency {:.4g} Hz = {:.3g} m/s; "
                       "leave one of the three out",
                       speed, length, *frequency_asked, length * *frequency_asked));
   } else if (frequency_asked && (speed_asked || length_asked)) {
@@ -49,22 +50,24 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
     length = std::sqrt(law * speed);
   }
 
-  if (!inside(speed, 0.3 * scale, 2.3 * scale))
-    return fail(
-        fmt::format("gait: a speed of {:.3g} m/s is outside {:.2f}–{:.2f} m/s for a height of {:.2f} m; choose "
-                    "a speed within that range",
-                    speed, 0.3 * scale, 2.3 * scale, height));
-  if (!inside(length, 0.25 * leg, 1.25 * leg))
-    return fail(
-        fmt::format("gait: a step length of {:.3g} m is outside {:.2f}–{:.2f} m for a height of {:.2f} m; "
-                    "choose a step length within that range, or another step frequency",
-                    length, 0.25 * leg, 1.25 * leg, height));
   const double frequency = speed / length;
-  if (!inside(frequency, 0.5 / scale, 3.0 / scale))
-    return fail(
-        fmt::format("gait: a step frequency of {:.3g} Hz is outside {:.2f}–{:.2f} Hz for a height of {:.2f} m; "
-                    "choose speed and step length nearer to each other",
-                    frequency, 0.5 / scale, 3.0 / scale, height));
+  struct {
+    std::string_view name, unit;
+    bool asked;
+    double value, low, high;
+  } const ranges[] = {
+      {"speed", "m/s", speed_asked.has_value(), speed, 0.3 * scale, 2.3 * scale},
+      {"step length", "m", length_asked.has_value(), length, 0.25 * leg, 1.25 * leg},
+      {"step frequency", "Hz", frequency_asked.has_value(), frequency, 0.5 / scale, 3.0 / scale},
+  };
+  for (const bool asked : {true, false}) {  // what the caller wrote before what follows from it
+    for (const auto& r : ranges) {
+      if (r.asked != asked || inside(r.value, r.low, r.high)) continue;
+      return fail(fmt::format("gait: {} {} of {:.3g} {} is outside {:.2f}–{:.2f} {} for a height of {:.2f} m; {}",
+                              asked ? "a" : "what was asked makes a", r.name, r.value, r.unit, r.low, r.high, r.unit,
+                              height, asked ? "choose one within that range" : "ask for more usual steps"));
+    }
+  }
   Gait gait;
   gait.speed_m_s = static_cast<float>(speed);
   gait.step_length_m = static_cast<float>(length);

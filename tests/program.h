@@ -1,0 +1,111 @@
+#pragma once
+// Runs the `mobil` program itself, and reads what it wrote.
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace mobil {
+
+/// A folder of one's own, gone with its owner.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    static int made = 0;
+    path = std::filesystem::temp_directory_path() / fmt::format("mobil_program_{}_{}", ::getpid(), made++);
+    std::filesystem::create_directories(path);
+  }
+  ~TemporaryFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path, ignored);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path path;
+};
+
+inline std::string read_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+struct Ran {
+  int status = -1;
+  std::string out, err;
+};
+
+/// A command line of the shell, in the folder `in`.
+inline Ran run_shell(const std::string& command, const std::filesystem::path& in) {
+  const TemporaryFolder streams;
+  const int status = std::system(fmt::format("cd '{}' && {} >'{}' 2>'{}' </dev/null", in.string(), command,
+                                             (streams.path / "out").string(), (streams.path / "err").string())
+                                     .c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_bytes(streams.path / "out"),
+          read_bytes(streams.path / "err")};
+}
+
+/// `mobil` with those arguments, as a shell reads them.
+inline Ran run_mobil(const std::string& arguments, const std::filesystem::path& in) {
+  return run_shell("'" MOBIL_PROGRAM "' " + arguments, in);
+}
+
+/// A CSV with a header, by column.
+class Csv {
+ public:
+  explicit Csv(const std::filesystem::path& file) {
+    std::istringstream lines(read_bytes(file));
+    std::string line;
+    std::getline(lines, line);
+    columns = cells(line);
+    while (std::getline(lines, line)) {
+      auto row = cells(line);
+      if (row.size() != columns.size()) throw std::runtime_error("another number of cells: " + line);
+      rows.push_back(std::move(row));
+    }
+  }
+
+  const std::string& text(std::size_t row, const std::string& column) const { return rows[row][number_of(column)]; }
+  /// NaN where the cell is empty.
+  double number(std::size_t row, const std::string& column) const {
+    const std::string& cell = text(row, column);
+    return cell.empty() ? std::nan("") : std::stod(cell);
+  }
+  bool has(const std::string& column) const {
+    return std::find(columns.begin(), columns.end(), column) != columns.end();
+  }
+
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+
+ private:
+  static std::vector<std::string> cells(const std::string& line) {
+    std::vector<std::string> cut(1);
+    for (const char c : line) {
+      if (c == ',') {
+        cut.emplace_back();
+      } else {
+        cut.back() += c;
+      }
+    }
+    return cut;
+  }
+  std::size_t number_of(const std::string& column) const {
+    const auto at = std::find(columns.begin(), columns.end(), column);
+    if (at == columns.end()) throw std::runtime_error("no column " + column);
+    return static_cast<std::size_t>(at - columns.begin());
+  }
+};
+
+}  // namespace mobil

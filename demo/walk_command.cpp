@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 
 #include "assets/output_file.h"
@@ -87,19 +88,24 @@ Result<void> run_walk(const WalkOptions& options) {
   const Human& human = *simulation.human(*entity);
   const auto figure = make_figure(simulation, human, options.anatomy);
   if (!figure) return tl::unexpected(figure.error());
+  const bool folder_was_there = std::filesystem::exists(options.out);
   if (auto made = make_output_folder(options.out); !made) return made;
 
   const Walked walked = walk(simulation, human, *figure, options);
+  if (options.frames || options.video) {  // first, as they may lack a driver or a program: then nothing is written
+    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
+    const std::size_t frames = walked.recording.frames.size();
+    const auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
+    if (!done) {
+      std::error_code ignored;
+      if (!folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
+      return done;
+    }
+  }
   if (auto done = write_file(options.out / "motion.csv", walked.motion.text); !done) return done;
   if (auto done = write_file(options.out / "muscles.csv", walked.muscles.text); !done) return done;
   const auto exported = write_glb(options.out / "walk.glb", walked.recording);
   if (!exported) return tl::unexpected(exported.error());
-  if (options.frames || options.video) {
-    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
-    const std::size_t frames = walked.recording.frames.size();
-    const auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
-    if (!done) return done;
-  }
   const WalkCost cost{walked.simulation_s, seconds_since(start)};
   const auto summary = summary_json(options, simulation, human, cost, exported->muscles);
   if (auto done = write_file(options.out / "summary.json", summary); !done) return done;

@@ -167,6 +167,20 @@ TEST(BadOutput, AFolderHasTheNameOfAResult) {
   }
 }
 
+TEST(BadOutput, WithoutFfmpegOrADriverNothingIsWritten) {
+  const TemporaryFolder folder;
+  for (const std::string refused :
+       {"PATH=/nowhere '" MOBIL_PROGRAM "' walk --seconds 0.1 --video --out out",
+        "__EGL_VENDOR_LIBRARY_DIRS=/nowhere '" MOBIL_PROGRAM "' walk --seconds 0.1 --frames --out out"}) {
+    const Ran ran = run_shell(refused, folder.path);
+    if (ran.status == 0 && refused.find("EGL") != std::string::npos) GTEST_SKIP() << "this driver cannot be hidden";
+    EXPECT_EQ(ran.status, 2) << refused;
+    EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+    EXPECT_NE(ran.err.find("apt-get install"), std::string::npos) << ran.err;
+    EXPECT_TRUE(contents(folder.path).empty()) << refused;
+  }
+}
+
 TEST(BadMuscle, NamesTheLimit) {
   expect_refused("muscle --dt 0.0037", {"0.0037", "critical step 0.003483 s", "0.00313 s"});
   expect_refused("muscle --poisson 0.5", {"0.5", "-1"});

@@ -5,6 +5,6 @@ set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cmake --install "$1" --prefix "$scratch/prefix" >/dev/null
-cmake -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DHELLO_SOURCE="$2/demo/hello.cpp"
+cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DHELLO_SOURCE="$2/demo/hello.cpp"
 cmake --build "$scratch/build"
 "$scratch/build/hello"

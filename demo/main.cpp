@@ -18,11 +18,11 @@ int main(int argc, char** argv) {
       "mobil"};
   app.set_version_flag("--version", "mobil 0.1.0");
   app.require_subcommand(1);
-  app.footer("Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out");
 
   int status = 0;
   mobil::add_walk_command(app, status);
   mobil::add_muscle_command(app, status);
+  app.footer("Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out");
 
   try {
     app.parse(argc, argv);

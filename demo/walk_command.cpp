@@ -70,11 +70,13 @@ Walked walk(Simulation& simulation, const Human& human, const Figure& figure, co
     walked.simulation_s += seconds_since(start);
     write_rows(simulation, human, method, walked);
     if (i % ticks_per_frame == 0) {
+      show_progress("walking", i + std::size_t{1}, total);
       record_frame(figure, simulation, human, walked.recording);
       if (options.view == View::stick) walked.action_line.push_back(action_lines(simulation, human));
       if (options.view == View::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
     }
   }
+  show_progress("walking", total, total);
   return walked;
 }
 

@@ -63,7 +63,7 @@ void add_walk_options(CLI::App& command, WalkText& text) {
   command.add_option("--step-length", text.step_length, "Heel to opposite heel; any two of the three give the third")
       ->group("Gait");
   command.add_option("--step-frequency", text.step_frequency, "Steps per second, or 110steps/min")->group("Gait");
-  command.add_option("--seconds", text.seconds, "How long to walk, 0.1s to 600s")->capture_default_str()->group("Gait");
+  command.add_option("--seconds", text.seconds, "How long to walk, 0.1s to 60s")->capture_default_str()->group("Gait");
   command
       .add_option("--drive", text.drive,
                   "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
@@ -126,7 +126,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto frequency = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
   if (!frequency) return tl::unexpected(frequency.error());
   options.gait.step_frequency_hz = *frequency;
-  const auto seconds = read_quantity("--seconds", text.seconds, Quantity::time, 0.1, 600);
+  const auto seconds = read_quantity("--seconds", text.seconds, Quantity::time, 0.1, 60);
   if (!seconds) return tl::unexpected(seconds.error());
   options.seconds = *seconds;
 

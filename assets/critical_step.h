@@ -45,7 +45,7 @@ CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, FarEnd end, d
 /// the table. At most 1 % below the exact one.
 Result<double> critical_step(const CriticalSteps& table, double across, double along);
 
-/// Smallest number of equal substeps of a tick that keeps each within 0.9 of the critical step.
+/// Smallest number of equal substeps of a tick that keeps each within 0.9 of the critical step; both s, positive.
 std::uint32_t substeps_within(double critical_step_s, double tick_s);
 
 }  // namespace mobil

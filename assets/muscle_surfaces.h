@@ -10,7 +10,7 @@
 namespace mobil {
 
 /// A muscle surface with the group whose cage drives it. `tendon`: one a vertex, 0 in the belly to 1 in the tendon.
-/// A ligament follows its two bones alone: bind it with bind_ligament, all others with bind_surface
+/// A ligament follows its two bones alone: bind it with bind_ligament, a group's others together with bind_surfaces
 /// (surface_binding.h).
 struct GroupSurface {
   MuscleGroup group;

@@ -110,7 +110,7 @@ struct Gait {
 ///   rotation (that side forward) = A cos π(t/T − rotation)
 ///   list (that side up) = A (first cos π(t/T − first phase) + third cos 3π(t/T − third phase))
 ///   tilt (anterior) = mean + A cos 2π(t/T − tilt)
-///   shift (toward that side) = A sin π(t/T − half a double support)
+///   shift (toward that side) = A sin π(t − D/2)/T, D the time of double support
 /// The odd harmonics change sign from one step to the next as the sides change, so all are smooth through heel strike.
 namespace pelvis_phase {
 inline constexpr double rotation = 0.16;

@@ -29,9 +29,9 @@ struct MuscleOwner {
   Whole<F> index, generation, side;
 };
 
-/// Size of a belly against its template: S scales both directions across (area), l the length; r = S / l.
-/// Stiffness K = S·(E)·(A/r + B + r·C), lumped mass M = S²·l·M₁ with A, B, C, M₁ the template's where S is the linear
-/// scale across; see assets/stiffness_terms.h.
+/// Size of a belly against its template: x and y are S = `across` times the template's, z is l = `along` times it. With
+/// r = S / l the stiffness is K = S·(A/r + B + r·C) and the lumped mass S²·l·M₁, where A, B, C and M₁ are the
+/// template's (assets/stiffness_terms.h).
 template <class F>
 struct BellyScale {
   F across, along;

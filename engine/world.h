@@ -4,11 +4,12 @@
 //
 //   World world;
 //   const auto mesh = world.share(std::make_shared<const Mesh>(…));
-//   const Entity muscle = world.create(BellyScale<float>{1, 1}, FieldWidth<NodalVelocity>{243}, TagValue<Substeps>{5},
-//   mesh); world.add(muscle, EndForce<float>{0, 1});       // Status::ok world.get<EndForce>(muscle)->to_n; // 1
-//   world.set(muscle, TagValue<Substeps>{6});       // moves to the table of those with six
-//   world.remove<NodalVelocity>(muscle);
-//   world.destroy(muscle);                          // from here on everything answers Status::stale_entity
+//   const Entity muscle = world.create(BellyScale<float>{1, 1}, FieldWidth<NodalVelocity>{243}, mesh);
+//   world.add(muscle, EndForce<float>{0, 1});  // Status::ok
+//   world.get<EndForce>(muscle)->to_n;         // 1
+//   world.add(muscle, TagValue<Substeps>{5});  // moves to the table of those with five
+//   world.remove<NodalVelocity>(muscle);       // and on to the table of those without velocities
+//   world.destroy(muscle);                     // from here on everything answers Status::stale_entity
 //
 // Structure changes between ticks, by one thread; systems (engine/schedule.h) change values only.
 

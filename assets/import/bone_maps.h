@@ -37,8 +37,8 @@ LegJoints leg_joints(const Body& body);
 
 /// Pelvis: hip centre on hip centre, its width by the spacing of the hip centres, height and depth by the leg's length.
 /// Thigh and shank: joint centres on joint centres, turned by the least rotation, across by the leg's length. Foot:
-/// upright, ankle on ankle, lowest point on the ground, heel and ball at the body's (their factors held to 0.75–1.35 of
-/// the leg's). Fails for a body whose lengths are not finite and positive.
+/// upright, ankle on ankle, lowest point on the ground, heel and ball at the body's (held to 0.9–1.1 of what the
+/// leg's length gives). Fails for a body whose lengths are not finite and positive.
 Result<BoneMaps> bone_maps(const Anatomy& anatomy, const Body& body);
 
 }  // namespace mobil

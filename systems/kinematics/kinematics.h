@@ -8,10 +8,10 @@
 namespace mobil {
 
 /// Writes every segment's world position and rotation, the joint angles and the feet's ground points. Hips follow the
-/// step's curves, turned, listed, tilted and shifted as `pelvis_phase` (components/gait.h) says; the standing foot turns about its
-/// planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with the knee pointing
-/// forward; the column undoes the pelvis up to the head; each arm follows the opposite leg. No state of its own: any
-/// time of any step may be asked.
+/// step's curves, turned, listed, tilted and shifted as `pelvis_phase` (components/gait.h) says; the standing foot
+/// turns about its planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with the
+/// knee pointing forward; the column undoes the pelvis up to the head; each arm follows the opposite leg. No state of
+/// its own: any time of any step may be asked.
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
                    Feet<Lanes<float>>& feet);

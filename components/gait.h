@@ -26,7 +26,7 @@ struct GaitStyle {
   float stance_knee_deg = 8.0F;   // least flexion before the heel rises
   float toe_off_knee_deg = 31.0F;
   float knee_release_cycle = 0.37F;  // when the trailing knee starts to yield
-  float swing_knee_deg = 62.0F;      // greatest flexion asked of the swing
+  float swing_knee_deg = 52.0F;      // greatest flexion asked of the swing, before the foot is lifted
   float swing_ankle_deg = 3.0F;      // dorsiflexion in mid-swing
   float toe_clearance_m = 0.012F;
   float foot_pivot_h = 0.012F;             // support pivot ahead of the ankle

@@ -15,6 +15,8 @@ constexpr int integration_steps = 96;
 constexpr int bent_sample = 30;
 /// How fast the leg goes back over the foothold as the heel strikes, of what would stop the foot over the ground.
 constexpr double landing = 0.5;
+/// How high the foot is to be a tenth of the swing after toe-off, m.
+constexpr double early_clearance = 0.020;
 /// Passive knee, in units of the shank's inertia and the swing's pace.
 constexpr double passive_spring = 1.0, passive_damper = 0.4;
 
@@ -134,7 +136,7 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
   const Foot off = leg.stance(leg.toe_off), strike = leg.planted(leg.strike_pitch);
   const double off_rate = pitch_rate(leg, leg.toe_off), strike_rate = pitch_rate(leg, 0.0);
   const double ankle_off = off.pitch - first.q[1], ankle_strike = strike.pitch - target.q[1];
-  const double middle = 0.42, early_ankle = 0.05, late_ankle = 0.88, ankle_middle = style.swing_ankle_deg * degree;
+  const double middle = 0.45, early_ankle = 0.20, late_ankle = 0.88, ankle_middle = style.swing_ankle_deg * degree;
   run(torque, [&](int i, const SwingState& s) {
     const double u = static_cast<double>(i) / integration_steps, t = leg.toe_off + i * h;
     const Point at = leg.hip(t);
@@ -147,9 +149,8 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
                     at.forward + leg.thigh * a.sine + leg.shank * b.sine};
     const double fading = std::fmax(1.0 - u / early_ankle, 0.0),
                  rising = std::fmax((u - late_ankle) / (1.0 - late_ankle), 0.0);
-    const double returning = std::fmax(1.0 - u / middle, 0.0);
-    const double off_slope = (off_rate - first.rate[1]) * span - 2.0 * (ankle_middle - ankle_off) / middle;
-    const double dorsiflexion = ankle_off + (ankle_middle - ankle_off) * (1.0 - returning * returning) +
+    const double off_slope = (off_rate - first.rate[1]) * span;
+    const double dorsiflexion = ankle_off + (ankle_middle - ankle_off) * smooth_step(u, 0.0, middle) +
                                 (ankle_strike - ankle_middle) * smooth_step(u, middle, 1.0) +
                                 off_slope * u * fading * fading +
                                 (strike_rate - target.rate[1]) * span * (u - 1.0) * rising * rising;
@@ -158,18 +159,21 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
     swing.sample.push_back(sample);
   });
 
-  // Where the foot would come lower than asked it is lifted by a smooth hump, zero with zero slope at both ends.
-  double lift = 0.0;
-  for (int i = 1; i < integration_steps; ++i) {
-    const double u = static_cast<double>(i) / integration_steps;
-    const double hump = 16.0 * u * u * (1.0 - u) * (1.0 - u);
-    const double asked = style.toe_clearance_m * hump - 0.0015 * (1.0 - hump);
-    lift = std::fmax(lift, (asked - clearance(leg, swing.sample[static_cast<std::size_t>(i)])) / hump);
-  }
-  for (int i = 0; i <= integration_steps; ++i) {
-    const double u = static_cast<double>(i) / integration_steps;
-    swing.sample[static_cast<std::size_t>(i)].ankle.up += lift * 16.0 * u * u * (1.0 - u) * (1.0 - u);
-  }
+  // Where the foot would come lower than asked it is lifted by smooth humps, zero with zero slope at both ends: first
+  // so that it leaves the ground upward before it goes forward, then over what is left of the swing.
+  const auto part = [](std::size_t i) { return static_cast<double>(i) / integration_steps; };
+  const auto raise = [&](auto hump, auto asked) {
+    double lift = 0.0;
+    for (std::size_t i = 1; i < integration_steps; ++i)
+      lift = std::fmax(lift, (asked(part(i)) - clearance(leg, swing.sample[i])) / hump(part(i)));
+    for (std::size_t i = 0; i <= integration_steps; ++i) swing.sample[i].ankle.up += lift * hump(part(i));
+    return lift;
+  };
+  const auto leaving = [](double u) { return 65.88 * u * u * (1.0 - u) * (1.0 - u) * (1.0 - u) * (1.0 - u) * (1.0 - u); };  // highest at 2/7
+  const auto passing = [](double u) { return 16.0 * u * u * (1.0 - u) * (1.0 - u); };
+  double lift =
+      raise(leaving, [](double u) { return u < 0.3 ? early_clearance * std::fmin(u * u / (0.1 * 0.1), 1.0) : -1.0; });
+  lift += raise(passing, [&](double u) { return style.toe_clearance_m * passing(u) - 0.0015 * (1.0 - passing(u)); });
   swing.lift_m = lift;
   return swing;
 }

@@ -3,6 +3,7 @@
 // Winter), masses and centres of mass as fractions of body mass (Dempster, tabulated by Winter).
 
 #include <array>
+#include <cstddef>
 
 #include "components/body.h"
 #include "engine/error.h"

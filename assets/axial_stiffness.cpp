@@ -77,7 +77,8 @@ StaticStretch static_stretch(const StiffnessTerms& terms, double across, double 
 }
 
 AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, double lowest, double highest) {
-  const auto steps = static_cast<std::size_t>(std::ceil(std::log(highest / lowest) / std::log(1.2)));
+  const auto steps =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::log(highest / lowest) / std::log(1.2))));
   AxialStiffness table;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double r = lowest * std::pow(highest / lowest, static_cast<double>(i) / static_cast<double>(steps));

@@ -24,7 +24,7 @@ struct AxialStiffness {
   std::vector<double> per_ratio;  // κ(r) / r there, N/m
 };
 
-/// Tabulates r from `lowest` to `highest` (0 < lowest < highest) in steps of at most 20 %.
+/// Tabulates r from `lowest` to `highest` (0 < lowest ≤ highest) in steps of at most 20 %.
 AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, double lowest, double highest);
 
 /// N/m; ratios outside the table take its end.

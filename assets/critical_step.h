@@ -1,7 +1,7 @@
 #pragma once
 // The largest stable step of explicit central differences, 2 / ω_max, for a belly of any size.
 
-#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -1,6 +1,8 @@
 #pragma once
 // One muscle group of one body: its size, its line at rest, its belly in the anatomical position.
 
+#include <array>
+
 #include "assets/muscle_table.h"
 #include "components/body.h"
 #include "components/leg_frames.h"
@@ -29,8 +31,6 @@ struct MusclePlan {
   /// Size against the group's template (the reference body's).
   BellyScale<float> scale{};
   LegScale<float> leg_scale{};
-  /// How much of L − L₀ the belly's far end takes: all of it, the tendon being inextensible.
-  double elongation_factor = 1;
 };
 
 /// Fails on a body without positive lengths or masses, in one line.

@@ -95,29 +95,27 @@ constexpr std::array gastrocnemius_lateral = {femur(-0.022, -0.3946, 0.0272), be
                                               calcaneus(0, 0.031, -0.0053)};
 constexpr std::array soleus = {tibia(-0.0024, -0.1533, 0.0071), calcaneus(0, 0.031, -0.0053)};
 
-// Name, group, path, kneecap, share of the limb's volume and its offset, tendon, fibre, pennation, sections.
+// Name, group, path, kneecap, share of the limb's volume and its offset, sections.
 constexpr std::array<MemberMuscle, member_muscle_count> members = {{
-    {"semimembranosus", MuscleGroup::hamstrings, semimembranosus, nullptr, 0.0319, 18.2, 0.359, 0.08, 15,
-     sections::semimembranosus},
-    {"semitendinosus", MuscleGroup::hamstrings, semitendinosus, nullptr, 0.0285, -16.8, 0.2555, 0.201, 5,
-     sections::semitendinosus},
-    {"biceps_femoris_long_head", MuscleGroup::hamstrings, biceps_femoris_long_head, nullptr, 0.0256, 24.3, 0.326, 0.109,
-     0, sections::biceps_femoris_long_head},
-    {"biceps_femoris_short_head", MuscleGroup::hamstrings, biceps_femoris_short_head, nullptr, 0.016, -13.8, 0.089,
-     0.173, 23, sections::biceps_femoris_short_head},
-    {"rectus_femoris", MuscleGroup::quadriceps, rectus_femoris, &rectus_femoris_kneecap, 0.0371, 4.97, 0.31, 0.114, 5,
+    {"semimembranosus", MuscleGroup::hamstrings, semimembranosus, nullptr, 0.0319, 18.2, sections::semimembranosus},
+    {"semitendinosus", MuscleGroup::hamstrings, semitendinosus, nullptr, 0.0285, -16.8, sections::semitendinosus},
+    {"biceps_femoris_long_head", MuscleGroup::hamstrings, biceps_femoris_long_head, nullptr, 0.0256, 24.3,
+     sections::biceps_femoris_long_head},
+    {"biceps_femoris_short_head", MuscleGroup::hamstrings, biceps_femoris_short_head, nullptr, 0.016, -13.8,
+     sections::biceps_femoris_short_head},
+    {"rectus_femoris", MuscleGroup::quadriceps, rectus_femoris, &rectus_femoris_kneecap, 0.0371, 4.97,
      sections::rectus_femoris},
-    {"vastus_medialis", MuscleGroup::quadriceps, vastus_medialis, &vastus_medialis_kneecap, 0.0631, -16.3, 0.126, 0.089,
-     5, sections::vastus_medialis},
+    {"vastus_medialis", MuscleGroup::quadriceps, vastus_medialis, &vastus_medialis_kneecap, 0.0631, -16.3,
+     sections::vastus_medialis},
     {"vastus_intermedius", MuscleGroup::quadriceps, vastus_intermedius, &vastus_intermedius_kneecap, 0.0273, 76.5,
-     0.136, 0.087, 3, sections::vastus_intermedius},
-    {"vastus_lateralis", MuscleGroup::quadriceps, vastus_lateralis, &vastus_lateralis_kneecap, 0.125, -55.7, 0.157,
-     0.084, 5, sections::vastus_lateralis},
-    {"gastrocnemius_medial", MuscleGroup::triceps_surae, gastrocnemius_medial, nullptr, 0.0348, 9.42, 0.39, 0.06, 17,
+     sections::vastus_intermedius},
+    {"vastus_lateralis", MuscleGroup::quadriceps, vastus_lateralis, &vastus_lateralis_kneecap, 0.125, -55.7,
+     sections::vastus_lateralis},
+    {"gastrocnemius_medial", MuscleGroup::triceps_surae, gastrocnemius_medial, nullptr, 0.0348, 9.42,
      sections::gastrocnemius_medial},
-    {"gastrocnemius_lateral", MuscleGroup::triceps_surae, gastrocnemius_lateral, nullptr, 0.0199, 8.21, 0.38, 0.064, 8,
+    {"gastrocnemius_lateral", MuscleGroup::triceps_surae, gastrocnemius_lateral, nullptr, 0.0199, 8.21,
      sections::gastrocnemius_lateral},
-    {"soleus", MuscleGroup::triceps_surae, soleus, nullptr, 0.0507, 78.2, 0.25, 0.05, 25, sections::soleus},
+    {"soleus", MuscleGroup::triceps_surae, soleus, nullptr, 0.0507, 78.2, sections::soleus},
 }};
 
 constexpr std::array<GroupLine, muscle_group_count> lines = {{

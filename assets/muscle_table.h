@@ -40,6 +40,9 @@ struct PathPoint {
   /// Knee flexion (deg) between which the path bends round the point; ±180 means at all angles.
   double from_deg = -180, to_deg = 180;
 };
+constexpr bool bends_always(const PathPoint& p) {
+  return p.from_deg <= -180 && p.to_deg >= 180;
+}
 
 /// Over this many degrees to either side of `from_deg` or `to_deg` a point moves from the straight line into its place,
 /// so that a path's length has no corner in time.
@@ -58,8 +61,6 @@ struct MemberMuscle {
   const KneecapTrack* kneecap;      // what a path ends on after its last point, or null
   /// Volume (cm³) = limb_share · (47 · mass · height + 1285) + offset_cm3, in kg and m.
   double limb_share, offset_cm3;
-  /// As the published model has them (tendon slack length, aponeurosis included); kept for models with fibres.
-  double tendon_m, fibre_m, pennation_deg;
   /// The muscle's shape, upper end first, tendon included: see assets/leg_sections.h for what a section means.
   std::span<const LegSection> sections;
 };

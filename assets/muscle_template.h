@@ -1,6 +1,7 @@
 #pragma once
 // What all bellies of one shape share: mesh, operators, and the same once more as the kernels read it. Immutable.
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -8,6 +8,7 @@
 // C xx, yy, zz: twelve numbers a pair.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -4,6 +4,7 @@
 // solved as a right one and reflected when drawn.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 

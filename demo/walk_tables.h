@@ -2,6 +2,7 @@
 // motion.csv and muscles.csv: one row a tick (and side and group). Columns are promises to scripts: they stay.
 
 #include <string>
+#include <string_view>
 
 #include "components/muscle.h"
 #include "components/pose.h"

@@ -81,11 +81,11 @@ std::string_view short_name(std::string_view name) {
 }
 
 void list(std::string& text, const System& system, Access::Mode mode, std::string_view verb) {
-  bool first = true;
+  std::string before = "; " + std::string(verb) + " ";
   for (const Access& access : system.accesses) {
     if (access.mode != mode) continue;
-    text.append(first ? "; " : ", ").append(first ? verb : "").append(first ? " " : "").append(short_name(access.name));
-    first = false;
+    text.append(before).append(short_name(access.name));
+    before = ", ";
   }
 }
 }  // namespace

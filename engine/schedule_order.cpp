@@ -109,7 +109,11 @@ Result<std::vector<std::size_t>> schedule_order(std::span<const System> systems)
             return fail("schedule: systems " + quoted(systems[w]) + " and " + quoted(systems[r]) + " both write " +
                         std::string(write.name) + "; say which comes second with .after(…)");
           }
-          other.mode == Mode::previous ? before.set(r, w) : before.set(w, r);
+          if (other.mode == Mode::previous) {
+            before.set(r, w);
+          } else {
+            before.set(w, r);
+          }
         }
       }
     }

@@ -12,6 +12,9 @@
 
 #include <hwy/highway.h>
 
+#include <cstddef>
+#include <cstdint>
+
 #include "components/lanes.h"
 
 HWY_BEFORE_NAMESPACE();

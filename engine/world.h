@@ -20,6 +20,7 @@
 #include <memory_resource>
 #include <span>
 #include <tl/expected.hpp>
+#include <utility>
 #include <vector>
 
 #include "engine/entity.h"

@@ -1,45 +1,11 @@
 // A steady tick takes no memory, neither from the world's resource nor from the heap.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <vector>
 
 #include "engine/schedule.h"
+#include "tests/counting_heap.h"
 #include "tests/engine_counting_memory.h"
-
-namespace {
-std::atomic<std::size_t> heap_requests = 0;
-
-void* take(std::size_t bytes, std::size_t alignment) {
-  ++heap_requests;
-  void* memory = nullptr;
-  if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, bytes) != 0)
-    throw std::bad_alloc();
-  return memory;
-}
-}  // namespace
-
-// Every other form of new and delete is defined to end in these. (Inlined, gcc takes them for a mismatched pair.)
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-  return take(bytes, alignof(std::max_align_t));
-}
-[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  return take(bytes, static_cast<std::size_t>(alignment));
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}
 
 namespace mobil {
 namespace {

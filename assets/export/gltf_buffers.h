@@ -4,6 +4,7 @@
 #include <tiny_gltf.h>
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 

@@ -1,7 +1,6 @@
 #include "assets/export/skeleton_keys.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -29,7 +29,10 @@ struct Bits {
 struct BitsHash {
   std::size_t operator()(const Bits& b) const {
     std::uint64_t h = 0;
-    for (const auto w : b.word) h = (h ^ w) * 0x9E3779B97F4A7C15ULL, h ^= h >> 29U;
+    for (const auto w : b.word) {
+      h = (h ^ w) * 0x9E3779B97F4A7C15ULL;
+      h ^= h >> 29U;
+    }
     return static_cast<std::size_t>(h);
   }
 };

@@ -5,6 +5,7 @@
 // positive, so that knee flexion is θ₃ − θ₄.
 
 #include <array>
+#include <cstddef>
 
 namespace mobil::step {
 

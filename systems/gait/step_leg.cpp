@@ -1,5 +1,6 @@
 #include "systems/gait/step_leg.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "assets/anthropometry.h"

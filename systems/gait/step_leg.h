@@ -3,6 +3,7 @@
 // later: where its hip is, how its foot rolls over heel and ball while it stands, and the angles of thigh and shank.
 // Places relative to the foothold (the ground under the ankle of the flat foot): z forward, y up, out to the side.
 
+#include <array>
 #include <vector>
 
 #include "components/body.h"

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 
 #include "systems/gait/step_math.h"
@@ -13,10 +14,11 @@ constexpr int integration_steps = 96;
 /// The hip is lowest just after heel strike and highest half a step later.
 constexpr double lowest_phase = 1.0 / 12.0;
 /// The leg's turning moment acts in the first fifth of the cycle.
-constexpr double turning = 0.4;
+constexpr double turning_part = 0.4;  // of the step
 constexpr int lowest_sample = 8, highest_sample = 56;
 
-/// Unknowns in units that make them of order one.
+/// What is sought: the leg's and trunk's rates and the trunk's angle at heel strike, the moment that turns the leg, and
+/// how the leg's neutral length moves: half the hip's rise and fall, the part of it a quarter wave later, the preload.
 struct Unknown {
   double leg_rate, length_rate, leg_moment, push_off, delay, preload, trunk, trunk_rate;
 };
@@ -33,6 +35,7 @@ struct Problem {
   double weight;
   std::array<Schedule, 2 * integration_steps + 1> schedule;
 
+  /// From numbers of order one.
   Unknown unknown(const std::array<double, 8>& x) const {
     const double speed = request.step_length_m / request.duration_s;
     return {x[0] * speed / length0,
@@ -100,7 +103,7 @@ Result<SupportStep> solve_support(const SupportRequest& request) {
   for (std::size_t i = 0; i < problem.schedule.size(); ++i) {
     const double u = static_cast<double>(i) / (2 * integration_steps);
     problem.schedule[i] = {sin_cos(2.0 * pi * (u - lowest_phase)),
-                           u < turning ? 0.5 * (1.0 - sin_cos(2.0 * pi * u / turning).cosine) : 0.0};
+                           u < turning_part ? 0.5 * (1.0 - sin_cos(2.0 * pi * u / turning_part).cosine) : 0.0};
   }
   const double speed = request.step_length_m / request.duration_s;
   auto residual = [&](const std::array<double, 8>& x) {
@@ -129,10 +132,6 @@ Result<SupportStep> solve_support(const SupportRequest& request) {
   }
   const Unknown u = problem.unknown(x);
   SupportStep step;
-  step.leg_moment_nm = u.leg_moment;
-  step.push_off_m = u.push_off;
-  step.delay_m = u.delay;
-  step.preload_m = u.preload;
   step.first = problem.start(u);
   step.sample.reserve(integration_steps + 1);
   step.last = problem.run(u, [&](int, const SupportState& s, const std::array<double, 3>& a) {

@@ -26,13 +26,11 @@ struct HipSample {
   double trunk_rad, trunk_rate;
 };
 
-/// The solved step: samples at equal times from heel strike to the next heel strike, and what was found: the leg's
-/// and trunk's states at both ends, the moment that turns the leg in the first fifth of the cycle, and how the leg's
-/// neutral length moves: half the hip's rise and fall, the part of it a quarter wave later, and the preload.
+/// The solved step: samples at equal times from heel strike to the next heel strike, and the leg's and trunk's states
+/// at both.
 struct SupportStep {
   std::vector<HipSample> sample;
   SupportState first, last;
-  double leg_moment_nm, push_off_m, delay_m, preload_m;
 };
 
 /// Newton shooting on {θ̇₁(0), ω̇(0), F_θ₁, push-off, delay, preload, θ₂(0), θ̇₂(0)} for {θ₁(T), ω(T), hip velocity (2),

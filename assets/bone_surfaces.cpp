@@ -4,7 +4,8 @@
 #include <string>
 
 #include "assets/bone_shapes.h"
-#include "assets/geometry.h"
+#include "assets/surface_mesh.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 

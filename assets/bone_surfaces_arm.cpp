@@ -1,5 +1,9 @@
 #include "assets/bone_shapes.h"
-#include "assets/geometry.h"
+
+#include <array>
+
+#include "assets/surface_mesh.h"
+#include "engine/geometry.h"
 
 namespace mobil::bones {
 namespace {

@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <array>
 
 #include "assets/bone_shapes.h"
-#include "assets/geometry.h"
+#include "assets/surface_mesh.h"
+#include "engine/geometry.h"
 
 namespace mobil::bones {
 namespace {

@@ -2,7 +2,8 @@
 #include <numbers>
 
 #include "assets/bone_shapes.h"
-#include "assets/geometry.h"
+#include "assets/surface_mesh.h"
+#include "engine/geometry.h"
 
 namespace mobil::bones {
 namespace {
@@ -49,7 +50,7 @@ SurfaceMesh pelvis() {
        {.reference = across, .rings = 5, .segments = 7});  // greater sciatic notch
   // the socket's rim, open below
   std::vector<TubeStation> rim;
-  const Vec centre{-84, -1, 2}, axis = normalised({-0.80, -0.36, 0.48});
+  const Vec centre{-84, -1, 2}, axis = normalised(Vec{-0.80, -0.36, 0.48});
   const Vec ring_u = orthogonal({0, -1, 0}, axis), ring_v = cross(axis, ring_u);
   for (int i = 0; i <= 12; ++i) {
     const double angle = 0.45 + 2 * (std::numbers::pi - 0.45) * i / 12;

@@ -1,5 +1,5 @@
 #include "assets/bone_shapes.h"
-#include "assets/geometry.h"
+#include "engine/geometry.h"
 
 namespace mobil::bones {
 namespace {

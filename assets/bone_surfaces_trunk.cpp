@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <array>
 
 #include "assets/bone_shapes.h"
-#include "assets/geometry.h"
+#include "engine/geometry.h"
 
 namespace mobil::bones {
 namespace {

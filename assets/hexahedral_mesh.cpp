@@ -5,19 +5,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/geometry.h"
+
 namespace mobil {
 namespace {
 
-using Vec = Vec3<double>;
+using namespace geometry;
 
-Vec minus(const Vec& a, const Vec& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-double length(const Vec& a) {
-  return std::sqrt(a.x * a.x + a.y * a.y + a.z * a.z);
-}
 double determinant(const Vec& a, const Vec& b, const Vec& c) {
-  return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
+  return dot(a, cross(b, c));
 }
 
 Result<void> check_cells(const Cells& cells) {
@@ -174,7 +170,7 @@ double volume(const HexahedralMesh& mesh) {
   for (const Quad& q : boundary_quads(mesh.cells)) {
     const Vec &a = mesh.node[q[0]], &b = mesh.node[q[1]], &c = mesh.node[q[2]], &d = mesh.node[q[3]];
     // a bilinear patch sweeps the mean of its two triangulations
-    sum += determinant(a, minus(b, d), c) + determinant(d, minus(a, c), b);
+    sum += determinant(a, b - d, c) + determinant(d, a - c, b);
   }
   return sum / 12;
 }
@@ -184,7 +180,7 @@ double scaled_jacobian(const HexahedralMesh& mesh, std::uint32_t element) {
   double smallest = 1;
   for (const auto& [corner, x, y, z] : corner_edges) {
     const Vec& p = mesh.node[h[corner]];
-    const Vec a = minus(mesh.node[h[x]], p), b = minus(mesh.node[h[y]], p), c = minus(mesh.node[h[z]], p);
+    const Vec a = mesh.node[h[x]] - p, b = mesh.node[h[y]] - p, c = mesh.node[h[z]] - p;
     const double edges = length(a) * length(b) * length(c);
     smallest = std::min(smallest, edges > 0 ? determinant(a, b, c) / edges : 0.0);
   }

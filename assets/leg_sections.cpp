@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/geometry.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

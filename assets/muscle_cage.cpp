@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "assets/anthropometry.h"
-#include "assets/geometry.h"
 #include "assets/leg_sections.h"
 #include "assets/muscle_plan.h"
 #include "assets/muscle_table.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "assets/anthropometry.h"
-#include "assets/geometry.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
@@ -44,10 +44,6 @@ double share_of_bend(const PathPoint& p, double flexion_deg) {
   return share;
 }
 
-bool always(const PathPoint& p) {
-  return p.from_deg <= -180 && p.to_deg >= 180;
-}
-
 Vec kneecap_at(const KneecapTrack& track, double flexion_deg) {
   const KneecapSpline s = kneecap_spline(track);
   const double u = flexion_deg / kneecap_knot_deg;
@@ -63,12 +59,6 @@ Vec kneecap_at(const KneecapTrack& track, double flexion_deg) {
 PathPoint path_end(const MemberMuscle& muscle, double flexion_deg) {
   if (muscle.kneecap == nullptr) return muscle.path.back();
   return {LegBone::shank, kneecap_at(*muscle.kneecap, flexion_deg)};
-}
-
-/// First a, then b.
-Quat<double> product(const Quat<double>& b, const Quat<double>& a) {
-  return {b.w * a.x + b.x * a.w + b.y * a.z - b.z * a.y, b.w * a.y - b.x * a.z + b.y * a.w + b.z * a.x,
-          b.w * a.z + b.x * a.y - b.y * a.x + b.z * a.w, b.w * a.w - b.x * a.x - b.y * a.y - b.z * a.z};
 }
 
 /// The muscle frame: z along the unit vector, y the bone's anterior axis carried from the bone's −y to z by the
@@ -154,10 +144,10 @@ double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, 
   double sum = 0;
   for (std::size_t i = 1; i < muscle.path.size(); ++i) {
     Vec next = world_point(muscle.path[i], scale, leg);
-    if (!always(muscle.path[i])) {
+    if (!bends_always(muscle.path[i])) {
       // The straight line from where the path has come to the next point that always bends it.
       std::size_t j = i + 1;
-      while (j < muscle.path.size() && !always(muscle.path[j])) ++j;
+      while (j < muscle.path.size() && !bends_always(muscle.path[j])) ++j;
       const Vec line = (j < muscle.path.size() ? world_point(muscle.path[j], scale, leg) : end) - at;
       const double t = std::clamp(dot(next - at, line) / std::max(dot(line, line), 1e-12), 0.0, 1.0);
       const Vec straight = at + t * line;

@@ -1,14 +1,17 @@
 #include "assets/muscle_surfaces.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <optional>
+#include <span>
+#include <string>
 
-#include "assets/geometry.h"
 #include "assets/muscle_plan.h"
 #include "assets/muscle_shapes.h"
 #include "assets/muscle_table.h"
+#include "assets/surface_mesh.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "assets/geometry.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
@@ -108,7 +108,7 @@ CagePlace CageSearch::place(const Vec& point) const {
 }
 
 Vec in_frame(const RestFrame& frame, const Vec3<float>& position) {
-  return rotated(conjugate(frame.rotation), to_double(position) - to_double(frame.start_m));
+  return rotated(conjugate(to_double(frame.rotation)), to_double(position) - to_double(frame.start_m));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/geometry.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
@@ -103,7 +103,7 @@ TubeSection tube_section(std::span<const TubeStation> stations, double t) {
     rate[c] = from + x * (2 * b + 3 * k * x);
   }
   TubeSection section{{value[0], value[1], value[2]},
-                      normalised({rate[0], rate[1], rate[2]}),
+                      normalised(Vec{rate[0], rate[1], rate[2]}),
                       value[3],
                       value[4],
                       value[5],
@@ -172,34 +172,6 @@ SurfaceMesh ellipsoid(const Vec3<double>& centre, const Vec3<double>& semi, int 
   mesh.position.push_back(to_float(centre + Vec{0, semi.y, 0}));
   connect(mesh, rings, segments);
   return mesh;
-}
-
-void append(SurfaceMesh& mesh, const SurfaceMesh& part) {
-  const auto first = static_cast<std::uint32_t>(mesh.position.size());
-  mesh.position.insert(mesh.position.end(), part.position.begin(), part.position.end());
-  mesh.triangle.reserve(mesh.triangle.size() + part.triangle.size());
-  for (const auto index : part.triangle) mesh.triangle.push_back(first + index);
-}
-
-SurfaceMesh mirror_image(const SurfaceMesh& mesh) {
-  SurfaceMesh image = mesh;
-  for (auto& p : image.position) p.x = -p.x;
-  for (std::size_t t = 0; t + 2 < image.triangle.size(); t += 3)
-    std::swap(image.triangle[t + 1], image.triangle[t + 2]);
-  return image;
-}
-
-void scale(SurfaceMesh& mesh, double factor) {
-  for (auto& p : mesh.position) p = to_float(factor * to_double(p));
-}
-
-double enclosed_volume(const SurfaceMesh& mesh) {
-  double sum = 0;
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
-    const auto at = [&](std::size_t k) { return to_double(mesh.position[mesh.triangle[t + k]]); };
-    sum += dot(at(0), cross(at(1), at(2)));
-  }
-  return sum / 6;
 }
 
 }  // namespace mobil

@@ -48,16 +48,4 @@ SurfaceMesh loft(std::span<const TubeStation> stations, const TubeShape& shape =
 /// A closed ellipsoid with its axes along x, y and z.
 SurfaceMesh ellipsoid(const Vec3<double>& centre, const Vec3<double>& semi, int rings = 8, int segments = 10);
 
-/// Puts `part` beside what `mesh` holds already.
-void append(SurfaceMesh& mesh, const SurfaceMesh& part);
-
-/// Reflected in the plane x = 0, the triangles turned so that they stay wound outwards.
-SurfaceMesh mirror_image(const SurfaceMesh& mesh);
-
-/// Every position times `factor` (positive).
-void scale(SurfaceMesh& mesh, double factor);
-
-/// Volume enclosed, in the cube of the mesh's unit; overlapping parts count twice.
-double enclosed_volume(const SurfaceMesh& mesh);
-
 }  // namespace mobil

@@ -1,11 +1,14 @@
 #include "demo/figure.h"
 
 #include <algorithm>
+#include <array>
 
 #include "assets/bone_surfaces.h"
 #include "assets/import/fit_anatomy.h"
 #include "assets/muscle_surfaces.h"
 #include "assets/surface_binding.h"
+#include "assets/surface_mesh.h"
+#include "engine/geometry.h"
 #include "systems/skinning/skinning.h"
 
 namespace mobil {
@@ -34,10 +37,7 @@ void bind_muscles(const Simulation& simulation, const Human& human, Figure& figu
   for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
     const MusclePlan& plan = human.muscle_plan[g];
     const auto* shape = simulation.world().shared<MuscleTemplate>(human.muscle[g][right]);
-    const RestFrame frame{
-        {static_cast<float>(plan.start_m.x), static_cast<float>(plan.start_m.y), static_cast<float>(plan.start_m.z)},
-        {static_cast<float>(plan.rotation.x), static_cast<float>(plan.rotation.y), static_cast<float>(plan.rotation.z),
-         static_cast<float>(plan.rotation.w)}};
+    const RestFrame frame{geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)};
     std::vector<MuscleSurface*> together;
     for (std::size_t i = 0; i < figure.muscles.size(); ++i) {
       if (figure.muscles[i].group == plan.group && !ligament[i]) together.push_back(&figure.muscles[i].surface);
@@ -53,12 +53,10 @@ Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
   std::sort(by_height.begin(), by_height.end(),
             [top](const Vec3<float>& a, const Vec3<float>& b) { return top ? a.y > b.y : a.y < b.y; });
   const std::size_t count = std::max<std::size_t>(1, by_height.size() / 100);
-  Vec3<float> mean{0, 0, 0};
-  for (std::size_t i = 0; i < count; ++i) {
-    mean = {mean.x + by_height[i].x, mean.y + by_height[i].y, mean.z + by_height[i].z};
-  }
-  const float share = 1.0F / static_cast<float>(count);
-  return {mean.x * share, mean.y * share, mean.z * share};
+  using namespace geometry;
+  Vec3<float> sum{0, 0, 0};
+  for (std::size_t i = 0; i < count; ++i) sum = sum + by_height[i];
+  return (1.0F / static_cast<float>(count)) * sum;
 }
 
 FigureMuscle figure_muscle(MuscleGroup group, MuscleSurface surface) {
@@ -129,11 +127,7 @@ WalkRecording begin_recording(const Figure& figure, float frame_s) {
           side);
       recorded.colour = muscle.colour;
       recorded.triangle = muscle.surface.mesh.triangle;
-      if (side == left) {
-        for (std::size_t i = 0; i < recorded.triangle.size(); i += 3) {
-          std::swap(recorded.triangle[i + 1], recorded.triangle[i + 2]);
-        }
-      }
+      if (side == left) turn_over(recorded.triangle);
       recording.muscles.push_back(std::move(recorded));
     }
   }

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <array>
 
+#include "engine/geometry.h"
+
 namespace mobil {
 namespace {
 
+using namespace geometry;
+
 /// A point of a muscle's frame in the world; a left muscle's is reflected.
 Vec3<float> to_world(const LineOfAction<float>& line, Side side, const Vec3<float>& p) {
-  const auto& q = line.rotation;
-  const Vec3<float> t{2 * (q.y * p.z - q.z * p.y), 2 * (q.z * p.x - q.x * p.z), 2 * (q.x * p.y - q.y * p.x)};
-  const Vec3<float> turned{p.x + q.w * t.x + (q.y * t.z - q.z * t.y), p.y + q.w * t.y + (q.z * t.x - q.x * t.z),
-                           p.z + q.w * t.z + (q.x * t.y - q.y * t.x)};
-  const float mirror = side == left ? -1.0F : 1.0F;
-  return {mirror * (line.start_m.x + turned.x), line.start_m.y + turned.y, line.start_m.z + turned.z};
+  const Vec3<float> world = line.start_m + rotated(line.rotation, p);
+  return side == left ? mirrored(world) : world;
 }
 
 /// Each edge of the boundary once.

@@ -2,16 +2,20 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 
+#include "engine/geometry.h"
 #include "systems/capture/png.h"
 #include "systems/capture/renderer.h"
 #include "systems/capture/video.h"
 
 namespace mobil {
 namespace {
+
+using namespace geometry;
 
 constexpr int width = 1280, height = 720;
 constexpr Colour line_red{0.80F, 0.16F, 0.12F};
@@ -37,11 +41,7 @@ Colour display_colour(const Vec3<float>& linear) {
 /// The sticks of one frame: every segment from its joint to its parent's, and the ends of the limbs.
 std::vector<Vec3<float>> sticks(const Pose<float>& pose, const Body& body) {
   const auto place = [&](Segment s, const Vec3<float>& p) {
-    const auto& q = pose.rotation[index(s)];
-    const Vec3<float> t{2 * (q.y * p.z - q.z * p.y), 2 * (q.z * p.x - q.x * p.z), 2 * (q.x * p.y - q.y * p.x)};
-    const auto& o = pose.position_m[index(s)];
-    return Vec3<float>{o.x + p.x + q.w * t.x + (q.y * t.z - q.z * t.y), o.y + p.y + q.w * t.y + (q.z * t.x - q.x * t.z),
-                       o.z + p.z + q.w * t.z + (q.x * t.y - q.y * t.x)};
+    return pose.position_m[index(s)] + rotated(pose.rotation[index(s)], p);
   };
   std::vector<Vec3<float>> ends;
   std::array<bool, segment_count> has_child{};

@@ -4,11 +4,13 @@
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/Dense>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "assets/anthropometry.h"
@@ -16,17 +18,13 @@
 #include "assets/import/csv_table.h"
 #include "assets/import/fit_anatomy.h"
 #include "assets/import/mesh_file.h"
-#include "assets/import/simplify_surface.h"
+#include "assets/surface_mesh.h"
 
 namespace mobil {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-Vector3d eigen(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
 
 Body body_of(float height_m) {
   BodyRequest request;
@@ -155,7 +153,7 @@ TEST_F(RealLeg, LeftBonesMirrorTheRightAndAllFaceOutwards) {
   const auto fitted = fit_anatomy(*anatomy, body_of(1.8F)).value();
   std::size_t pairs = 0;
   for (const auto& right : fitted.bones) {
-    EXPECT_GT(signed_volume(right.mesh), 0) << right.mesh.name;
+    EXPECT_GT(enclosed_volume(right.mesh), 0) << right.mesh.name;
     if (!right.mesh.name.ends_with("_right")) continue;
     ++pairs;
     const auto& left = bone(fitted, right.mesh.name.substr(0, right.mesh.name.size() - 6) + "_left");
@@ -165,7 +163,7 @@ TEST_F(RealLeg, LeftBonesMirrorTheRightAndAllFaceOutwards) {
       const auto &l = left.mesh.position[v], &r = right.mesh.position[v];
       EXPECT_TRUE(l.x == -r.x && l.y == r.y && l.z == r.z);
     }
-    EXPECT_NEAR(signed_volume(left.mesh), signed_volume(right.mesh), 1e-9);
+    EXPECT_NEAR(enclosed_volume(left.mesh), enclosed_volume(right.mesh), 1e-9);
   }
   EXPECT_GE(pairs, 32U);
 }
@@ -182,7 +180,7 @@ TEST_F(RealLeg, MusclesKeepTheManifestsVolumeTimesTheBodysSize) {
     for (std::size_t row = 0; row < table->row.size(); ++row) {
       if (fs::path(cell(*table, row, "file")).stem() != muscle.surface.mesh.name) continue;
       const double wanted = *number(cell(*table, row, "volume_cm3")) * 1e-6 * size * size * size;
-      EXPECT_NEAR(signed_volume(muscle.surface.mesh) / wanted, 1, 0.15) << muscle.surface.mesh.name;
+      EXPECT_NEAR(enclosed_volume(muscle.surface.mesh) / wanted, 1, 0.15) << muscle.surface.mesh.name;
     }
   }
 }
@@ -227,7 +225,7 @@ TEST_F(RealLeg, SoleusReadsAlikeFromEveryFormat) {
     EXPECT_EQ(read->triangles_in_file, reference->triangles_in_file) << name;
     EXPECT_EQ(read->mesh.position.size(), reference->mesh.position.size()) << name;
     EXPECT_EQ(count_edges(read->mesh).border, 0U) << name;
-    EXPECT_NEAR(signed_volume(read->mesh) / signed_volume(reference->mesh), 1, 1e-5) << name;
+    EXPECT_NEAR(enclosed_volume(read->mesh) / enclosed_volume(reference->mesh), 1, 1e-5) << name;
   }
 }
 

@@ -15,19 +15,17 @@
 #include <map>
 #include <sstream>
 
+#include "assets/import/bone_maps.h"
 #include "assets/import/fit_anatomy.h"
 #include "assets/import/mesh_file.h"
 #include "assets/import/simplify_surface.h"
+#include "assets/surface_mesh.h"
 
 namespace mobil {
 namespace {
 
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
-
-Vector3d eigen(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
 
 // ---------------------------------------------------------------------------------------------- made-up folders
 
@@ -177,7 +175,7 @@ void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b, float tolerance) {
     for (const auto& q : b.position) nearest = std::min(nearest, (eigen(a.position[a.triangle[t]]) - eigen(q)).norm());
     EXPECT_LE(nearest, tolerance);
   }
-  EXPECT_NEAR(signed_volume(a), signed_volume(b), 1e-9);
+  EXPECT_NEAR(enclosed_volume(a), enclosed_volume(b), 1e-9);
 }
 
 TEST(AnatomyFolder, LoadsCubesClosedAndOutwards) {
@@ -190,7 +188,7 @@ TEST(AnatomyFolder, LoadsCubesClosedAndOutwards) {
     const double half = leg.at((bone ? "bones/" : "muscles/") + part.mesh.name).half / 1000;
     EXPECT_EQ(part.mesh.position.size(), 8U);
     EXPECT_EQ(count_edges(part.mesh).border, 0U);
-    EXPECT_NEAR(signed_volume(part.mesh), 8 * half * half * half, 1e-9) << part.mesh.name;
+    EXPECT_NEAR(enclosed_volume(part.mesh), 8 * half * half * half, 1e-9) << part.mesh.name;
     EXPECT_EQ(part.group.has_value(), !bone);
   }
 }
@@ -238,7 +236,7 @@ TEST(AnatomyFolder, InwardMeshesAreTurned) {
   folder.write("bones/femur_right.obj", turned);
   const auto anatomy = folder.load();
   ASSERT_TRUE(anatomy.has_value()) << anatomy.error().message;
-  for (const auto& part : anatomy->part) EXPECT_GT(signed_volume(part.mesh), 0) << part.mesh.name;
+  for (const auto& part : anatomy->part) EXPECT_GT(enclosed_volume(part.mesh), 0) << part.mesh.name;
 }
 
 TEST(AnatomyFolder, ThreadCountChangesNothing) {
@@ -441,8 +439,8 @@ RC_GTEST_PROP(Simplify, ClustersMoveVerticesByLessThanACellAndKeepVolume, ()) {
   RC_ASSERT(light.triangle.size() <= ball.triangle.size());
   RC_ASSERT(light.triangle.size() > 0U);
   for (const auto& p : light.position) RC_ASSERT(std::abs(eigen(p).norm() - 0.5) < cell);
-  RC_ASSERT(std::abs(signed_volume(light) / signed_volume(ball) - 1) < 2 * cell);
-  RC_ASSERT(signed_volume(light) > 0);
+  RC_ASSERT(std::abs(enclosed_volume(light) / enclosed_volume(ball) - 1) < 2 * cell);
+  RC_ASSERT(enclosed_volume(light) > 0);
   RC_ASSERT(clustered(ball, cell).triangle == light.triangle);
 }
 

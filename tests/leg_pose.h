@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "assets/geometry.h"
 #include "assets/muscle_plan.h"
 #include "components/body.h"
+#include "engine/geometry.h"
 
 namespace mobil::test {
 

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "assets/anthropometry.h"
-#include "assets/geometry.h"
 #include "assets/hexahedral_mesh.h"
 #include "assets/muscle_surfaces.h"
 #include "assets/surface_binding.h"
 #include "assets/tube.h"
+#include "engine/geometry.h"
 #include "systems/skinning/skinning.h"
 
 namespace mobil {
@@ -94,7 +94,7 @@ double distance(const Vec3<float>& a, const Vec3<float>& b) {
 
 Vec direction() {
   return normalised(
-      {*rc::gen::inRange(-9, 10) + 0.3, *rc::gen::inRange(-9, 10) + 0.1, *rc::gen::inRange(-9, 10) + 0.2});
+      Vec{*rc::gen::inRange(-9, 10) + 0.3, *rc::gen::inRange(-9, 10) + 0.1, *rc::gen::inRange(-9, 10) + 0.2});
 }
 
 RC_GTEST_PROP(PlaceInCage, PointsInsideAreFoundAndWeightsArePartition, ()) {
@@ -185,7 +185,7 @@ RC_GTEST_PROP(Skinning, MovesRigidlyWithTheWholeBody, ()) {
   static const Bound bound;
   const Quat<float> turn = rotation(direction(), *rc::gen::inRange(-314, 315) * 0.01);
   const Vec shift = (*rc::gen::inRange(0, 300) * 0.01) * direction();
-  const auto moved = [&](const Vec3<float>& p) { return to_float(rotated(turn, to_double(p)) + shift); };
+  const auto moved = [&](const Vec3<float>& p) { return to_float(rotated(to_double(turn), to_double(p)) + shift); };
   Pose<float> pose = bound.rest_pose();
   for (std::size_t s = 0; s < segment_count; ++s) {
     pose.position_m[s] = moved(pose.position_m[s]);
@@ -207,7 +207,7 @@ RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
   inner.mesh = ellipsoid({0, 0, 0}, {0.012, 0.012, 0.10}, 20, 12);
   for (auto& p : inner.mesh.position) {
     const Vec q = to_double(p) + Vec{0.001, 0, 0.125};
-    p = to_float(rotated(bound.frame.rotation, q) + to_double(bound.frame.start_m));
+    p = to_float(rotated(to_double(bound.frame.rotation), q) + to_double(bound.frame.start_m));
   }
   bind_surface(inner, bound.mesh, bound.frame, at_the_faces);
   double gradient[3][3];
@@ -228,9 +228,9 @@ RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
   skin_surface(inner, skin_pose(inner, right, bound.b, bound.rest_pose(), bound.rest_line()),
                {u.data(), 1, bound.nodes()}, false, out);
   for (std::size_t v = 0; v < out.size(); ++v) {
-    const Vec q =
-        rotated(conjugate(bound.frame.rotation), to_double(inner.mesh.position[v]) - to_double(bound.frame.start_m));
-    const Vec expected = rotated(bound.frame.rotation, q + field(q)) + to_double(bound.frame.start_m);
+    const Vec q = rotated(conjugate(to_double(bound.frame.rotation)),
+                          to_double(inner.mesh.position[v]) - to_double(bound.frame.start_m));
+    const Vec expected = rotated(to_double(bound.frame.rotation), q + field(q)) + to_double(bound.frame.start_m);
     RC_ASSERT(length(to_double(out[v]) - expected) < 1e-5);
   }
 }
@@ -249,8 +249,8 @@ BentLeg bent(const Bound& bound, double hip, double knee) {
             knee_at = to_double(leg.pose.position_m[index(shank_right)]);
   leg.pose.rotation[index(thigh_right)] = thigh;
   leg.pose.rotation[index(shank_right)] = shank;
-  leg.pose.position_m[index(shank_right)] = to_float(hip_at + rotated(thigh, knee_at - hip_at));
-  leg.line.start_m = to_float(hip_at + rotated(thigh, to_double(leg.line.start_m) - hip_at));
+  leg.pose.position_m[index(shank_right)] = to_float(hip_at + rotated(to_double(thigh), knee_at - hip_at));
+  leg.line.start_m = to_float(hip_at + rotated(to_double(thigh), to_double(leg.line.start_m) - hip_at));
   leg.line.rotation = product(thigh, leg.line.rotation);
   return leg;
 }
@@ -263,7 +263,7 @@ RC_GTEST_PROP(Skinning, NeighboursStayNeighboursAcrossTheEnds, ()) {
   std::vector<float> u;
   for (const auto& q : bound.mesh.node) {
     const double t = q.z / 0.25;
-    const Vec3<float> d = to_float({0.2 * q.x * std::sin(3.14 * t), 0.2 * q.y * std::sin(3.14 * t), 0.015 * t});
+    const Vec3<float> d = to_float(Vec{0.2 * q.x * std::sin(3.14 * t), 0.2 * q.y * std::sin(3.14 * t), 0.015 * t});
     u.insert(u.end(), {d.x, d.y, d.z});
   }
   const auto out = bound.skin(skin_pose(bound.surface, right, bound.b, leg.pose, leg.line), u);
@@ -328,7 +328,7 @@ TEST(Ligament, FollowsItsBonesAtItsEnds) {
   const SkinPose pose = skin_pose(surface, right, bound.b, leg.pose, leg.line);
   skin_surface(surface, pose, {u.data(), 1, 1}, false, out);
   const auto follow = [](const RigidPose& now, const RigidPose& rest, const Vec3<float>& p) {
-    return rotated(now.rotation, to_double(p) - to_double(rest.position_m)) + to_double(now.position_m);
+    return rotated(to_double(now.rotation), to_double(p) - to_double(rest.position_m)) + to_double(now.position_m);
   };
   EXPECT_LT(length(to_double(out.front()) - follow(pose.origin_now, pose.origin_rest, surface.mesh.position.front())),
             1e-5);

@@ -10,10 +10,11 @@
 
 #include "assets/anthropometry.h"
 #include "assets/bone_surfaces.h"
-#include "assets/geometry.h"
 #include "assets/leg_sections.h"
 #include "assets/muscle_surfaces.h"
+#include "assets/surface_mesh.h"
 #include "assets/tube.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
@@ -93,7 +94,7 @@ RC_GTEST_PROP(Tube, IsClosedAndHoldsTheVolumeOfItsSections, ()) {
   // a straight tube of equal ellipses: the prism's volume and two half ellipsoids, less the polygon's share
   const double a = *rc::gen::inRange(5, 50) * 0.001, b = *rc::gen::inRange(5, 50) * 0.001;
   const double h = *rc::gen::inRange(50, 500) * 0.001, turn = *rc::gen::inRange(0, 314) * 0.01;
-  const Vec axis = normalised({*rc::gen::inRange(-5, 6) + 0.1, *rc::gen::inRange(-5, 6) + 0.2, 3.0});
+  const Vec axis = normalised(Vec{*rc::gen::inRange(-5, 6) + 0.1, *rc::gen::inRange(-5, 6) + 0.2, 3.0});
   const std::array<TubeStation, 3> line = {
       TubeStation{{0, 0, 0}, a, b, turn}, {0.5 * h * axis, a, b, turn}, {h * axis, a, b, turn}};
   const SurfaceMesh mesh = loft(line, {.reference = {1, 0, 0}, .rings = 5, .segments = 64, .cap = 0});

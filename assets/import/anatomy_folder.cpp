@@ -11,6 +11,7 @@
 #include "assets/import/anatomy_manifest.h"
 #include "assets/import/mesh_file.h"
 #include "assets/import/simplify_surface.h"
+#include "assets/surface_mesh.h"
 
 namespace mobil {
 namespace {
@@ -58,7 +59,7 @@ Result<SurfaceMesh> load_mesh(const ManifestRow& row, const LandmarkTable& frame
   }
   for (auto& p : mesh.position) p = to_mobil(p.x, p.y, p.z, frame.metres_per_unit);
   if (auto place = check_place(row, mesh, frame.landmarks); !place) return fail(place.error().message);
-  if (edges.border == 0 && signed_volume(mesh) < 0) turn_over(mesh);
+  if (edges.border == 0 && enclosed_volume(mesh) < 0) turn_over(mesh.triangle);
   const bool bone = row.part.kind == AnatomyKind::bone;
   if (!bone) remove_specks(mesh, options.speck_share);
   SurfaceMesh light = clustered(mesh, bone ? options.bone_cell_m : options.muscle_cell_m);
@@ -92,7 +93,7 @@ Result<Anatomy> load_anatomy(const std::string& folder, const AnatomyOptions& op
   work();
   for (auto& helper : helpers) helper.join();
 
-  Anatomy anatomy{folder, frame->metres_per_unit, frame->landmarks, {}};
+  Anatomy anatomy{frame->metres_per_unit, frame->landmarks, {}};
   for (std::size_t i = 0; i < rows->size(); ++i) {
     if (!mesh[i]) return fail(mesh[i].error().message);
     AnatomyPart part = std::move((*rows)[i].part);

@@ -9,6 +9,7 @@
 // all files. Bones are known by the beginning of their file's name: hip_bone, sacrum, femur, patella, tibia, fibula,
 // talus, calcaneus, navicular, cuboid, …cuneiform, metatarsal, phalanx, sesamoid.
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -38,7 +39,6 @@ struct AnatomyLandmarks {
 };
 
 struct Anatomy {
-  std::string folder;
   double metres_per_unit = 0.001;
   AnatomyLandmarks landmarks;
   std::vector<AnatomyPart> part;  // in the manifest's order

@@ -3,23 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-Vector3d eigen(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
-
-double smoothstep(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
+using geometry::smoothstep;
 
 /// From the upper joint to the lower: length fitted along the axis, `across` at right angles to it.
 BoneMap long_bone(const Vector3d& upper, const Vector3d& lower, const Vector3d& body_upper, const Vector3d& body_lower,
@@ -169,11 +164,11 @@ const BoneMap& BoneMaps::of(Segment right_segment) const {
 Vector3d BoneMaps::along_muscle(const Vector3d& p, Segment origin, Segment insertion) const {
   const int first = std::min(rank(origin), rank(insertion)), last = std::max(rank(origin), rank(insertion));
   // The seat bones lie below the hip centre, the kneecap's ligament below the knee's: the blends begin under them.
-  const double below_hip = smoothstep(-0.05, -0.13, p.y() - hip.y());
+  const double below_hip = smoothstep(0.05, 0.13, hip.y() - p.y());
   const bool over_kneecap = origin == Segment::patella_right || insertion == Segment::patella_right;
   const double below_knee =
-      over_kneecap ? smoothstep(-0.02, -0.06, p.y() - knee.y()) : smoothstep(0.03, -0.03, p.y() - knee.y());
-  const double below_ankle = smoothstep(0.04, -0.02, p.y() - ankle.y());
+      over_kneecap ? smoothstep(0.02, 0.06, knee.y() - p.y()) : smoothstep(-0.03, 0.03, knee.y() - p.y());
+  const double below_ankle = smoothstep(-0.04, 0.02, ankle.y() - p.y());
   const std::array<double, 5> passed = {1, first < 1 ? below_hip : 1.0, below_knee, below_ankle, 0};
   Vector3d sum = Vector3d::Zero();
   constexpr std::array<const BoneMap BoneMaps::*, 4> chain = {&BoneMaps::pelvis, &BoneMaps::thigh, &BoneMaps::shank,

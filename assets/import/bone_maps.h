@@ -8,6 +8,10 @@
 
 namespace mobil {
 
+inline Eigen::Vector3d eigen(const Vec3<float>& v) {
+  return {v.x, v.y, v.z};
+}
+
 /// p ↦ to + linear·(p − from), m; the foot's also bends along z, in front of and behind the ankle.
 struct BoneMap {
   Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();

@@ -1,18 +1,17 @@
 #include "assets/import/fit_anatomy.h"
 
 #include <Eigen/Dense>
+#include <string>
+#include <string_view>
+#include <utility>
 
 #include "assets/import/bone_maps.h"
-#include "assets/import/simplify_surface.h"
+#include "assets/surface_mesh.h"
 
 namespace mobil {
 namespace {
 
 using Eigen::Vector3d;
-
-Vector3d eigen(const Vec3<float>& v) {
-  return {v.x, v.y, v.z};
-}
 
 Vec3<float> single(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -36,8 +35,8 @@ Vector3d origin_of(Segment segment, const LegJoints& joints) {
 }
 
 std::string left_name(std::string name) {
-  constexpr std::string_view right = "_right";
-  if (name.ends_with(right)) name.resize(name.size() - right.size());
+  constexpr std::string_view suffix = "_right";
+  if (name.ends_with(suffix)) name.resize(name.size() - suffix.size());
   return name + "_left";
 }
 
@@ -48,9 +47,9 @@ void add_bone(const AnatomyPart& part, const BoneMaps& maps, const LegJoints& jo
   for (auto& p : bone.mesh.position) p = single(map(eigen(p)) - origin);
   bones.push_back(bone);
   if (part.midline) return;
-  BoneSurface left{part.origin == Segment::pelvis ? part.origin : on_side(part.origin, 1), mirrored(bone.mesh)};
-  left.mesh.name = left_name(left.mesh.name);
-  bones.push_back(std::move(left));
+  BoneSurface image{part.origin == Segment::pelvis ? part.origin : on_side(part.origin, left), mirror_image(bone.mesh)};
+  image.mesh.name = left_name(image.mesh.name);
+  bones.push_back(std::move(image));
 }
 
 }  // namespace

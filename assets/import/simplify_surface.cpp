@@ -39,29 +39,6 @@ std::array<std::uint32_t, 3> canonical(std::array<std::uint32_t, 3> t) {
 
 }  // namespace
 
-double signed_volume(const SurfaceMesh& mesh) {
-  if (mesh.position.empty()) return 0;
-  const Eigen::Vector3d origin = at(mesh, 0);
-  double sixfold = 0;
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
-    const Eigen::Vector3d a = at(mesh, mesh.triangle[t]) - origin, b = at(mesh, mesh.triangle[t + 1]) - origin,
-                          c = at(mesh, mesh.triangle[t + 2]) - origin;
-    sixfold += a.dot(b.cross(c));
-  }
-  return sixfold / 6;
-}
-
-void turn_over(SurfaceMesh& mesh) {
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) std::swap(mesh.triangle[t + 1], mesh.triangle[t + 2]);
-}
-
-SurfaceMesh mirrored(const SurfaceMesh& mesh) {
-  SurfaceMesh image = mesh;
-  for (auto& p : image.position) p.x = -p.x;
-  turn_over(image);
-  return image;
-}
-
 std::size_t remove_specks(SurfaceMesh& mesh, double share) {
   std::vector<std::uint32_t> root(mesh.position.size());
   std::iota(root.begin(), root.end(), 0U);

@@ -7,16 +7,6 @@
 
 namespace mobil {
 
-/// Six times the volume enclosed is what the triangles sum to; this is the volume itself, m³, positive where they are
-/// wound outwards.
-double signed_volume(const SurfaceMesh& mesh);
-
-/// Turns every triangle over.
-void turn_over(SurfaceMesh& mesh);
-
-/// The mirror image in the plane x = 0, wound outwards again.
-SurfaceMesh mirrored(const SurfaceMesh& mesh);
-
 /// Without the connected pieces that hold less than `share` (0–1) of the triangles, and without unused vertices. The
 /// largest piece always stays. Returns how many pieces were taken away.
 std::size_t remove_specks(SurfaceMesh& mesh, double share);

@@ -6,17 +6,18 @@
 
 namespace mobil {
 using namespace capture_math;
+using namespace geometry;
 
 CameraAxes camera_axes(const Camera& camera) {
   Vec3<float> back = camera.eye - camera.target;
-  back = length(back) > 0 ? normalized(back) : Vec3<float>{0, 0, 1};
+  back = length(back) > 0 ? normalised(back) : Vec3<float>{0, 0, 1};
   const Vec3<float> roughly_up = std::abs(back.y) < 0.9999F ? Vec3<float>{0, 1, 0} : Vec3<float>{0, 0, 1};
-  const Vec3<float> right = normalized(cross(roughly_up, back));
+  const Vec3<float> right = normalised(cross(roughly_up, back));
   return {right, cross(back, right), back};
 }
 
 StereoPair stereo_pair(const Camera& camera, float separation_m) {
-  const Vec3<float> half = camera_axes(camera).right * (0.5F * separation_m);
+  const Vec3<float> half = 0.5F * separation_m * camera_axes(camera).right;
   const float distance = length(camera.eye - camera.target);
   const float shift = distance > 0 ? 0.5F * separation_m / distance : 0;
   StereoPair pair{camera, camera};
@@ -36,12 +37,6 @@ Vec3<float> project(const Camera& camera, int width, int height, Vec3<float> poi
   const float pixels = 0.5F * static_cast<float>(height) / std::tan(0.5F * radians(camera.vertical_fov_deg));
   return {0.5F * static_cast<float>(width) + pixels * (dot(d, axes.right) / depth - camera.window_shift),
           0.5F * static_cast<float>(height) - pixels * dot(d, axes.up) / depth, depth};
-}
-
-Vec3<float> studio_light(const Camera& camera) {
-  const CameraAxes axes = camera_axes(camera);
-  const Vec3<float> toward = normalized(Vec3<float>{axes.back.x, 0, axes.back.z} + axes.up * 1e-4F);
-  return normalized(toward * 0.75F - axes.right * 0.6F + Vec3<float>{0, 1.15F, 0});
 }
 
 }  // namespace mobil

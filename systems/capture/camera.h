@@ -29,8 +29,4 @@ StereoPair stereo_pair(const Camera& camera, float separation_m);
 /// along the camera's axis in m (negative behind the camera; then x and y mean nothing).
 Vec3<float> project(const Camera& camera, int width, int height, Vec3<float> point);
 
-/// Direction towards a key light high over the photographer's left shoulder: flatters any view, but is another light
-/// for another view. Unit vector in the world.
-Vec3<float> studio_light(const Camera& camera);
-
 }  // namespace mobil

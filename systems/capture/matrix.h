@@ -7,30 +7,12 @@
 #include <numbers>
 
 #include "components/lanes.h"
+#include "engine/geometry.h"
 
 namespace mobil::capture_math {
 
-inline Vec3<float> operator+(Vec3<float> a, Vec3<float> b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-inline Vec3<float> operator-(Vec3<float> a, Vec3<float> b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-inline Vec3<float> operator*(Vec3<float> a, float s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-inline float dot(Vec3<float> a, Vec3<float> b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-inline Vec3<float> cross(Vec3<float> a, Vec3<float> b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-inline float length(Vec3<float> a) {
-  return std::sqrt(dot(a, a));
-}
-inline Vec3<float> normalized(Vec3<float> a) {
-  return a * (1 / length(a));
-}
+using geometry::dot;
+
 inline float radians(float degrees) {
   return degrees * (std::numbers::pi_v<float> / 180);
 }

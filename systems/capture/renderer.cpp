@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -16,6 +17,7 @@
 
 namespace mobil {
 using namespace capture_math;
+using namespace geometry;
 namespace {
 
 constexpr int largest_picture = 8192;
@@ -24,10 +26,8 @@ constexpr int largest_picture = 8192;
 using PlacementColumns = std::array<Vec3<float>, 4>;
 
 PlacementColumns columns(const Placement& p) {
-  const auto [x, y, z, w] = p.rotation;
-  return {Vec3<float>{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)} * p.scale.x,
-          Vec3<float>{2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)} * p.scale.y,
-          Vec3<float>{2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)} * p.scale.z, p.position};
+  const auto axis = geometry::columns(p.rotation);
+  return {p.scale.x * axis[0], p.scale.y * axis[1], p.scale.z * axis[2], p.position};
 }
 
 /// A screen's sRGB value to linear light, near enough for lighting.
@@ -138,7 +138,7 @@ Result<void> Renderer::Device::collect(const Scene& scene) {
         if (asked.wireframe) continue;
         for (unsigned i = 0; i < 8; ++i) {
           const Vec3<float> p = stored->box.corner(i);
-          casters.add(m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3]);
+          casters.add(p.x * m[0] + p.y * m[1] + p.z * m[2] + m[3]);
         }
       }
     }

@@ -6,6 +6,7 @@
 
 namespace mobil {
 using namespace capture_math;
+using namespace geometry;
 
 void vertex_normals(std::span<const Vec3<float>> position, std::span<const std::uint32_t> triangle,
                     std::vector<Vec3<float>>& normal) {
@@ -17,7 +18,7 @@ void vertex_normals(std::span<const Vec3<float>> position, std::span<const std::
   }
   for (auto& n : normal) {
     const float size = length(n);
-    n = size > 1e-20F && std::isfinite(size) ? n * (1 / size) : Vec3<float>{0, 1, 0};
+    n = size > 1e-20F && std::isfinite(size) ? (1 / size) * n : Vec3<float>{0, 1, 0};
   }
 }
 

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "systems/capture/render_targets.h"
 
 namespace mobil {
 using namespace capture_math;
+using namespace geometry;
 namespace {
 
 constexpr float widest_shadow_m = 2000;
@@ -43,7 +45,7 @@ struct LampView {
 /// Sizes go in steps and the middle sits on whole texels, so that the shadow of someone who walks does not shimmer.
 LampView lamp_view(Vec3<float> light, const Box& casters) {
   const Vec3<float> side =
-      normalized(cross(std::abs(light.y) < 0.99F ? Vec3<float>{0, 1, 0} : Vec3<float>{0, 0, 1}, light));
+      normalised(cross(std::abs(light.y) < 0.99F ? Vec3<float>{0, 1, 0} : Vec3<float>{0, 0, 1}, light));
   const Vec3<float> up = cross(light, side);
   Box box;
   for (unsigned i = 0; i < 8; ++i) {
@@ -88,7 +90,7 @@ Result<FrameBlocks> frame_blocks(const Scene& scene, int width, int height, cons
                             scene.light.z));
   }
   const CameraAxes axes = camera_axes(camera);
-  const Vec3<float> light = normalized(scene.light);
+  const Vec3<float> light = normalised(scene.light);
   const float near = std::max(0.005F, 0.02F * distance), far = 40 * distance + 200;
   const float pixel = 2 * std::tan(0.5F * radians(camera.vertical_fov_deg)) / static_cast<float>(height);
 
@@ -100,7 +102,7 @@ Result<FrameBlocks> frame_blocks(const Scene& scene, int width, int height, cons
   block.eye = with(camera.eye, 12 + 4 * distance);
   block.facing = with(camera.eye, 1);
   block.light = with(light, 0);
-  block.fill = with(normalized(Vec3<float>{-light.x, 0.25F, -light.z} + axes.back * 0.6F), 1.0F / shadow_map_size);
+  block.fill = with(normalised(Vec3<float>{-light.x, 0.25F, -light.z} + 0.6F * axes.back), 1.0F / shadow_map_size);
   block.picture = {static_cast<float>(width), static_cast<float>(height), pixel, 0};
   blocks.lamp = block;
 

@@ -114,7 +114,7 @@ HWY_INLINE Wide pose_leg(const StepPlan<Lanes<float>>& plan, const FootMotion& f
 
   skeleton.hang(thigh, skeleton.rotation[index(Segment::pelvis)]);
   const WideVec hip = skeleton.position[index(thigh)];
-  const WideVec d = {foot.ankle.x - hip.x, foot.ankle.y - hip.y, foot.ankle.z - hip.z};
+  const WideVec d = foot.ankle - hip;
   const Wide across2 = fma(d.x, d.x, d.y * d.y);
   const Wide longest = (upper + lower) * wide(0.999999F);
   const Wide distance = min(sqrt(fma(d.z, d.z, across2)), longest);
@@ -151,13 +151,8 @@ HWY_INLINE Wide pose_leg(const StepPlan<Lanes<float>>& plan, const FootMotion& f
                                            scaled({0, -fraction::ankle_height, -fraction::heel_back}, height));
   const WideVec toe = skeleton.position[index(toes)] +
                       rotate(skeleton.rotation[index(toes)], scaled({0, -fraction::toe_joint_height, 0}, height));
-  auto put = [](const WideVec& v, Vec3<Lanes<float>>& to) {
-    store(v.x, to.x);
-    store(v.y, to.y);
-    store(v.z, to.z);
-  };
-  put(heel, feet.heel_m[side]);
-  put(toe, feet.toe_m[side]);
+  store(heel, feet.heel_m[side]);
+  store(toe, feet.toe_m[side]);
   return direction;
 }
 
@@ -208,13 +203,8 @@ HWY_INLINE void pose_arm(const StepPlan<Lanes<float>>& plan, const Wide& opposit
 
 HWY_INLINE void store_pose(const Skeleton& skeleton, Pose<Lanes<float>>& pose) {
   for (std::size_t s = 0; s < segment_count; ++s) {
-    store(skeleton.position[s].x, pose.position_m[s].x);
-    store(skeleton.position[s].y, pose.position_m[s].y);
-    store(skeleton.position[s].z, pose.position_m[s].z);
-    store(skeleton.rotation[s].x, pose.rotation[s].x);
-    store(skeleton.rotation[s].y, pose.rotation[s].y);
-    store(skeleton.rotation[s].z, pose.rotation[s].z);
-    store(skeleton.rotation[s].w, pose.rotation[s].w);
+    store(skeleton.position[s], pose.position_m[s]);
+    store(skeleton.rotation[s], pose.rotation[s]);
   }
 }
 
@@ -258,10 +248,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   store_pose(skeleton, pose);
   for (std::size_t side = 0; side < 2; ++side) {
     for (Vec3<Lanes<float>>* point : {&feet.heel_m[side], &feet.toe_m[side]}) {
-      const WideVec p = line + rotate(heading, {load(point->x), load(point->y), load(point->z)});
-      store(p.x, point->x);
-      store(p.y, point->y);
-      store(p.z, point->z);
+      store(line + rotate(heading, load(*point)), *point);
     }
   }
 }
@@ -282,17 +269,11 @@ void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
   const Wide height = load(size.height_m);
   WideVec sum = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t s = 0; s < segment_count; ++s) {
-    const WideQuat q = {load(pose.rotation[s].x), load(pose.rotation[s].y), load(pose.rotation[s].z),
-                        load(pose.rotation[s].w)};
-    const WideVec c = rotate(q, scaled(unit_body.centre_of_mass[s], height));
+    const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_body.centre_of_mass[s], height));
     const Wide part = wide(static_cast<float>(unit_body.mass_fraction[s]));
-    sum.x = fma(part, load(pose.position_m[s].x) + c.x, sum.x);
-    sum.y = fma(part, load(pose.position_m[s].y) + c.y, sum.y);
-    sum.z = fma(part, load(pose.position_m[s].z) + c.z, sum.z);
+    sum = fma(part, load(pose.position_m[s]) + c, sum);
   }
-  store(sum.x, centre.position_m.x);
-  store(sum.y, centre.position_m.y);
-  store(sum.z, centre.position_m.z);
+  store(sum, centre.position_m);
 }
 
 }  // namespace mobil::HWY_NAMESPACE

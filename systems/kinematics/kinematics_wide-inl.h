@@ -1,4 +1,4 @@
-// Vectors and quaternions of sixteen lanes. Include after engine/wide-inl.h's conditions (see there).
+// Elementary rotations, and the step's curves, of sixteen lanes. Include it as engine/wide-inl.h says.
 
 #if defined(MOBIL_SYSTEMS_KINEMATICS_WIDE_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_KINEMATICS_WIDE_INL_H_
@@ -8,42 +8,13 @@
 #endif
 
 #include "components/gait.h"
-#include "engine/wide-inl.h"
+#include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
-struct WideVec {
-  Wide x, y, z;
-};
-
-/// Unit quaternion, w the scalar part.
-struct WideQuat {
-  Wide x, y, z, w;
-};
-
-HWY_INLINE WideVec operator+(const WideVec& a, const WideVec& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-
 HWY_INLINE WideVec scaled(const Vec3<double>& v, const Wide& by) {
   return {wide(static_cast<float>(v.x)) * by, wide(static_cast<float>(v.y)) * by, wide(static_cast<float>(v.z)) * by};
-}
-
-/// First b, then a.
-HWY_INLINE WideQuat operator*(const WideQuat& a, const WideQuat& b) {
-  return {fma(a.w, b.x, fma(a.x, b.w, fnma(a.z, b.y, a.y * b.z))),
-          fma(a.w, b.y, fma(a.y, b.w, fnma(a.x, b.z, a.z * b.x))),
-          fma(a.w, b.z, fma(a.z, b.w, fnma(a.y, b.x, a.x * b.y))),
-          fnma(a.z, b.z, fnma(a.y, b.y, fnma(a.x, b.x, a.w * b.w)))};
-}
-
-/// v turned by q: v + 2 (q.w t + q × t) with t = q × v.
-HWY_INLINE WideVec rotate(const WideQuat& q, const WideVec& v) {
-  const Wide two = wide(2.0F);
-  const WideVec t = {two * fnma(q.z, v.y, q.y * v.z), two * fnma(q.x, v.z, q.z * v.x), two * fnma(q.y, v.x, q.x * v.y)};
-  return {v.x + fma(q.w, t.x, fnma(q.z, t.y, q.y * t.z)), v.y + fma(q.w, t.y, fnma(q.x, t.z, q.z * t.x)),
-          v.z + fma(q.w, t.z, fnma(q.y, t.x, q.x * t.y))};
 }
 
 HWY_INLINE WideQuat turn_x(const Wide& angle) {

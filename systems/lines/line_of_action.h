@@ -1,7 +1,7 @@
 #pragma once
 // From a leg's pose to the length, force and place of its lines of action, sixteen legs a block.
 
-#include <span>
+#include <cstddef>
 #include <vector>
 
 #include "assets/muscle_table.h"

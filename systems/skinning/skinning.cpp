@@ -120,25 +120,21 @@ void skin(const MuscleSurface& surface, const Affine (&maps)[3], const NodalLane
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include "engine/geometry.h"
+
 namespace mobil {
 namespace {
 
 HWY_EXPORT(skin);
 
-Quat<float> mirrored_rotation(const Quat<float>& q) {
-  return {q.x, -q.y, -q.z, q.w};
-}
-
-RigidPose mirrored_pose(const RigidPose& p) {
-  return {{-p.position_m.x, p.position_m.y, p.position_m.z}, mirrored_rotation(p.rotation)};
+RigidPose mirrored(const RigidPose& p) {
+  return {geometry::mirrored(p.position_m), geometry::mirrored(p.rotation)};
 }
 
 Affine affine(const RigidPose& p) {
-  const auto [x, y, z, w] = p.rotation;
-  return {{{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y), 0},
-           {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x), 0},
-           {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y), 0},
-           {p.position_m.x, p.position_m.y, p.position_m.z, 0}}};
+  const auto [x, y, z] = geometry::columns(p.rotation);
+  const Vec3<float>& at = p.position_m;
+  return {{{x.x, x.y, x.z, 0}, {y.x, y.y, y.z, 0}, {z.x, z.y, z.z, 0}, {at.x, at.y, at.z, 0}}};
 }
 
 /// now ∘ rest⁻¹.
@@ -161,14 +157,14 @@ Affine motion(const RigidPose& now, const RigidPose& rest) {
 
 SkinPose skin_pose(const MuscleSurface& surface, Side side, const Body& body, const Pose<float>& pose,
                    const LineOfAction<float>& line) {
+  using namespace geometry;
   const auto of_side = [side](Segment s) { return s < Segment::thigh_right ? s : on_side(s, side); };
   const auto now = [&](Segment s) { return RigidPose{pose.position_m[index(s)], pose.rotation[index(s)]}; };
   const auto rest = [&](Segment s) {
     RigidPose p{body.joint_offset_m[index(s)], {0, 0, 0, 1}};
     while (s != segment_parent[index(s)]) {
       s = segment_parent[index(s)];
-      const Vec3<float>& offset = body.joint_offset_m[index(s)];
-      p.position_m = {p.position_m.x + offset.x, p.position_m.y + offset.y, p.position_m.z + offset.z};
+      p.position_m = p.position_m + body.joint_offset_m[index(s)];
     }
     return p;
   };
@@ -176,14 +172,14 @@ SkinPose skin_pose(const MuscleSurface& surface, Side side, const Body& body, co
   return {{line.start_m, line.rotation}, now(origin), rest(origin), now(insertion), rest(insertion)};
 }
 
-void skin_surface(const MuscleSurface& surface, const SkinPose& pose, const NodalLane& displacement, bool mirrored,
+void skin_surface(const MuscleSurface& surface, const SkinPose& pose, const NodalLane& displacement, bool is_left,
                   std::span<Vec3<float>> out) {
-  const auto bone = [mirrored](const RigidPose& now, const RigidPose& rest) {
-    return mirrored ? motion(mirrored_pose(now), mirrored_pose(rest)) : motion(now, rest);
+  const auto bone = [is_left](const RigidPose& now, const RigidPose& rest) {
+    return is_left ? motion(mirrored(now), mirrored(rest)) : motion(now, rest);
   };
   const Affine maps[3] = {affine(pose.frame), bone(pose.origin_now, pose.origin_rest),
                           bone(pose.insertion_now, pose.insertion_rest)};
-  HWY_DYNAMIC_DISPATCH(skin)(surface, maps, displacement, mirrored ? -1.0F : 1.0F, out);
+  HWY_DYNAMIC_DISPATCH(skin)(surface, maps, displacement, is_left ? -1.0F : 1.0F, out);
 }
 
 }  // namespace mobil

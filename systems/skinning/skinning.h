@@ -38,10 +38,10 @@ struct NodalLane {
 
 /// World positions of a surface's vertices, m: with M the motion of a bone since rest, F the muscle's frame,
 ///   p = cage · F(rest_in_cage + Σ wᵢ uᵢ) + origin · M_origin(p₀) + insertion · M_insertion(p₀).
-/// A mirrored (left) surface is computed in the mirror image and reflected; its triangles are to be turned by the
-/// caller. The surface is bound to a cage of no more than displacement.nodes nodes; `out` has as many entries as it has
-/// vertices. Quickest up to 4096 nodes (64 kB of stack). No heap.
-void skin_surface(const MuscleSurface& surface, const SkinPose& pose, const NodalLane& displacement, bool mirrored,
+/// A left muscle's surface (`is_left`) is computed in the mirror image and reflected; its triangles are to be turned by
+/// the caller. The surface is bound to a cage of no more than displacement.nodes nodes; `out` has as many entries as it
+/// has vertices. Quickest up to 4096 nodes (64 kB of stack). No heap.
+void skin_surface(const MuscleSurface& surface, const SkinPose& pose, const NodalLane& displacement, bool is_left,
                   std::span<Vec3<float>> out);
 
 }  // namespace mobil

@@ -2,105 +2,61 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <iterator>
-#include <optional>
-#include <string>
+
+#include "assets/csv_table.h"
 
 namespace mobil {
 namespace {
 
-constexpr std::string_view header = "time_s,force_x_n,force_y_n,force_z_n";
+constexpr std::array<std::string_view, 4> columns = {"time_s", "force_x_n", "force_y_n", "force_z_n"};
 
-std::string_view trimmed(std::string_view s) {
-  const auto first = s.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) return {};
-  return s.substr(first, s.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::optional<double> number(std::string_view field) {
-  field = trimmed(field);
-  if (field.starts_with('+')) field.remove_prefix(1);
-  double value = 0;
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc{} || end != field.data() + field.size() || !std::isfinite(value)) return std::nullopt;
-  return value;
-}
-
-std::optional<std::array<double, 4>> four_numbers(std::string_view line) {
-  std::array<double, 4> values{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto comma = line.find(',');
-    if ((comma == std::string_view::npos) != (i == 3)) return std::nullopt;
-    const auto value = number(line.substr(0, comma));
-    if (!value) return std::nullopt;
-    values[i] = *value;
-    line.remove_prefix(i == 3 ? line.size() : comma + 1);
+Result<ForceHistory> from_table(const CsvTable& table) {
+  ForceHistory history;
+  for (std::size_t r = 0; r < table.row.size(); ++r) {
+    std::array<double, 4> value{};
+    for (std::size_t c = 0; c < value.size(); ++c) {
+      const auto text = cell(table, r, columns[c]);
+      const auto read = number(text);
+      if (!read) {
+        return fail(fmt::format("{} line {}: {} '{}' is not a finite number; write one", table.path, table.line[r],
+                                columns[c], text.substr(0, 60)));
+      }
+      value[c] = *read;
+    }
+    const auto [time, x, y, z] = value;
+    if (!history.row.empty() && time < history.row.back().time_s) {
+      return fail(fmt::format("{} line {}: time {} s comes before {} s in the row above; sort the rows by time",
+                              table.path, table.line[r], time, history.row.back().time_s));
+    }
+    history.row.push_back({time, {x, y, z}});
   }
-  return values;
+  return history;
 }
 
 }  // namespace
 
 Vec3<double> force_at(const ForceHistory& history, double time_s) {
   const auto& row = history.row;
-  if (row.empty() || time_s < row.front().time_s) return {0, 0, 0};
-  std::size_t next = 1;  // first row after this moment
-  while (next < row.size() && row[next].time_s <= time_s) ++next;
-  const auto& a = row[next - 1];
-  if (next == row.size()) return a.force_n;
-  const auto& b = row[next];
+  const auto after = std::upper_bound(row.begin(), row.end(), time_s,
+                                      [](double t, const ForceHistory::Row& r) { return t < r.time_s; });
+  if (after == row.begin()) return {0, 0, 0};
+  const auto& a = *std::prev(after);
+  if (after == row.end()) return a.force_n;
+  const auto& b = *after;
   const double s = (time_s - a.time_s) / (b.time_s - a.time_s);
   const auto mix = [s](double p, double q) { return p + s * (q - p); };
   return {mix(a.force_n.x, b.force_n.x), mix(a.force_n.y, b.force_n.y), mix(a.force_n.z, b.force_n.z)};
 }
 
 Result<ForceHistory> parse_force_history(std::string_view text, std::string_view name) {
-  ForceHistory history;
-  std::size_t line_number = 0;
-  bool headed = false;
-  while (!text.empty()) {
-    const auto end = text.find('\n');
-    const auto line = trimmed(text.substr(0, end));
-    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-    ++line_number;
-    if (line.empty()) continue;
-    if (!headed) {
-      if (line != header) {
-        return fail(
-            fmt::format("{}:{}: the header must be '{}', not '{}'", name, line_number, header, line.substr(0, 60)));
-      }
-      headed = true;
-      continue;
-    }
-    const auto values = four_numbers(line);
-    if (!values) {
-      return fail(
-          fmt::format("{}:{}: '{}' must be four finite numbers: {}", name, line_number, line.substr(0, 60), header));
-    }
-    const auto [time, x, y, z] = *values;
-    if (!history.row.empty() && time < history.row.back().time_s) {
-      return fail(fmt::format("{}:{}: time {} s comes before {} s in the row above; sort the rows by time", name,
-                              line_number, time, history.row.back().time_s));
-    }
-    history.row.push_back({time, {x, y, z}});
-  }
-  if (history.row.empty()) return fail(fmt::format("{}: no rows; write '{}' and at least one row", name, header));
-  return history;
+  return parse_csv(text, name, columns).and_then(from_table);
 }
 
 Result<ForceHistory> read_force_history(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::ifstream in(path, std::ios::binary);
-  if (!in || std::filesystem::is_directory(path, ignored)) {
-    return fail(fmt::format("{}: cannot be read; name a CSV file with the columns {}", path.string(), header));
-  }
-  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
-  if (in.bad()) return fail(fmt::format("{}: cannot be read to its end", path.string()));
-  return parse_force_history(text, path.string());
+  return read_csv(path.string(), columns).and_then(from_table);
 }
 
 }  // namespace mobil

@@ -22,8 +22,8 @@ struct ForceHistory {
 /// Linear between rows, zero before the first, held after the last. At a jump, the later row's.
 Vec3<double> force_at(const ForceHistory& history, double time_s);
 
-/// Reads CSV text with the header `time_s,force_x_n,force_y_n,force_z_n`; `name` is for messages. Fails, naming the
-/// line, on another header, a row that is not four finite numbers, a moment before the row above it, or no rows.
+/// Reads CSV text with the columns time_s, force_x_n, force_y_n, force_z_n; `name` is for messages. Fails, naming the
+/// line, on a missing column, a row that is not finite numbers, a moment before the row above it, or no rows.
 Result<ForceHistory> parse_force_history(std::string_view text, std::string_view name);
 
 /// The same from a file; also fails where it cannot be read.

@@ -48,12 +48,12 @@ TEST(ForceHistory, BadTablesAreRefusedWithTheirLine) {
   };
   EXPECT_TRUE(message("").starts_with("load.csv: no rows"));
   EXPECT_TRUE(message(header).starts_with("load.csv: no rows"));
-  EXPECT_TRUE(message("t,x,y,z\n0,0,0,0\n").starts_with("load.csv:1:"));
+  EXPECT_TRUE(message("t,x,y,z\n0,0,0,0\n").starts_with("load.csv line 1:"));
   for (const auto* row :
        {"1,2,3", "1,2,3,4,5", "1,2,three,4", "1,2,nan,4", "1,inf,3,4", "1,2,3,", "1,2,3,4x", "1;2;3;4"}) {
-    EXPECT_TRUE(message(header + "0,0,0,0\n" + row + "\n").starts_with("load.csv:3:")) << row;
+    EXPECT_TRUE(message(header + "0,0,0,0\n" + row + "\n").starts_with("load.csv line 3:")) << row;
   }
-  EXPECT_TRUE(message(header + "0,0,0,0\n2,0,0,0\n1,0,0,0\n").starts_with("load.csv:4:"));
+  EXPECT_TRUE(message(header + "0,0,0,0\n2,0,0,0\n1,0,0,0\n").starts_with("load.csv line 4:"));
   EXPECT_FALSE(read_force_history("/nowhere/load.csv"));
   EXPECT_FALSE(read_force_history("/"));
 }

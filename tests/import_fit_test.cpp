@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "assets/anthropometry.h"
+#include "assets/csv_table.h"
 #include "assets/import/bone_maps.h"
-#include "assets/import/csv_table.h"
 #include "assets/import/fit_anatomy.h"
 #include "assets/import/mesh_file.h"
 #include "assets/surface_mesh.h"
@@ -169,7 +169,7 @@ TEST_F(RealLeg, LeftBonesMirrorTheRightAndAllFaceOutwards) {
 }
 
 TEST_F(RealLeg, MusclesKeepTheManifestsVolumeTimesTheBodysSize) {
-  const auto table = read_csv(folder + "/manifest.csv", {"file", "volume_cm3"});
+  const auto table = read_csv(folder + "/manifest.csv", std::array<std::string_view, 2>{"file", "volume_cm3"});
   ASSERT_TRUE(table.has_value());
   const Body body = body_of(1.7F);
   const auto fitted = fit_anatomy(*anatomy, body).value();

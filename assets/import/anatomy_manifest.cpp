@@ -10,10 +10,13 @@
 #include <tuple>
 #include <utility>
 
-#include "assets/import/csv_table.h"
+#include "assets/csv_table.h"
 
 namespace mobil {
 namespace {
+
+constexpr std::array<std::string_view, 5> landmark_columns = {"name", "side", "x", "y", "z"};
+constexpr std::array<std::string_view, 5> manifest_columns = {"file", "name", "side", "kind", "group"};
 
 constexpr std::array<std::pair<std::string_view, Segment>, 16> bone_segment = {{
     {"hip_bone", Segment::pelvis},
@@ -120,7 +123,7 @@ Result<void> read_attachments(const CsvTable& table, std::size_t row, double met
 }  // namespace
 
 Result<LandmarkTable> read_landmarks(const std::string& folder) {
-  const auto table = read_csv(folder + "/landmarks.csv", {"name", "side", "x", "y", "z"});
+  const auto table = read_csv(folder + "/landmarks.csv", landmark_columns);
   if (!table) return fail(table.error().message);
   using Point = std::array<double, 3>;
   const auto find = [&](std::string_view name, std::string_view side) -> Result<std::optional<Point>> {
@@ -175,7 +178,7 @@ Result<LandmarkTable> read_landmarks(const std::string& folder) {
 
 Result<std::vector<ManifestRow>> read_manifest(const std::string& folder, double metres_per_unit,
                                                const AnatomyOptions& options) {
-  const auto table = read_csv(folder + "/manifest.csv", {"file", "name", "side", "kind", "group"});
+  const auto table = read_csv(folder + "/manifest.csv", manifest_columns);
   if (!table) return fail(table.error().message);
   std::vector<ManifestRow> rows;
   for (std::size_t row = 0; row < table->row.size(); ++row) {
@@ -213,7 +216,7 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& folder, double
     const auto triangles = cell(*table, row, "triangles");
     if (!triangles.empty()) {
       const auto count = number(triangles);
-      if (!count || *count < 1) {
+      if (!count || *count < 1 || *count > 1e9) {
         return fail(fmt::format("{}: triangles '{}' is not a count; write a number from 1, or leave it empty",
                                 read.where, triangles));
       }

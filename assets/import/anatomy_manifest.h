@@ -1,6 +1,7 @@
 #pragma once
 // The two tables of an anatomy folder, read and checked before any mesh is.
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>

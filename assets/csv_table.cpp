@@ -1,11 +1,15 @@
-#include "assets/import/csv_table.h"
+#include "assets/csv_table.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
 
 namespace mobil {
 namespace {
@@ -31,9 +35,9 @@ std::optional<std::vector<std::string>> split(std::string_view line) {
 }
 
 std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t");
+  const auto first = text.find_first_not_of(" \t\r");
   if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t") - first + 1);
+  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
 }
 
 }  // namespace
@@ -51,45 +55,59 @@ std::string_view cell(const CsvTable& table, std::size_t row, std::string_view n
 
 std::optional<double> number(std::string_view text) {
   text = trimmed(text);
+  if (text.starts_with('+')) text.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
   return value;
 }
 
-Result<CsvTable> read_csv(const std::string& path, std::initializer_list<std::string_view> required) {
-  std::ifstream in(path);
-  if (!in) return fail(fmt::format("{}: cannot be read; put the file there or name another folder", path));
+Result<CsvTable> parse_csv(std::string_view text, std::string_view name, std::span<const std::string_view> required) {
   CsvTable table;
-  table.path = path;
-  std::size_t number_of_line = 0;
-  for (std::string text; std::getline(in, text);) {
-    ++number_of_line;
-    std::string_view line = text;
-    if (number_of_line == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    if (trimmed(line).empty()) continue;
+  table.path = name;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  std::size_t header_line = 0;
+  for (std::size_t number_of_line = 1; !text.empty(); ++number_of_line) {
+    const auto end = text.find('\n');
+    const auto line = trimmed(text.substr(0, end));
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty()) continue;
     auto cells = split(line);
-    if (!cells) return fail(fmt::format("{} line {}: a quote is never closed; close it", path, number_of_line));
+    if (!cells) return fail(fmt::format("{} line {}: a quote is never closed; close it", name, number_of_line));
     for (auto& text_cell : *cells) text_cell = std::string(trimmed(text_cell));
     if (table.header.empty()) {
       table.header = std::move(*cells);
+      header_line = number_of_line;
       continue;
     }
     if (cells->size() != table.header.size()) {
       return fail(fmt::format("{} line {}: {} cells where the header has {}; add or remove commas, or quote the cell",
-                              path, number_of_line, cells->size(), table.header.size()));
+                              name, number_of_line, cells->size(), table.header.size()));
     }
     table.row.push_back(std::move(*cells));
     table.line.push_back(number_of_line);
   }
-  for (const auto name : required) {
-    if (!column(table, name)) {
-      return fail(fmt::format("{}: no column '{}'; the header needs {}", path, name, fmt::join(required, ", ")));
-    }
+  for (const auto column_name : required) {
+    if (table.header.empty() || column(table, column_name)) continue;
+    return fail(fmt::format("{} line {}: no column '{}'; the header needs {}", name, header_line, column_name,
+                            fmt::join(required, ", ")));
   }
-  if (table.row.empty()) return fail(fmt::format("{}: no rows below the header; write at least one", path));
+  if (table.row.empty()) {
+    return fail(
+        fmt::format("{}: no rows; write a header with {} and at least one row", name, fmt::join(required, ", ")));
+  }
   return table;
+}
+
+Result<CsvTable> read_csv(const std::string& path, std::span<const std::string_view> required) {
+  std::error_code ignored;
+  std::ifstream in(path, std::ios::binary);
+  if (!in || std::filesystem::is_directory(path, ignored)) {
+    return fail(fmt::format("{}: cannot be read; put a CSV file there, or name another, with the columns {}", path,
+                            fmt::join(required, ", ")));
+  }
+  const std::string text((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());
+  return parse_csv(text, path, required);
 }
 
 }  // namespace mobil

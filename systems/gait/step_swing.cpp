@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "systems/gait/step_math.h"
@@ -39,7 +40,7 @@ double push(double u, double a, double b) {
   return 0.5 * (1.0 - sin_cos(2.0 * pi * (u - a) / (b - a)).cosine);
 }
 
-/// Lowest of heel, ball and toe tip, over the ground, and how far that height is from what is asked at this moment.
+/// Height of the lowest of heel, ball and toe tip over the ground, m.
 double clearance(const Leg& leg, const SwingSample& s) {
   const SinCos p = sin_cos(s.pitch), t = sin_cos(s.pitch + s.toes);
   const double heel = s.ankle.up - leg.heel_back * p.sine - leg.ankle_height * p.cosine;
@@ -132,7 +133,6 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
 
   Swing swing;
   swing.target = target;
-  for (std::size_t i = 0; i < 6; ++i) swing.torque_nm[i] = unit * torque[i];
   const Foot off = leg.stance(leg.toe_off), strike = leg.planted(leg.strike_pitch);
   const double off_rate = pitch_rate(leg, leg.toe_off), strike_rate = pitch_rate(leg, 0.0);
   const double ankle_off = off.pitch - first.q[1], ankle_strike = strike.pitch - target.q[1];
@@ -167,14 +167,14 @@ Result<Swing> solve_swing(const Leg& leg, const SwingModel& model, const GaitSty
     for (std::size_t i = 1; i < integration_steps; ++i)
       lift = std::fmax(lift, (asked(part(i)) - clearance(leg, swing.sample[i])) / hump(part(i)));
     for (std::size_t i = 0; i <= integration_steps; ++i) swing.sample[i].ankle.up += lift * hump(part(i));
-    return lift;
   };
-  const auto leaving = [](double u) { return 65.88 * u * u * (1.0 - u) * (1.0 - u) * (1.0 - u) * (1.0 - u) * (1.0 - u); };  // highest at 2/7
+  const auto leaving = [](double u) {  // 1 where it is highest, at 2/7
+    const double v = 1.0 - u;
+    return 65.88 * u * u * v * v * v * v * v;
+  };
   const auto passing = [](double u) { return 16.0 * u * u * (1.0 - u) * (1.0 - u); };
-  double lift =
-      raise(leaving, [](double u) { return u < 0.3 ? early_clearance * std::fmin(u * u / (0.1 * 0.1), 1.0) : -1.0; });
-  lift += raise(passing, [&](double u) { return style.toe_clearance_m * passing(u) - 0.0015 * (1.0 - passing(u)); });
-  swing.lift_m = lift;
+  raise(leaving, [](double u) { return u < 0.3 ? early_clearance * std::fmin(u * u / (0.1 * 0.1), 1.0) : -1.0; });
+  raise(passing, [&](double u) { return style.toe_clearance_m * passing(u) - 0.0015 * (1.0 - passing(u)); });
   return swing;
 }
 

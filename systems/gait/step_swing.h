@@ -1,7 +1,6 @@
 #pragma once
 // The swing of one leg from toe-off to heel strike, solved so that it ends exactly on its next foothold.
 
-#include <array>
 #include <vector>
 
 #include "engine/error.h"
@@ -17,13 +16,10 @@ struct SwingSample {
   double pitch, toes;
 };
 
-/// Torques found (N m): at the hip early and late, at the knee in four overlapping pushes. Samples at equal times,
-/// ends included.
+/// Samples at equal times from toe-off to heel strike, both included; the state that was aimed at.
 struct Swing {
   std::vector<SwingSample> sample;
   SwingState target;
-  std::array<double, 6> torque_nm;
-  double lift_m;  // by how much the ankle was raised at most to keep the foot off the ground
 };
 
 /// Thigh and shank with foot of a body of this mass and leg.

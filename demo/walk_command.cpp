@@ -24,9 +24,9 @@ namespace {
 
 constexpr int ticks_per_frame = 2;  // 30 pictures a second
 
-using Clock_ = std::chrono::steady_clock;
-double seconds_since(Clock_::time_point start) {
-  return std::chrono::duration<double>(Clock_::now() - start).count();
+using SteadyClock = std::chrono::steady_clock;
+double seconds_since(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
 }
 
 /// A bar on a terminal, nothing elsewhere.
@@ -65,7 +65,7 @@ Walked walk(Simulation& simulation, const Human& human, const Figure& figure, co
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
   for (std::uint32_t i = 0; i < total; ++i) {
-    const auto start = Clock_::now();
+    const auto start = SteadyClock::now();
     simulation.tick();
     walked.simulation_s += seconds_since(start);
     write_rows(simulation, human, method, walked);
@@ -81,7 +81,7 @@ Walked walk(Simulation& simulation, const Human& human, const Figure& figure, co
 }
 
 Result<void> run_walk(const WalkOptions& options) {
-  const auto start = Clock_::now();
+  const auto start = SteadyClock::now();
   Simulation simulation;
   const auto entity = simulation.spawn(options.body, options.gait);
   if (!entity) return tl::unexpected(entity.error());

@@ -250,7 +250,8 @@ const Human* Simulation::human(Entity entity) const {
 
 Human* Simulation::find(Entity entity) {
   if (!world_.alive(entity) || entity.index >= humans_.size()) return nullptr;
-  return humans_[entity.index].get();
+  Human* human = humans_[entity.index].get();
+  return human != nullptr && human->entity == entity ? human : nullptr;
 }
 
 Entity Simulation::muscle(Entity entity, MuscleGroup group, Side side) const {

@@ -11,6 +11,7 @@
 // global; any number of simulations may live side by side. One thread at a time may use one.
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <memory_resource>
 #include <optional>

@@ -136,7 +136,7 @@ TEST(BadGait, NamesWhatTheCallerAsked) {
   expect_refused("walk --speed 1.4 --step-length 0.7 --step-frequency 3 --out out",
                  {"1.4 m/s", "0.7 m", "3 Hz", "leave one of the three out"});
   expect_refused("walk --speed 0.5 --step-length 1 --out out", {"step", "Hz"});
-  expect_refused("walk --seconds 0 --out out", {"--seconds 0", "0.1 to 600 s"});
+  expect_refused("walk --seconds 0 --out out", {"--seconds 0", "0.1 to 60 s"});
   expect_refused("walk --drive elastic --out out", {"'elastic'", "displacement, force"});
   expect_refused("walk --view xray --out out", {"'xray'", "stick, wireframe, surface"});
 }

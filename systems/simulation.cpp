@@ -166,6 +166,22 @@ Status Simulation::despawn(Entity entity) {
   return world_.destroy(entity);
 }
 
+Result<void> Simulation::change_gait(Entity, const GaitRequest&) {
+  return {};
+}
+
+Status Simulation::turn_to(Entity, float) {
+  return Status::ok;
+}
+
+Status Simulation::add_forces(Entity) {
+  return Status::ok;
+}
+
+Status Simulation::remove_forces(Entity) {
+  return Status::ok;
+}
+
 Result<void> Simulation::add_leg_muscles(Entity entity, Drive drive, const Material& material) {
   Human* human = find(entity);
   if (human == nullptr) return fail("add_leg_muscles: that person is not there (a stale handle); spawn one first");

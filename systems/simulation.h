@@ -75,6 +75,18 @@ class Simulation {
   /// Stale handles answer Status::stale_entity.
   Status despawn(Entity human);
 
+  /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
+  /// steps. A speed of 0 stops, a positive one starts again. Errors: a stale handle, a gait out of range; all is as it
+  /// was.
+  Result<void> change_gait(Entity human, const GaitRequest& gait);
+  /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
+  /// part of it each step.
+  Status turn_to(Entity human, float heading_rad);
+
+  /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one.
+  Status add_forces(Entity human);
+  Status remove_forces(Entity human);
+
   /// The effect of leg muscles: lines of action and finite-element bellies of hamstrings, quadriceps and triceps surae,
   /// both legs, at rest where the person stands in the stride. Errors: a stale handle, muscles that are there already.
   Result<void> add_leg_muscles(Entity human, Drive drive = Drive::displacement, const Material& material = {});

@@ -91,6 +91,7 @@ Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait) {
   set(plan.duration_s, leg.duration);
   set(plan.double_support_s, leg.double_support);
   set(plan.flat_s, leg.flat);
+  plan.load_to = 1.0F;
   set(plan.step_length_m, leg.step_length);
   set(plan.half_width_m, leg.half_width);
   set(plan.toe_out_sin, sin_cos(leg.toe_out).sine);

@@ -1,5 +1,6 @@
 // The `mobil` program: the face of the library for people and for scripts.
-// Exit status: 0 done, 1 ran but did not hold, 2 bad usage or input (one line on stderr says what and how to mend it).
+// Exit status: 0 done, 1 ran but did not hold, or standard output could not be written, 2 bad usage or input (one line
+// on stderr says what and how to mend it).
 
 #include <fmt/format.h>
 
@@ -9,6 +10,18 @@
 
 #include "demo/commands.h"
 #include "demo/usage.h"
+
+namespace {
+
+/// What was printed may still be in a buffer: only now is it known whether it reached anybody.
+int finish(int status) {
+  const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+  if (written || status != 0) return status;
+  std::fputs("mobil: standard output cannot be written (full, or closed); redirect it elsewhere\n", stderr);
+  return 1;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   CLI::App app{
@@ -28,12 +41,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     const bool unknown_subcommand = app.get_subcommands().empty() && !app.remaining().empty();
-    if (error.get_exit_code() == 0 && !unknown_subcommand) return app.exit(error);  // --help, --version
+    if (error.get_exit_code() == 0 && !unknown_subcommand) return finish(app.exit(error));  // --help, --version
     std::fputs(mobil::explain_usage(app, error, argc, argv).c_str(), stderr);
     return 2;
   } catch (const std::exception& error) {
     std::fputs(fmt::format("mobil: {}\n", error.what()).c_str(), stderr);
     return 1;
   }
-  return status;
+  return finish(status);
 }

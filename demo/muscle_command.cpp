@@ -57,33 +57,6 @@ Result<Cells> parse_cells(const std::string& text) {
   return cells;
 }
 
-/// A finite number followed by nothing or by the unit's name.
-Result<double> parse_number(const std::string& option, const std::string& text, const std::string& unit) {
-  std::size_t used = 0;
-  double value = NAN;
-  try {
-    value = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  const std::string rest = text.substr(used);
-  if (used == 0 || !std::isfinite(value) || !(rest.empty() || rest == unit)) {
-    return fail(fmt::format("{} '{}' must be a finite number{}", option, text,
-                            unit.empty() ? "" : fmt::format(", in {} if it has a unit", unit)));
-  }
-  return value;
-}
-
-Result<double> parse_in(const std::string& option, const std::string& text, Quantity quantity, double low, double high,
-                        const std::string& unit) {
-  auto value = parse_quantity(text, quantity);
-  if (!value) return fail(fmt::format("{} {}", option, value.error().message));
-  if (!(*value >= low && *value <= high)) {
-    return fail(fmt::format("{} {} must lie between {} and {} {}", option, text, low, high, unit));
-  }
-  return value;
-}
-
 Result<void> check_choices(const MuscleText& text) {
   if (text.method != "ecd") {
     return fail(
@@ -99,15 +72,15 @@ Result<void> check_choices(const MuscleText& text) {
 Result<MuscleTemplate> make_template(const MuscleText& text) {
   const auto cells = parse_cells(text.cells);
   if (!cells) return tl::unexpected(cells.error());
-  const auto size = parse_in("--cell-size", text.cell_size, Quantity::length, 1e-4, 1, "m");
+  const auto size = read_value("--cell-size", text.cell_size, Quantity::length, 1e-4, 1);
   if (!size) return tl::unexpected(size.error());
-  const auto young = parse_number("--young", text.young, "Pa");
+  const auto young = read_value("--young", text.young, Quantity::pressure);
   if (!young) return tl::unexpected(young.error());
-  const auto poisson = parse_number("--poisson", text.poisson, "");
+  const auto poisson = read_value("--poisson", text.poisson, Quantity::ratio);
   if (!poisson) return tl::unexpected(poisson.error());
-  const auto density = parse_number("--density", text.density, "kg/m3");
+  const auto density = read_value("--density", text.density, Quantity::density);
   if (!density) return tl::unexpected(density.error());
-  const auto damping = parse_number("--damping", text.damping, "1/s");
+  const auto damping = read_value("--damping", text.damping, Quantity::rate);
   if (!damping) return tl::unexpected(damping.error());
   auto mesh = make_block(*cells, *size);
   if (!mesh) return tl::unexpected(mesh.error());
@@ -117,11 +90,11 @@ Result<MuscleTemplate> make_template(const MuscleText& text) {
 
 Result<MuscleRequest> read_request(const MuscleText& text) {
   if (auto ok = check_choices(text); !ok) return tl::unexpected(ok.error());
-  const auto seconds = parse_in("--seconds", text.seconds, Quantity::time, 1e-6, 3600, "s");
+  const auto seconds = read_value("--seconds", text.seconds, Quantity::time, 1e-6, 3600);
   if (!seconds) return tl::unexpected(seconds.error());
   std::optional<double> dt;
   if (!text.dt.empty()) {
-    const auto given = parse_in("--dt", text.dt, Quantity::time, 1e-9, 1000, "s");
+    const auto given = read_value("--dt", text.dt, Quantity::time, 1e-9, 1000);
     if (!given) return tl::unexpected(given.error());
     dt = *given;
   }

@@ -4,36 +4,14 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <numeric>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "demo/nearest_name.h"
+
 namespace mobil {
 namespace {
-
-/// Levenshtein's: letters to change, put in or leave out.
-std::size_t edits(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({changed, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
-/// " (did you mean X?)", or nothing where no name is near.
-std::string suggestion(std::string_view given, const std::vector<std::string>& known) {
-  const auto nearest = std::ranges::min_element(known, {}, [&](const std::string& name) { return edits(given, name); });
-  if (nearest == known.end() || 2 * edits(given, *nearest) > given.size()) return {};
-  return fmt::format(" (did you mean {}?)", *nearest);
-}
 
 /// The first argument, as it was written, that nobody took; empty if all were taken. After a subcommand options go
 /// first: what follows an unknown one is left over only because of it.

@@ -8,14 +8,18 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "assets/output_file.h"
 #include "demo/commands.h"
 #include "demo/figure.h"
+#include "demo/gait_parameters.h"
 #include "demo/walk_lines.h"
 #include "demo/walk_options.h"
 #include "demo/walk_pictures.h"
+#include "demo/walk_script.h"
 #include "demo/walk_summary.h"
 #include "demo/walk_tables.h"
 
@@ -42,33 +46,68 @@ struct Walked {
   MuscleTable muscles;
   WalkRecording recording;
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
-  double simulation_s = 0;
+  WalkOutcome outcome;
 };
 
-void write_rows(const Simulation& simulation, const Human& human, std::string_view method, Walked& walked) {
-  const double time = simulation.time_s();
-  walked.motion.add(time, *simulation.get<JointAngles>(human.entity), *simulation.get<Feet>(human.entity),
-                    *simulation.get<CentreOfMass>(human.entity));
+MotionRow motion_row(const Simulation& simulation, Entity entity) {
+  return {simulation.time_s(), simulation.get<GaitState>(entity)->heading_rad, *simulation.get<JointAngles>(entity),
+          *simulation.get<Feet>(entity), *simulation.get<CentreOfMass>(entity)};
+}
+
+/// Those of the tick before, where they are simulated.
+std::optional<WalkForces> forces_before(const Simulation& simulation, Entity entity) {
+  const auto ground = simulation.get<GroundReaction>(entity);
+  const auto moments = simulation.get<JointMoments>(entity);
+  if (!ground || !moments) return std::nullopt;
+  return WalkForces{*ground, *moments};
+}
+
+void add_muscle_rows(const Simulation& simulation, const Human& human, std::string_view method, MuscleTable& table) {
   for (std::size_t side = 0; side < 2; ++side) {
     for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
       const Entity muscle = human.muscle[g][side];
-      walked.muscles.add(time, static_cast<Side>(side), static_cast<MuscleGroup>(g),
-                         *simulation.get<LineOfAction>(muscle), *simulation.get<BellyReport>(muscle), method);
+      table.add(simulation.time_s(), static_cast<Side>(side), static_cast<MuscleGroup>(g),
+                *simulation.get<LineOfAction>(muscle), *simulation.get<BellyReport>(muscle), method);
     }
   }
 }
 
-Walked walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options) {
+/// Hands over the changes that are due. Errors name the script's line.
+Result<void> apply_changes(const std::vector<GaitChange>& changes, const std::string& script, Entity entity,
+                           Simulation& simulation, std::size_t& applied) {
+  const double due = simulation.time_s() + 1e-9;
+  for (; applied < changes.size() && changes[applied].time_s <= due; ++applied) {
+    const GaitChange& change = changes[applied];
+    if (change.gait) {
+      const auto done = simulation.change_gait(entity, *change.gait);
+      if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
+    }
+    if (change.heading_rad) simulation.turn_to(entity, *change.heading_rad);
+  }
+  return {};
+}
+
+Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
+                    const std::vector<GaitChange>& changes) {
   Walked walked;
+  WalkOutcome& outcome = walked.outcome;
+  outcome.gait = human.gait;
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
   const std::string_view method = options.force_driven ? "ecd_force" : "ecd";
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
+  std::optional<MotionRow> held;  // until the forces of its tick are known
   for (std::uint32_t i = 0; i < total; ++i) {
+    if (options.script) {
+      auto done = apply_changes(changes, options.script->path, human.entity, simulation, outcome.changes);
+      if (!done) return tl::unexpected(done.error());
+    }
     const auto start = SteadyClock::now();
     simulation.tick();
-    walked.simulation_s += seconds_since(start);
-    write_rows(simulation, human, method, walked);
+    outcome.simulation_s += seconds_since(start);
+    if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
+    held = motion_row(simulation, human.entity);
+    add_muscle_rows(simulation, human, method, walked.muscles);
     if (i % ticks_per_frame == 0) {
       show_progress("walking", i + std::size_t{1}, total);
       record_frame(figure, simulation, human, walked.recording);
@@ -76,8 +115,41 @@ Walked walk(Simulation& simulation, const Human& human, const Figure& figure, co
       if (options.view == View::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
     }
   }
+  outcome.ticks = simulation.ticks();
+  outcome.simulated_s = simulation.time_s();
+  const auto timings = simulation.schedule().timings();
+  outcome.stages.assign(timings.begin(), timings.end());
+  if (forces_before(simulation, human.entity)) simulation.tick();  // one more, for the forces of the last row
+  if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
   show_progress("walking", total, total);
   return walked;
+}
+
+/// Everything that is written, in an order that leaves nothing behind when pictures cannot be made.
+Result<void> write_results(const Walked& walked, const Simulation& simulation, const Human& human,
+                           const WalkOptions& options, SteadyClock::time_point start) {
+  if (options.frames || options.video) {  // first, as they may lack a driver or a program
+    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
+    const std::size_t frames = walked.recording.frames.size();
+    auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
+    if (!done) return done;
+  }
+  if (auto done = write_file(options.out / "motion.csv", walked.motion.text); !done) return done;
+  if (auto done = write_file(options.out / "muscles.csv", walked.muscles.text); !done) return done;
+  const auto exported = write_glb(options.out / "walk.glb", walked.recording);
+  if (!exported) return tl::unexpected(exported.error());
+  WalkOutcome outcome = walked.outcome;
+  outcome.wall_s = seconds_since(start);
+  const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
+  if (auto done = write_file(options.out / "summary.json", summary); !done) return done;
+
+  fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
+             outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
+  fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
+             1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
+  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}\n", options.out.string(),
+             options.frames ? " frame_*.png" : "", options.video ? " walk.mp4" : "");
+  return {};
 }
 
 Result<void> run_walk(const WalkOptions& options) {
@@ -85,40 +157,31 @@ Result<void> run_walk(const WalkOptions& options) {
   Simulation simulation;
   const auto entity = simulation.spawn(options.body, options.gait);
   if (!entity) return tl::unexpected(entity.error());
+  const Human& human = *simulation.human(*entity);
+  std::vector<GaitChange> changes;
+  if (options.script) {
+    auto planned = plan_changes(*options.script, human.body, options.gait);
+    if (!planned) return fail(fmt::format("--script {}", planned.error().message));
+    changes = std::move(*planned);
+  }
   const auto added = simulation.add_leg_muscles(*entity, options.force_driven ? Drive::force : Drive::displacement);
   if (!added) return added;
-  const Human& human = *simulation.human(*entity);
+  if (options.forces) simulation.add_forces(*entity);
   const auto figure = make_figure(simulation, human, options.anatomy);
   if (!figure) return tl::unexpected(figure.error());
   const bool folder_was_there = std::filesystem::exists(options.out);
   if (auto made = make_output_folder(options.out); !made) return made;
 
-  const Walked walked = walk(simulation, human, *figure, options);
-  if (options.frames || options.video) {  // first, as they may lack a driver or a program: then nothing is written
-    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
-    const std::size_t frames = walked.recording.frames.size();
-    const auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
-    if (!done) {
-      std::error_code ignored;
-      if (!folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
-      return done;
-    }
+  const auto walked = walk(simulation, human, *figure, options, changes);
+  auto done =
+      walked ? write_results(*walked, simulation, human, options, start) : Result<void>(tl::unexpected(walked.error()));
+  std::error_code ignored;
+  if (!done && !folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
+  if (done && changes.size() > walked->outcome.changes) {
+    fmt::print("script: {} of {} changes lie after the end; lengthen --seconds to see them\n",
+               changes.size() - walked->outcome.changes, changes.size());
   }
-  if (auto done = write_file(options.out / "motion.csv", walked.motion.text); !done) return done;
-  if (auto done = write_file(options.out / "muscles.csv", walked.muscles.text); !done) return done;
-  const auto exported = write_glb(options.out / "walk.glb", walked.recording);
-  if (!exported) return tl::unexpected(exported.error());
-  const WalkCost cost{walked.simulation_s, seconds_since(start)};
-  const auto summary = summary_json(options, simulation, human, cost, exported->muscles);
-  if (auto done = write_file(options.out / "summary.json", summary); !done) return done;
-
-  fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", simulation.time_s(),
-             human.gait.speed_m_s, human.gait.step_length_m, human.gait.step_frequency_hz);
-  fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
-             1e6 * walked.simulation_s / simulation.ticks(), simulation.time_s() / walked.simulation_s, cost.wall_s);
-  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}\n", options.out.string(),
-             options.frames ? " frame_*.png" : "", options.video ? " walk.mp4" : "");
-  return {};
+  return done;
 }
 
 }  // namespace
@@ -126,13 +189,17 @@ Result<void> run_walk(const WalkOptions& options) {
 void add_walk_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("walk", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures");
-  command->footer(
-      "Ground reactions and joint moments in motion.csv are empty cells: they are not simulated yet.\n"
-      "Example: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video");
+  command->footer(std::string(walk_script_help) +
+                  "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
+                  "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10");
   auto text = std::make_shared<WalkText>();
   command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
   add_walk_options(*command, *text);
   command->callback([text, &exit_status] {
+    if (text->list_parameters) {
+      fmt::print("{}", gait_parameter_table());
+      return;
+    }
     const auto options = read_walk_options(*text);
     const auto done = options ? run_walk(*options) : Result<void>(tl::unexpected(options.error()));
     if (done) return;

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
 
+#include "demo/gait_parameters.h"
 #include "demo/units.h"
 
 namespace mobil {
@@ -22,17 +24,6 @@ Result<T> choose(std::string_view option, const std::string& text, const Named<T
     known += fmt::format("{}{}", known.empty() ? "" : ", ", choice.name);
   }
   return fail(fmt::format("{} '{}': choose one of {}", option, text, known));
-}
-
-Result<double> read_quantity(std::string_view option, const std::string& text, Quantity quantity, double low,
-                             double high) {
-  const auto value = parse_quantity(text, quantity);
-  if (!value) return fail(fmt::format("{} {}", option, value.error().message));
-  if (*value < low || *value > high) {
-    return fail(fmt::format("{} {}: outside the valid range {:g} to {:g} {}; choose a value inside it", option, text,
-                            low, high, si_unit(quantity)));
-  }
-  return value;
 }
 
 Result<Biotype> read_biotype(const std::string& text) {
@@ -61,7 +52,22 @@ void add_walk_options(CLI::App& command, WalkText& text) {
   command.add_option("--step-length", text.step_length, "Heel to opposite heel; any two of the three give the third")
       ->group("Gait");
   command.add_option("--step-frequency", text.step_frequency, "Steps per second, or 110steps/min")->group("Gait");
+  command
+      .add_option("--set", text.set,
+                  "NAME=VALUE: any gait parameter of --list-parameters, like toe_out_deg=12; again for more")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Gait");
+  command.add_flag("--list-parameters", text.list_parameters, "Print names, ranges and meanings for --set, and leave")
+      ->group("Gait");
+  command.add_option("--script", text.script, "CSV time_s,parameter,value: changes while walking, see below")
+      ->group("Gait");
   command.add_option("--seconds", text.seconds, "How long to walk, 0.1s to 60s")->capture_default_str()->group("Gait");
+  command
+      .add_flag("--no-forces", text.no_forces,
+                "Leave ground reactions and joint moments out: empty cells in motion.csv")
+      ->group("Gait");
   command
       .add_option("--drive", text.drive,
                   "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
@@ -88,12 +94,13 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.frames = text.frames;
   options.video = text.video;
   options.stereo = text.stereo;
+  options.forces = !text.no_forces;
   options.out = text.out;
 
-  const auto height = read_quantity("--height", text.height, Quantity::length, 1.2, 2.2);
+  const auto height = read_value("--height", text.height, Quantity::length, 1.2, 2.2);
   if (!height) return tl::unexpected(height.error());
   options.body.height_m = static_cast<float>(*height);
-  const auto mass = read_quantity("--mass", text.mass, Quantity::mass, 30, 200);
+  const auto mass = read_value("--mass", text.mass, Quantity::mass, 30, 200);
   if (!mass) return tl::unexpected(mass.error());
   options.body.mass_kg = static_cast<float>(*mass);
   const auto biotype = read_biotype(text.biotype);
@@ -111,7 +118,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto optional = [](std::string_view option, const std::string& given, Quantity quantity,
                            double most) -> Result<std::optional<float>> {
     if (given.empty()) return std::optional<float>{};
-    const auto value = read_quantity(option, given, quantity, 0, most);
+    const auto value = read_value(option, given, quantity, 0, most);
     if (!value) return tl::unexpected(value.error());
     return std::optional<float>(static_cast<float>(*value));
   };
@@ -124,7 +131,17 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto frequency = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
   if (!frequency) return tl::unexpected(frequency.error());
   options.gait.step_frequency_hz = *frequency;
-  const auto seconds = read_quantity("--seconds", text.seconds, Quantity::time, 0.1, 60);
+  for (const auto& assignment : text.set) {
+    if (auto done = set_gait_parameter(assignment, options.gait.style); !done) {
+      return fail(fmt::format("--set {}", done.error().message));
+    }
+  }
+  if (!text.script.empty()) {
+    auto script = read_walk_script(text.script);
+    if (!script) return fail(fmt::format("--script {}", script.error().message));
+    options.script = std::move(*script);
+  }
+  const auto seconds = read_value("--seconds", text.seconds, Quantity::time, 0.1, 60);
   if (!seconds) return tl::unexpected(seconds.error());
   options.seconds = *seconds;
 

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "components/body.h"
 #include "components/gait.h"
+#include "demo/walk_script.h"
 #include "engine/error.h"
 
 namespace mobil {
@@ -17,8 +19,10 @@ enum class View { stick, wireframe, surface };
 struct WalkOptions {
   BodyRequest body;
   GaitRequest gait;
+  std::optional<WalkScript> script;
   double seconds = 5;
-  bool force_driven = false;
+  bool force_driven = false;  // of the muscles
+  bool forces = true;         // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
   View view = View::surface;
   bool frames = false, video = false, stereo = false;
@@ -30,6 +34,9 @@ struct WalkText {
   std::string height = "1.75", mass = "75", biotype, constitution = "average";
   std::string speed, step_length, step_frequency, seconds = "5";
   std::string drive = "displacement", anatomy, view = "surface", out = "out";
+  std::vector<std::string> set;
+  std::string script;
+  bool list_parameters = false, no_forces = false;
   bool frames = false, video = false, stereo = false;
 };
 

@@ -1,6 +1,9 @@
 #include "demo/walk_summary.h"
 
+#include <fmt/format.h>
+
 #include <nlohmann/json.hpp>
+#include <string>
 
 namespace mobil {
 namespace {
@@ -8,6 +11,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view constitution_name[] = {"thin", "average", "athletic", "heavy"};
+
+/// The shortest decimal that reads as this number: 0.1, not 0.10000000149.
+double decimal(float value) {
+  return std::stod(fmt::format("{}", value));
+}
 
 Json muscles_json(const Simulation& simulation, const Human& human) {
   Json muscles = Json::array();
@@ -41,37 +49,41 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
 }  // namespace
 
 std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
-                         const WalkCost& cost, const std::vector<MuscleFidelity>& exported) {
+                         const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported) {
   const BodyRequest& body = human.body.request;
   Json summary;
-  summary["body"] = {{"height_m", body.height_m},
-                     {"mass_kg", body.mass_kg},
-                     {"biotype", {body.biotype.endo, body.biotype.meso, body.biotype.ecto}},
+  summary["body"] = {{"height_m", decimal(body.height_m)},
+                     {"mass_kg", decimal(body.mass_kg)},
+                     {"biotype", {decimal(body.biotype.endo), decimal(body.biotype.meso), decimal(body.biotype.ecto)}},
                      {"constitution", constitution_name[static_cast<std::size_t>(body.constitution)]},
-                     {"hip_height_m", human.body.hip_height_m}};
-  summary["gait"] = {{"speed_m_s", human.gait.speed_m_s},
-                     {"step_length_m", human.gait.step_length_m},
-                     {"step_frequency_hz", human.gait.step_frequency_hz},
-                     {"double_support_cycle", human.gait.double_support_cycle}};
+                     {"hip_height_m", decimal(human.body.hip_height_m)}};
+  Json parameters = Json::object();
+  for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(options.gait.style.*p.value);
+  summary["gait"] = {{"speed_m_s", decimal(outcome.gait.speed_m_s)},
+                     {"step_length_m", decimal(outcome.gait.step_length_m)},
+                     {"step_frequency_hz", decimal(outcome.gait.step_frequency_hz)},
+                     {"double_support_cycle", decimal(outcome.gait.double_support_cycle)},
+                     {"parameters", parameters}};
+  if (options.script) summary["script"] = {{"file", options.script->path}, {"changes", outcome.changes}};
   summary["drive"] = options.force_driven ? "force" : "displacement";
   summary["anatomy"] = options.anatomy ? Json(options.anatomy->string()) : Json("built-in");
 
-  const double simulated = simulation.time_s();
-  const double ticks = simulation.ticks();
+  const double simulated = outcome.simulated_s;
+  const double ticks = outcome.ticks;
   Json stages = Json::object();
   const auto systems = simulation.schedule().systems();
-  const auto timings = simulation.schedule().timings();
+  const auto& timings = outcome.stages;
   for (std::size_t i = 0; i < systems.size(); ++i) {
     stages[systems[i].name] = {{"us_per_tick", 1e6 * timings[i].seconds / ticks},
                                {"times_faster_than_real_time", simulated / timings[i].seconds}};
   }
   summary["time"] = {{"simulated_s", simulated},
-                     {"ticks", simulation.ticks()},
+                     {"ticks", outcome.ticks},
                      {"tick_s", simulation.tick_s()},
-                     {"simulation_wall_s", cost.simulation_s},
-                     {"us_per_tick", 1e6 * cost.simulation_s / ticks},
-                     {"times_faster_than_real_time", simulated / cost.simulation_s},
-                     {"command_wall_s", cost.wall_s},
+                     {"simulation_wall_s", outcome.simulation_s},
+                     {"us_per_tick", 1e6 * outcome.simulation_s / ticks},
+                     {"times_faster_than_real_time", simulated / outcome.simulation_s},
+                     {"command_wall_s", outcome.wall_s},
                      {"stages", stages}};
   summary["muscles"] = muscles_json(simulation, human);
   Json glb = Json::array();

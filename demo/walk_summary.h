@@ -10,13 +10,18 @@
 
 namespace mobil {
 
-struct WalkCost {
-  double simulation_s = 0;  // wall time of the ticks alone
-  double wall_s = 0;        // of the whole command
+struct WalkOutcome {
+  decltype(Human::gait) gait{};  // at the start
+  std::size_t changes = 0;       // of the script that fell within the walk
+  std::uint32_t ticks = 0;
+  double simulated_s = 0;
+  std::vector<Timing> stages;  // one a system
+  double simulation_s = 0;     // wall time of the ticks alone
+  double wall_s = 0;           // of the whole command
 };
 
 /// The whole file as text.
 std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
-                         const WalkCost& cost, const std::vector<MuscleFidelity>& exported);
+                         const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported);
 
 }  // namespace mobil

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <iterator>
 #include <numbers>
 
@@ -29,8 +30,9 @@ MotionTable::MotionTable() {
   text += '\n';
 }
 
-void MotionTable::add(double time_s, const JointAngles<float>& angles, const Feet<float>& feet,
-                      const CentreOfMass<float>& com) {
+void MotionTable::add(const MotionRow& row, const std::optional<WalkForces>& forces) {
+  const auto& [time_s, heading_rad, angles, feet, com] = row;
+  const float ahead_x = std::sin(heading_rad), ahead_z = std::cos(heading_rad);
   auto out = std::back_inserter(text);
   fmt::format_to(out, "{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}", time_s, feet.phase[right],
                  feet.phase[left], com.position_m.x, com.position_m.y, com.position_m.z,
@@ -40,7 +42,14 @@ void MotionTable::add(double time_s, const JointAngles<float>& angles, const Fee
                               angles.shoulder_flexion[side], angles.elbow_flexion[side]}) {
       fmt::format_to(out, ",{:.4f}", angle * degrees);
     }
-    text += ",,,,,";
+    if (forces) {
+      const Vec3<float>& force = forces->ground.force_n[side];
+      const JointMoments<float>& moments = forces->moments;
+      fmt::format_to(out, ",{:.3f},{:.3f},{:.4f},{:.4f},{:.4f}", force.y, ahead_x * force.x + ahead_z * force.z,
+                     moments.hip_nm[side], moments.knee_nm[side], moments.ankle_nm[side]);
+    } else {
+      text += ",,,,,";
+    }
     for (const auto& point : {feet.heel_m[side], feet.toe_m[side]}) {
       fmt::format_to(out, ",{:.6f},{:.6f},{:.6f}", point.x, point.y, point.z);
     }

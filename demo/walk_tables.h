@@ -1,18 +1,35 @@
 #pragma once
 // motion.csv and muscles.csv: one row a tick (and side and group). Columns are promises to scripts: they stay.
 
+#include <optional>
 #include <string>
 #include <string_view>
 
+#include "components/forces.h"
 #include "components/muscle.h"
 #include "components/pose.h"
 
 namespace mobil {
 
-/// motion.csv under way. Ground reactions and joint moments are empty cells: no inverse dynamics is simulated yet.
+/// A walker at a tick.
+struct MotionRow {
+  double time_s;
+  float heading_rad;
+  JointAngles<float> angles;
+  Feet<float> feet;
+  CentreOfMass<float> com;
+};
+
+struct WalkForces {
+  GroundReaction<float> ground;
+  JointMoments<float> moments;
+};
+
+/// motion.csv under way. Forces are those of the row's own tick; without them their cells are empty. The ground
+/// reaction's anterior part is along the row's heading.
 struct MotionTable {
   MotionTable();
-  void add(double time_s, const JointAngles<float>& angles, const Feet<float>& feet, const CentreOfMass<float>& com);
+  void add(const MotionRow& row, const std::optional<WalkForces>& forces);
   std::string text;
 };
 

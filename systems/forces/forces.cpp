@@ -49,7 +49,8 @@ inline constexpr float pivot_height = 1.4F;
 inline constexpr float rocker_centre = 0.037F, rocker_reach = 0.052F, rocker_slope = -0.02F, rocker_range = 0.19F;
 /// Its further travel as the heel rises, of the heel's height.
 inline constexpr float toe_travel = 0.10F;
-/// Height of heel and ball at which that end of the sole bears nothing, in body heights: the pads are soft and round.
+/// Height of heel and ball over one another at which the upper end bears nothing, in body heights: the pads are soft
+/// and round.
 inline constexpr float heel_pad = 0.020F, ball_pad = 0.022F;
 /// To each side of the foot's line, in body heights.
 inline constexpr float half_sole_width = 0.025F;
@@ -220,11 +221,13 @@ HWY_NOINLINE void touch(const Wide& height, const WideVec& hip, const WideVec& a
   const Wide s = (slope - wide(forces::rocker_slope)) * wide(1.0F / forces::rocker_range);
   const Wide rocker = fma(wide(forces::rocker_reach), s / sqrt(fma(s, s, one)),
                           wide(forces::rocker_centre - static_cast<float>(fraction::ball_forward)));
+  // Heights over one another, so that a foot that hovers a little still stands on its lower end.
+  const Wide heel_up = max(heel.y - ball.y, zero), ball_up = max(ball.y - heel.y, zero);
   // From the ball, which stays where it is as the heel rises.
-  const Wide rolled = fma(wide(forces::toe_travel), max(heel.y, zero), rocker * height);
+  const Wide rolled = fma(wide(forces::toe_travel), heel_up, rocker * height);
   const Wide toes = wide(static_cast<float>(fraction::toes_length)) * height;
-  const Wide heel_bears = clamp(one - heel.y / (wide(forces::heel_pad) * height), 0.0F, 1.0F);
-  const Wide ball_bears = clamp(one - ball.y / (wide(forces::ball_pad) * height), 0.0F, 1.0F);
+  const Wide heel_bears = clamp(one - heel_up / (wide(forces::heel_pad) * height), 0.0F, 1.0F);
+  const Wide ball_bears = clamp(one - ball_up / (wide(forces::ball_pad) * height), 0.0F, 1.0F);
   const Wide rearmost = -(heel_bears * sole), foremost = fma(ball_bears, sole + toes, -sole);
   const Wide place = min(max(rolled, rearmost), foremost);
   store(fma(place, along_x, ball.x), contact.x_m);

@@ -1,0 +1,15 @@
+#pragma once
+// The tables of assets/reference as the build put them into the program.
+
+#include <span>
+#include <string_view>
+
+namespace mobil {
+
+struct ReferenceTable {
+  std::string_view name, text;  // file name; the whole file
+};
+
+std::span<const ReferenceTable> reference_tables();
+
+}  // namespace mobil

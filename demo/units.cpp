@@ -23,7 +23,7 @@ constexpr Unit times[] = {{"s", 1}, {"ms", 0.001}, {"min", 60}};
 constexpr Unit angles[] = {{"deg", 1}, {"°", 1}, {"rad", 180 / std::numbers::pi}};
 constexpr Unit pressures[] = {{"Pa", 1}, {"kPa", 1e3}, {"MPa", 1e6}};
 constexpr Unit densities[] = {{"kg/m3", 1}, {"g/cm3", 1000}};
-constexpr Unit rates[] = {{"1/s", 1}};
+constexpr Unit rates[] = {{"1/s", 1}, {"/s", 1}};  // "5/s": the 1 would join the number
 constexpr Unit stiffnesses[] = {{"N/m", 1}, {"kN/m", 1e3}};
 
 std::span<const Unit> units(Quantity quantity) {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "components/gait_style.h"
 #include "tests/program.h"
 
 namespace mobil {
@@ -141,6 +142,60 @@ TEST(BadGait, NamesWhatTheCallerAsked) {
   expect_refused("walk --view xray --out out", {"'xray'", "stick, wireframe, surface"});
 }
 
+TEST(BadParameter, NamesTheNearestTheRangeAndTheList) {
+  expect_refused("walk --set toe_out=3 --out out", {"--set toe_out", "did you mean toe_out_deg?", "--list-parameters"});
+  expect_refused("walk --set step_widht_h=0.1 --out out", {"did you mean step_width_h?", "--list-parameters"});
+  expect_refused("walk --set zzz=3 --out out", {"--set zzz", "--list-parameters"});
+  expect_refused("walk --set toe_out_deg --out out", {"'toe_out_deg'", "NAME=VALUE"});
+  expect_refused("walk --set toe_out_deg=10 --set toe_out_deg=40 --out out", {"toe_out_deg 40", "-15 to 30 deg"});
+  expect_refused("walk --set toe_out_deg=10kg --out out", {"'kg'", "deg"});
+  expect_refused("walk --set toe_out_deg= --out out", {"toe_out_deg ''", "number"});
+  expect_refused("walk --set toe_out_deg=1 toe_clearance_m=0 --out out", {"'toe_clearance_m=0' was not expected"});
+}
+
+TEST(BadScript, NamesFileAndLine) {
+  const TemporaryFolder folder;
+  const std::map<std::string, std::pair<std::string, std::string>> bad = {
+      {"empty", {"", "no rows"}},
+      {"header", {"time,parameter,value\n0,speed,1\n", "no column 'time_s'"}},
+      {"backwards", {"time_s,parameter,value\n1,speed,1\n0.5,speed,1\n", "line 3: time 0.5 s comes before 1 s"}},
+      {"unknown", {"time_s,parameter,value\n1,steplength,1\n", "line 2: there is no parameter 'steplength'"}},
+      {"short", {"time_s,parameter,value\n1,stop\n", "line 2: 2 cells"}},
+      {"beyond", {"time_s,parameter,value\n\n1,toe_out_deg,31\n", "line 3: toe_out_deg 31: outside"}},
+      {"body", {"time_s,parameter,value\n1,speed,9km/h\n", "line 2: gait: a speed of 2.5 m/s"}},  // for 1.75 m
+  };
+  for (const auto& [name, text] : bad) {
+    std::ofstream(folder.path / (name + ".csv")) << text.first;
+    expect_refused(folder.path, fmt::format("walk --seconds 0.1 --script {}.csv --out out", name),
+                   {"--script", name + ".csv", text.second});
+  }
+  expect_refused(folder.path, "walk --script nowhere.csv --out out", {"nowhere.csv", "time_s, parameter, value"});
+}
+
+TEST(Listing, GaitParametersAndNothingElse) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("walk --list-parameters", folder.path);
+  EXPECT_EQ(ran.status, 0);
+  EXPECT_EQ(ran.err, "");
+  for (const GaitParameter& p : gait_parameters)
+    EXPECT_NE(ran.out.find(fmt::format("\n  {} ", p.name)), std::string::npos);
+  EXPECT_TRUE(contents(folder.path).empty());
+}
+
+TEST(BadOutput, StandardOutputIsFull) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  for (const std::string arguments : {"--help", "--version", "walk --help", "walk --list-parameters",
+                                      "walk --seconds 0.1 --out out", "muscle --seconds 0.01"}) {
+    for (const std::string sink : {">/dev/full", ">&-"}) {
+      const TemporaryFolder folder;
+      const Ran ran = run_shell("{ '" MOBIL_PROGRAM "' " + arguments + " " + sink + "; }", folder.path);
+      EXPECT_EQ(ran.status, 1) << arguments << sink;
+      EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+      EXPECT_TRUE(ran.err.starts_with("mobil")) << ran.err;
+    }
+  }
+}
+
 TEST(BadOutput, AFileIsInTheWay) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "taken") << "mine";
@@ -189,7 +244,7 @@ TEST(BadMuscle, NamesTheLimit) {
   expect_refused("muscle --density -1", {"ensity", "-1"});
   expect_refused("muscle --cells 2x2", {"'2x2'", "2x2x8"});
   expect_refused("muscle --cells 0x2x2", {"0x2x2", "1 to 256"});
-  expect_refused("muscle --cell-size 0", {"--cell-size 0", "0.0001 and 1 m"});
+  expect_refused("muscle --cell-size 0", {"--cell-size 0", "0.0001 to 1 m"});
   expect_refused("muscle --method magic", {"'magic'", "ecd"});
   expect_refused("muscle --seconds 1e9", {"--seconds 1e9", "3600 s"});
 }

@@ -1,5 +1,6 @@
 // What `mobil walk` promises, read off the files that the program itself wrote.
 #include <gtest/gtest.h>
+#include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +9,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
+#include <optional>
 #include <set>
 
+#include "components/gait_style.h"
 #include "components/muscle.h"
+#include "demo/walk_tables.h"
 #include "tests/program.h"
 
 namespace mobil {
@@ -293,6 +297,137 @@ TEST(Walk, ForceDrivenEndsLagTheirLines) {
   EXPECT_GT(missed, 0.02 * most);
   EXPECT_LT(missed, 2 * most);
   EXPECT_EQ(read_bytes(walk.file("motion.csv")), read_bytes(walk_of(0).file("motion.csv")));
+}
+
+/// Ground reaction and moments of a row, or the columns that hold none.
+const std::vector<std::string> force_columns = [] {
+  std::vector<std::string> names;
+  for (const auto& side : sides) {
+    for (const std::string column : {"grf_vertical_", "grf_anterior_"}) names.push_back(column + side + "_n");
+    for (const std::string column : {"hip_", "knee_", "ankle_"}) names.push_back(column + "moment_" + side + "_nm");
+  }
+  return names;
+}();
+
+TEST(Motion, GroundReactionIsWrittenAlongTheHeading) {
+  ASSERT_TRUE(rc::check("force columns", [] {
+    const auto number = [] { return static_cast<float>(*rc::gen::inRange(-100000, 100000)) / 100.0F; };
+    MotionRow row{};
+    row.heading_rad = number() / 200;
+    WalkForces forces{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      forces.ground.force_n[side] = {number(), number(), number()};
+      forces.moments.hip_nm[side] = number();
+      forces.moments.knee_nm[side] = number();
+      forces.moments.ankle_nm[side] = number();
+    }
+    MotionTable table;
+    table.add(row, forces);
+    table.add(row, std::nullopt);
+    const TemporaryFolder folder;
+    std::ofstream(folder.path / "motion.csv") << table.text;
+    const Csv motion(folder.path / "motion.csv");
+    const auto near = [&](const std::string& column, double value) {
+      return std::abs(motion.number(0, column) - value) < 1e-3;
+    };
+    const double heading = row.heading_rad;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const Vec3<float> force = forces.ground.force_n[side];
+      // turned back by the heading, the walker goes toward +z
+      const double ahead =
+          std::cos(heading) * static_cast<double>(force.z) + std::sin(heading) * static_cast<double>(force.x);
+      RC_ASSERT(near("grf_vertical_" + sides[side] + "_n", force.y));
+      RC_ASSERT(near("grf_anterior_" + sides[side] + "_n", ahead));
+      RC_ASSERT(near("hip_moment_" + sides[side] + "_nm", forces.moments.hip_nm[side]));
+      RC_ASSERT(near("knee_moment_" + sides[side] + "_nm", forces.moments.knee_nm[side]));
+      RC_ASSERT(near("ankle_moment_" + sides[side] + "_nm", forces.moments.ankle_nm[side]));
+    }
+    for (const auto& column : force_columns) RC_ASSERT(motion.text(1, column).empty());
+  }));
+}
+
+TEST_P(WalkOf, ForcesAreInEveryRowAndCarryTheBody) {
+  if (motion.text(0, force_columns[0]).empty()) GTEST_SKIP() << "no forces are simulated";
+  for (std::size_t i = 0; i < motion.rows.size(); ++i) {
+    for (const auto& column : force_columns) ASSERT_TRUE(std::isfinite(motion.number(i, column))) << column << " " << i;
+    for (const auto& side : sides) {
+      const double phase = motion.number(i, "phase_" + side),
+                   vertical = motion.number(i, "grf_vertical_" + side + "_n");
+      EXPECT_GE(vertical, 0) << i;
+      EXPECT_TRUE(phase <= walk.toe_off() + 0.02 || vertical == 0) << "a foot in the air, row " << i;
+    }
+  }
+  // Over whole steps nothing is lifted or sped up.
+  std::vector<std::size_t> strikes;
+  for (std::size_t i = 1; i < motion.rows.size(); ++i) {
+    for (const auto& side : sides) {
+      if (motion.number(i, "phase_" + side) < motion.number(i - 1, "phase_" + side)) strikes.push_back(i);
+    }
+  }
+  ASSERT_GE(strikes.size(), 3U);
+  double vertical = 0, anterior = 0;
+  for (std::size_t i = strikes.front(); i < strikes.back(); ++i) {
+    for (const auto& side : sides) {
+      vertical += motion.number(i, "grf_vertical_" + side + "_n");
+      anterior += motion.number(i, "grf_anterior_" + side + "_n");
+    }
+  }
+  const double weight = asked.mass_kg * 9.81, rows = static_cast<double>(strikes.back() - strikes.front());
+  EXPECT_NEAR(vertical / rows / weight, 1, 0.03);
+  EXPECT_NEAR(anterior / rows / weight, 0, 0.03);
+}
+
+TEST(Walk, WithoutForcesTheirCellsAreEmptyAndTheRestIsTheSame) {
+  const Walk bare(everybody[0].arguments + " --no-forces");
+  const Csv& full = *walk_of(0).motion;
+  ASSERT_EQ(bare.motion->rows.size(), full.rows.size());
+  for (std::size_t i = 0; i < full.rows.size(); ++i) {
+    for (const auto& column : full.columns) {
+      const bool force = std::ranges::find(force_columns, column) != force_columns.end();
+      EXPECT_EQ(bare.motion->text(i, column), force ? "" : full.text(i, column)) << column << " row " << i;
+    }
+  }
+  EXPECT_EQ(bare.summary().at("time").at("ticks"), full.rows.size());
+}
+
+TEST(Walk, ParametersThatAreSetAreInTheSummaryAndInTheWalk) {
+  const std::string still = "--set arm_back_deg=0 --set arm_forward_deg=0 --set toe_out_deg=12deg --seconds 1.5";
+  const Walk walk("--speed 1.3 " + still), plain("--speed 1.3 --seconds 1.5");
+  const Json parameters = walk.summary().at("gait").at("parameters");
+  EXPECT_EQ(parameters.size(), gait_parameters.size());
+  for (const GaitParameter& p : gait_parameters) {
+    const double expected = p.name.starts_with("arm_back") || p.name.starts_with("arm_forward") ? 0
+                            : p.name == "toe_out_deg"                                           ? 12
+                                                      : static_cast<double>(GaitStyle{}.*p.value);
+    EXPECT_NEAR(parameters.at(std::string(p.name)).get<double>(), expected, 1e-6 * std::abs(expected)) << p.name;
+  }
+  const auto swing = [](const Csv& motion) {
+    double low = 1e9, high = -1e9;
+    for (std::size_t i = 0; i < motion.rows.size(); ++i) {
+      low = std::min(low, motion.number(i, "shoulder_flexion_right_deg"));
+      high = std::max(high, motion.number(i, "shoulder_flexion_right_deg"));
+    }
+    return high - low;
+  };
+  EXPECT_LT(swing(*walk.motion), 0.5 * swing(*plain.motion));
+}
+
+TEST(Walk, AScriptOfWhatIsAlreadySoChangesNothing) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "same.csv") << "time_s,parameter,value\n0,heading,0\n0.4,toe_out_deg,6\n0.4,heading,0\n"
+                                             "0.6,pelvis_list_deg,4\n5,stop,\n";
+  const auto file = (folder.path / "same.csv").string();
+  const Walk scripted("--speed 1.3 --seconds 1.5 --script '" + file + "'"), plain("--speed 1.3 --seconds 1.5");
+  for (std::size_t i = 0; i < plain.motion->rows.size(); ++i) {  // the step may be solved anew
+    for (const auto& column : plain.motion->columns) {
+      if (!column.ends_with("_deg") && !column.ends_with("_m")) continue;
+      EXPECT_NEAR(scripted.motion->number(i, column), plain.motion->number(i, column), 1e-2) << column << " row " << i;
+    }
+  }
+  EXPECT_EQ(scripted.summary().at("script").at("changes"), 3);
+  EXPECT_EQ(scripted.summary().at("script").at("file"), file);
+  EXPECT_NE(scripted.ran.out.find("1 of 4 changes"), std::string::npos) << scripted.ran.out;
+  EXPECT_FALSE(plain.summary().contains("script"));
 }
 
 /// Width and height of a PNG: big-endian, after its signature and the head of its first chunk.

@@ -1,0 +1,203 @@
+// `mobil bench`: kernels against the machine's own limits.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/output_file.h"
+#include "demo/bench.h"
+#include "demo/bench_crowd.h"
+#include "demo/commands.h"
+#include "demo/nearest_name.h"
+
+namespace mobil {
+namespace {
+
+struct Bench {
+  std::string_view name;
+  Result<void> (*run)(BenchRun&);
+};
+
+constexpr std::array benches = {Bench{"machine", &bench_machine}, Bench{"gait", &bench_gait},
+                                Bench{"kinematics", &bench_kinematics}, Bench{"lines", &bench_lines},
+                                Bench{"skinning", &bench_skinning}};
+
+struct BenchText {
+  std::vector<std::string> names;
+  std::string humans = "10000";
+  std::optional<std::string> json;
+};
+
+struct BenchRequest {
+  std::vector<Bench> chosen;  // in the order above
+  std::size_t humans = 0;
+  std::filesystem::path json;
+};
+
+std::vector<std::string> known_names() {
+  std::vector<std::string> names;
+  for (const Bench& known : benches) names.emplace_back(known.name);
+  return names;
+}
+
+Result<std::size_t> parse_humans(const std::string& text) {
+  constexpr std::size_t most = 200'000;
+  const bool digits =
+      !text.empty() && text.size() <= 9 && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  const std::size_t humans = digits ? std::stoul(text) : 0;
+  if (humans < 1 || humans > most) {
+    return fail(fmt::format("--humans '{}' must be a whole number from 1 to {}", text, most));
+  }
+  return humans;
+}
+
+/// So that nobody waits a minute for figures that cannot be written.
+Result<void> check_json_place(const std::string& text) {
+  if (text.empty()) return fail("--json is empty; give it a file's name");
+  const std::filesystem::path path = text;
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return fail(fmt::format("--json {}: a folder has that name", text));
+  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
+  if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0) {
+    return fail(fmt::format("--json {}: cannot be written; choose a folder that exists and is writable", text));
+  }
+  return {};
+}
+
+Result<BenchRequest> read_request(const BenchText& text) {
+  BenchRequest request;
+  for (const std::string& name : text.names) {
+    if (std::ranges::find(benches, name, &Bench::name) == benches.end()) {
+      return fail(fmt::format("there is no bench '{}'{}; there are: {}", name, suggestion(name, known_names()),
+                              fmt::join(known_names(), ", ")));
+    }
+  }
+  for (const Bench& bench : benches) {
+    if (text.names.empty() || std::ranges::find(text.names, bench.name) != text.names.end()) {
+      request.chosen.push_back(bench);
+    }
+  }
+  const auto humans = parse_humans(text.humans);
+  if (!humans) return tl::unexpected(humans.error());
+  request.humans = *humans;
+  if (text.json) {
+    if (auto ok = check_json_place(*text.json); !ok) return tl::unexpected(ok.error());
+    request.json = *text.json;
+  }
+  return request;
+}
+
+std::string percent(const std::optional<double>& fraction) {
+  return fraction ? fmt::format("{:.0f} %", 100 * *fraction) : "";
+}
+
+std::string number(const std::optional<double>& value) {
+  return value ? fmt::format("{:.4g}", *value) : "";
+}
+
+void print_table(const BenchRun& run) {
+  const Machine& m = run.machine;
+  fmt::print("{}, {} cores; caches {} kB, {} kB, {} MB; {} by {} ({})\n\n", m.cpu, m.cores, m.l1_bytes >> 10,
+             m.l2_bytes >> 10, m.l3_bytes >> 20, m.target, m.compiler, m.flags);
+  constexpr auto row = "{:<45} {:>8} {:>8} {:>8}  {:<8} {:>7} {:>9}  {}\n";
+  fmt::print(row, "", "best", "median", "CPU", "unit", "of peak", "of memory", "bound by");
+  for (const BenchResult& r : run.results) {
+    fmt::print(row, r.name, number(r.value), number(r.median), number(r.cpu), r.unit, percent(r.of_peak),
+               percent(r.of_bandwidth), r.bound);
+  }
+  for (const std::string& note : run.notes) fmt::print("{}\n", note);
+}
+
+/// One entry of the results. Further keys may follow; these stay.
+nlohmann::ordered_json entry(const std::string& name, double value, std::string_view unit) {
+  return {{"name", name}, {"value", value}, {"unit", unit}};
+}
+
+std::string to_json(const BenchRun& run) {
+  const Machine& m = run.machine;
+  nlohmann::ordered_json json;
+  json["machine"] = {{"cpu", m.cpu},           {"cores", m.cores},       {"target", m.target},
+                     {"compiler", m.compiler}, {"flags", m.flags},       {"l1_bytes", m.l1_bytes},
+                     {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"clock_ghz", m.clock_ghz}};
+  json["crowd"] = {{"humans", run.humans}, {"seed", BenchCrowd::seed}};
+  auto& results = json["results"] = nlohmann::ordered_json::array();
+  for (const BenchResult& r : run.results) {
+    auto& told = results.emplace_back(entry(r.name, r.value, r.unit));
+    if (r.median) told["median"] = *r.median;
+    if (r.cpu) told["cpu"] = *r.cpu;
+    const std::string stem = r.name.substr(0, r.name.rfind('.'));
+    if (r.of_peak) results.push_back(entry(stem + ".peak_fraction", *r.of_peak, "1"));
+    if (r.of_bandwidth) results.push_back(entry(stem + ".bandwidth_fraction", *r.of_bandwidth, "1"));
+  }
+  return json.dump(2) + "\n";
+}
+
+/// On a terminal: what is being measured. Gone when the next thing is told.
+void show(std::string_view what) {
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", what);
+}
+
+int bench(const BenchText& text) {
+  const auto complain = [](const std::string& message, int status) {
+    fmt::print(stderr, "mobil bench: {}\n", message);
+    return status;
+  };
+  const auto request = read_request(text);
+  if (!request) return complain(request.error().message, 2);
+  BenchRun run;
+  run.humans = request->humans;
+  run.machine = describe_machine();
+  show("measuring the machine");
+  measure_machine(run.machine);
+  if (request->chosen.front().name != benches.front().name) {  // what the others are held against is always told
+    if (auto done = bench_machine(run); !done) return complain(done.error().message, 1);
+  }
+  for (const Bench& chosen : request->chosen) {
+    show(fmt::format("measuring {}", chosen.name));
+    if (auto done = chosen.run(run); !done)
+      return complain(fmt::format("{}: {}", chosen.name, done.error().message), 1);
+  }
+  show("");
+  print_table(run);
+  if (request->json.empty()) return 0;
+  if (auto ok = write_file(request->json, to_json(run)); !ok) return complain("--json " + ok.error().message, 2);
+  fmt::print("written {}\n", request->json.string());
+  return 0;
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, int& exit_status) {
+  auto text = std::make_shared<BenchText>();
+  CLI::App* command = app.add_subcommand("bench", "Kernels against the machine's own limits");
+  command->footer(
+      "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the "
+      "least\n"
+      "time that the thread had a processor; well below the best, other programs were at work. Of peak, of memory:\n"
+      "operations and bytes in the best time, over what one core does at most; above 100 % the caches serve.\n"
+      "Example: mobil bench gait kinematics --humans 2000 --json bench.json");
+  command
+      ->add_option("name", text->names,
+                   fmt::format("What to measure, of {}; all by default", fmt::join(known_names(), ", ")))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--humans", text->humans, "How many walk, 1 to 200000, all different")
+      ->capture_default_str()
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("--json", text->json, "File for the figures")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->callback([text, &exit_status] { exit_status = bench(*text); });
+}
+
+}  // namespace mobil

@@ -1,0 +1,214 @@
+#include "demo/bench_crowd.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/access.h"
+
+namespace mobil {
+namespace {
+
+constexpr int repeats = 15;
+constexpr double repeat_s = 0.03;
+constexpr double least_cpu_s = 20e-6;  // asking a thread for its time on a processor takes about 0.5 us
+constexpr double settling_s = 2;       // until nobody steps in time with anybody else
+
+/// Steele, Lea & Flood's SplitMix64: the same numbers on every machine.
+class Random {
+ public:
+  Random(std::size_t person, std::uint32_t draw) : state_(BenchCrowd::seed << 56 ^ std::uint64_t{draw} << 40 ^ person) {
+    next();
+  }
+  float even(float low, float high) { return low + (high - low) * unit(); }
+  /// A sum of twelve even numbers, which is bell-shaped enough and exact everywhere.
+  float bell(float mean, float deviation) {
+    float sum = -6;
+    for (int i = 0; i < 12; ++i) sum += unit();
+    return mean + deviation * std::clamp(sum, -2.5F, 2.5F);
+  }
+
+ private:
+  std::uint64_t next() {
+    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    return z ^ z >> 31;
+  }
+  float unit() { return static_cast<float>(next() >> 40) * 0x1p-24F; }
+
+  std::uint64_t state_;
+};
+
+float drawn_speed(Random& random) {
+  return random.bell(1.35F, 0.15F);
+}
+
+/// On a terminal, after the first second: how many are there.
+class Progress {
+ public:
+  explicit Progress(std::size_t total) : total_(total), next_s_(wall_now_s() + 1) {}
+  ~Progress() {
+    if (shown_) std::fputs("\r\033[K", stderr);
+  }
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+  void at(std::size_t done) {
+    if (!terminal_ || wall_now_s() < next_s_) return;
+    next_s_ = wall_now_s() + 0.1;
+    shown_ = true;
+    fmt::print(stderr, "\rspawning [{:<40}] {}/{}", std::string(40 * done / total_, '='), done, total_);
+  }
+
+ private:
+  std::size_t total_;
+  double next_s_;
+  bool terminal_ = isatty(STDERR_FILENO) != 0, shown_ = false;
+};
+
+}  // namespace
+
+BenchPerson bench_person(std::size_t i, std::uint32_t draw) {
+  Random random(i, draw);
+  BenchPerson person;
+  person.body.height_m = random.bell(1.72F, 0.09F);
+  person.body.mass_kg = random.bell(24, 3) * person.body.height_m * person.body.height_m;
+  person.body.biotype = {random.bell(3, 0.7F), random.bell(4, 0.7F), random.bell(3, 0.7F)};
+  person.body.constitution = static_cast<Constitution>(std::min(3, static_cast<int>(random.even(0, 4))));
+  person.gait.speed_m_s = drawn_speed(random);
+  for (const GaitParameter& parameter : gait_parameters) {
+    float& value = person.gait.style.*parameter.value;
+    value = std::clamp(value * random.even(0.9F, 1.1F), parameter.low, parameter.high);
+  }
+  return person;
+}
+
+BenchCrowd::BenchCrowd()
+    : simulation_({.jobs = Jobs{&meter_, [](void* user, std::size_t count, Jobs::Body body, void* context) {
+                                  auto& meter = *static_cast<CpuMeter*>(user);
+                                  const double start = meter.on ? thread_cpu_now_s() : 0;
+                                  body(context, 0, count);
+                                  if (meter.on) meter.call_s.push_back(thread_cpu_now_s() - start);
+                                }}}) {}
+
+Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
+  std::shared_ptr<BenchCrowd> crowd(new BenchCrowd);
+  if (auto done = crowd->spawn(humans); !done) return tl::unexpected(done.error());
+  return crowd;
+}
+
+Result<void> BenchCrowd::spawn(std::size_t humans) {
+  constexpr std::uint32_t most_draws = 20;
+  Progress progress(humans);
+  std::vector<double> wall;
+  double wall_s = 0, cpu_s = 0;
+  for (std::size_t i = 0; i < humans; ++i) {
+    for (std::uint32_t draw = 0;; ++draw) {
+      const BenchPerson person = bench_person(i, draw);
+      const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
+      const auto entity = simulation_.spawn(person.body, person.gait);
+      const double wall_end = wall_now_s(), cpu_end = thread_cpu_now_s();
+      if (entity) {
+        wall.push_back(wall_end - wall_start);
+        wall_s += wall_end - wall_start;
+        cpu_s += cpu_end - cpu_start;
+        people_.push_back(*entity);
+        asked_.push_back(person);
+        break;
+      }
+      ++drawn_again_;
+      if (draw + 1 == most_draws) {
+        return fail(
+            fmt::format("person {} of the crowd was refused {} times: {}", i, most_draws, entity.error().message));
+      }
+    }
+    progress.at(i + 1);
+  }
+  const auto count = static_cast<double>(humans);
+  spawn_ = {wall_s / count, median(wall), cpu_s / count};
+  return {};
+}
+
+const Table* BenchCrowd::table_of(const System& system) const {
+  std::vector<Bound> bound(system.accesses.size());
+  for (const Table& table : simulation_.world().tables()) {
+    if (table.row_count() > 0 && system.bind(simulation_.world(), table, bound.data())) return &table;
+  }
+  return nullptr;
+}
+
+const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
+  if (!steady_.empty()) return steady_;
+  Schedule& schedule = simulation_.schedule();
+  const auto settling = static_cast<int>(settling_s / simulation_.tick_s());
+  const double start_s = wall_now_s();
+  for (int i = 0; i < settling; ++i) simulation_.tick();
+  const int ticks = runs_within(repeat_s, (wall_now_s() - start_s) / settling);
+
+  struct Repeats {
+    Measured* result;
+    std::size_t system;
+    std::vector<double> wall, cpu;
+  };
+  std::vector<Repeats> running;  // in the order of the calls
+  for (std::size_t s = 0; s < schedule.systems().size(); ++s) {
+    const System& system = schedule.systems()[s];
+    if (table_of(system) != nullptr) running.push_back({&steady_[system.name], s, {}, {}});
+  }
+  for (int repeat = 0; repeat < repeats; ++repeat) {
+    schedule.reset_timings();
+    for (int i = 0; i < ticks; ++i) simulation_.tick();
+    for (Repeats& r : running) r.wall.push_back(schedule.timings()[r.system].seconds / ticks);
+    // the time on a processor in ticks of its own, as asking for it takes time too
+    const auto cpu_s = tick_calls_cpu_s(ticks);
+    if (cpu_s.size() != running.size()) continue;  // others do work as well: whose is whose is not known
+    for (std::size_t s = 0; s < running.size(); ++s) running[s].cpu.push_back(cpu_s[s]);
+  }
+  for (Repeats& r : running) {
+    *r.result = {std::ranges::min(r.wall), median(r.wall), {}};
+    if (!r.cpu.empty() && std::ranges::min(r.cpu) > least_cpu_s) r.result->cpu_s = std::ranges::min(r.cpu);
+  }
+  return steady_;
+}
+
+std::vector<double> BenchCrowd::tick_calls_cpu_s(int ticks) {
+  std::vector<double> sum;
+  meter_.on = true;
+  for (int i = 0; i < ticks; ++i) {
+    meter_.call_s.clear();
+    simulation_.tick();
+    sum.resize(meter_.call_s.size());
+    for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += meter_.call_s[s] / ticks;
+  }
+  meter_.on = false;
+  return sum;
+}
+
+std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
+  for (const System& system : simulation_.schedule().systems()) {
+    if (system.name != name) continue;
+    const Table* table = table_of(system);
+    if (table == nullptr) return 0;
+    std::size_t words = 0;
+    for (const Access& access : system.accesses) {
+      if (access.mode != Access::Mode::read && access.mode != Access::Mode::write) continue;
+      const KeyPart* part = find_part(table->key(), access.id);
+      if (part != nullptr) words += part->value;
+    }
+    return 4 * words;
+  }
+  return 0;
+}
+
+Result<void> BenchCrowd::change_speeds(std::uint32_t round) {
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    Random random(i, 0x1000 + round);
+    asked_[i].gait.speed_m_s = drawn_speed(random);
+    if (auto done = simulation_.change_gait(people_[i], asked_[i].gait); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,78 @@
+#pragma once
+// A crowd in which everybody is someone else, and how long its systems take.
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "demo/bench_measure.h"
+#include "engine/error.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+struct BenchPerson {
+  BodyRequest body;
+  GaitRequest gait;
+};
+
+/// Person `i` of a crowd: always the same, however large the crowd is. Drawn from: height 1.72 ± 0.09 m, body mass
+/// index 24 ± 3 kg/m², biotype about 3-4-3 ± 0.7 each, speed 1.35 ± 0.15 m/s (mean ± standard deviation, bell-shaped,
+/// cut at 2.5 deviations), any constitution, and every gait parameter within a tenth of its default (even), asymmetries
+/// none. `draw`: another person for the same place.
+BenchPerson bench_person(std::size_t i, std::uint32_t draw);
+
+class BenchCrowd {
+ public:
+  static constexpr std::uint64_t seed = 1;
+
+  /// Spawns one after the other, with a bar on a terminal; who cannot walk as drawn is drawn again. Errors: the last
+  /// refusal, when twenty draws in a row were refused.
+  static Result<std::shared_ptr<BenchCrowd>> make(std::size_t humans);
+
+  Simulation& simulation() { return simulation_; }
+  const std::vector<Entity>& people() const { return people_; }
+  std::size_t size() const { return people_.size(); }
+  const Measured& spawn() const { return spawn_; }  // of one person; `best_s` is the mean
+  std::size_t drawn_again() const { return drawn_again_; }
+
+  /// Each system's time for one steady tick over the whole crowd, by name; measured when first asked for.
+  const std::map<std::string, Measured, std::less<>>& steady_ticks();
+  /// Bytes that a system reads and bytes that it writes for one human and tick, as its signature says, each once; 0 for
+  /// a system that is not there or has nobody to work on.
+  std::size_t bytes_per_human(std::string_view system);
+
+  /// Asks everybody for another speed, drawn as the first one was. Errors: the first refusal.
+  Result<void> change_speeds(std::uint32_t round);
+
+ private:
+  BenchCrowd();
+  BenchCrowd(const BenchCrowd&) = delete;
+  BenchCrowd& operator=(const BenchCrowd&) = delete;
+  Result<void> spawn(std::size_t humans);
+  const Table* table_of(const System& system) const;
+  /// The time on a processor of each call of the simulation for somebody's work in a tick, mean over some ticks.
+  std::vector<double> tick_calls_cpu_s(int ticks);
+
+  /// Does the work on this thread and, when asked, notes how long each call had a processor.
+  struct CpuMeter {
+    bool on = false;
+    std::vector<double> call_s;  // since it was last cleared
+  };
+
+  CpuMeter meter_;
+  Simulation simulation_;
+  std::vector<Entity> people_;
+  std::vector<BenchPerson> asked_;
+  Measured spawn_;
+  std::size_t drawn_again_ = 0;
+  std::map<std::string, Measured, std::less<>> steady_;
+};
+
+}  // namespace mobil

@@ -41,6 +41,11 @@ void show_progress(const char* what, std::size_t done, std::size_t of) {
              done == of ? "\n" : "");
 }
 
+/// Leaves the line of a bar that was not filled, so that a message stands alone.
+void end_progress() {
+  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+}
+
 struct Walked {
   MotionTable motion;
   MuscleTable muscles;
@@ -54,11 +59,12 @@ MotionRow motion_row(const Simulation& simulation, Entity entity) {
           *simulation.get<Feet>(entity), *simulation.get<CentreOfMass>(entity)};
 }
 
-/// Those of the tick before, where they are simulated.
+/// Those of the tick before, where they are simulated. A walker never leaves the ground, so that no force at all means
+/// that none is known yet.
 std::optional<WalkForces> forces_before(const Simulation& simulation, Entity entity) {
   const auto ground = simulation.get<GroundReaction>(entity);
   const auto moments = simulation.get<JointMoments>(entity);
-  if (!ground || !moments) return std::nullopt;
+  if (!ground || !moments || (ground->force_n[right].y == 0 && ground->force_n[left].y == 0)) return std::nullopt;
   return WalkForces{*ground, *moments};
 }
 
@@ -175,6 +181,7 @@ Result<void> run_walk(const WalkOptions& options) {
   const auto walked = walk(simulation, human, *figure, options, changes);
   auto done =
       walked ? write_results(*walked, simulation, human, options, start) : Result<void>(tl::unexpected(walked.error()));
+  if (!done) end_progress();
   std::error_code ignored;
   if (!done && !folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
   if (done && changes.size() > walked->outcome.changes) {

@@ -20,13 +20,30 @@ using namespace geometry;
 constexpr int width = 1280, height = 720;
 constexpr Colour line_red{0.80F, 0.16F, 0.12F};
 constexpr float eye_separation_m = 0.064F;
+constexpr float half_stride_s = 0.55F;
 
-/// From the front and the walker's right, at the height of the hips, far enough to hold the whole body.
-Camera follow(const Pose<float>& pose, const Body& body) {
+/// Where the pelvis is on the mean over a stride's time about each frame: the camera does not sway with every step.
+std::vector<Vec3<float>> smooth_path(const WalkRecording& recording) {
+  const std::size_t count = recording.frames.size();
+  const auto reach = static_cast<std::size_t>(half_stride_s / recording.frame_s);
+  std::vector<Vec3<float>> path(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t half = std::min({reach, i, count - 1 - i});  // as far ahead as behind
+    Vec3<float> sum{0, 0, 0};
+    for (std::size_t j = i - half; j <= i + half; ++j) {
+      sum = sum + recording.frames[j].position_m[index(Segment::pelvis)];
+    }
+    path[i] = (1.0F / static_cast<float>(2 * half + 1)) * sum;
+  }
+  return path;
+}
+
+/// From the front and right of where the walk began, at the height of the hips, far enough to hold the whole body; it
+/// goes along with the walker and does not turn with him, so that a turn is seen as one.
+Camera follow(const Vec3<float>& at, const Body& body) {
   const float stature = body.request.height_m;
-  const Vec3<float> at = pose.position_m[index(Segment::pelvis)];
   Camera camera;
-  camera.target = {0.2F * at.x, 0.50F * stature, at.z + 0.1F * stature};
+  camera.target = {at.x, 0.50F * stature, at.z + 0.1F * stature};
   camera.eye = {camera.target.x - 2.0F * stature, 0.60F * stature, camera.target.z + 1.1F * stature};
   camera.vertical_fov_deg = 28;
   return camera;
@@ -135,12 +152,13 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
     video = std::move(*opened);
   }
 
+  const auto path = smooth_path(*drawing.recording);
   FrameScene contents;
   Image eye;
   Image whole{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
   for (std::size_t frame = 0; frame < drawing.recording->frames.size(); ++frame) {
     fill_scene(drawing, options.view, frame, contents);
-    const Camera camera = follow(drawing.recording->frames[frame], *drawing.body);
+    const Camera camera = follow(path[frame], *drawing.body);
     const StereoPair pair = stereo_pair(camera, eye_separation_m);
     Scene scene;
     scene.meshes = contents.meshes;
@@ -160,8 +178,8 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
       return done;
     }
     if (options.frames) {
-      const auto path = options.out / fmt::format("frame_{:04}.png", frame);
-      if (auto done = write_png(path.string(), whole); !done) return done;
+      const auto file = options.out / fmt::format("frame_{:04}.png", frame);
+      if (auto done = write_png(file.string(), whole); !done) return done;
     }
     if (video) {
       if (auto done = video->add(whole); !done) return done;

@@ -142,6 +142,12 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   command->add_option("--constitution", walk.constitution, "thin, average, athletic or heavy")
       ->capture_default_str()
       ->group("Body");
+  command
+      ->add_option("--set", walk.set, "NAME=VALUE: any gait parameter of mobil walk --list-parameters; again for more")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Gait");
   command->add_option("--reference", text->reference,
                       "Folder with winter_joint_angles.csv, _moments.csv, winter_grf.csv (and others that replace what "
                       "the program carries)");

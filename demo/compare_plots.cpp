@@ -153,7 +153,7 @@ PlotFigure step_figure(const Comparison& comparison) {
 }
 
 PlotPanel height_panel(const char* title, const std::vector<VariedWalk>& walks, const char* unit) {
-  PlotPanel panel{title, {"% of the gait cycle", 0, 100}, {"height over the ground (mm)"}, {}, {}, {}};
+  PlotPanel panel{title, {"% of the gait cycle", 0, 100}, {"height over the ground (mm)"}, {}, {}, {}, true};
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const auto y = values(walks[i].stride.com_height, 1000);
     const char* colour = series_colour[i % std::size(series_colour)];
@@ -163,10 +163,15 @@ PlotPanel height_panel(const char* title, const std::vector<VariedWalk>& walks, 
 }
 
 PlotFigure centre_of_mass_figure(const Comparison& comparison) {
-  PlotFigure figure{
-      "Centre of mass", "Orendurff et al. 2004: 0.7 and 1.6 m/s; straight between.", 2, {}, false, 300, 170};
-  PlotPanel cycle{"over the gait cycle, from its mean", {"% of the gait cycle", 0, 100}, {"height (mm)"}, {}, {}, {}};
-  PlotPanel excursion{"rise from lowest to highest", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}};
+  PlotFigure figure{"Centre of mass",
+                    "Longer steps and heavier people: at the same speed. Orendurff: 0.7 and 1.6 m/s, straight between.",
+                    2,
+                    {},
+                    false,
+                    300,
+                    170};
+  PlotPanel cycle{"height", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
+  PlotPanel excursion{"rise", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}, true};
   for (const auto& walk : comparison.walks) {
     if (walk.set != 0) continue;
     cycle.lines.push_back({percents(), values(walk.stride.com_height, 1000, walk.stride.com_mean_m),
@@ -185,9 +190,8 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
     line.y.push_back(1000 * (walk.stride.com_highest_m - walk.stride.com_lowest_m));
   }
   excursion.lines.push_back(std::move(line));
-  figure.panels = {std::move(cycle), std::move(excursion),
-                   height_panel("longer steps at the same speed", comparison.by_step_length, "m"),
-                   height_panel("heavier people at the same speed", comparison.by_mass, "kg")};
+  figure.panels = {std::move(cycle), std::move(excursion), height_panel("longer steps", comparison.by_step_length, "m"),
+                   height_panel("heavier people", comparison.by_mass, "kg")};
   return figure;
 }
 

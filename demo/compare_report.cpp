@@ -38,7 +38,7 @@ std::string angle_line(const GaitReference& reference, const CurveFinding& findi
   for (const auto& peak : finding.peaks) {
     peaks.push_back(fmt::format("{:+.1f}{}", peak.timing_outside, std::abs(peak.timing_outside) <= 3 ? ' ' : '!'));
   }
-  line += fmt::format(" {:<13}", fmt::join(peaks, " "));
+  line += fmt::format(" {:<14}", fmt::format("{}", fmt::join(peaks, " ")));
   for (std::size_t s = 0; s < reference.sets.size(); ++s) {
     alone.push_back(
         fmt::format("{} {:.0f} % {:.1f}", short_name(reference.sets[s]), 100 * finding.inside[s], finding.rms[s]));

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <set>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -15,7 +15,13 @@ namespace {
 
 constexpr std::string_view ink = "#333", faint = "#8a8a8a", grid = "#ececec";
 constexpr double margin = 12, title_height = 26, legend_height = 20, panel_title_height = 18, tick_height = 16,
-                 axis_label_height = 16, y_label_width = 18, y_tick_width = 36, gap = 14, footnote_height = 18;
+                 axis_label_height = 16, y_label_width = 18, y_tick_width = 36, gap = 22, footnote_height = 18,
+                 swatch_width = 18;
+
+/// About what it takes at the usual size, in pixels; bytes that continue a letter take none.
+double text_width(std::string_view text) {
+  return 5.6 * static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+}
 
 std::string escaped(std::string_view text) {
   std::string out;
@@ -225,22 +231,37 @@ struct LegendEntry {
   double opacity;
 };
 
-std::vector<LegendEntry> legend_of(const PlotFigure& figure) {
-  std::vector<LegendEntry> entries;
-  std::set<std::string_view> known;
+/// Adds what a panel has to name; a label counts once, with the strongest of its colours.
+void add_legend(const PlotPanel& panel, std::vector<LegendEntry>& entries) {
   const auto add = [&](Swatch swatch, const std::string& label, const std::string& colour, double opacity) {
-    if (!label.empty() && known.insert(label).second) entries.push_back({swatch, label, colour, opacity});
+    if (label.empty()) return;
+    const auto known = std::ranges::find(entries, label, &LegendEntry::label);
+    if (known == entries.end()) {
+      entries.push_back({swatch, label, colour, opacity});
+    } else {
+      known->opacity = std::max(known->opacity, opacity);
+    }
   };
-  for (const auto& panel : figure.panels) {
-    for (const auto& line : panel.lines) add(line.dashed ? Swatch::dashed : Swatch::line, line.label, line.colour, 1);
-    for (const auto& band : panel.bands) add(Swatch::band, band.label, band.colour, band.opacity);
-    for (const auto& points : panel.points) add(Swatch::point, points.label, points.colour, 1);
-  }
-  return entries;
+  for (const auto& line : panel.lines) add(line.dashed ? Swatch::dashed : Swatch::line, line.label, line.colour, 1);
+  for (const auto& band : panel.bands) add(Swatch::band, band.label, band.colour, band.opacity);
+  for (const auto& points : panel.points) add(Swatch::point, points.label, points.colour, 1);
 }
 
 double legend_width(const LegendEntry& entry) {
-  return 34 + 6.0 * static_cast<double>(entry.label.size());
+  return swatch_width + 19 + text_width(entry.label);
+}
+
+void draw_entry(Page& page, const LegendEntry& entry, double x, double y) {
+  if (entry.swatch == Swatch::band) {
+    page.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{}" height="10" fill="{}" fill-opacity="{}"/>)", x, y - 5,
+             swatch_width, entry.colour, entry.opacity);
+  } else if (entry.swatch == Swatch::point) {
+    page.add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x + swatch_width / 2, y, entry.colour);
+  } else {
+    page.add(R"(<path d="M{:.1f} {:.1f}h{}" stroke="{}" stroke-width="2"{}/>)", x, y, swatch_width, entry.colour,
+             entry.swatch == Swatch::dashed ? R"( stroke-dasharray="4 3")" : "");
+  }
+  page.text(x + swatch_width + 5, y + 4, "start", entry.label);
 }
 
 /// Returns how many rows it takes; draws on `page` unless that is null.
@@ -253,22 +274,22 @@ std::size_t draw_legend(Page* page, const std::vector<LegendEntry>& entries, dou
       ++rows;
       x = margin;
     }
-    if (page != nullptr) {
-      const double y = top + legend_height * (static_cast<double>(rows) - 0.5);
-      if (entry.swatch == Swatch::band) {
-        page->add(R"(<rect x="{:.1f}" y="{:.1f}" width="20" height="10" fill="{}" fill-opacity="{}"/>)", x, y - 5,
-                  entry.colour, entry.opacity);
-      } else if (entry.swatch == Swatch::point) {
-        page->add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x + 10, y, entry.colour);
-      } else {
-        page->add(R"(<path d="M{:.1f} {:.1f}h20" stroke="{}" stroke-width="2"{}/>)", x, y, entry.colour,
-                  entry.swatch == Swatch::dashed ? R"( stroke-dasharray="4 3")" : "");
-      }
-      page->text(x + 25, y + 4, "start", entry.label);
-    }
+    if (page != nullptr) draw_entry(*page, entry, x, top + legend_height * (static_cast<double>(rows) - 0.5));
     x += legend_width(entry);
   }
   return rows;
+}
+
+/// To the right end of a panel, over it.
+void draw_own_legend(Page& page, const PlotPanel& panel, const Frame& frame) {
+  std::vector<LegendEntry> entries;
+  add_legend(panel, entries);
+  double x = frame.left + frame.width + 14;
+  for (const auto& entry : entries) x -= legend_width(entry);
+  for (const auto& entry : entries) {
+    draw_entry(page, entry, x, frame.top - 10);
+    x += legend_width(entry);
+  }
 }
 
 struct PanelRanges {
@@ -289,6 +310,24 @@ std::vector<PanelRanges> ranges_of(const PlotFigure& figure, std::size_t columns
     ranges[i].y = settled(ranges[i].y, panel.y, 0.05);
   }
   return ranges;
+}
+
+std::span<const PlotPanel> row_of(const PlotFigure& figure, std::size_t row, std::size_t columns) {
+  const std::size_t first = row * columns;
+  return std::span(figure.panels).subspan(first, std::min(columns, figure.panels.size() - first));
+}
+
+/// Titles take space in a row that has one.
+double space_over(const PlotFigure& figure, std::size_t row, std::size_t columns) {
+  const auto named = [](const PlotPanel& panel) { return !panel.title.empty() || panel.own_legend; };
+  return std::ranges::any_of(row_of(figure, row, columns), named) ? panel_title_height : 0;
+}
+
+/// With titles, ticks and labels, and air to the next.
+double row_height(const PlotFigure& figure, std::size_t row, std::size_t columns) {
+  const auto labelled = [](const PlotPanel& panel) { return !panel.x.label.empty(); };
+  const bool label = std::ranges::any_of(row_of(figure, row, columns), labelled);
+  return space_over(figure, row, columns) + figure.panel_height + tick_height + (label ? axis_label_height : 0) + 10;
 }
 
 }  // namespace
@@ -323,13 +362,16 @@ std::string svg(const PlotFigure& figure) {
   const double before_next = figure.shared_y ? gap : gap + y_label_width + y_tick_width;
   const double width = before_first + static_cast<double>(columns) * figure.panel_width +
                        static_cast<double>(columns - 1) * before_next + margin;
-  const auto legend = legend_of(figure);
+  std::vector<LegendEntry> legend;
+  for (const auto& panel : figure.panels) {
+    if (!panel.own_legend) add_legend(panel, legend);
+  }
   const double legend_top = margin + (figure.title.empty() ? 0 : title_height);
   const double panels_top =
       legend_top + legend_height * static_cast<double>(draw_legend(nullptr, legend, 0, width)) + 4;
-  const double row_height = panel_title_height + figure.panel_height + tick_height + axis_label_height + gap / 2;
-  const double height = panels_top + static_cast<double>(rows) * row_height +
-                        (figure.footnote.empty() ? 0 : footnote_height) + margin / 2;
+  std::vector<double> row_top(rows + 1, panels_top);
+  for (std::size_t row = 0; row < rows; ++row) row_top[row + 1] = row_top[row] + row_height(figure, row, columns);
+  const double height = row_top[rows] + (figure.footnote.empty() ? 0 : footnote_height) + margin / 2;
 
   Page page;
   page.add(
@@ -343,9 +385,10 @@ std::string svg(const PlotFigure& figure) {
   for (std::size_t i = 0; i < figure.panels.size(); ++i) {
     const PlotPanel& panel = figure.panels[i];
     const double left = before_first + static_cast<double>(i % columns) * (figure.panel_width + before_next);
-    const double top = panels_top + static_cast<double>(i / columns) * row_height + panel_title_height;
+    const double top = row_top[i / columns] + space_over(figure, i / columns, columns);
     const Frame frame{left, top, figure.panel_width, figure.panel_height, ranges[i].x, ranges[i].y};
     draw_axes(page, panel, frame, !figure.shared_y || i % columns == 0);
+    if (panel.own_legend) draw_own_legend(page, panel, frame);
     page.add(R"(<clipPath id="p{}"><rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}"/></clipPath>)", i, left,
              top, frame.width, frame.height);
     page.add(R"svg(<g clip-path="url(#p{})">)svg", i);

@@ -39,12 +39,14 @@ struct PlotAxis {
   bool logarithmic = false;
 };
 
+/// `own_legend`: its series are named beside its title and not at the head of the figure.
 struct PlotPanel {
   std::string title;
   PlotAxis x, y;
   std::vector<PlotBand> bands;  // drawn first
   std::vector<PlotLine> lines;
   std::vector<PlotPoints> points;
+  bool own_legend = false;
 };
 
 /// Panels fill rows of `columns` from the top left. `shared_y`: one vertical range a row, its axis labelled at the left

@@ -47,8 +47,8 @@ struct BenchRequest {
 };
 
 std::vector<std::string> known_names() {
-  std::vector<std::string> names;
-  for (const Bench& known : benches) names.emplace_back(known.name);
+  std::vector<std::string> names(benches.size());
+  std::ranges::transform(benches, names.begin(), [](const Bench& known) { return std::string(known.name); });
   return names;
 }
 

@@ -11,8 +11,6 @@
 namespace mobil {
 namespace {
 
-constexpr int repeats = 15;
-constexpr double repeat_s = 0.03;
 constexpr double least_cpu_s = 20e-6;  // asking a thread for its time on a processor takes about 0.5 us
 constexpr double settling_s = 2;       // until nobody steps in time with anybody else
 
@@ -145,7 +143,7 @@ const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
   const auto settling = static_cast<int>(settling_s / simulation_.tick_s());
   const double start_s = wall_now_s();
   for (int i = 0; i < settling; ++i) simulation_.tick();
-  const int ticks = runs_within(repeat_s, (wall_now_s() - start_s) / settling);
+  const int ticks = runs_a_repeat((wall_now_s() - start_s) / settling);
 
   struct Repeats {
     Measured* result;
@@ -157,7 +155,7 @@ const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
     const System& system = schedule.systems()[s];
     if (table_of(system) != nullptr) running.push_back({&steady_[system.name], s, {}, {}});
   }
-  for (int repeat = 0; repeat < repeats; ++repeat) {
+  for (int repeat = 0; repeat < bench_repeats; ++repeat) {
     schedule.reset_timings();
     for (int i = 0; i < ticks; ++i) simulation_.tick();
     for (Repeats& r : running) r.wall.push_back(schedule.timings()[r.system].seconds / ticks);

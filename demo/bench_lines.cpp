@@ -74,14 +74,9 @@ Result<void> bench_lines(BenchRun& run) {
     lines_of_action(lines[block.group], block.scale, block.leg, block.line, block.end);
   };
   const auto time = [&](const auto& work) {
-    const auto pass = [&] {
+    return measure_short([&] {
       for (LineBlock& block : *blocks) work(block);
-    };
-    const int passes = runs_within(0.02, measure(3, pass).best_s);
-    Measured all = measure(15, [&] {
-      for (int i = 0; i < passes; ++i) pass();
     });
-    return Measured{all.best_s / passes, all.median_s / passes, *all.cpu_s / passes};
   };
   const Measured both = time([&](LineBlock& block) {
     gather(block);

@@ -85,7 +85,7 @@ HWY_EXPORT(target_name);
 HWY_EXPORT(multiply_add);
 HWY_EXPORT(triad);
 
-constexpr int repeats = 15;
+constexpr std::size_t triads = 10;  // over the whole of the arrays
 
 /// What a text file says after the colon of the first line that begins so.
 std::string line_of(const char* file, const std::string& beginning) {
@@ -117,8 +117,8 @@ std::size_t cache_bytes(const std::string& level) {
 
 /// Additions that wait for each other, one a cycle on every processor that we know.
 double measure_clock_ghz() {
-  constexpr int rounds = 200'000, chain = 16;
-  const Measured time = measure(3 * repeats, [] {
+  constexpr int rounds = 100'000, chain = 16;
+  const Measured time = measure(bench_repeats, [] {
     std::uint64_t x = 0, y = 1;
     asm volatile("" : "+r"(y));
     for (int i = 0; i < rounds; ++i) {
@@ -134,9 +134,9 @@ double measure_clock_ghz() {
 void measure_peak(Machine& machine) {
   volatile float factor = 0.999F, summand = 0.001F;  // unknown to the compiler; every chain tends to 1
   volatile float kept = 0;
-  constexpr std::size_t rounds = 400'000;  // 2 to 5 ms
+  constexpr std::size_t rounds = 200'000;  // 1 to 3 ms
   double operations = 0;
-  const Measured time = measure(3 * repeats, [&] {
+  const Measured time = measure(bench_repeats, [&] {
     float out = 0;
     operations = HWY_DYNAMIC_DISPATCH(multiply_add)(rounds, factor, summand, &out);
     kept = out;
@@ -145,15 +145,17 @@ void measure_peak(Machine& machine) {
   machine.fma_peak_median_gflops = operations / time.median_s * 1e-9;
 }
 
-/// Best and median rate (GB/s) of `threads` threads that each run over a part of `length` numbers an array.
+/// Best and median rate (GB/s) of `threads` threads that each run over a part of `length` numbers an array. Alone, a
+/// thread is timed piece by piece, so that some pieces fall within its turn on a busy machine.
 std::pair<double, double> triad_gbps(unsigned threads, std::size_t length) {
-  const std::size_t part = length / threads / 64 * 64;
+  const std::size_t pieces = threads == 1 ? 8 : 1;
+  const std::size_t piece = length / threads / pieces / 64 * 64, part = piece * pieces;
   std::vector<double> rates;
-  rates.reserve(repeats);
+  rates.reserve(triads * pieces);
   double start_s = 0;
   std::barrier begin(threads, [&]() noexcept { start_s = wall_now_s(); });
   std::barrier end(threads, [&]() noexcept {
-    rates.push_back(3.0 * sizeof(float) * static_cast<double>(part * threads) / (wall_now_s() - start_s) * 1e-9);
+    rates.push_back(3.0 * sizeof(float) * static_cast<double>(piece * threads) / (wall_now_s() - start_s) * 1e-9);
   });
   const auto work = [&] {
     // each thread's own, and touched by it first, so that they lie in its memory
@@ -162,9 +164,10 @@ std::pair<double, double> triad_gbps(unsigned threads, std::size_t length) {
     std::fill_n(a.get(), part, 0.0F);
     std::fill_n(b.get(), part, 1.0F);
     std::fill_n(c.get(), part, 2.0F);
-    for (int i = 0; i < repeats; ++i) {
+    for (std::size_t i = 0; i < triads * pieces; ++i) {
+      const std::size_t at = i % pieces * piece;
       begin.arrive_and_wait();
-      HWY_DYNAMIC_DISPATCH(triad)(a.get(), b.get(), c.get(), 0.5F + static_cast<float>(i), part);
+      HWY_DYNAMIC_DISPATCH(triad)(a.get() + at, b.get() + at, c.get() + at, 0.5F + static_cast<float>(i), piece);
       end.arrive_and_wait();
     }
   };

@@ -33,8 +33,16 @@ Measured measure(int repeats, const std::function<void()>& work) {
   return {std::ranges::min(wall), median(wall), std::ranges::min(cpu)};
 }
 
-int runs_within(double seconds, double once_s) {
-  return static_cast<int>(std::clamp(seconds / std::max(once_s, 1e-9), 1.0, 1e6));
+int runs_a_repeat(double once_s) {
+  return static_cast<int>(std::clamp(bench_repeat_s / std::max(once_s, 1e-9), 1.0, 1e6));
+}
+
+Measured measure_short(const std::function<void()>& work) {
+  const int runs = runs_a_repeat(measure(3, work).best_s);
+  const Measured all = measure(bench_repeats, [&] {
+    for (int i = 0; i < runs; ++i) work();
+  });
+  return {all.best_s / runs, all.median_s / runs, *all.cpu_s / runs};
 }
 
 }  // namespace mobil

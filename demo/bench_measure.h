@@ -14,11 +14,19 @@ struct Measured {
   std::optional<double> cpu_s{};
 };
 
+/// How often something is measured, and for how long each time: less than a scheduler's turn, so that on a busy machine
+/// some of the repeats are left alone.
+inline constexpr int bench_repeats = 50;
+inline constexpr double bench_repeat_s = 2e-3;
+
 /// Runs `work` once unmeasured, then `repeats` times; wall clock and this thread's time on a processor.
 Measured measure(int repeats, const std::function<void()>& work);
 
-/// How many runs of `once_s` seconds each make up `seconds`; at least one, at most a million.
-int runs_within(double seconds, double once_s);
+/// One run of something short: `bench_repeats` times as many runs as make up `bench_repeat_s`.
+Measured measure_short(const std::function<void()>& work);
+
+/// How many runs of `once_s` make up `bench_repeat_s`; at least one.
+int runs_a_repeat(double once_s);
 
 /// Seconds since some fixed moment: on the wall's clock, and those that this thread has had a processor.
 double wall_now_s();

@@ -83,12 +83,13 @@ AdamsStep<N> predict(const Unknowns<N>& y, const AdamsHistory<N>& past, double h
   const double g1 = hh / 2.0, g2 = hh * (h / 3.0 + s.a1 / 2.0);
   s.g3 = hh * (hh / 4.0 + sum * h / 3.0 + product / 2.0);
   s.corrector = hh * h * (hh / 20.0 + sum * h / 12.0 + product / 6.0);
+  const double w1 = 1.0 / h1, w2 = 1.0 / h2, w3 = 1.0 / h3, w12 = 1.0 / s.a2, w23 = 1.0 / (h2 + h3), w123 = 1.0 / s.a3;
   for (std::size_t i = 0; i < N; ++i) {
     const double f = past.rate[0][i];
-    s.d1[i] = (f - past.rate[1][i]) / h1;
-    const double d1b = (past.rate[1][i] - past.rate[2][i]) / h2, d1c = (past.rate[2][i] - past.rate[3][i]) / h3;
-    s.d2[i] = (s.d1[i] - d1b) / s.a2;
-    s.d3[i] = (s.d2[i] - (d1b - d1c) / (h2 + h3)) / s.a3;
+    const double d1b = (past.rate[1][i] - past.rate[2][i]) * w2, d1c = (past.rate[2][i] - past.rate[3][i]) * w3;
+    s.d1[i] = (f - past.rate[1][i]) * w1;
+    s.d2[i] = (s.d1[i] - d1b) * w12;
+    s.d3[i] = (s.d2[i] - (d1b - d1c) * w23) * w123;
     s.explicit_part[i] = h * f + g1 * s.d1[i] + g2 * s.d2[i];
     s.predicted[i] = y[i] + (s.explicit_part[i] + s.g3 * s.d3[i]);
   }
@@ -96,17 +97,16 @@ AdamsStep<N> predict(const Unknowns<N>& y, const AdamsHistory<N>& past, double h
 }
 
 /// Adams–Moulton of three points and the new one, with the derivative of the predicted state. `error` is Milne's
-/// estimate of its local error, from the difference to the predictor: 19/270 of it on an even grid.
+/// estimate of what it lacks, signed, from the difference to the predictor: 19/270 of it on an even grid.
 template <std::size_t N>
 Unknowns<N> correct(const Unknowns<N>& y, const AdamsHistory<N>& past, const AdamsStep<N>& s,
                     const Unknowns<N>& rate_predicted, Unknowns<N>& error) {
+  const double w = 1.0 / s.h, w1 = 1.0 / (s.h + s.a1), w12 = 1.0 / (s.h + s.a2), w123 = 1.0 / (s.h + s.a3);
   Unknowns<N> corrected;
   for (std::size_t i = 0; i < N; ++i) {
-    const double e1 = (rate_predicted[i] - past.rate[0][i]) / s.h;
-    const double e2 = (e1 - s.d1[i]) / (s.h + s.a1);
-    const double e3 = (e2 - s.d2[i]) / (s.h + s.a2);
+    const double e3 = (((rate_predicted[i] - past.rate[0][i]) * w - s.d1[i]) * w1 - s.d2[i]) * w12;
     corrected[i] = y[i] + (s.explicit_part[i] + s.g3 * e3);
-    error[i] = s.corrector * std::fabs((e3 - s.d3[i]) / (s.h + s.a3));
+    error[i] = s.corrector * ((s.d3[i] - e3) * w123);
   }
   return corrected;
 }

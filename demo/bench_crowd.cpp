@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "engine/access.h"
 
@@ -86,10 +87,17 @@ BenchPerson bench_person(std::size_t i, std::uint32_t draw) {
 BenchCrowd::BenchCrowd()
     : simulation_({.jobs = Jobs{&meter_, [](void* user, std::size_t count, Jobs::Body body, void* context) {
                                   auto& meter = *static_cast<CpuMeter*>(user);
-                                  const double start = meter.on ? thread_cpu_now_s() : 0;
+                                  if (!meter.on) return body(context, 0, count);
+                                  const double start = thread_cpu_now_s();
                                   body(context, 0, count);
-                                  if (meter.on) meter.call_s.push_back(thread_cpu_now_s() - start);
-                                }}}) {}
+                                  // the system at work is the first that has run no more often than the last one
+                                  const auto timings = meter.schedule->timings();
+                                  const auto at = std::ranges::find(timings, timings.back().calls, &Timing::calls);
+                                  meter.system_s[static_cast<std::size_t>(at - timings.begin())] +=
+                                      thread_cpu_now_s() - start;
+                                }}}) {
+  meter_.schedule = &simulation_.schedule();
+}
 
 Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
   std::shared_ptr<BenchCrowd> crowd(new BenchCrowd);
@@ -145,43 +153,36 @@ const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
   for (int i = 0; i < settling; ++i) simulation_.tick();
   const int ticks = runs_a_repeat((wall_now_s() - start_s) / settling);
 
-  struct Repeats {
-    Measured* result;
-    std::size_t system;
-    std::vector<double> wall, cpu;
+  const auto run = [&] {
+    for (int i = 0; i < ticks; ++i) simulation_.tick();
   };
-  std::vector<Repeats> running;  // in the order of the calls
-  for (std::size_t s = 0; s < schedule.systems().size(); ++s) {
-    const System& system = schedule.systems()[s];
-    if (table_of(system) != nullptr) running.push_back({&steady_[system.name], s, {}, {}});
-  }
+  const std::size_t systems = schedule.systems().size();
+  std::vector<std::vector<double>> wall(systems), cpu(systems);
   for (int repeat = 0; repeat < bench_repeats; ++repeat) {
     schedule.reset_timings();
-    for (int i = 0; i < ticks; ++i) simulation_.tick();
-    for (Repeats& r : running) r.wall.push_back(schedule.timings()[r.system].seconds / ticks);
-    // the time on a processor in ticks of its own, as asking for it takes time too
-    const auto cpu_s = tick_calls_cpu_s(ticks);
-    if (cpu_s.size() != running.size()) continue;  // others do work as well: whose is whose is not known
-    for (std::size_t s = 0; s < running.size(); ++s) running[s].cpu.push_back(cpu_s[s]);
+    run();
+    for (std::size_t s = 0; s < systems; ++s) wall[s].push_back(schedule.timings()[s].seconds / ticks);
+    // in ticks of its own, as asking for it takes time too
+    const auto cpu_s = cpu_of(run);
+    for (std::size_t s = 0; s < systems; ++s) cpu[s].push_back(cpu_s[s] / ticks);
   }
-  for (Repeats& r : running) {
-    *r.result = {std::ranges::min(r.wall), median(r.wall), {}};
-    if (!r.cpu.empty() && std::ranges::min(r.cpu) > least_cpu_s) r.result->cpu_s = std::ranges::min(r.cpu);
+  for (std::size_t s = 0; s < systems; ++s) {
+    const System& system = schedule.systems()[s];
+    if (table_of(system) == nullptr) continue;
+    const double cpu_s = std::ranges::min(cpu[s]);
+    steady_[system.name] = {std::ranges::min(wall[s]), median(wall[s]),
+                            cpu_s > least_cpu_s ? std::optional(cpu_s) : std::nullopt};
   }
   return steady_;
 }
 
-std::vector<double> BenchCrowd::tick_calls_cpu_s(int ticks) {
-  std::vector<double> sum;
+std::vector<double> BenchCrowd::cpu_of(const std::function<void()>& work) {
+  simulation_.schedule().reset_timings();
+  meter_.system_s.assign(simulation_.schedule().systems().size(), 0);
   meter_.on = true;
-  for (int i = 0; i < ticks; ++i) {
-    meter_.call_s.clear();
-    simulation_.tick();
-    sum.resize(meter_.call_s.size());
-    for (std::size_t s = 0; s < sum.size(); ++s) sum[s] += meter_.call_s[s] / ticks;
-  }
+  work();
   meter_.on = false;
-  return sum;
+  return meter_.system_s;
 }
 
 std::size_t BenchCrowd::bytes_per_human(std::string_view name) {

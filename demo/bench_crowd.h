@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -48,6 +49,10 @@ class BenchCrowd {
   /// a system that is not there or has nobody to work on.
   std::size_t bytes_per_human(std::string_view system);
 
+  /// Seconds that each system, in the order of the schedule, had a processor for while `work` ran, the choosing of
+  /// lanes not counted. Resets the schedule's timings.
+  std::vector<double> cpu_of(const std::function<void()>& work);
+
   /// Asks everybody for another speed, drawn as the first one was. Errors: the first refusal.
   Result<void> change_speeds(std::uint32_t round);
 
@@ -57,13 +62,12 @@ class BenchCrowd {
   BenchCrowd& operator=(const BenchCrowd&) = delete;
   Result<void> spawn(std::size_t humans);
   const Table* table_of(const System& system) const;
-  /// The time on a processor of each call of the simulation for somebody's work in a tick, mean over some ticks.
-  std::vector<double> tick_calls_cpu_s(int ticks);
 
-  /// Does the work on this thread and, when asked, notes how long each call had a processor.
+  /// Does the work on this thread and, when asked, adds to each system's time on a processor.
   struct CpuMeter {
+    const Schedule* schedule = nullptr;
     bool on = false;
-    std::vector<double> call_s;  // since it was last cleared
+    std::vector<double> system_s;  // in the order of the schedule
   };
 
   CpuMeter meter_;

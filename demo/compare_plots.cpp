@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -49,6 +50,25 @@ struct Row {
   const char* axis;
 };
 
+/// A curve that leaves the measured range by far would make all others of its row flat: there the axis ends.
+void limit_row(std::span<PlotPanel> row) {
+  constexpr double spare = 0.8;
+  double low = INFINITY, high = -INFINITY, least = INFINITY, most = -INFINITY;
+  for (const auto& panel : row) {
+    for (const auto& band : panel.bands) {
+      low = std::min(low, std::ranges::min(band.low));
+      high = std::max(high, std::ranges::max(band.high));
+    }
+    for (const auto& line : panel.lines) {
+      least = std::min(least, std::ranges::min(line.y));
+      most = std::max(most, std::ranges::max(line.y));
+    }
+  }
+  const double air = spare * (high - low);
+  if (least < low - air) row.front().y.low = low - air;
+  if (most > high + air) row.front().y.high = high + air;
+}
+
 /// A grid: a row a quantity, a column a walk. Each hip is drawn over the set that measures it the same way alone.
 PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::span<const Row> rows) {
   const GaitReference& reference = comparison.reference;
@@ -78,6 +98,7 @@ PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::sp
       }
       figure.panels.push_back(std::move(panel));
     }
+    limit_row(std::span(figure.panels).last(comparison.walks.size()));
   }
   return figure;
 }
@@ -198,7 +219,13 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
 }  // namespace
 
 std::vector<NamedPlot> comparison_plots(const Comparison& comparison) {
-  return {{"angles.svg", svg(cycle_figure(comparison, "Joint angles", angle_rows))},
+  PlotFigure angles = cycle_figure(comparison, "Joint angles", angle_rows);
+  angles.footnote = "Hip: from the tilted pelvis";
+  for (const auto& set : comparison.reference.sets) {
+    if (set.hip_from_vertical) angles.footnote += fmt::format("; in {} from the vertical", set.name);
+  }
+  angles.footnote += ".";
+  return {{"angles.svg", svg(angles)},
           {"ground_reaction.svg", svg(cycle_figure(comparison, "Ground reaction of one foot", force_rows))},
           {"moments.svg", svg(cycle_figure(comparison, "Joint moments", moment_rows))},
           {"steps.svg", svg(step_figure(comparison))},

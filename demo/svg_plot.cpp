@@ -307,7 +307,7 @@ std::vector<PanelRanges> ranges_of(const PlotFigure& figure, std::size_t columns
     const std::size_t end = figure.shared_y ? std::min(first + columns, ranges.size()) : i + 1;
     for (std::size_t k = first; k < end; ++k) include_y(figure.panels[k], ranges[i].y);
     ranges[i].x = settled(ranges[i].x, panel.x, 0);
-    ranges[i].y = settled(ranges[i].y, panel.y, 0.05);
+    ranges[i].y = settled(ranges[i].y, figure.panels[first].y, 0.05);
   }
   return ranges;
 }

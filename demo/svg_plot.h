@@ -49,8 +49,8 @@ struct PlotPanel {
   bool own_legend = false;
 };
 
-/// Panels fill rows of `columns` from the top left. `shared_y`: one vertical range a row, its axis labelled at the left
-/// panel alone; for rows of one quantity. Sizes are pixels and do not count titles and labels.
+/// Panels fill rows of `columns` from the top left. `shared_y`: one vertical range a row, its axis that of the left
+/// panel and labelled there alone; for rows of one quantity. Sizes are pixels and do not count titles and labels.
 struct PlotFigure {
   std::string title, footnote;
   std::size_t columns = 1;

@@ -83,7 +83,7 @@ Result<void> walk_variations(const Walker& walker, Comparison& comparison) {
   const auto natural = walker.at(varied_speed);
   if (!natural) return tl::unexpected(natural.error());
   for (const float times : {0.9F, 1.0F, 1.1F}) {
-    const float length = times * natural->gait.step_length_m;
+    const float length = times * static_cast<float>(natural->step_length_m);
     const auto stride = walker.walk(walker.body, varied_speed, length);
     if (auto ok = add(comparison.by_step_length, static_cast<double>(length), stride); !ok) return ok;
   }

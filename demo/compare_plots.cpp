@@ -138,7 +138,7 @@ PlotLine step_line(const std::vector<VariedWalk>& walks, bool cadence) {
   PlotLine line{{}, {}, ours_colour, "mobil", 1.8, false};
   for (const auto& walk : walks) {
     line.x.push_back(walk.value);
-    line.y.push_back(step_value(step_of(walk.stride), cadence, static_cast<double>(walk.stride.body.request.height_m)));
+    line.y.push_back(step_value(step_of(walk.stride), cadence, walk.stride.height_m));
   }
   return line;
 }
@@ -154,7 +154,7 @@ std::vector<double> between(double low, double high, std::size_t count) {
 
 PlotFigure step_figure(const Comparison& comparison) {
   const double height = static_cast<double>(comparison.body.height_m);
-  const double speed = static_cast<double>(comparison.by_height.front().stride.gait.speed_m_s);
+  const double speed = comparison.by_height.front().stride.speed_m_s;
   PlotFigure figure{"Step length and cadence", "", 2, {}, false, 300, 170};
   const auto speeds = between(comparison.by_speed.front().value, comparison.by_speed.back().value, 60);
   const auto heights = between(comparison.by_height.front().value, comparison.by_height.back().value, 60);

@@ -81,9 +81,9 @@ Json finding_json(const GaitReference& reference, GaitQuantity quantity, const C
 }
 
 Json step_json(const WalkedStride& stride) {
-  return {{"speed_m_s", stride.gait.speed_m_s},
-          {"step_length_m", stride.gait.step_length_m},
-          {"cadence_steps_min", 60 * stride.gait.step_frequency_hz},
+  return {{"speed_m_s", stride.speed_m_s},
+          {"step_length_m", stride.step_length_m},
+          {"cadence_steps_min", 60 * stride.step_frequency_hz},
           {"com_lowest_m", stride.com_lowest_m},
           {"com_highest_m", stride.com_highest_m},
           {"com_mean_m", stride.com_mean_m}};
@@ -95,7 +95,7 @@ Json walk_json(const Comparison& comparison, const ComparedWalk& walk) {
   json["set"] = own.name;
   json["class"] = speed_class_name[walk.speed_class];
   json.update(step_json(walk.stride));
-  json["double_support_cycle"] = walk.stride.gait.double_support_cycle;
+  json["double_support_cycle"] = walk.stride.double_support_cycle;
   json["com_lowest_percent"] = walk.stride.com_lowest_percent;
   json["com_highest_percent"] = walk.stride.com_highest_percent;
   if (walk.stride.forces) json["mean_vertical_force_body_weights"] = walk.stride.forces->mean_weights;
@@ -172,8 +172,8 @@ std::string comparison_text(const Comparison& comparison, const std::vector<Verd
                    "{:<34} rises {:.1f} mm (measured {:.0f} +- {:.0f}), lowest at {:.0f} %, highest at {:.0f} %, steps "
                    "of {:.3f} m, {:.0f} a minute\n",
                    walk_name(comparison, walk), step_excursion_mm(walk.stride), 1000 * norm.mean_m, 1000 * norm.sd_m,
-                   walk.stride.com_lowest_percent, walk.stride.com_highest_percent, walk.stride.gait.step_length_m,
-                   60 * walk.stride.gait.step_frequency_hz);
+                   walk.stride.com_lowest_percent, walk.stride.com_highest_percent, walk.stride.step_length_m,
+                   60 * walk.stride.step_frequency_hz);
   }
   text += varied_text("longer steps", comparison.by_step_length, "m");
   text += varied_text("heavier people", comparison.by_mass, "kg");

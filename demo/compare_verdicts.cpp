@@ -92,7 +92,7 @@ void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const 
 /// Highest in the middle half of single support, lowest in double support; excursion within one deviation.
 void judge_centre_of_mass(const Comparison& comparison, const ComparedWalk& walk, const std::string& name,
                           Verdicts& verdicts) {
-  const double double_support = 100 * static_cast<double>(walk.stride.gait.double_support_cycle);
+  const double double_support = 100 * walk.stride.double_support_cycle;
   const double quarter = (50 - double_support) / 4;
   verdicts.within(name + ": centre of mass highest", walk.stride.com_highest_percent, double_support + quarter,
                   50 - quarter, "% of the cycle");
@@ -136,10 +136,8 @@ std::string walk_name(const Comparison& comparison, const ComparedWalk& walk) {
 }
 
 StepNorm step_of(const WalkedStride& stride) {
-  const double height = static_cast<double>(stride.body.request.height_m);
-  return {static_cast<double>(stride.gait.speed_m_s) / std::sqrt(gravity_m_s2 * height),
-          static_cast<double>(stride.gait.step_length_m) / height, 0,
-          static_cast<double>(stride.gait.step_frequency_hz) * std::sqrt(height / gravity_m_s2), 0};
+  return {stride.speed_m_s / std::sqrt(gravity_m_s2 * stride.height_m), stride.step_length_m / stride.height_m, 0,
+          stride.step_frequency_hz * std::sqrt(stride.height_m / gravity_m_s2), 0};
 }
 
 std::optional<double> outside_step_bands(const GaitReference& reference, const StepNorm& step, bool cadence) {

@@ -69,8 +69,11 @@ StrideForces sample_forces(const TickRows& rows) {
 
 WalkedStride sample_stride(const Human& human, const TickRows& rows, bool with_forces) {
   WalkedStride stride{};
-  stride.body = human.body;
-  stride.gait = human.gait;
+  stride.height_m = value(human.body.request.height_m);
+  stride.speed_m_s = value(human.gait.speed_m_s);
+  stride.step_length_m = value(human.gait.step_length_m);
+  stride.step_frequency_hz = value(human.gait.step_frequency_hz);
+  stride.double_support_cycle = value(human.gait.double_support_cycle);
   const auto sample = [&](const std::vector<double>& values) { return sample_cycle(rows.phase, values); };
   stride.hip_from_pelvis = sample(rows.hip);
   const CycleCurve tilt = sample(rows.tilt);

@@ -20,8 +20,9 @@ struct StrideForces {
 
 /// The right leg's cycle. Angles in degrees, heights over the ground in m; percents of the cycle.
 struct WalkedStride {
-  Body body;
-  Gait gait;
+  double height_m;
+  double speed_m_s, step_length_m, step_frequency_hz;
+  double double_support_cycle;  // one double support as a fraction of the cycle
   CycleCurve hip_from_pelvis, hip_from_vertical, knee, ankle, com_height;
   double com_mean_m, com_lowest_m, com_highest_m;
   /// Of the lowest and the highest point within a step: 0–50, from either heel strike.

@@ -176,7 +176,7 @@ Comparison mean_walker(const GaitReference& reference, std::size_t speed_class) 
   stride.ankle = mean(GaitQuantity::ankle);
   stride.forces = {mean(GaitQuantity::vertical),    mean(GaitQuantity::fore_aft),     mean(GaitQuantity::hip_moment),
                    mean(GaitQuantity::knee_moment), mean(GaitQuantity::ankle_moment), 1.0};
-  stride.gait.double_support_cycle = 0.1F;
+  stride.double_support_cycle = 0.1;
   stride.com_lowest_percent = 4;
   stride.com_highest_percent = 29;
   const double speed = reference.sets[0].speed_m_s(speed_class, 0.9);

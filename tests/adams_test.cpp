@@ -187,6 +187,15 @@ TYPED_TEST(Adams, CountsItsEvaluationsAndSteps) {
 
 // What follows holds for systems of their own.
 
+TEST(Adams, AStartIsJudgedByBothOfItsRules) {
+  RungeKuttaStart<1> s{};
+  EXPECT_EQ(start_error(s, 0.1)[0], 0.0);
+  s.increment = {{{1.0}, {0.0}, {-1.0}}};  // three steps go nowhere, as the derivatives say, but two do not
+  EXPECT_DOUBLE_EQ(start_error(s, 0.1)[0], 19.0 / 8.0);
+  s.increment = {{{1.0}, {-1.0}, {1.0}}};
+  EXPECT_DOUBLE_EQ(start_error(s, 0.1)[0], 19.0 / 27.0);
+}
+
 double pulse(double t) {
   return t < 0.3 || t > 0.7 ? 0.0 : 25.0;
 }

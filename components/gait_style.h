@@ -47,12 +47,12 @@ struct GaitStyleOf {
   F toe_clearance_m = in_every_lane<F>(0.012F);
   F foot_pivot_h = in_every_lane<F>(0.012F);
   F mid_stance_height = in_every_lane<F>(0.995F);
-  F hip_fall = in_every_lane<F>(0.47F);
+  F hip_fall = in_every_lane<F>(0.7F);
   F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
   F leg_damping = in_every_lane<F>(0.40F);
-  F roll_over = in_every_lane<F>(0.35F);
+  F roll_over = in_every_lane<F>(0.5F);
   F trunk_lean_deg = in_every_lane<F>(2.0F);
-  F trunk_stiffness = in_every_lane<F>(3.0F);
+  F trunk_stiffness = in_every_lane<F>(8.0F);
   F shoulder_rotation = in_every_lane<F>(1.0F);
   F arm_back_deg = in_every_lane<F>(18.0F);
   F arm_forward_deg = in_every_lane<F>(16.0F);
@@ -104,7 +104,7 @@ inline constexpr std::array<GaitParameter, 35> gait_parameters = {{
     {"leg_damping", "1", &GaitStyle::leg_damping, 0.2F, 1, "of that spring, of critical"},
     {"roll_over", "1", &GaitStyle::roll_over, 0, 0.7F, "travel of the centre of pressure, of the hip's"},
     {"trunk_lean_deg", "deg", &GaitStyle::trunk_lean_deg, -5, 15, "mean forward lean of the trunk"},
-    {"trunk_stiffness", "1", &GaitStyle::trunk_stiffness, 1.5F, 10, "of the trunk's toppling stiffness"},
+    {"trunk_stiffness", "1", &GaitStyle::trunk_stiffness, 1.5F, 20, "of the trunk's toppling stiffness"},
     {"shoulder_rotation", "1", &GaitStyle::shoulder_rotation, 0, 2, "shoulders against the pelvis, times its rotation"},
     {"arm_back_deg", "deg", &GaitStyle::arm_back_deg, 0, 50, "arm swing backward"},
     {"arm_forward_deg", "deg", &GaitStyle::arm_forward_deg, 0, 60, "arm swing forward"},

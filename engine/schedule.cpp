@@ -1,6 +1,7 @@
 #include "engine/schedule.h"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 
 #include "engine/schedule_order.h"
@@ -13,6 +14,7 @@ struct Schedule::Pass {
   const std::vector<Match>& matches;
   const World& world;
   Tick tick;
+  const std::vector<ChosenRow>& chosen;
 };
 
 Schedule::Schedule(std::vector<System> systems)
@@ -27,7 +29,7 @@ void Schedule::match(World& world) {
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
     for (std::size_t s = 0; s < systems_.size(); ++s) {
-      std::vector<Bound> bound(systems_[s].accesses.size());
+      std::vector<Bound> bound(systems_[s].parameters);
       if (systems_[s].bind(world, table, bound.data())) matches_[s].push_back({&table, 0, std::move(bound)});
     }
   }
@@ -45,6 +47,33 @@ void Schedule::run_blocks(void* context, std::size_t begin, std::size_t end) {
   }
 }
 
+void Schedule::run_chosen(void* context, std::size_t begin, std::size_t end) {
+  const FlushDenormals flush;
+  const Pass& pass = *static_cast<const Pass*>(context);
+  const std::span<const ChosenRow> rows = pass.chosen;
+  for (std::size_t b = begin; b < end; ++b) {
+    const std::size_t first = b * lane_count;
+    pass.system.run_rows(rows.subspan(first, std::min(lane_count, rows.size() - first)), pass.tick);
+  }
+}
+
+void Schedule::choose_rows(const System& system, const std::vector<Match>& matches, const World& world, Tick tick) {
+  const FlushDenormals flush;
+  chosen_.clear();
+  std::size_t rows = 0;
+  for (const Match& match : matches) rows += match.table->row_count();
+  chosen_.reserve(rows);
+  for (const Match& match : matches) {
+    for (std::size_t b = 0; b < match.table->block_count(); ++b) {
+      std::uint32_t bits = system.choose({world, *match.table, b, tick}, match.bound.data());
+      bits &= (1U << match.table->live(b)) - 1U;
+      for (; bits != 0; bits &= bits - 1)
+        chosen_.push_back({match.table->block(b), match.bound.data() + system.chooser_parameters,
+                           static_cast<std::uint32_t>(std::countr_zero(bits))});
+    }
+  }
+}
+
 void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
   match(world);
   for (std::size_t s = 0; s < systems_.size(); ++s) {
@@ -54,8 +83,15 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
       m.first_block = blocks;
       blocks += m.table->block_count();
     }
-    Pass pass{systems_[s], matches_[s], world, tick};
-    if (blocks > 0) jobs.parallel_for(jobs.user, blocks, &run_blocks, &pass);
+    Pass pass{systems_[s], matches_[s], world, tick, chosen_};
+    if (systems_[s].choose) {
+      choose_rows(systems_[s], matches_[s], world, tick);
+      timings_[s].rows += chosen_.size();
+      blocks = (chosen_.size() + lane_count - 1) / lane_count;
+      if (blocks > 0) jobs.parallel_for(jobs.user, blocks, &run_chosen, &pass);
+    } else if (blocks > 0) {
+      jobs.parallel_for(jobs.user, blocks, &run_blocks, &pass);
+    }
     timings_[s].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     ++timings_[s].calls;
   }

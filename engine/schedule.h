@@ -10,6 +10,7 @@
 // otherwise, `after` wins. Two writers of one component need an `after`, be it on different tables. Ties go by the
 // order of adding, so that the order is always the same.
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -23,6 +24,7 @@
 #include "engine/access.h"
 #include "engine/error.h"
 #include "engine/jobs.h"
+#include "engine/packed.h"
 #include "engine/world.h"
 
 namespace mobil {
@@ -30,15 +32,21 @@ namespace mobil {
 /// A system with its type taken off.
 struct System {
   std::string name;
-  std::vector<Access> accesses;    // one a parameter
+  std::vector<Access> accesses;    // of its parameters
+  std::size_t parameters = 0;
   std::vector<std::string> after;  // names of systems that must have run
   bool (*bind)(const World&, const Table&, Bound*) = nullptr;
   std::function<void(const BlockView&, const Bound*)> run;
+  /// Packed systems only: which lanes of a block, as bits; and the work on at most sixteen rows.
+  std::function<std::uint32_t(const BlockView&, const Bound*)> choose;
+  std::function<void(std::span<const ChosenRow>, Tick)> run_rows;
+  std::size_t chooser_parameters = 0;  // what is bound begins with them
 };
 
-/// How often a system ran, and for how long (wall) in all.
+/// How often a system ran, for how long (wall) in all, and, of a packed system, on how many rows.
 struct Timing {
   std::uint64_t calls = 0;
+  std::uint64_t rows = 0;
   double seconds = 0;
 };
 
@@ -67,6 +75,8 @@ class Schedule {
   };
   struct Pass;
   static void run_blocks(void* pass, std::size_t begin, std::size_t end);
+  static void run_chosen(void* pass, std::size_t begin, std::size_t end);
+  void choose_rows(const System& system, const std::vector<Match>& matches, const World& world, Tick tick);
 
   explicit Schedule(std::vector<System> systems);
   void match(World& world);
@@ -74,6 +84,7 @@ class Schedule {
   std::vector<System> systems_;
   std::vector<Timing> timings_;
   std::vector<std::vector<Match>> matches_;  // by system
+  std::vector<ChosenRow> chosen_;            // of the packed system that runs, kept for its memory
   std::size_t tables_seen_ = 0;
   std::shared_ptr<const char> world_;
 };
@@ -85,6 +96,13 @@ class ScheduleBuilder {
   template <class F>
   ScheduleBuilder& add(std::string name, F function) {
     systems_.push_back(erase(std::move(name), std::move(function), Signature<F>{}));
+    return *this;
+  }
+  /// A packed system (engine/packed.h): `choose` takes a block like any system, writes nothing, and returns the lanes
+  /// to work on as bits; `function` takes components and the tick alone.
+  template <class Choose, class F>
+  ScheduleBuilder& add_packed(std::string name, Choose choose, F function) {
+    systems_.push_back(erase_packed(std::move(name), choose, function, Signature<Choose>{}, Signature<F>{}));
     return *this;
   }
   /// The system added last runs after that one.
@@ -105,6 +123,8 @@ class ScheduleBuilder {
   template <class... P>
   struct Signature<void (*)(P...)> : Parameters<P...> {};
   template <class... P>
+  struct Signature<std::uint32_t (*)(P...)> : Parameters<P...> {};
+  template <class... P>
   struct Signature<void (*)(P...) noexcept> : Parameters<P...> {};
   template <class F, class... P>
   struct Signature<void (F::*)(P...) const> : Parameters<P...> {};
@@ -116,6 +136,7 @@ class ScheduleBuilder {
     System system;
     system.name = std::move(name);
     system.accesses = {Parameter<P>::access()...};
+    system.parameters = sizeof...(P);
     system.bind = [](const World& world, const Table& table, [[maybe_unused]] Bound* bound) {
       return (Parameter<P>::bind(world, table, *bound++) && ...);
     };
@@ -124,6 +145,32 @@ class ScheduleBuilder {
         function(Parameter<P>::make(view, bound[i])...);
       }
       (std::index_sequence_for<P...>{});
+    };
+    return system;
+  }
+
+  template <class Choose, class F, class... C, class... P>
+  static System erase_packed(std::string name, Choose choose, F function, Parameters<C...>, Parameters<P...>) {
+    System system;
+    system.name = std::move(name);
+    system.accesses = {Parameter<P>::access()...};
+    for (const Access& read : {Parameter<C>::access()...}) {  // the chooser may read what the function writes
+      const auto same = [&](const Access& a) { return a.id == read.id; };
+      if (std::none_of(system.accesses.begin(), system.accesses.end(), same)) system.accesses.push_back(read);
+    }
+    system.parameters = sizeof...(C) + sizeof...(P);
+    system.chooser_parameters = sizeof...(C);
+    system.bind = [](const World& world, const Table& table, Bound* bound) {
+      return (Parameter<C>::bind(world, table, *bound++) && ...) && (Parameter<P>::bind(world, table, *bound++) && ...);
+    };
+    system.choose = [choose](const BlockView& view, const Bound* bound) {
+      return [&]<std::size_t... i>(std::index_sequence<i...>) {
+        return choose(Parameter<C>::make(view, bound[i])...);
+      }
+      (std::index_sequence_for<C...>{});
+    };
+    system.run_rows = [function](std::span<const ChosenRow> rows, Tick tick) {
+      run_packed<P...>(function, rows, tick);
     };
     return system;
   }

@@ -53,17 +53,21 @@ HWY_INLINE Wide load(const float* p) {
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::Load(FloatTag{}, p + i * vector_lanes);
   return r;
 }
-HWY_INLINE Wide load(const Lanes<float>& l) { return load(l.lane); }
+HWY_INLINE Wide load(const Lanes<float>& l) {
+  return load(l.lane);
+}
 HWY_INLINE void store(const Wide& w, float* p) {
   for (std::size_t i = 0; i < vector_count; ++i) hn::Store(w.part[i], FloatTag{}, p + i * vector_lanes);
 }
-HWY_INLINE void store(const Wide& w, Lanes<float>& l) { store(w, l.lane); }
+HWY_INLINE void store(const Wide& w, Lanes<float>& l) {
+  store(w, l.lane);
+}
 
-#define MOBIL_WIDE_BINARY(name, call)                                                            \
-  HWY_INLINE Wide name(const Wide& a, const Wide& b) {                                           \
-    Wide r;                                                                                      \
-    for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::call(a.part[i], b.part[i]);   \
-    return r;                                                                                    \
+#define MOBIL_WIDE_BINARY(name, call)                                                          \
+  HWY_INLINE Wide name(const Wide& a, const Wide& b) {                                         \
+    Wide r;                                                                                    \
+    for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::call(a.part[i], b.part[i]); \
+    return r;                                                                                  \
   }
 MOBIL_WIDE_BINARY(operator+, Add)
 MOBIL_WIDE_BINARY(operator-, Sub)
@@ -73,17 +77,49 @@ MOBIL_WIDE_BINARY(min, Min)
 MOBIL_WIDE_BINARY(max, Max)
 #undef MOBIL_WIDE_BINARY
 
-#define MOBIL_WIDE_COMPARE(name, call)                                                           \
-  HWY_INLINE WideMask name(const Wide& a, const Wide& b) {                                       \
-    WideMask r;                                                                                  \
-    for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::call(a.part[i], b.part[i]);   \
-    return r;                                                                                    \
+/// A number stands for sixteen of it.
+#define MOBIL_WIDE_WITH_NUMBER(op)                      \
+  HWY_INLINE Wide operator op(const Wide& a, float b) { \
+    return a op wide(b);                                \
+  }                                                     \
+  HWY_INLINE Wide operator op(float a, const Wide& b) { \
+    return wide(a) op b;                                \
+  }
+MOBIL_WIDE_WITH_NUMBER(+)
+MOBIL_WIDE_WITH_NUMBER(-)
+MOBIL_WIDE_WITH_NUMBER(*)
+MOBIL_WIDE_WITH_NUMBER(/)
+#undef MOBIL_WIDE_WITH_NUMBER
+HWY_INLINE Wide min(const Wide& a, float b) {
+  return min(a, wide(b));
+}
+HWY_INLINE Wide max(const Wide& a, float b) {
+  return max(a, wide(b));
+}
+
+#define MOBIL_WIDE_COMPARE(name, call)                                                         \
+  HWY_INLINE WideMask name(const Wide& a, const Wide& b) {                                     \
+    WideMask r;                                                                                \
+    for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::call(a.part[i], b.part[i]); \
+    return r;                                                                                  \
   }
 MOBIL_WIDE_COMPARE(operator<, Lt)
 MOBIL_WIDE_COMPARE(operator<=, Le)
 MOBIL_WIDE_COMPARE(operator>, Gt)
 MOBIL_WIDE_COMPARE(operator>=, Ge)
 #undef MOBIL_WIDE_COMPARE
+HWY_INLINE WideMask operator<(const Wide& a, float b) {
+  return a < wide(b);
+}
+HWY_INLINE WideMask operator<=(const Wide& a, float b) {
+  return a <= wide(b);
+}
+HWY_INLINE WideMask operator>(const Wide& a, float b) {
+  return a > wide(b);
+}
+HWY_INLINE WideMask operator>=(const Wide& a, float b) {
+  return a >= wide(b);
+}
 
 HWY_INLINE Wide operator-(const Wide& a) {
   Wide r;
@@ -117,7 +153,9 @@ HWY_INLINE Wide floor(const Wide& a) {
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::Floor(a.part[i]);
   return r;
 }
-HWY_INLINE Wide clamp(const Wide& a, float low, float high) { return min(max(a, wide(low)), wide(high)); }
+HWY_INLINE Wide clamp(const Wide& a, float low, float high) {
+  return min(max(a, wide(low)), wide(high));
+}
 /// yes where the mask holds, no elsewhere.
 HWY_INLINE Wide select(const WideMask& m, const Wide& yes, const Wide& no) {
   Wide r;

@@ -22,9 +22,15 @@ struct WideQuat {
   Wide x, y, z, w;
 };
 
-HWY_INLINE WideVec wide(const Vec3<float>& v) { return {wide(v.x), wide(v.y), wide(v.z)}; }
-HWY_INLINE WideVec load(const Vec3<Lanes<float>>& v) { return {load(v.x), load(v.y), load(v.z)}; }
-HWY_INLINE WideQuat load(const Quat<Lanes<float>>& q) { return {load(q.x), load(q.y), load(q.z), load(q.w)}; }
+HWY_INLINE WideVec wide(const Vec3<float>& v) {
+  return {wide(v.x), wide(v.y), wide(v.z)};
+}
+HWY_INLINE WideVec load(const Vec3<Lanes<float>>& v) {
+  return {load(v.x), load(v.y), load(v.z)};
+}
+HWY_INLINE WideQuat load(const Quat<Lanes<float>>& q) {
+  return {load(q.x), load(q.y), load(q.z), load(q.w)};
+}
 HWY_INLINE void store(const WideVec& v, Vec3<Lanes<float>>& to) {
   store(v.x, to.x);
   store(v.y, to.y);
@@ -37,13 +43,21 @@ HWY_INLINE void store(const WideQuat& q, Quat<Lanes<float>>& to) {
   store(q.w, to.w);
 }
 
-HWY_INLINE WideVec operator+(const WideVec& a, const WideVec& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-HWY_INLINE WideVec operator-(const WideVec& a, const WideVec& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-HWY_INLINE Wide dot(const WideVec& a, const WideVec& b) { return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z)); }
+HWY_INLINE WideVec operator+(const WideVec& a, const WideVec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+HWY_INLINE WideVec operator-(const WideVec& a, const WideVec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+HWY_INLINE Wide dot(const WideVec& a, const WideVec& b) {
+  return fma(a.x, b.x, fma(a.y, b.y, a.z * b.z));
+}
 HWY_INLINE WideVec cross(const WideVec& a, const WideVec& b) {
   return {fnma(a.z, b.y, a.y * b.z), fnma(a.x, b.z, a.z * b.x), fnma(a.y, b.x, a.x * b.y)};
 }
-HWY_INLINE Wide length(const WideVec& a) { return sqrt(dot(a, a)); }
+HWY_INLINE Wide length(const WideVec& a) {
+  return sqrt(dot(a, a));
+}
 /// s·a + b
 HWY_INLINE WideVec fma(const Wide& s, const WideVec& a, const WideVec& b) {
   return {fma(s, a.x, b.x), fma(s, a.y, b.y), fma(s, a.z, b.z)};

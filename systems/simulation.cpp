@@ -8,6 +8,7 @@
 
 #include "assets/anthropometry.h"
 #include "systems/deformation/deformation.h"
+#include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/line_of_action.h"
@@ -57,14 +58,13 @@ struct Standing {
   CentreOfMass<float> centre;
 };
 
-Standing first_instant(const BodySize<float>& size, const StepPlan<float>& plan, const GaitState<float>& state) {
-  const auto sizes = broadcast(size);
+Standing first_instant(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan) {
   Pose<Lanes<float>> pose;
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
-  pose_skeleton(sizes, broadcast(plan), broadcast(state), pose, angles, feet);
-  centre_of_mass(sizes, pose, centre);
+  pose_skeleton(size, plan, GaitState<Lanes<float>>{}, pose, angles, feet);
+  centre_of_mass(size, pose, centre);
   return {first_lane(pose), first_lane(angles), first_lane(feet), first_lane(centre)};
 }
 
@@ -117,8 +117,13 @@ bool same(const Material& a, const Material& b) {
 Result<Schedule> make_schedule() {
   ScheduleBuilder systems;
   systems.add("gait", &advance_gait)
+      .add_packed("replan", &lanes_to_plan, &plan_next_step)
+      .after("gait")
+      .add("turn", &turn_gait)
+      .after("replan")
       .add("kinematics", &pose_skeleton)
       .add("centre of mass", &centre_of_mass)
+      .add("forces", &joint_forces)
       .add("leg frames", &gather_legs)
       .add("lines of action", &follow_lines<EndDisplacement>)
       .add("lines of action, pulling", &follow_lines<EndForce>)
@@ -146,14 +151,13 @@ Result<Entity> Simulation::spawn(const BodyRequest& request, const GaitRequest& 
   if (!body) return tl::unexpected(body.error());
   const auto gait = resolve_gait(*body, gait_request);
   if (!gait) return tl::unexpected(gait.error());
-  const auto plan = plan_step(*body, *gait);
-  if (!plan) return tl::unexpected(plan.error());
-
   const BodySize<float> size{request.height_m, request.mass_kg};
-  const GaitState<float> state{};
-  const Standing standing = first_instant(size, *plan, state);
-  const Entity entity =
-      world_.create(size, *plan, state, standing.pose, standing.angles, standing.feet, standing.centre);
+  const auto sizes = broadcast(size);
+  StepPlan<Lanes<float>> plan{};
+  plan_first_step(sizes, broadcast(*gait), plan);
+  const Standing standing = first_instant(sizes, plan);
+  const Entity entity = world_.create(size, *gait, first_lane(plan), GaitState<float>{}, standing.pose, standing.angles,
+                                      standing.feet, standing.centre);
   if (humans_.size() <= entity.index) humans_.resize(entity.index + std::size_t{1});
   humans_[entity.index] = std::make_unique<Human>(Human{entity, *body, *gait, {}, {}});
   return entity;
@@ -166,20 +170,39 @@ Status Simulation::despawn(Entity entity) {
   return world_.destroy(entity);
 }
 
-Result<void> Simulation::change_gait(Entity, const GaitRequest&) {
+Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) {
+  Human* human = find(entity);
+  if (human == nullptr) return fail("change_gait: that person is not there (a stale handle); spawn one first");
+  auto gait = resolve_gait(human->body, request);
+  if (!gait) return tl::unexpected(gait.error());
+  gait->heading_rad = human->gait.heading_rad;
+  gait->revision = human->gait.revision + 1;
+  human->gait = *gait;
+  world_.set(entity, *gait);
   return {};
 }
 
-Status Simulation::turn_to(Entity, float) {
-  return Status::ok;
+Status Simulation::turn_to(Entity entity, float heading_rad) {
+  Human* human = find(entity);
+  if (human == nullptr) return Status::stale_entity;
+  human->gait.heading_rad = heading_rad;
+  return world_.set(entity, human->gait);
 }
 
-Status Simulation::add_forces(Entity) {
-  return Status::ok;
+Status Simulation::add_forces(Entity entity) {
+  if (find(entity) == nullptr) return Status::stale_entity;
+  if (world_.has<MotionHistory>(entity)) return Status::ok;
+  world_.add(entity, MotionHistory<float>{});
+  world_.add(entity, GroundReaction<float>{});
+  return world_.add(entity, JointMoments<float>{});
 }
 
-Status Simulation::remove_forces(Entity) {
-  return Status::ok;
+Status Simulation::remove_forces(Entity entity) {
+  if (find(entity) == nullptr) return Status::stale_entity;
+  if (!world_.has<MotionHistory>(entity)) return Status::ok;
+  world_.remove<MotionHistory>(entity);
+  world_.remove<GroundReaction>(entity);
+  return world_.remove<JointMoments>(entity);
 }
 
 Result<void> Simulation::add_leg_muscles(Entity entity, Drive drive, const Material& material) {

@@ -53,7 +53,7 @@ struct MuscleLines;  // systems/lines/line_of_action.h
 struct Human {
   Entity entity;
   Body body;
-  Gait gait;
+  Gait<float> gait;
   std::vector<MusclePlan> muscle_plan;                             // by group; empty without muscles
   std::array<std::array<Entity, 2>, muscle_group_count> muscle{};  // [group][side]
 };

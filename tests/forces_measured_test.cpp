@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "assets/csv_table.h"
-#include "forces_figure.h"
+#include "tests/forces_figure.h"
 
 namespace mobil {
 namespace {

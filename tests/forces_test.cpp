@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "forces_figure.h"
+#include "tests/forces_figure.h"
 
 namespace mobil {
 namespace {

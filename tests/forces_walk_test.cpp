@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "assets/csv_table.h"
-#include "forces_figure.h"
+#include "tests/forces_figure.h"
 #include "systems/simulation.h"
 
 namespace mobil {

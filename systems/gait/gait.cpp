@@ -15,7 +15,7 @@ bool inside(double value, double low, double high) {
 
 }  // namespace
 
-Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
+Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   for (const GaitParameter& p : gait_parameters) {
     const float value = request.style.*p.value;
     if (!inside(value, p.low, p.high))
@@ -28,9 +28,17 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
   const double law = 0.004 * 60.0 * height;  // step length over step frequency in Hz
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
+  if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked) {
+    Gait<float> standing{};
+    standing.style = style;
+    return standing;
+  }
   auto positive = [](const std::optional<float>& value) { return !value || (*value > 0.0F && *value < 1e6F); };
   if (!positive(speed_asked) || !positive(length_asked) || !positive(frequency_asked))
-    return fail("gait: speed, step length and step frequency must be positive numbers; leave out what is to follow");
+    return fail(
+        "gait: speed, step length and step frequency must be positive numbers, or the speed alone 0 to stand; leave "
+        "out "
+        "what is to follow");
   double speed, length;
   if (speed_asked && length_asked) {
     speed = *speed_asked;
@@ -69,13 +77,10 @@ Result<Gait> resolve_gait(const Body& body, const GaitRequest& request) {
                               height, asked ? "choose one within that range" : "ask for more usual steps"));
     }
   }
-  Gait gait;
+  Gait<float> gait{};
   gait.speed_m_s = static_cast<float>(speed);
   gait.step_length_m = static_cast<float>(length);
   gait.step_frequency_hz = static_cast<float>(frequency);
-  // Bruderlin & Calvert's fall of double support with cadence, set to a tenth of the cycle at 5 km/h.
-  const double percent = (27.2 - 0.16 * 60.0 * frequency * std::sqrt(height / 1.8)) * style.double_support_scale;
-  gait.double_support_cycle = static_cast<float>(std::fmin(std::fmax(percent, 6.0), 18.0) / 100.0);
   gait.style = style;
   return gait;
 }

@@ -1,5 +1,6 @@
 #pragma once
-// Walking: from a request to a solved step (set-up), and the walker's clock (every tick).
+// Walking: from a request to a gait (set-up), the solved steps (whenever something changes) and the walker's clock
+// (every tick).
 
 #include "components/body.h"
 #include "components/gait.h"
@@ -7,15 +8,31 @@
 
 namespace mobil {
 
-/// Completes and checks a request for a body. Fails on speeds outside 0.3–2.3 m/s (at a leg of 0.90 m; in proportion to
-/// √leg), step lengths outside 0.25–1.25 leg lengths, step frequencies outside 0.5–3 Hz (at that leg; in proportion to
-/// 1/√leg), three values that disagree, or a style value outside its range.
-Result<Gait> resolve_gait(const Body& body, const GaitRequest& request);
+/// Completes and checks a request for a body. Fails on speeds other than 0 outside 0.3–2.3 m/s (at a leg of 0.90 m; in
+/// proportion to √leg), step lengths outside 0.25–1.25 leg lengths, step frequencies outside 0.5–3 Hz (at that leg; in
+/// proportion to 1/√leg), three values that disagree, or a style value outside its range.
+Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request);
 
-/// Solves one steady step: support dynamics, heel rise, swing dynamics, as curves. Fails, naming why, if none exists.
-Result<StepPlan<float>> plan_step(const Body& body, const Gait& gait);
+/// The first step of sixteen walkers, as if they had walked so before: right heel strike at the start, or standing.
+void plan_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                     StepPlan<Lanes<float>>& plan);
 
-/// Moves each walker's clock on by tick_s; at each heel strike the sides change and the line moves on by a step.
+/// The step that follows `plan` for the foot that lands at its end to stand on (`state.stance_side`, already changed),
+/// toward the wanted gait as far as one step may go (systems/gait/step_plan.cpp). Always gives a step that goes on from
+/// the last one smoothly; `clamped` tells where no bounded forces make it.
+void plan_next_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                    const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan);
+
+/// Moves each walker's clock on by tick_s, at most one step. At a heel strike the sides change and the line moves on to
+/// the next foothold.
 void advance_gait(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s);
+
+/// Bit l: lane l began a step in this tick that its plan does not describe yet.
+std::uint32_t lanes_to_plan(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
+                            const GaitState<Lanes<float>>& state, float tick_s);
+
+/// Who began a step in this tick turns along it toward the wanted heading, by at most 20°. After the plan of the step.
+void turn_gait(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state,
+               float tick_s);
 
 }  // namespace mobil

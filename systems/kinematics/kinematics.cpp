@@ -3,265 +3,401 @@
 #include <hwy/foreach_target.h>
 
 #include "assets/anthropometry.h"
+#include "engine/wide_curve-inl.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/kinematics_wide-inl.h"
+
+// Functions here are kept apart where a compiler would otherwise put all of a skeleton into one.
+
+#ifndef MOBIL_SYSTEMS_KINEMATICS_CPP_
+#define MOBIL_SYSTEMS_KINEMATICS_CPP_
+namespace mobil {
+namespace {
+
+/// The body of height 1 m in single precision.
+struct UnitSkeleton {
+  Vec3<float> joint_offset[segment_count], centre_of_mass[segment_count];
+  float mass_fraction[segment_count];
+};
+
+constexpr UnitSkeleton make_unit_skeleton() {
+  UnitSkeleton s{};
+  auto single = [](const Vec3<double>& v) {
+    return Vec3<float>{static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+  };
+  for (std::size_t i = 0; i < segment_count; ++i) {
+    s.joint_offset[i] = single(unit_body.joint_offset[i]);
+    s.centre_of_mass[i] = single(unit_body.centre_of_mass[i]);
+    s.mass_fraction[i] = static_cast<float>(unit_body.mass_fraction[i]);
+  }
+  return s;
+}
+
+constexpr UnitSkeleton unit_skeleton = make_unit_skeleton();
+
+}  // namespace
+}  // namespace mobil
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 constexpr float pi_f = 3.14159265F;
 
-/// The pose under construction, in the walker's own frame: origin on the walking line beside the stance foothold,
-/// +Z along the heading.
+/// The pose under construction.
 struct Skeleton {
   Wide height;
-  WideVec position[segment_count];
-  WideQuat rotation[segment_count];
+  Pose<Lanes<float>>& pose;
 
-  HWY_INLINE void hang(Segment s, const WideQuat& world_rotation) {
-    const std::size_t i = index(s), parent = index(segment_parent[i]);
-    position[i] = position[parent] + rotate(rotation[parent], scaled(unit_body.joint_offset[i], height));
-    rotation[i] = world_rotation;
+  HWY_INLINE WideVec position(Segment s) const { return load(pose.position_m[index(s)]); }
+  HWY_INLINE WideQuat rotation(Segment s) const { return load(pose.rotation[index(s)]); }
+  HWY_INLINE void put(Segment s, const WideVec& position, const WideQuat& rotation) const {
+    store(position, pose.position_m[index(s)]);
+    store(rotation, pose.rotation[index(s)]);
   }
-  HWY_INLINE const WideQuat& parent_rotation(Segment s) const { return rotation[index(segment_parent[index(s)])]; }
+  /// A segment that turns where it hangs on its parent.
+  HWY_NOINLINE void hang(Segment s, const WideQuat& world_rotation) const {
+    const Segment parent = segment_parent[index(s)];
+    const WideVec offset = scaled(unit_skeleton.joint_offset[index(s)], height);
+    put(s, position(parent) + rotate(rotation(parent), offset), world_rotation);
+  }
 };
+
+/// The walking line in the frame of the stance foothold (+Z its heading there): it comes from the foothold before and
+/// goes on to the next one, turned.
+struct Line {
+  Wide before, ahead;  // chords' headings: half the turns
+  Wide before_s, before_c, ahead_s, ahead_c;
+  Wide length_before, length;
+};
+
+HWY_INLINE Line line_of(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state) {
+  Line line;
+  line.before = -0.5F * load(state.turn_before_rad);
+  line.ahead = 0.5F * load(state.turn_rad);
+  sin_cos(line.before, line.before_s, line.before_c);
+  sin_cos(line.ahead, line.ahead_s, line.ahead_c);
+  line.length_before = load(plan.length_before_m);
+  line.length = load(plan.step_length_m);
+  return line;
+}
+
+/// A place to the left of and along a line of that heading.
+struct Ground {
+  Wide left, forward;
+};
+
+HWY_INLINE Ground turned(const Wide& left, const Wide& forward, const Wide& s, const Wide& c) {
+  return {fma(left, c, forward * s), fnma(left, s, forward * c)};
+}
+
+HWY_INLINE Ground part_way(const Ground& a, const Ground& b, const Wide& part) {
+  return {mix(a.left, b.left, part), mix(a.forward, b.forward, part)};
+}
 
 /// What the pelvis does now, seen from the right side.
 struct PelvisMotion {
   Wide rotation, list, tilt, shift;
 };
 
-HWY_INLINE Wide cosine_of(const Wide& angle) {
-  Wide s, c;
-  sin_cos(angle, s, c);
-  return c;
+HWY_INLINE Wide manner(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
+  return mix(load(from), load(to), part);
 }
 
-HWY_INLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const Wide& time, const Wide& sign) {
+HWY_NOINLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const Wide& phase, const Wide& eased,
+                                        const Wide& sign) {
   namespace p = pelvis_phase;
-  const Wide at = time / load(plan.duration_s), pi = wide(pi_f);
-  auto wave = [&](double phase, float harmonic) {
-    return cosine_of(pi * wide(harmonic) * (at - wide(static_cast<float>(phase))));
+  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
+  auto wave = [&](float at, float harmonic) {
+    Wide s, c;
+    sin_cos(pi_f * harmonic * (phase - at), s, c);
+    return c;
   };
   PelvisMotion m;
-  m.rotation = sign * load(plan.pelvis_rotation) * wave(p::rotation, 1.0F);
-  m.list = sign * load(plan.pelvis_list) *
-           fma(wide(static_cast<float>(p::list_first)), wave(p::list_first_phase, 1.0F),
-               wide(static_cast<float>(p::list_third)) * wave(p::list_third_phase, 3.0F));
-  m.tilt = fma(load(plan.pelvis_tilt_wave), wave(p::tilt, 2.0F), load(plan.pelvis_tilt));
-  const Wide middle = (time - wide(0.5F) * load(plan.double_support_s)) / load(plan.duration_s);
-  m.shift = sign * load(plan.pelvis_shift_m) * cosine_of(pi * (middle - wide(0.5F)));
+  m.rotation = sign * manner(from.pelvis_rotation, to.pelvis_rotation, eased) * wave(p::rotation, 1.0F);
+  m.list = sign * manner(from.pelvis_list, to.pelvis_list, eased) *
+           (p::list_first * wave(p::list_first_phase, 1.0F) + p::list_third * wave(p::list_third_phase, 3.0F));
+  m.tilt = fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave(p::tilt, 2.0F),
+               manner(from.pelvis_tilt, to.pelvis_tilt, eased));
+  m.shift = sign * manner(from.pelvis_shift_m, to.pelvis_shift_m, eased) * wave(p::shift + 0.5F, 1.0F);
   return m;
 }
 
-/// Foot of one leg: pitch, bend of the toes, ankle in the walker's frame, the sign of its own outward direction.
+/// A foot: pitch, bend of the toes, heading of the line under it, toe-out; its ankle's height, distance from the body's
+/// middle line on the leg's own side, and place along the line.
 struct FootMotion {
-  Wide pitch, toes;
-  WideVec ankle;
+  Wide pitch, toes, toe_out, ankle_up, ankle_out, ankle_forward;
+  Wide swung;  // part of the way from its last foothold to the next
 };
 
-/// `lag` is the time since this leg's own heel strike, up to two steps; `forward` the place of its foothold ahead of
-/// the stance foothold, `out` +1 for the left leg, −1 for the right.
-HWY_INLINE FootMotion foot_motion(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& lag,
-                                  const Wide& forward, float out) {
-  const Wide zero = wide(0.0F), one = wide(1.0F);
-  const Wide flat = load(plan.flat_s), step = load(plan.duration_s);
-  const Wide toe_off = step + load(plan.double_support_s);
-  const WideMask swinging = lag >= toe_off, rocking = lag < flat;
-  const Wide in_stance = (lag - flat) / (toe_off - flat);
-  const Wide in_swing = (lag - toe_off) / (step + step - toe_off);
-  const Wide second = select(swinging, one, zero);
-  const Wide rolled = curve_at(plan.foot_pitch, second, select(swinging, in_swing, in_stance));
-  const Wide u = lag / flat, rest = one - u;
-  const Wide rocked = load(plan.strike_pitch) * rest * rest * fma(wide(0.7F), u, one);
-  FootMotion foot;
-  foot.pitch = select(rocking, rocked, select(swinging, rolled, min(rolled, zero)));
-  foot.toes = select(swinging, curve_at(plan.swing_toes, in_swing), max(-foot.pitch, zero));
-
-  // Standing: about the heel with the toes up, about the toe joint with the heel up.
+/// A standing foot, about the heel with the toes up, about the toe joint with the heel up.
+HWY_INLINE void plant(const Wide& height, const Wide& half_width, FootMotion& foot) {
   namespace f = fraction;
-  Wide s, c;
+  Wide s, c, out_s, out_c;
   sin_cos(foot.pitch, s, c);
-  const Wide back = wide(static_cast<float>(f::heel_back)) * height;
-  const Wide ball = wide(static_cast<float>(f::ball_forward)) * height;
-  const Wide tall = wide(static_cast<float>(f::ankle_height)) * height;
-  const Wide joint = wide(static_cast<float>(f::toe_joint_height)) * height;
+  sin_cos(foot.toe_out, out_s, out_c);
+  const Wide back = static_cast<float>(f::heel_back) * height, ball = static_cast<float>(f::ball_forward) * height;
+  const Wide tall = static_cast<float>(f::ankle_height) * height;
+  const Wide joint = static_cast<float>(f::toe_joint_height) * height;
   const Wide over = tall - joint;
-  const WideMask on_heel = foot.pitch >= zero;
-  const Wide along = select(on_heel, fnma(tall, s, back * (c - one)), fnma(over, s, ball * (one - c)));
-  const Wide up = select(on_heel, fma(back, s, tall * c), joint + fnma(ball, s, over * c));
-  const Wide stand_out = fma(load(plan.toe_out_sin), along, load(plan.half_width_m));
-  const Wide ease = in_swing * in_swing * fnma(wide(2.0F), in_swing, wide(3.0F));
-  const Wide from = load(plan.swing_out_from_m);
-  const Wide swing_out = fma(ease, load(plan.swing_out_to_m) - from, from);
-  foot.ankle.x = wide(out) * select(swinging, swing_out, stand_out);
-  foot.ankle.y = select(swinging, curve_at(plan.swing_up_m, in_swing), up);
-  foot.ankle.z = forward + select(swinging, curve_at(plan.swing_forward_m, in_swing), load(plan.toe_out_cos) * along);
+  const WideMask on_heel = foot.pitch >= 0.0F;
+  const Wide along = select(on_heel, fnma(tall, s, back * (c - 1.0F)), fnma(over, s, ball * (1.0F - c)));
+  foot.ankle_up = select(on_heel, fma(back, s, tall * c), joint + fnma(ball, s, over * c));
+  foot.ankle_out = fma(out_s, along, half_width);
+  foot.ankle_forward = out_c * along;
+}
+
+HWY_NOINLINE FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& time) {
+  const Wide flat = load(plan.flat_s), zero = wide(0.0F);
+  const Wide u = time / flat;
+  const Wide pitch = load(plan.from.foot_pitch), rest = clamp(1.0F - u, 0.0F, 1.0F);
+  const Wide rocked =
+      rest * rest * rest * fma(fma(load(plan.from.foot_pitch_rate), flat, 3.0F * pitch), u, pitch);
+  const Wide rolled = curve_at(plan.support_pitch, (time - flat) / (load(plan.duration_s) - flat));
+  FootMotion foot;
+  foot.pitch = select(time < flat, rocked, min(rolled, 0.0F));
+  foot.toes = max(-foot.pitch, 0.0F);
+  foot.toe_out = load(plan.from.toe_out);
+  foot.swung = zero;
+  plant(height, load(plan.from.half_width_m), foot);
   return foot;
 }
 
+/// The other foot: places relative to its last foothold while it stands, to the stance foothold while it swings.
+HWY_NOINLINE FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& time) {
+  const Wide off = load(plan.double_support_s);
+  const WideMask swings = time >= off;
+  const Wide u = clamp((time - off) / max(load(plan.duration_s) - off, 1e-3F), 0.0F, 1.0F);
+  FootMotion foot;
+  foot.pitch = select(swings, curve_at(plan.swing_pitch, u), min(curve_at(plan.trailing_pitch, time / off), 0.0F));
+  constexpr float straighten = 1.0F / (swing_toes::to - swing_toes::from);
+  foot.toes = -foot.pitch * (1.0F - ease((u - swing_toes::from) * straighten));
+  foot.swung = ease(u);
+  foot.toe_out = mix(load(plan.trailing_toe_out), load(plan.to.toe_out), foot.swung);
+  plant(height, load(plan.trailing_half_width_m), foot);
+  foot.ankle_up = select(swings, curve_at(plan.swing_up_m, u), foot.ankle_up);
+  foot.ankle_out = select(swings,
+                          hermite(u, load(plan.swing_out_m[0]), load(plan.swing_out_slope[0]),
+                                  load(plan.swing_out_m[1]), load(plan.swing_out_slope[1])),
+                          foot.ankle_out);
+  foot.ankle_forward =
+      select(swings, curve_at(plan.swing_forward_m, u) + load(plan.length_before_m), foot.ankle_forward);
+  return foot;
+}
+
+/// Where the foot of one side is, in the frame of the stance foothold, and its heading there.
+struct Foothold {
+  Ground ankle;
+  Wide heading;
+};
+
+HWY_INLINE Foothold foothold(const Line& line, const FootMotion& foot, const WideMask& stands, const Wide& out) {
+  const Wide left = out * foot.ankle_out, along = foot.ankle_forward;
+  // Planted before: the frame of the foothold before. Landing: that of the next. In the air: between the two.
+  Wide before_s = 2.0F * line.before_s * line.before_c, before_c = 1.0F - 2.0F * line.before_s * line.before_s;
+  Wide ahead_s = 2.0F * line.ahead_s * line.ahead_c, ahead_c = 1.0F - 2.0F * line.ahead_s * line.ahead_s;
+  Ground from = turned(left, along, before_s, before_c),
+         to = turned(left, along - line.length_before - line.length, ahead_s, ahead_c);
+  from.left = fnma(line.length_before, line.before_s, from.left);
+  from.forward = fnma(line.length_before, line.before_c, from.forward);
+  to.left = fma(line.length, line.ahead_s, to.left);
+  to.forward = fma(line.length, line.ahead_c, to.forward);
+  const Ground other = part_way(from, to, foot.swung);
+  Foothold f;
+  f.ankle = {select(stands, left, other.left), select(stands, along, other.forward)};
+  f.heading = select(stands, wide(0.0F), mix(2.0F * line.before, 2.0F * line.ahead, foot.swung));
+  return f;
+}
+
+/// Where the pelvis is and heads, in the frame of the stance foothold; the heading there, sine and cosine.
+struct PelvisPlace {
+  WideVec position;
+  Wide heading, sine, cosine;
+};
+
 /// Thigh, kneecap, shank, foot and toes of one side; returns the forward angle of the line from hip to ankle.
-HWY_INLINE Wide pose_leg(const StepPlan<Lanes<float>>& plan, const FootMotion& foot, const PelvisMotion& motion,
-                         std::size_t side, Skeleton& skeleton, JointAngles<Lanes<float>>& angles,
-                         Feet<Lanes<float>>& feet) {
+HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
+                           const PelvisMotion& motion, const WideVec& origin, const Wide& origin_heading,
+                           std::size_t side, const Skeleton& skeleton, JointAngles<Lanes<float>>& angles,
+                           Feet<Lanes<float>>& feet) {
   using enum Segment;
   const Segment thigh = on_side(thigh_right, side), patella = on_side(patella_right, side);
   const Segment shank = on_side(shank_right, side), foot_segment = on_side(foot_right, side);
   const Segment toes = on_side(toes_right, side);
   const Wide& height = skeleton.height;
-  const Wide upper = wide(static_cast<float>(fraction::thigh)) * height;
-  const Wide lower = wide(static_cast<float>(fraction::shank)) * height;
+  const Wide upper = static_cast<float>(fraction::thigh) * height;
+  const Wide lower = static_cast<float>(fraction::shank) * height;
 
-  skeleton.hang(thigh, skeleton.rotation[index(Segment::pelvis)]);
-  const WideVec hip = skeleton.position[index(thigh)];
-  const WideVec d = foot.ankle - hip;
+  // In the frame of the stance foothold, then turned into the pelvis's heading: small numbers, so that the knee keeps
+  // its digits however far somebody walks.
+  const WideQuat local = turn_yzx(motion.rotation, -motion.list, motion.tilt);
+  const WideVec hip = rotate(local, scaled(unit_skeleton.joint_offset[index(thigh)], height));
+  const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
+  const WideVec d = {fnma(dz, root.sine, dx * root.cosine) - hip.x, foot.ankle_up - root.position.y - hip.y,
+                     fma(dx, root.sine, dz * root.cosine) - hip.z};
   const Wide across2 = fma(d.x, d.x, d.y * d.y);
-  const Wide longest = (upper + lower) * wide(0.999999F);
+  const Wide longest = (upper + lower) * 0.999999F;
   const Wide distance = min(sqrt(fma(d.z, d.z, across2)), longest);
   const Wide direction = atan2(d.z, sqrt(across2));
   const Wide aside = atan2(d.x, -d.y);
   // Where the knee's height over the hip–ankle line falls.
-  const Wide near = (fma(upper, upper, distance * distance) - lower * lower) / (wide(2.0F) * distance);
-  const Wide bulge = sqrt(max(fma(upper, upper, -(near * near)), wide(0.0F)));
+  const Wide near = fma(distance, distance, (upper - lower) * (upper + lower)) / (2.0F * distance);
+  const Wide bulge = sqrt(max((upper - near) * (upper + near), 0.0F));
   const Wide thigh_angle = direction + atan2(bulge, near);
   const Wide shank_angle = direction - atan2(bulge, distance - near);
   const Wide flexion = thigh_angle - shank_angle;
 
-  const WideQuat tilted = turn_z(aside);
-  skeleton.rotation[index(thigh)] = tilted * turn_x(-thigh_angle);
+  const WideQuat tilted = turn_y(origin_heading + root.heading) * turn_z(aside);
+  skeleton.hang(thigh, tilted * turn_x(-thigh_angle));
   skeleton.hang(shank, tilted * turn_x(-shank_angle));
   // The kneecap slides round the knee at half its flexion.
-  const WideQuat half_way = tilted * turn_x(wide(0.5F) * flexion - thigh_angle);
-  const Vec3<double> knee = unit_body.joint_offset[index(shank)], cap = unit_body.joint_offset[index(patella)];
-  skeleton.rotation[index(patella)] = half_way;
-  skeleton.position[index(patella)] =
-      skeleton.position[index(shank)] +
-      rotate(half_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height));
+  const WideQuat half_way = tilted * turn_x(0.5F * flexion - thigh_angle);
+  const Vec3<float> knee = unit_skeleton.joint_offset[index(shank)], cap = unit_skeleton.joint_offset[index(patella)];
+  skeleton.put(
+      patella,
+      skeleton.position(shank) + rotate(half_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height)),
+      half_way);
 
-  const Wide yaw = atan2(load(plan.toe_out_sin), load(plan.toe_out_cos)) * wide(side == left ? 1.0F : -1.0F);
+  const Wide yaw = origin_heading + at.heading + foot.toe_out * (side == left ? 1.0F : -1.0F);
   const WideQuat outward = turn_y(yaw);
-  skeleton.position[index(foot_segment)] = foot.ankle;
-  skeleton.rotation[index(foot_segment)] = outward * turn_x(-foot.pitch);
-  skeleton.hang(toes, outward * turn_x(-(foot.pitch + foot.toes)));
+  Wide s, c;
+  sin_cos(origin_heading, s, c);
+  const Ground ankle = turned(at.ankle.left, at.ankle.forward, s, c);
+  const WideQuat sole = outward * turn_x(-foot.pitch), toe_rotation = outward * turn_x(-(foot.pitch + foot.toes));
+  const WideVec ankle_at = origin + WideVec{ankle.left, foot.ankle_up, ankle.forward};
+  skeleton.put(foot_segment, ankle_at, sole);
+  skeleton.hang(toes, toe_rotation);
 
   store(thigh_angle + motion.tilt, angles.hip_flexion[side]);
   store(flexion, angles.knee_flexion[side]);
   store(foot.pitch - shank_angle, angles.ankle_dorsiflexion[side]);
-  const WideVec heel = foot.ankle + rotate(skeleton.rotation[index(foot_segment)],
-                                           scaled({0, -fraction::ankle_height, -fraction::heel_back}, height));
-  const WideVec toe = skeleton.position[index(toes)] +
-                      rotate(skeleton.rotation[index(toes)], scaled({0, -fraction::toe_joint_height, 0}, height));
-  store(heel, feet.heel_m[side]);
-  store(toe, feet.toe_m[side]);
+  constexpr float tall = static_cast<float>(fraction::ankle_height), back = static_cast<float>(fraction::heel_back);
+  constexpr float joint = static_cast<float>(fraction::toe_joint_height);
+  store(ankle_at + rotate(sole, scaled({0, -tall, -back}, height)), feet.heel_m[side]);
+  store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -joint, 0}, height)), feet.toe_m[side]);
   return direction;
 }
 
-/// The column from the sacrum to the head: the pelvis's turn is undone and, up to the shoulders, reversed.
-HWY_INLINE void pose_column(const StepPlan<Lanes<float>>& plan, const PelvisMotion& pelvis, const Wide& lean,
-                            Skeleton& skeleton) {
-  const std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
-  const Wide turned_back = -load(plan.shoulder_rotation) * pelvis.rotation;
-  for (std::size_t s = first; s <= head; ++s) {
-    const bool trunk = s <= shoulders;
-    const float part = trunk ? static_cast<float>(s - first + 1) / static_cast<float>(shoulders - first + 1)
-                             : static_cast<float>(head - s) / static_cast<float>(head - shoulders);
-    const Wide p = wide(part), q = wide(1.0F - part), zero = wide(0.0F);
-    const Wide yaw = trunk ? fma(p, turned_back, q * pelvis.rotation) : p * turned_back;
-    const Wide roll = trunk ? -(q * pelvis.list) : zero;
-    const Wide pitch = trunk ? fma(p, lean, q * pelvis.tilt) : p * lean;
-    skeleton.hang(static_cast<Segment>(s), turn_yzx(yaw, roll, pitch));
+/// The column from the sacrum to the head, each vertebra turned a little on the one below: the pelvis's turn is undone
+/// and, up to the shoulders, reversed; from there to the head, which stays in the walking plane, undone again.
+HWY_NOINLINE void pose_column(const Wide& heading, const Wide& turned_back, const Wide& lean,
+                              const Skeleton& skeleton) {
+  constexpr std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
+  const WideQuat pelvis = skeleton.rotation(Segment::pelvis), upright = turn_y(heading);
+  const WideQuat chest = turn_y(heading + turned_back) * turn_x(lean);
+  for (std::size_t s = first; s <= shoulders; ++s) {
+    const float part = static_cast<float>(s - first + 1) / static_cast<float>(shoulders - first + 1);
+    skeleton.hang(static_cast<Segment>(s), part_way(pelvis, chest, wide(part)));
+  }
+  for (std::size_t s = shoulders + 1; s <= head; ++s) {
+    const float part = static_cast<float>(s - shoulders) / static_cast<float>(head - shoulders);
+    skeleton.hang(static_cast<Segment>(s), part_way(chest, upright, wide(part)));
   }
 }
 
-/// One arm, swinging with the opposite leg.
-HWY_INLINE void pose_arm(const StepPlan<Lanes<float>>& plan, const Wide& opposite_leg, std::size_t side,
-                         Skeleton& skeleton, JointAngles<Lanes<float>>& angles) {
+/// What both arms share.
+struct ArmManner {
+  Wide back, forward, elbow_back, elbow_forward, abduction, pronation, fingers;
+};
+
+/// One arm; `ahead` is the place of the opposite leg in its range, 0 back to 1 forward.
+HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::size_t side, const Skeleton& skeleton,
+                           JointAngles<Lanes<float>>& angles) {
   using enum Segment;
   auto of = [&](Segment s) { return on_side(s, side); };
   const float out = side == left ? 1.0F : -1.0F;
-  const Wide back = load(plan.leg_back);
-  const Wide ahead = (opposite_leg - back) / max(load(plan.leg_forward) - back, wide(1e-3F));
-  const Wide shoulder = fma(ahead, load(plan.arm_forward) + load(plan.arm_back), -load(plan.arm_back));
-  const Wide elbow = fma(ahead, load(plan.elbow_forward) - load(plan.elbow_back), load(plan.elbow_back));
-  const Wide pronation = load(plan.forearm_pronation) * wide(-out);
+  const Wide shoulder = fma(ahead, arm_manner.forward + arm_manner.back, -arm_manner.back);
+  const Wide elbow = fma(ahead, arm_manner.elbow_forward - arm_manner.elbow_back, arm_manner.elbow_back);
+  const Wide pronation = arm_manner.pronation * -out;
 
-  skeleton.hang(of(clavicle_right), skeleton.parent_rotation(of(clavicle_right)));
-  const WideQuat& trunk = skeleton.rotation[index(of(clavicle_right))];
+  const WideQuat trunk = skeleton.rotation(T1);
+  skeleton.hang(of(clavicle_right), trunk);
   // A part of the pronation is the upper arm's inward turn.
-  const WideQuat arm =
-      trunk * (turn_z(load(plan.arm_abduction) * wide(out)) * (turn_x(-shoulder) * turn_y(wide(0.3F) * pronation)));
+  const WideQuat arm = trunk * (turn_z(arm_manner.abduction * out) * (turn_x(-shoulder) * turn_y(0.3F * pronation)));
   skeleton.hang(of(upper_arm_right), arm);
-  skeleton.hang(of(forearm_right), arm * (turn_x(-elbow) * turn_y(wide(0.7F) * pronation)));
-  const WideQuat& forearm = skeleton.rotation[index(of(forearm_right))];
-  skeleton.hang(of(hand_right), forearm * turn_x(wide(-0.10F)));
-  const WideQuat& hand = skeleton.rotation[index(of(hand_right))];
-  skeleton.hang(of(fingers_right), hand * turn_x(-load(plan.finger_flexion)));
+  const WideQuat forearm = arm * (turn_x(-elbow) * turn_y(0.7F * pronation));
+  skeleton.hang(of(forearm_right), forearm);
+  const WideQuat hand = forearm * turn_x(wide(-0.10F));
+  skeleton.hang(of(hand_right), hand);
+  skeleton.hang(of(fingers_right), hand * turn_x(-arm_manner.fingers));
   skeleton.hang(of(thumb_right), hand * (turn_z(wide(0.45F * out)) * turn_x(wide(-0.35F))));
   store(shoulder, angles.shoulder_flexion[side]);
   store(elbow, angles.elbow_flexion[side]);
 }
 
-HWY_INLINE void store_pose(const Skeleton& skeleton, Pose<Lanes<float>>& pose) {
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    store(skeleton.position[s], pose.position_m[s]);
-    store(skeleton.rotation[s], pose.rotation[s]);
-  }
+HWY_INLINE FootMotion foot_of(const WideMask& stands, const FootMotion& stance, const FootMotion& other) {
+  return {select(stands, stance.pitch, other.pitch),
+          select(stands, stance.toes, other.toes),
+          select(stands, stance.toe_out, other.toe_out),
+          select(stands, stance.ankle_up, other.ankle_up),
+          select(stands, stance.ankle_out, other.ankle_out),
+          select(stands, stance.ankle_forward, other.ankle_forward),
+          other.swung};
 }
 
 void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
                 Feet<Lanes<float>>& feet) {
   const Wide one = wide(1.0F), zero = wide(0.0F);
-  Skeleton skeleton;
-  skeleton.height = load(size.height_m);
-  const Wide time = load(state.time_s), step = load(plan.duration_s);
-  const WideMask right_stands = equal(state.stance_side, right);
-  const PelvisMotion pelvis = pelvis_motion(plan, time, select(right_stands, one, -one));
+  const Skeleton skeleton{load(size.height_m), pose};
+  const Wide time = load(state.time_s);
+  const WideMask right_stands = equal(state.stance_side, right), left_stands = equal(state.stance_side, left);
+  const Wide u = time / load(plan.duration_s), eased = ease(u);
+  const Wide phase = hermite(u, zero, load(plan.phase_rate_from), one, load(plan.phase_rate_to));
+  const PelvisMotion motion = pelvis_motion(plan, phase, eased, select(right_stands, one, -one));
+  const Line line = line_of(plan, state);
 
-  const Wide u = time / step;
-  skeleton.position[index(Segment::pelvis)] = {-pelvis.shift, curve_at(plan.hip_up_m, u),
-                                               curve_at(plan.hip_forward_m, u)};
-  skeleton.rotation[index(Segment::pelvis)] = turn_yzx(pelvis.rotation, -pelvis.list, pelvis.tilt);
+  PelvisPlace pelvis;
+  const Wide aside = -motion.shift, along = curve_at(plan.hip_forward_m, u);
+  const Ground place = part_way(turned(aside, along, line.before_s, line.before_c),
+                                turned(aside, along, line.ahead_s, line.ahead_c), eased);
+  pelvis.position = {place.left, curve_at(plan.hip_up_m, u), place.forward};
+  pelvis.heading = mix(line.before, line.ahead, eased);
+  sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
-  Wide swing[2];
+  const Wide heading = load(state.heading_rad);
+  const WideVec origin = {load(state.line_x_m), zero, load(state.line_z_m)};
+  Wide s, c;
+  sin_cos(heading, s, c);
+  const Ground world = turned(place.left, place.forward, s, c);
+  skeleton.put(Segment::pelvis, origin + WideVec{world.left, pelvis.position.y, world.forward},
+               turn_yzx(heading + pelvis.heading + motion.rotation, -motion.list, motion.tilt));
+
+  const FootMotion stance = stance_foot(plan, skeleton.height, time), other = other_foot(plan, skeleton.height, time);
+  Wide leg[2];
   for (std::size_t side = 0; side < 2; ++side) {
-    const WideMask stands = side == right ? right_stands : equal(state.stance_side, left);
-    const Wide lag = select(stands, time, time + step);
-    const FootMotion foot = foot_motion(plan, skeleton.height, lag, select(stands, zero, -load(plan.step_length_m)),
-                                        side == left ? 1.0F : -1.0F);
-    swing[side] = pose_leg(plan, foot, pelvis, side, skeleton, angles, feet);
-    store(lag / (step + step), feet.phase[side]);
+    const WideMask stands = side == right ? right_stands : left_stands;
+    const FootMotion foot = foot_of(stands, stance, other);
+    const Foothold at = foothold(line, foot, stands, wide(side == left ? 1.0F : -1.0F));
+    leg[side] = pose_leg(foot, at, pelvis, motion, origin, heading, side, skeleton, angles, feet);
+    store(0.5F * select(stands, u, u + 1.0F), feet.phase[side]);
   }
-  pose_column(plan, pelvis, curve_at(plan.trunk_pitch, u), skeleton);
-  for (std::size_t side = 0; side < 2; ++side) pose_arm(plan, swing[1 - side], side, skeleton, angles);
-  store(pelvis.rotation, angles.pelvis_rotation);
-  store(pelvis.list, angles.pelvis_list);
-  store(pelvis.tilt, angles.pelvis_tilt);
 
-  // Into the world.
-  const WideQuat heading = turn_y(load(state.heading_rad));
-  const WideVec line = {load(state.line_x_m), zero, load(state.line_z_m)};
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    skeleton.position[s] = line + rotate(heading, skeleton.position[s]);
-    skeleton.rotation[s] = heading * skeleton.rotation[s];
-  }
-  store_pose(skeleton, pose);
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (Vec3<Lanes<float>>* point : {&feet.heel_m[side], &feet.toe_m[side]}) {
-      store(line + rotate(heading, load(*point)), *point);
-    }
-  }
+  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
+  pose_column(heading + pelvis.heading, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation,
+              curve_at(plan.trunk_pitch, u), skeleton);
+  const ArmManner arms = {manner(from.arm_back, to.arm_back, eased),
+                          manner(from.arm_forward, to.arm_forward, eased),
+                          manner(from.elbow_back, to.elbow_back, eased),
+                          manner(from.elbow_forward, to.elbow_forward, eased),
+                          manner(from.arm_abduction, to.arm_abduction, eased),
+                          manner(from.forearm_pronation, to.forearm_pronation, eased),
+                          manner(from.finger_flexion, to.finger_flexion, eased)};
+  const Wide leg_back = manner(from.leg_back, to.leg_back, eased);
+  const Wide per_range = 1.0F / max(manner(from.leg_forward, to.leg_forward, eased) - leg_back, 1e-3F);
+  for (std::size_t side = 0; side < 2; ++side)
+    pose_arm(arms, (leg[1 - side] - leg_back) * per_range, side, skeleton, angles);
+  store(motion.rotation, angles.pelvis_rotation);
+  store(motion.list, angles.pelvis_list);
+  store(motion.tilt, angles.pelvis_tilt);
 }
 
 void anatomical_block(const BodySize<Lanes<float>>& size, Pose<Lanes<float>>& pose) {
-  Skeleton skeleton;
-  skeleton.height = load(size.height_m);
+  const Skeleton skeleton{load(size.height_m), pose};
   const Wide zero = wide(0.0F);
   const WideQuat identity = {zero, zero, zero, wide(1.0F)};
-  skeleton.position[0] = scaled(unit_body.joint_offset[0], skeleton.height);
-  skeleton.rotation[0] = identity;
+  skeleton.put(Segment::pelvis, scaled(unit_skeleton.joint_offset[0], skeleton.height), identity);
   for (std::size_t s = 1; s < segment_count; ++s) skeleton.hang(static_cast<Segment>(s), identity);
-  store_pose(skeleton, pose);
 }
 
 void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
@@ -269,9 +405,8 @@ void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
   const Wide height = load(size.height_m);
   WideVec sum = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t s = 0; s < segment_count; ++s) {
-    const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_body.centre_of_mass[s], height));
-    const Wide part = wide(static_cast<float>(unit_body.mass_fraction[s]));
-    sum = fma(part, load(pose.position_m[s]) + c, sum);
+    const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_skeleton.centre_of_mass[s], height));
+    sum = fma(wide(unit_skeleton.mass_fraction[s]), load(pose.position_m[s]) + c, sum);
   }
   store(sum, centre.position_m);
 }

@@ -16,78 +16,12 @@
 #include "tests/counting_heap.h"
 #include "tests/engine_counting_memory.h"
 #include "tests/people.h"
+#include "tests/simulation_hash.h"
 
 namespace mobil {
 namespace {
 
 constexpr int crowd_size = 40;
-
-std::uint64_t fnv(std::uint64_t hash, std::uint32_t word) {
-  return (hash ^ word) * 0x100000001b3;
-}
-
-/// Every word of an entity's row, whatever it is made of; who owns a muscle (a handle) left out.
-std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t hash) {
-  const auto place = world.find(entity);
-  if (!place) return fnv(hash, 0xdead);
-  for (const KeyPart& part : place.table->key()) {
-    if (part.id == type_id<Substeps>()) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
-    if (part.kind == PartKind::tag || part.id == type_id<MuscleOwner<float>>()) continue;
-    std::vector<std::uint32_t> words(part.value);
-    const auto width = static_cast<std::uint32_t>(part.value);
-    place.table->read(place.row, place.table->column(part.id), width, words.data());
-    for (const std::uint32_t word : words) hash = fnv(hash, word);
-  }
-  return hash;
-}
-
-std::uint64_t hash_human(const Simulation& simulation, Entity human) {
-  std::uint64_t hash = hash_row(simulation.world(), human, 0xcbf29ce484222325);
-  for (std::size_t g = 0; g < muscle_group_count; ++g) {
-    for (const Side side : {right, left}) {
-      hash = hash_row(simulation.world(), simulation.muscle(human, static_cast<MuscleGroup>(g), side), hash);
-    }
-  }
-  return hash;
-}
-
-std::size_t rows(const World& world) {
-  std::size_t sum = 0;
-  for (const Table& table : world.tables()) sum += table.row_count();
-  return sum;
-}
-
-template <template <class> class C>
-std::size_t rows_with(const World& world) {
-  std::size_t sum = 0;
-  for (const Table& table : world.tables()) {
-    if (find_part(table.key(), type_id<C<float>>()) != nullptr) sum += table.row_count();
-  }
-  return sum;
-}
-
-/// Everything there is, handles too, table by table.
-std::uint64_t hash_world(const Simulation& simulation) {
-  std::uint64_t hash = fnv(0xcbf29ce484222325, static_cast<std::uint32_t>(rows(simulation.world())));
-  for (const Table& table : simulation.world().tables()) {
-    for (std::uint32_t row = 0; row < table.row_count(); ++row) {
-      const Entity entity = table.entities(row / lane_count)[row % lane_count];
-      hash = hash_row(simulation.world(), entity, fnv(fnv(hash, entity.index), entity.generation));
-    }
-  }
-  return hash;
-}
-
-Entity join(Simulation& simulation, const Person& person, bool muscles = true) {
-  const auto human = simulation.spawn(person.body, person.gait);
-  EXPECT_TRUE(human) << human.error().message;
-  if (!human) return {};
-  if (muscles) {
-    const auto added = simulation.add_leg_muscles(*human);
-    EXPECT_TRUE(added) << added.error().message;
-  }
-  return *human;
-}
 
 /// Hash of each person of the crowd, by its number, after those ticks.
 std::vector<std::uint64_t> walk_crowd(const SimulationOptions& options, std::vector<int> who, int ticks) {
@@ -213,7 +147,7 @@ void check_muscles(const Simulation& simulation, const Human& human) {
 
 /// Three poses a tick apart. Steep toe-offs of fast walkers in odd styles turn a foot by 23° in a tick and leave its
 /// places 9 cm off a straight line; a jump would leave them off by itself.
-void check_step(const Pose<float>& first, const Pose<float>& before, const Pose<float>& now, const Gait& gait) {
+void check_step(const Pose<float>& first, const Pose<float>& before, const Pose<float>& now, const Gait<float>& gait) {
   const double furthest = (5 * static_cast<double>(gait.speed_m_s) + 5) / 60;
   for (std::size_t s = 0; s < segment_count; ++s) {
     const auto &a = first.position_m[s], &b = before.position_m[s], &c = now.position_m[s];

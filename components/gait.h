@@ -72,7 +72,7 @@ struct Strike {
   F trunk_pitch;
   F foot_pitch, foot_pitch_rate;  // of the leading foot, toes up
   F knee, knee_rate;              // to which the trailing knee may stretch
-  F toe_off_knee, toe_off_knee_rate;
+  F stance_knee, toe_off_knee;
   F half_width_m, toe_out;          // of the leading foot
   F double_support, flat, release;  // parts of the step after it: on both feet; until foot flat; until the knee yields
   Manner<F> manner;

@@ -26,31 +26,31 @@ constexpr F in_every_lane(float value) {
 /// Meaning, default and range of each: `gait_parameters`.
 template <class F>
 struct GaitStyleOf {
-  F pelvis_rotation_deg = in_every_lane<F>(4.5F);
+  F pelvis_rotation_deg = in_every_lane<F>(6.0F);
   F pelvis_list_deg = in_every_lane<F>(4.0F);
   F pelvis_shift_h = in_every_lane<F>(0.0125F);
-  F pelvis_tilt_deg = in_every_lane<F>(3.0F);
+  F pelvis_tilt_deg = in_every_lane<F>(9.0F);
   F pelvis_tilt_wave_deg = in_every_lane<F>(0.8F);
   F step_width_h = in_every_lane<F>(0.055F);
   F toe_out_deg = in_every_lane<F>(6.0F);
   F step_asymmetry = in_every_lane<F>(0.0F);
   F time_asymmetry = in_every_lane<F>(0.0F);
   F double_support_scale = in_every_lane<F>(1.0F);
-  F strike_pitch_deg = in_every_lane<F>(20.0F);
-  F strike_knee_deg = in_every_lane<F>(7.0F);
-  F foot_flat_cycle = in_every_lane<F>(0.08F);
-  F stance_knee_deg = in_every_lane<F>(8.0F);
-  F toe_off_knee_deg = in_every_lane<F>(31.0F);
-  F knee_release_cycle = in_every_lane<F>(0.37F);
-  F swing_knee_deg = in_every_lane<F>(52.0F);
-  F swing_ankle_deg = in_every_lane<F>(3.0F);
+  F strike_pitch_deg = in_every_lane<F>(23.8F);
+  F strike_knee_deg = in_every_lane<F>(3.0F);
+  F foot_flat_cycle = in_every_lane<F>(0.107F);
+  F stance_knee_deg = in_every_lane<F>(5.0F);
+  F toe_off_knee_deg = in_every_lane<F>(33.4F);
+  F knee_release_cycle = in_every_lane<F>(0.435F);
+  F swing_knee_deg = in_every_lane<F>(49.0F);
+  F swing_ankle_deg = in_every_lane<F>(-1.0F);
   F toe_clearance_m = in_every_lane<F>(0.012F);
-  F foot_pivot_h = in_every_lane<F>(0.012F);
-  F mid_stance_height = in_every_lane<F>(0.995F);
-  F hip_fall = in_every_lane<F>(0.7F);
+  F foot_pivot_h = in_every_lane<F>(0.0077F);
+  F mid_stance_height = in_every_lane<F>(0.999F);
+  F hip_fall = in_every_lane<F>(0.62F);
   F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
   F leg_damping = in_every_lane<F>(0.40F);
-  F roll_over = in_every_lane<F>(0.5F);
+  F roll_over = in_every_lane<F>(0.65F);
   F trunk_lean_deg = in_every_lane<F>(2.0F);
   F trunk_stiffness = in_every_lane<F>(8.0F);
   F shoulder_rotation = in_every_lane<F>(1.0F);

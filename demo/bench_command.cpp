@@ -30,9 +30,9 @@ struct Bench {
   Result<void> (*run)(BenchRun&);
 };
 
-constexpr std::array benches = {Bench{"machine", &bench_machine}, Bench{"gait", &bench_gait},
+constexpr std::array benches = {Bench{"machine", &bench_machine},       Bench{"gait", &bench_gait},
                                 Bench{"kinematics", &bench_kinematics}, Bench{"lines", &bench_lines},
-                                Bench{"skinning", &bench_skinning}};
+                                Bench{"skinning", &bench_skinning},     Bench{"table1", &bench_table1}};
 
 struct BenchText {
   std::vector<std::string> names;

@@ -102,6 +102,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   const std::string_view method = options.force_driven ? "ecd_force" : "ecd";
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
+  std::uint32_t steps_before = 0;
   std::optional<MotionRow> held;  // until the forces of its tick are known
   for (std::uint32_t i = 0; i < total; ++i) {
     if (options.script) {
@@ -111,6 +112,9 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
     const auto start = SteadyClock::now();
     simulation.tick();
     outcome.simulation_s += seconds_since(start);
+    const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
+    if (steps != steps_before) outcome.clamped_steps += simulation.get<StepPlan>(human.entity)->clamped;
+    steps_before = steps;
     if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
     held = motion_row(simulation, human.entity);
     add_muscle_rows(simulation, human, method, walked.muscles);

@@ -61,6 +61,7 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
   for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(options.gait.style.*p.value);
   summary["gait"] = {{"speed_m_s", decimal(outcome.gait.speed_m_s)},
                      {"step_length_m", decimal(outcome.gait.step_length_m)},
+                     {"clamped_steps", outcome.clamped_steps},
                      {"step_frequency_hz", decimal(outcome.gait.step_frequency_hz)},
                      {"double_support_cycle", decimal(outcome.gait.double_support_cycle)},
                      {"parameters", parameters}};

@@ -68,6 +68,44 @@ Standing first_instant(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<
   return {first_lane(pose), first_lane(angles), first_lane(feet), first_lane(centre)};
 }
 
+/// Where a walker was some seconds before, as far as the present step and one like it before that tell.
+GaitState<float> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds) {
+  state.time_s -= seconds;
+  if (state.time_s >= 0.0F) return state;
+  const bool steady = plan.settled != 0 && plan.step_length_m > 0.0F && state.turn_before_rad == 0.0F;
+  if (!steady) {
+    state.time_s = 0.0F;
+    return state;
+  }
+  state.time_s += plan.duration_s;
+  state.stance_side ^= 1U;
+  state.line_x_m -= plan.length_before_m * std::sin(state.heading_rad);
+  state.line_z_m -= plan.length_before_m * std::cos(state.heading_rad);
+  state.turn_rad = 0.0F;
+  return state;
+}
+
+/// The motion of a person up to now, as two ticks of the system of forces would have recorded it.
+MotionHistory<float> recent_motion(const BodySize<float>& size, const StepPlan<float>& plan,
+                                   const GaitState<float>& state, float tick_s) {
+  MotionHistory<Lanes<float>> history{};
+  const auto sizes = broadcast(size);
+  const auto plans = broadcast(plan);
+  for (const float ago : {tick_s, 0.0F}) {
+    const auto states = broadcast(earlier(state, plan, ago));
+    Pose<Lanes<float>> pose;
+    JointAngles<Lanes<float>> angles;
+    Feet<Lanes<float>> feet;
+    CentreOfMass<Lanes<float>> centre;
+    GroundReaction<Lanes<float>> ground;
+    JointMoments<Lanes<float>> moments;
+    pose_skeleton(sizes, plans, states, pose, angles, feet);
+    centre_of_mass(sizes, pose, centre);
+    joint_forces(sizes, pose, feet, centre, plans, states, history, ground, moments, tick_s);
+  }
+  return first_lane(history);
+}
+
 /// A leg of a given pose, and its line of action with the end where it then is, as a first tick would write them.
 template <template <class> class End>
 struct FirstLine {
@@ -192,7 +230,9 @@ Status Simulation::turn_to(Entity entity, float heading_rad) {
 Status Simulation::add_forces(Entity entity) {
   if (find(entity) == nullptr) return Status::stale_entity;
   if (world_.has<MotionHistory>(entity)) return Status::ok;
-  world_.add(entity, MotionHistory<float>{});
+  const auto tick_s = static_cast<float>(clock_.tick_s());
+  world_.add(entity, recent_motion(*world_.get<BodySize>(entity), *world_.get<StepPlan>(entity),
+                                   *world_.get<GaitState>(entity), tick_s));
   world_.add(entity, GroundReaction<float>{});
   return world_.add(entity, JointMoments<float>{});
 }

@@ -128,7 +128,7 @@ TEST(BadBody, NamesValueRangeAndUnit) {
 
 TEST(BadGait, NamesWhatTheCallerAsked) {
   expect_refused("walk --speed 9m/s --out out", {"speed of 9 m/s", "–", "m/s", "1.75 m"});
-  expect_refused("walk --speed 0 --out out", {"speed", "positive"});
+  expect_refused("walk --speed 0 --step-length 0.7 --out out", {"speed", "positive", "0 to stand"});
   expect_refused("walk --speed -1 --out out", {"--speed -1", "m/s"});
   expect_refused("walk --speed 5m --out out", {"'5m'", "km/h"});
   expect_refused("walk --step-length 3m --out out", {"step length of 3 m", "m for a height of"});

@@ -24,7 +24,8 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
   const WideMask done = time >= step;
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask walked = (length + load(plan.length_before_m)) > 0.0F;
-  store(select(done, max(time - step, 0.0F), time), state.time_s);
+  // Below a tick whatever the rounding: that is how the systems that follow know a step that has just begun.
+  store(select(done, clamp(time - step, 0.0F, tick_s * 0.999999F), time), state.time_s);
 
   const Wide turn = load(state.turn_rad), before = load(state.turn_before_rad), heading = load(state.heading_rad);
   Wide s, c;

@@ -14,9 +14,16 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// The hips are lowest this part of a step after heel strike.
-constexpr float lowest_phase = 1.0F / 12.0F;
-/// A step at which the style's amplitudes hold, of body height.
+constexpr float lowest_phase = 0.104F;
+/// A step at which the style's values hold, of body height.
 constexpr float natural_step_h = 0.43F;
+/// Speed of the hips at heel strike, of the mean; the knee's flexing then, deg/s at a natural step.
+constexpr float strike_speed = 1.095F, strike_knee_rate_deg = 122.0F;
+/// How the style's values change with the step, per natural step: knees in deg, the release in cycles, the hips in
+/// mid-stance in body heights. Fitted, with the style's defaults, to Schwartz (2008) and Winter (1991) at slow, natural
+/// and fast speed.
+constexpr float stance_knee_slope = -10.0F, toe_off_knee_slope = 6.1F, strike_knee_slope = -3.4F;
+constexpr float release_slope = 0.072F, mid_stance_slope = -0.0032F;
 
 /// What a strike is computed from, in lanes.
 struct StrikeRequest {
@@ -100,11 +107,14 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   auto walking = [&](const Wide& value) { return select(stands, wide(0.0F), value); };
   const Wide step = select(stands, wide(1.0F), r.step_length);  // no division by zero
   const Wide stride = min(r.step_length / (natural_step_h * r.height), 1.25F);
-  const Wide pace = walking(r.speed / step);
+  const Wide pace = walking(r.speed / step), longer = walking(stride - 1.0F);
+  auto knee_of = [&](const Lanes<float>& natural_deg, float slope) {
+    return max(load(natural_deg) + slope * longer, 1.0F) * degree_f;
+  };
   store(r.speed, strike.speed_m_s);
   store(walking(r.length), strike.length_m);
   store(walking(0.5F * r.length - ratio(1.0, r.height) * load(style.foot_pivot_h)), strike.behind_m);
-  store(r.speed * 1.03F, strike.forward_velocity);
+  store(r.speed * strike_speed, strike.forward_velocity);
   store(pace, strike.pace_hz);
   store(load(style.trunk_lean_deg) * degree_f, strike.trunk_pitch);
   store(load(style.step_width_h) * (0.5F * r.height), strike.half_width_m);
@@ -132,9 +142,9 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   store(most, m.leg_forward);
 
   // The hips: highest in mid-stance, lowest after the strike, never out of the leading leg's reach.
-  const Wide mid = mid_stance_height(r.height, r.mass, style);
+  const Wide mid = mid_stance_height(r.height, r.mass, style) + walking(mid_stance_slope * r.height * longer);
   const Wide stiff = mid - sqrt(max(mid * mid - 0.25F * r.length * r.length, 0.0F));
-  const Wide reachable = reachable_height(leg, strike, load(style.strike_knee_deg) * degree_f);
+  const Wide reachable = reachable_height(leg, strike, knee_of(style.strike_knee_deg, strike_knee_slope));
   const Wide fall = min(max(mid - reachable, 0.15F * stiff), load(style.hip_fall) * stiff);
   const Wide low = mid - walking(fall);
   Wide s, c;
@@ -144,21 +154,23 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   store(mid - wave, strike.up_mean_m);
 
   const Wide part = 2.0F * r.double_support_cycle;
-  const Wide flat = 2.0F * load(style.foot_flat_cycle), release = 2.0F * load(style.knee_release_cycle);
+  const Wide flat = 2.0F * load(style.foot_flat_cycle);
+  const Wide release = 2.0F * fma(wide(release_slope), longer, load(style.knee_release_cycle));
   store(select(stands, wide(1.0F), part), strike.double_support);
   store(flat, strike.flat);
   store(release, strike.release);
   // The knee yields as a square from its release to toe-off.
-  const Wide least = load(style.stance_knee_deg) * degree_f, last = load(style.toe_off_knee_deg) * degree_f;
+  const Wide least = knee_of(style.stance_knee_deg, stance_knee_slope);
+  const Wide last = knee_of(style.toe_off_knee_deg, toe_off_knee_slope);
   const Wide until = max(1.0F + part - release, 0.2F), now = max(1.0F - release, 0.0F) / until;
   store(select(stands, wide(-20.0F * degree_f), least + (last - least) * now * now), strike.knee);
   store(walking(2.0F * (last - least) * now / until * pace), strike.knee_rate);
+  store(select(stands, wide(-20.0F * degree_f), least), strike.stance_knee);
   store(select(stands, wide(-20.0F * degree_f), last), strike.toe_off_knee);
-  store(walking(2.0F * (last - least) / until * pace), strike.toe_off_knee_rate);
 
   const Wide pitch = load(strike.foot_pitch);
   const Wide span = flat / max(pace, 0.1F);
-  const Wide knee_rate = 120.0F * degree_f * stride;
+  const Wide knee_rate = strike_knee_rate_deg * degree_f * stride;
   const Wide rate = foot_pitch_rate(leg, strike, knee_rate);
   store(walking(min(max(rate, -3.9F * pitch / span), wide(0.0F))), strike.foot_pitch_rate);
 }

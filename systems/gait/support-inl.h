@@ -70,7 +70,7 @@ HWY_INLINE void support_acceleration(const SupportMasses& m, const SupportLanes&
 /// What time alone gives, at every half step.
 struct SupportGuide {
   Wide up[support_halves + 1], up_rate[support_halves + 1], up_acceleration[support_halves + 1];  // the hips' wave
-  Wide weight[support_halves + 1];  // vertical reaction that goes with it, N
+  Wide weight[support_halves + 1];                                         // vertical reaction that goes with it, N
   Wide swing_force[support_halves + 1], swing_weight[support_halves + 1];  // of the other leg on the hips, N and N m
   Wide behind[support_halves + 1];  // where the feet together bear it, for hips over the pivot, m
 };

@@ -1,6 +1,6 @@
-// The swing of one leg from toe-off to heel strike, sixteen walkers at a time, in sub-phases: until the knee is bent
-// most, until the thigh is forward most, and until the heel strikes. Of all motions between the boundary conditions it
-// is the one of least mean square angular acceleration; the torques that it takes follow from the equations that
+// The swing of one leg from toe-off to heel strike, sixteen walkers at a time. The knee bends and stretches, and the
+// leg's centre of mass goes forward, each with the least mean square change of acceleration between its boundary
+// conditions: so the hip feels no jerk either. The torques that it takes follow from the equations that
 // systems/gait/step_dynamics.h has in double precision. Include it as engine/wide-inl.h says.
 
 #if defined(MOBIL_SYSTEMS_GAIT_SWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -17,11 +17,9 @@ namespace mobil::HWY_NAMESPACE {
 
 constexpr std::size_t swing_steps = 2 * (knot_count - 1);
 /// When the knee is bent most, of the swing.
-constexpr float bent_part = 0.31F;
-/// When the thigh is forward most, and by how much farther than as the heel strikes.
-constexpr float forward_part = 0.68F, forward_most = 2.0F * degree_f;
+constexpr float bent_part = 0.24F;
 /// What hip and knee may be asked, N m per kg of body mass.
-constexpr float most_torque = 3.0F;
+constexpr float most_torque = 4.0F;
 
 /// Thigh and shank with foot (Winter's fractions of the body's mass), per kg of it.
 struct SwingMasses {
@@ -90,7 +88,7 @@ struct SwingTask {
   SwingMasses mass;
   Wide span;  // s
   SwingLanes first, last;
-  Wide first_acceleration[2];  // of thigh and knee as the foot leaves the ground
+  Wide first_acceleration[2];                                  // of thigh and knee as the foot leaves the ground
   Wide bent;                                                   // greatest knee flexion
   Wide hip_forward[swing_steps + 1], hip_up[swing_steps + 1];  // the hip's acceleration
 };
@@ -98,31 +96,56 @@ struct SwingTask {
 /// Thigh and shank at equal times. True where the torques are beyond what hip and knee can.
 HWY_NOINLINE inline WideMask solve_swing(const SwingTask& task, SwingLanes (&path)[swing_steps + 1]) {
   const SwingLanes &a = task.first, &b = task.last;
+  const SwingMasses& m = task.mass;
   const Wide zero = wide(0.0F), bending = task.span * bent_part, stretching = task.span * (1.0F - bent_part);
-  const Wide coming = task.span * forward_part, arriving = task.span * (1.0F - forward_part);
-  const Turning thigh_off = {a.q[0], a.rate[0], task.first_acceleration[0]}, thigh_last = {b.q[0], b.rate[0], zero};
-  const Turning thigh_most = {b.q[0] + forward_most, zero, -2.0F * forward_most / (arriving * arriving)};
   const Turning knee_off = {a.q[0] - a.q[1], a.rate[0] - a.rate[1], task.first_acceleration[1]};
   const Turning knee_last = {b.q[0] - b.q[1], b.rate[0] - b.rate[1], zero};
-  // Where the knee is bent most it is slowed down as the two cubics on either side would on average.
+  // Where the knee is bent most it is slowed down as two cubics on either side would on average.
   const Wide slowing = (3.0F * (knee_off.value - task.bent) + knee_off.rate * bending) / (bending * bending) +
                        (3.0F * (knee_last.value - task.bent) - knee_last.rate * stretching) / (stretching * stretching);
   const Turning knee_bent = {task.bent, zero, slowing};
-  Wide greatest = zero;
+  // First moment of the leg's mass ahead of the hip, per kg of body mass.
+  auto moment_of = [&](const SwingLanes& s, const Wide(&acceleration)[2]) {
+    Wide t_s, t_c, s_s, s_c;
+    sin_cos(s.q[0], t_s, t_c);
+    sin_cos(s.q[1], s_s, s_c);
+    const Wide thigh = m.moment, shank = m.shank_moment;
+    return Turning{fma(thigh, t_s, shank * s_s), fma(thigh * t_c, s.rate[0], shank * s_c * s.rate[1]),
+                   thigh * (t_c * acceleration[0] - t_s * s.rate[0] * s.rate[0]) +
+                       shank * (s_c * acceleration[1] - s_s * s.rate[1] * s.rate[1])};
+  };
+  const Wide first[2] = {task.first_acceleration[0], task.first_acceleration[0] - task.first_acceleration[1]};
+  const Wide still[2] = {zero, zero};
+  const Turning moment_off = moment_of(a, first);
+  Turning moment_last = moment_of(b, still);
+  moment_last.acceleration = zero;
   for (std::size_t i = 0; i <= swing_steps; ++i) {
-    const float u = static_cast<float>(i) / swing_steps;
-    const float late = (u - forward_part) / (1.0F - forward_part), straight = (u - bent_part) / (1.0F - bent_part);
-    const Turning thigh = u < forward_part ? least_jerk(wide(u / forward_part), coming, thigh_off, thigh_most)
-                                           : least_jerk(wide(late), arriving, thigh_most, thigh_last);
-    const Turning knee = u < bent_part ? least_jerk(wide(u / bent_part), bending, knee_off, knee_bent)
-                                       : least_jerk(wide(straight), stretching, knee_bent, knee_last);
+    const float u = static_cast<float>(i) / swing_steps, straight = (u - bent_part) / (1.0F - bent_part);
+    const Wide asked = u < bent_part ? least_jerk(wide(u / bent_part), bending, knee_off, knee_bent).value
+                                     : least_jerk(wide(straight), stretching, knee_bent, knee_last).value;
+    // It does not bend backward: rounded with continuous curvature.
+    constexpr float round = 8.0F * degree_f;
+    const Wide near = max(1.0F - abs(asked) / round, 0.0F);
+    const Wide knee = max(asked, 0.0F) + near * near * near * (round / 6.0F);
+    const Wide ahead = least_jerk(wide(u), task.span, moment_off, moment_last).value;
+    Wide k_s, k_c;
+    sin_cos(knee, k_s, k_c);
+    const Wide level = fma(m.shank_moment, k_c, m.moment), aside = m.shank_moment * k_s;
+    const Wide sine = clamp(ahead / sqrt(fma(level, level, aside * aside)), -0.95F, 0.95F);
     SwingLanes& s = path[i];
-    s.q[0] = thigh.value;
-    s.q[1] = thigh.value - max(knee.value, 0.02F);  // the knee does not bend backward
-    s.rate[0] = thigh.rate;
-    s.rate[1] = thigh.rate - knee.rate;
-    const Wide acceleration[2] = {thigh.acceleration, thigh.acceleration - knee.acceleration};
-    const SwingTorques torques = swing_torques(task.mass, s, acceleration, task.hip_forward[i], task.hip_up[i]);
+    s.q[0] = atan2(sine, sqrt(1.0F - sine * sine)) + atan2(aside, level);
+    s.q[1] = s.q[0] - knee;
+  }
+  const Wide interval = task.span / static_cast<float>(swing_steps);
+  Wide greatest = zero;
+  for (std::size_t i = 1; i < swing_steps; ++i) {
+    Wide acceleration[2];
+    for (std::size_t k = 0; k < 2; ++k) {
+      const Wide &before = path[i - 1].q[k], &after = path[i + 1].q[k];
+      path[i].rate[k] = (after - before) / (2.0F * interval);
+      acceleration[k] = (after - 2.0F * path[i].q[k] + before) / (interval * interval);
+    }
+    const SwingTorques torques = swing_torques(m, path[i], acceleration, task.hip_forward[i], task.hip_up[i]);
     greatest = max(greatest, max(abs(torques.hip), abs(torques.knee)));
   }
   return greatest > most_torque;

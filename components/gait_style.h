@@ -26,31 +26,31 @@ constexpr F in_every_lane(float value) {
 /// Meaning, default and range of each: `gait_parameters`.
 template <class F>
 struct GaitStyleOf {
-  F pelvis_rotation_deg = in_every_lane<F>(6.0F);
+  F pelvis_rotation_deg = in_every_lane<F>(6.5F);
   F pelvis_list_deg = in_every_lane<F>(4.0F);
   F pelvis_shift_h = in_every_lane<F>(0.0125F);
-  F pelvis_tilt_deg = in_every_lane<F>(9.0F);
+  F pelvis_tilt_deg = in_every_lane<F>(10.0F);
   F pelvis_tilt_wave_deg = in_every_lane<F>(0.8F);
   F step_width_h = in_every_lane<F>(0.055F);
   F toe_out_deg = in_every_lane<F>(6.0F);
   F step_asymmetry = in_every_lane<F>(0.0F);
   F time_asymmetry = in_every_lane<F>(0.0F);
   F double_support_scale = in_every_lane<F>(1.0F);
-  F strike_pitch_deg = in_every_lane<F>(23.8F);
-  F strike_knee_deg = in_every_lane<F>(3.0F);
-  F foot_flat_cycle = in_every_lane<F>(0.107F);
-  F stance_knee_deg = in_every_lane<F>(5.0F);
-  F toe_off_knee_deg = in_every_lane<F>(33.4F);
-  F knee_release_cycle = in_every_lane<F>(0.435F);
-  F swing_knee_deg = in_every_lane<F>(49.0F);
-  F swing_ankle_deg = in_every_lane<F>(-1.0F);
+  F strike_pitch_deg = in_every_lane<F>(22.0F);
+  F strike_knee_deg = in_every_lane<F>(4.5F);
+  F foot_flat_cycle = in_every_lane<F>(0.1066F);
+  F stance_knee_deg = in_every_lane<F>(4.1F);
+  F toe_off_knee_deg = in_every_lane<F>(33.35F);
+  F knee_release_cycle = in_every_lane<F>(0.443F);
+  F swing_knee_deg = in_every_lane<F>(48.2F);
+  F swing_ankle_deg = in_every_lane<F>(-0.8F);
   F toe_clearance_m = in_every_lane<F>(0.012F);
-  F foot_pivot_h = in_every_lane<F>(0.0077F);
-  F mid_stance_height = in_every_lane<F>(0.999F);
-  F hip_fall = in_every_lane<F>(0.62F);
+  F foot_pivot_h = in_every_lane<F>(0.0106F);
+  F mid_stance_height = in_every_lane<F>(0.9995F);
+  F hip_fall = in_every_lane<F>(0.3F);
   F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
   F leg_damping = in_every_lane<F>(0.40F);
-  F roll_over = in_every_lane<F>(0.65F);
+  F roll_over = in_every_lane<F>(0.67F);
   F trunk_lean_deg = in_every_lane<F>(2.0F);
   F trunk_stiffness = in_every_lane<F>(8.0F);
   F shoulder_rotation = in_every_lane<F>(1.0F);
@@ -99,7 +99,7 @@ inline constexpr std::array<GaitParameter, 35> gait_parameters = {{
     {"toe_clearance_m", "m", &GaitStyle::toe_clearance_m, 0, 0.10F, "height of the toe over the ground in mid-swing"},
     {"foot_pivot_h", "height", &GaitStyle::foot_pivot_h, -0.02F, 0.06F, "support pivot ahead of the ankle"},
     {"mid_stance_height", "1", &GaitStyle::mid_stance_height, 0.90F, 1, "hip height in mid-stance, of standing"},
-    {"hip_fall", "1", &GaitStyle::hip_fall, 0.2F, 1, "fall of the hip to double support, of a stiff leg's"},
+    {"hip_fall", "1", &GaitStyle::hip_fall, 0.1F, 1, "least fall of the hip to double support, of a stiff leg's"},
     {"leg_stiffness_n_per_m", "N/m", &GaitStyle::leg_stiffness_n_per_m, 8000, 60000, "leg spring at a height of 1.8 m"},
     {"leg_damping", "1", &GaitStyle::leg_damping, 0.2F, 1, "of that spring, of critical"},
     {"roll_over", "1", &GaitStyle::roll_over, 0, 0.7F, "travel of the centre of pressure, of the hip's"},

@@ -138,7 +138,7 @@ Result<void> BenchCrowd::spawn(std::size_t humans) {
 }
 
 const Table* BenchCrowd::table_of(const System& system) const {
-  std::vector<Bound> bound(system.accesses.size());
+  std::vector<Bound> bound(system.parameters);
   for (const Table& table : simulation_.world().tables()) {
     if (table.row_count() > 0 && system.bind(simulation_.world(), table, bound.data())) return &table;
   }

@@ -88,7 +88,10 @@ Result<void> apply_changes(const std::vector<GaitChange>& changes, const std::st
       const auto done = simulation.change_gait(entity, *change.gait);
       if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
     }
-    if (change.heading_rad) simulation.turn_to(entity, *change.heading_rad);
+    if (change.heading_rad) {
+      const auto done = simulation.turn_to(entity, *change.heading_rad);
+      if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
+    }
   }
   return {};
 }

@@ -124,6 +124,8 @@ class ScheduleBuilder {
   struct Signature<void (*)(P...)> : Parameters<P...> {};
   template <class... P>
   struct Signature<std::uint32_t (*)(P...)> : Parameters<P...> {};
+  template <class F, class... P>
+  struct Signature<std::uint32_t (F::*)(P...) const> : Parameters<P...> {};
   template <class... P>
   struct Signature<void (*)(P...) noexcept> : Parameters<P...> {};
   template <class F, class... P>

@@ -220,11 +220,14 @@ Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) 
   return {};
 }
 
-Status Simulation::turn_to(Entity entity, float heading_rad) {
+Result<void> Simulation::turn_to(Entity entity, float heading_rad) {
   Human* human = find(entity);
-  if (human == nullptr) return Status::stale_entity;
+  if (human == nullptr) return fail("turn_to: that person is not there (a stale handle); spawn one first");
+  if (!(std::fabs(heading_rad) < 1e4F))
+    return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
   human->gait.heading_rad = heading_rad;
-  return world_.set(entity, human->gait);
+  world_.set(entity, human->gait);
+  return {};
 }
 
 Status Simulation::add_forces(Entity entity) {

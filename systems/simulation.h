@@ -80,8 +80,9 @@ class Simulation {
   /// was.
   Result<void> change_gait(Entity human, const GaitRequest& gait);
   /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
-  /// part of it each step.
-  Status turn_to(Entity human, float heading_rad);
+  /// part of it each step; who stands turns when they walk on. Errors: a stale handle, a heading that is not finite; all
+  /// is as it was.
+  Result<void> turn_to(Entity human, float heading_rad);
 
   /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one.
   Status add_forces(Entity human);

@@ -70,7 +70,7 @@ Walker walk(float height, float mass, float speed, double tick_s = 1.0 / 120) {
     put(centre, b->centre, 0);
     b->tick(static_cast<float>(tick_s));
     if (t <= settle) continue;
-    Instant now;
+    Instant now{};
     now.steps = state.steps;
     now.load_from = static_cast<double>(plan.load_from);
     now.load_to = static_cast<double>(plan.load_to);

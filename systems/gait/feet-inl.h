@@ -17,7 +17,7 @@ namespace mobil::HWY_NAMESPACE {
 /// No foot leaves the ground steeper than the calf allows.
 constexpr float steepest_pitch = -70.0F * degree_f;
 /// How much less the knee bends in a swing of no length, of what the style asks.
-constexpr float shorter_swing = 1.0F;
+constexpr float shorter_swing = 0.478F;
 /// How fast the heel rises as the foot leaves the ground, of its mean rate in double support.
 constexpr float leaving_rate = 1.79F;
 /// A foot's pitch as the heel of the other strikes, from the strike alone: both steps that meet there agree on it.
@@ -177,7 +177,7 @@ HWY_NOINLINE inline WideMask plan_swing(Step& step, const Pitch& toe_off) {
   const Wide ankle_middle = load(style.swing_ankle_deg) * degree_f;
   const Wide off_slope = (toe_off.rate - task.first.rate[1]) * task.span;
   const Wide strike_slope = (load(to.foot_pitch_rate) - target.rate[1]) * task.span;
-  constexpr float middle = 0.567F, early_ankle = 0.061F, late_ankle = 0.88F;
+  constexpr float middle = 0.5657F, early_ankle = 0.053F, late_ankle = 0.88F;
   Place off = planted_ankle(leg, step.trailing, toe_off.value);
   const Place strike = planted_ankle(leg, step.landing, load(to.foot_pitch));
   const Place off_rate = planted_ankle_rate(leg, step.trailing, toe_off.value);
@@ -232,7 +232,11 @@ HWY_NOINLINE inline WideMask plan_swing(Step& step, const Pitch& toe_off) {
   auto leaving = [](float u) { return 91.0F * u * u * u * (1 - u) * (1 - u) * (1 - u) * (1 - u) * (1 - u); };
   auto landing = [](float u) { return 65.88F * u * u * u * u * u * (1 - u) * (1 - u); };
   auto passing = [](float u) { return 64.0F * u * u * u * (1.0F - u) * (1.0F - u) * (1.0F - u); };
+  auto parting = [&](float u) {
+    return landing(1.0F - u);
+  };  // less smooth at its start than leaving: only where needed
   auto raise_all = [&] {
+    raise(1, n / 8, parting, [](float) { return wide(-0.003F); });
     raise(2, n / 3, leaving, [](float u) {
       const float part = u * u * u / (0.1F * 0.1F * 0.1F);
       return wide(early_clearance * (part < 1.0F ? part : 1.0F));

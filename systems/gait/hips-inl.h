@@ -56,8 +56,7 @@ HWY_NOINLINE inline WideMask plan_support(Step& step) {
   // in step lengths and durations of the swing, is what solved swings have at all speeds.
   const Wide mean_length = 0.5F * (load(plan.length_before_m) + load(to.length_m));
   const Wide swinging = max(duration - step.double_support, 0.1F);
-  const Wide froude = mean_length / (duration * sqrt(gravity_f * ratio(fraction::hip_height, height)));
-  const Wide pull = (2.56F + 3.7F * clamp(0.56F - froude, 0.0F, 0.4F)) * mean_length / (swinging * swinging);
+  const Wide pull = 2.53F * mean_length / (swinging * swinging);
   const Wide swing_mass = 0.161F * step.mass;
   Wide lacking_sum = wide(0.0F), lacking_left = wide(0.0F);  // of the moments, and weighted by the time left
   for (std::size_t i = 0; i <= n; ++i) {
@@ -75,7 +74,7 @@ HWY_NOINLINE inline WideMask plan_support(Step& step) {
     guide.behind[i] = behind * (1.0F - share);
     const Wide v = clamp((part * duration - step.double_support) / swinging, 0.0F, 1.0F);
     const Wide leg_bend =
-        select(v > 0.0F, pull * (1.0F - v) * fma(fma(wide(-16.0F), v, wide(5.0F)), v, wide(1.0F)), wide(0.0F));
+        select(v > 0.0F, pull * (1.0F - v) * fma(fma(wide(-21.0F), v, wide(5.1F)), v, wide(1.0F)), wide(0.0F));
     const Wide leg_place = mean_length * (0.45F * ease(v) - 0.02F);
     guide.swing_force[i] = -swing_mass * leg_bend;
     guide.swing_weight[i] = swing_mass * gravity_f * leg_place;

@@ -14,16 +14,16 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// The hips are lowest this part of a step after heel strike.
-constexpr float lowest_phase = 0.104F;
+constexpr float lowest_phase = 0.0975F;
 /// A step at which the style's values hold, of body height.
 constexpr float natural_step_h = 0.43F;
 /// Speed of the hips at heel strike, of the mean; the knee's flexing then, deg/s at a natural step.
-constexpr float strike_speed = 1.095F, strike_knee_rate_deg = 122.0F;
+constexpr float strike_speed = 1.1065F, strike_knee_rate_deg = 102.0F;
 /// How the style's values change with the step, per natural step: knees in deg, the release in cycles, the hips in
 /// mid-stance in body heights. Fitted, with the style's defaults, to Schwartz (2008) and Winter (1991) at slow, natural
 /// and fast speed.
-constexpr float stance_knee_slope = -10.0F, toe_off_knee_slope = 6.1F, strike_knee_slope = -3.4F;
-constexpr float release_slope = 0.072F, mid_stance_slope = -0.0032F;
+constexpr float stance_knee_slope = -13.8F, toe_off_knee_slope = -9.7F, strike_knee_slope = 2.5F;
+constexpr float release_slope = 0.0487F, mid_stance_slope = -0.0168F;
 
 /// What a strike is computed from, in lanes.
 struct StrikeRequest {
@@ -145,7 +145,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   const Wide mid = mid_stance_height(r.height, r.mass, style) + walking(mid_stance_slope * r.height * longer);
   const Wide stiff = mid - sqrt(max(mid * mid - 0.25F * r.length * r.length, 0.0F));
   const Wide reachable = reachable_height(leg, strike, knee_of(style.strike_knee_deg, strike_knee_slope));
-  const Wide fall = min(max(mid - reachable, 0.15F * stiff), load(style.hip_fall) * stiff);
+  const Wide fall = max(mid - reachable, load(style.hip_fall) * stiff);
   const Wide low = mid - walking(fall);
   Wide s, c;
   sin_cos(wide(2.0F * pi_f * lowest_phase), s, c);

@@ -17,7 +17,7 @@ namespace mobil::HWY_NAMESPACE {
 
 constexpr std::size_t swing_steps = 2 * (knot_count - 1);
 /// When the knee is bent most, of the swing.
-constexpr float bent_part = 0.24F;
+constexpr float bent_part = 0.2354F;
 /// What hip and knee may be asked, N m per kg of body mass.
 constexpr float most_torque = 4.0F;
 

@@ -151,8 +151,7 @@ HWY_NOINLINE FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, const Wi
   const Wide flat = load(plan.flat_s), zero = wide(0.0F);
   const Wide u = time / flat;
   const Wide pitch = load(plan.from.foot_pitch), rest = clamp(1.0F - u, 0.0F, 1.0F);
-  const Wide rocked =
-      rest * rest * rest * fma(fma(load(plan.from.foot_pitch_rate), flat, 3.0F * pitch), u, pitch);
+  const Wide rocked = rest * rest * rest * fma(fma(load(plan.from.foot_pitch_rate), flat, 3.0F * pitch), u, pitch);
   const Wide rolled = curve_at(plan.support_pitch, (time - flat) / (load(plan.duration_s) - flat));
   FootMotion foot;
   foot.pitch = select(time < flat, rocked, min(rolled, 0.0F));
@@ -214,6 +213,24 @@ struct PelvisPlace {
   WideVec position;
   Wide heading, sine, cosine;
 };
+
+/// The lower of two, rounded off where they are within `width`: C¹, never above either.
+HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
+  const Wide part = clamp(0.5F + 0.5F * (b - a) / width, 0.0F, 1.0F);
+  return mix(b, a, part) - width * part * (1.0F - part);
+}
+
+/// Height of the middle of the hips at which a leg is as straight as a knee becomes.
+HWY_NOINLINE Wide highest_hips(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
+                               const PelvisMotion& motion, std::size_t side, const Wide& height) {
+  const WideVec hip = rotate(turn_yzx(motion.rotation, -motion.list, motion.tilt),
+                             scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
+  const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
+  const Wide x = fnma(dz, root.sine, dx * root.cosine) - hip.x, z = fma(dx, root.sine, dz * root.cosine) - hip.z;
+  constexpr float straightest = static_cast<float>(fraction::thigh + fraction::shank) * 0.99975F;  // 2.6 degrees
+  const Wide reach = straightest * height;
+  return foot.ankle_up - hip.y + sqrt(max(reach * reach - fma(x, x, z * z), 0.0F));
+}
 
 /// Thigh, kneecap, shank, foot and toes of one side; returns the forward angle of the line from hip to ankle.
 HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
@@ -355,6 +372,21 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   pelvis.heading = mix(line.before, line.ahead, eased);
   sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
+  const FootMotion stance = stance_foot(plan, skeleton.height, time), other = other_foot(plan, skeleton.height, time);
+  FootMotion foot[2];
+  Foothold at[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    const WideMask stands = side == right ? right_stands : left_stands;
+    foot[side] = foot_of(stands, stance, other);
+    at[side] = foothold(line, foot[side], stands, wide(side == left ? 1.0F : -1.0F));
+  }
+  // Where a leg would be too short, in a turn or at a very slow walk, the pelvis sinks.
+  const Wide rounding = 0.0003F * skeleton.height;
+  auto limit = [&](std::size_t side) {
+    return highest_hips(foot[side], at[side], pelvis, motion, side, skeleton.height);
+  };
+  pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(right), limit(left), rounding), rounding);
+
   const Wide heading = load(state.heading_rad);
   const WideVec origin = {load(state.line_x_m), zero, load(state.line_z_m)};
   Wide s, c;
@@ -363,13 +395,10 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   skeleton.put(Segment::pelvis, origin + WideVec{world.left, pelvis.position.y, world.forward},
                turn_yzx(heading + pelvis.heading + motion.rotation, -motion.list, motion.tilt));
 
-  const FootMotion stance = stance_foot(plan, skeleton.height, time), other = other_foot(plan, skeleton.height, time);
   Wide leg[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const WideMask stands = side == right ? right_stands : left_stands;
-    const FootMotion foot = foot_of(stands, stance, other);
-    const Foothold at = foothold(line, foot, stands, wide(side == left ? 1.0F : -1.0F));
-    leg[side] = pose_leg(foot, at, pelvis, motion, origin, heading, side, skeleton, angles, feet);
+    leg[side] = pose_leg(foot[side], at[side], pelvis, motion, origin, heading, side, skeleton, angles, feet);
     store(0.5F * select(stands, u, u + 1.0F), feet.phase[side]);
   }
 

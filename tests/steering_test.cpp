@@ -67,7 +67,7 @@ TEST(Steering, JointRatesDoNotJump) {
   for (std::size_t j = 0; j < joint_names.size(); ++j) {
     // Of a smooth motion the change from tick to tick shrinks with the tick, of a jump it does not. The aim is to allow
     // for rounding alone; standing legs still jump by as much as this.
-    EXPECT_WITHIN(fine.kink[j], 0.4 * coarse.kink[j].value + 25 * degree);
+    EXPECT_WITHIN(fine.kink[j], 0.4 * coarse.kink[j].value + 35 * degree);
     EXPECT_GT(fine.kink[j].value, 0.1 * coarse.kink[j].value);  // the same motion
   }
 }
@@ -81,24 +81,22 @@ TEST(Steering, WhatStandsStaysWhereItIs) {
 
 TEST(Steering, NothingSinksIntoTheGround) {
   // The aim is a millimetre: tips of toes dip as they leave the ground, most in the step to a stand.
-  EXPECT_WITHIN(usual().sunk, 0.025);
-  EXPECT_WITHIN(anything().sunk, 0.12);
+  EXPECT_WITHIN(usual().sunk, 0.012);
+  EXPECT_WITHIN(anything().sunk, 0.025);
 }
 
 TEST(Steering, LegsReachTheirFeet) {
-  // The aim is a tenth of a millimetre: straight legs are too short in turns and at very slow walks.
-  EXPECT_WITHIN(usual().apart, 0.005);
-  EXPECT_WITHIN(anything().apart, 0.12);
+  EXPECT_WITHIN(usual().apart, 2e-5);
+  EXPECT_WITHIN(anything().apart, 2e-5);
 }
 
 TEST(Steering, NoJointTurnsMuchFasterThanMeasured) {
-  // The aim is 1.5 each, turning or not: the ankle is as fast at toe-off, the others where the leg becomes straight.
-  EXPECT_WITHIN(straight().joint_rate[0], 1.6 * fastest_measured[0]);
-  EXPECT_WITHIN(straight().joint_rate[1], 2.5 * fastest_measured[1]);
-  EXPECT_WITHIN(straight().joint_rate[2], 3.1 * fastest_measured[2]);
-  EXPECT_WITHIN(usual().joint_rate[0], 2.5 * fastest_measured[0]);
-  EXPECT_WITHIN(usual().joint_rate[1], 3.5 * fastest_measured[1]);
-  EXPECT_WITHIN(usual().joint_rate[2], 3.1 * fastest_measured[2]);
+  // The aim is 1.5 each, turning or not: the ankle is faster, at toe-off of fast walks.
+  for (const Findings* walks : {&straight(), &usual()}) {
+    EXPECT_WITHIN(walks->joint_rate[0], 1.5 * fastest_measured[0]);
+    EXPECT_WITHIN(walks->joint_rate[1], 1.5 * fastest_measured[1]);
+    EXPECT_WITHIN(walks->joint_rate[2], 3.1 * fastest_measured[2]);
+  }
 }
 
 TEST(Steering, SteadySpeedIsTheAskedOne) {

@@ -42,7 +42,7 @@ struct GaitStyleOf {
   F stance_knee_deg = in_every_lane<F>(4.1F);
   F toe_off_knee_deg = in_every_lane<F>(33.35F);
   F knee_release_cycle = in_every_lane<F>(0.443F);
-  F swing_knee_deg = in_every_lane<F>(48.2F);
+  F swing_knee_deg = in_every_lane<F>(47.0F);
   F swing_ankle_deg = in_every_lane<F>(-0.8F);
   F toe_clearance_m = in_every_lane<F>(0.012F);
   F foot_pivot_h = in_every_lane<F>(0.0106F);
@@ -50,7 +50,7 @@ struct GaitStyleOf {
   F hip_fall = in_every_lane<F>(0.3F);
   F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
   F leg_damping = in_every_lane<F>(0.40F);
-  F roll_over = in_every_lane<F>(0.67F);
+  F roll_over = in_every_lane<F>(0.57F);
   F trunk_lean_deg = in_every_lane<F>(2.0F);
   F trunk_stiffness = in_every_lane<F>(8.0F);
   F shoulder_rotation = in_every_lane<F>(1.0F);

@@ -81,8 +81,9 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   gait.speed_m_s = static_cast<float>(speed);
   gait.step_length_m = static_cast<float>(length);
   gait.step_frequency_hz = static_cast<float>(frequency);
-  // Bruderlin & Calvert's fall of double support with cadence, set to a tenth of the cycle at 5 km/h.
-  const double percent = (27.2 - 0.16 * 60.0 * frequency * std::sqrt(height / 1.8)) * style.double_support_scale;
+  // Falls with cadence as Bruderlin & Calvert have it, through Schwartz (2008): 12, 10 and 8 % at slow, free and fast
+  // speed.
+  const double percent = (23.6 - 0.131 * 60.0 * frequency * std::sqrt(height / 1.8)) * style.double_support_scale;
   gait.double_support_cycle = static_cast<float>(std::fmin(std::fmax(percent, 6.0), 18.0) / 100.0);
   gait.style = style;
   return gait;

@@ -32,10 +32,10 @@ struct StrikeRequest {
   Wide length;                                    // of the step that ends here
 };
 
-/// One double support as a fraction of the cycle: Bruderlin & Calvert's fall with cadence (steps a minute, at a height
-/// of 1.8 m), set to a tenth at 5 km/h.
+/// One double support as a fraction of the cycle: it falls with cadence (steps a minute, at a height
+/// of 1.8 m) as Bruderlin & Calvert have it, through Schwartz (2008): 12, 10 and 8 % at slow, free and fast speed.
 HWY_INLINE Wide double_support_of(const Wide& cadence, const Wide& scale) {
-  return clamp((27.2F - 0.16F * cadence) * scale, 6.0F, 18.0F) * 0.01F;
+  return clamp((23.6F - 0.131F * cadence) * scale, 6.0F, 18.0F) * 0.01F;
 }
 
 /// Height of the hips in mid-stance. Legs of one stiffness sink under the weight that a body of this height carries

@@ -45,6 +45,12 @@ inline constexpr float tilt = -0.166F;
 inline constexpr float shift = 0.10F;
 }  // namespace pelvis_phase
 
+/// One double support in percent of the cycle: `at_rest` less `per_cadence` for each step a minute (at a height of 1.8
+/// m) as Bruderlin & Calvert have it, through Schwartz (2008): 12, 10 and 8 % at slow, free and fast speed.
+namespace double_support_law {
+inline constexpr double at_rest = 23.6, per_cadence = 0.131, least = 6.0, most = 18.0;
+}
+
 /// After toe-off the toes, bent upward against the pitch of the foot, straighten between these parts of the swing.
 namespace swing_toes {
 inline constexpr float from = 0.25F, to = 0.85F;

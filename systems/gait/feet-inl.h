@@ -20,6 +20,7 @@ constexpr float steepest_pitch = -70.0F * degree_f;
 constexpr float shorter_swing = 0.478F;
 /// How fast the heel rises as the foot leaves the ground, of its mean rate in double support.
 constexpr float leaving_rate = 1.79F;
+
 /// A foot's pitch as the heel of the other strikes, from the strike alone: both steps that meet there agree on it.
 HWY_NOINLINE inline Pitch trailing_at_strike(const LegSize& leg, const Strike<Lanes<float>>& strike,
                                              const Footing& foot) {
@@ -190,6 +191,10 @@ HWY_NOINLINE inline WideMask plan_swing(Step& step, const Pitch& toe_off) {
   store(out_slope[1], plan.swing_out_slope[1]);
   Wide pitch[n + 1], up[n + 1], forward[n + 1], lowest[n + 1], turned[n + 1], out[n + 1];
   const Wide toes_length = ratio(fraction::toes_length, step.height);
+  auto find_lowest = [&](std::size_t i, const Wide& u) {
+    const Wide toes = -pitch[i] * (1.0F - ease((u - swing_toes::from) / (swing_toes::to - swing_toes::from)));
+    lowest[i] = clearance(leg, toes_length, up[i], pitch[i], toes);
+  };
   for (std::size_t i = 0; i <= n; ++i) {
     const Wide u = wide(static_cast<float>(i) / n);
     const Wide fading = max(1.0F - u / early_ankle, 0.0F), rising = max((u - late_ankle) / (1.0F - late_ankle), 0.0F);
@@ -207,8 +212,7 @@ HWY_NOINLINE inline WideMask plan_swing(Step& step, const Pitch& toe_off) {
     const Wide aside = out[i] - at.out;
     up[i] = at.up - sqrt(max(down * down - aside * aside, 0.0F));
     forward[i] = at.forward + fma(leg.thigh, t_s, leg.shank * s_s);
-    const Wide toes = -pitch[i] * (1.0F - ease((u - swing_toes::from) / (swing_toes::to - swing_toes::from)));
-    lowest[i] = clearance(leg, toes_length, up[i], pitch[i], toes);
+    find_lowest(i, u);
   }
 
   // Where the foot would come lower than asked it is lifted by smooth humps, zero with zero slope at both ends: so that
@@ -249,26 +253,16 @@ HWY_NOINLINE inline WideMask plan_swing(Step& step, const Pitch& toe_off) {
   for (std::size_t i = 1; i < n; ++i) {
     const Wide u = wide(static_cast<float>(i) / n);
     pitch[i] = turned[i] + leg_angles(leg, hip[i], {out[i], up[i], forward[i]}).shank;
-    const Wide toes = -pitch[i] * (1.0F - ease((u - swing_toes::from) / (swing_toes::to - swing_toes::from)));
-    lowest[i] = clearance(leg, toes_length, up[i], pitch[i], toes);
+    find_lowest(i, u);
   }
   raise_all();
 
-  const Wide per_knot = task.span / static_cast<float>(intervals);
-  auto write = [&](Curve<Lanes<float>>& curve, const Wide* at, const Pitch& first, const Pitch& last) {
-    for (std::size_t k = 0; k <= intervals; ++k) {
-      const Wide slope = k == 0           ? first.rate * per_knot
-                         : k == intervals ? last.rate * per_knot
-                                          : at[2 * k + 1] - at[2 * k - 1];
-      store(k == 0 ? first.value : k == intervals ? last.value : at[2 * k], curve.value[k]);
-      store(slope, curve.slope[k]);
-    }
-  };
   off.forward = off.forward - load(plan.length_before_m);
-  write(plan.swing_pitch, pitch, toe_off, {load(to.foot_pitch), pitch_rate});
-  write(plan.swing_forward_m, forward, {off.forward, off_rate.forward * toe_off.rate},
-        {strike.forward + load(to.length_m), strike_rate.forward * pitch_rate});
-  write(plan.swing_up_m, up, {off.up, off_rate.up * toe_off.rate}, {strike.up, strike_rate.up * pitch_rate});
+  fit_samples(plan.swing_pitch, pitch, task.span, toe_off, {load(to.foot_pitch), pitch_rate});
+  fit_samples(plan.swing_forward_m, forward, task.span, {off.forward, off_rate.forward * toe_off.rate},
+              {strike.forward + load(to.length_m), strike_rate.forward * pitch_rate});
+  fit_samples(plan.swing_up_m, up, task.span, {off.up, off_rate.up * toe_off.rate},
+              {strike.up, strike_rate.up * pitch_rate});
   return held;
 }
 

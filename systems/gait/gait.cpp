@@ -37,8 +37,7 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   if (!positive(speed_asked) || !positive(length_asked) || !positive(frequency_asked))
     return fail(
         "gait: speed, step length and step frequency must be positive numbers, or the speed alone 0 to stand; leave "
-        "out "
-        "what is to follow");
+        "out what is to follow");
   double speed, length;
   if (speed_asked && length_asked) {
     speed = *speed_asked;
@@ -81,10 +80,10 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   gait.speed_m_s = static_cast<float>(speed);
   gait.step_length_m = static_cast<float>(length);
   gait.step_frequency_hz = static_cast<float>(frequency);
-  // Falls with cadence as Bruderlin & Calvert have it, through Schwartz (2008): 12, 10 and 8 % at slow, free and fast
-  // speed.
-  const double percent = (23.6 - 0.131 * 60.0 * frequency * std::sqrt(height / 1.8)) * style.double_support_scale;
-  gait.double_support_cycle = static_cast<float>(std::fmin(std::fmax(percent, 6.0), 18.0) / 100.0);
+  namespace d = double_support_law;
+  const double percent =
+      (d::at_rest - d::per_cadence * 60.0 * frequency * std::sqrt(height / 1.8)) * style.double_support_scale;
+  gait.double_support_cycle = static_cast<float>(std::fmin(std::fmax(percent, d::least), d::most) / 100.0);
   gait.style = style;
   return gait;
 }

@@ -146,7 +146,6 @@ HWY_INLINE LegAngles leg_angles(const LegSize& leg, const Place& hip, const Plac
 
 /// Pitch of a standing foot whose knee may stretch no further than `knee`: the heel rises as much as the hip's
 /// distance asks for, rounded where it starts to, and not beyond the vertical.
-
 HWY_NOINLINE inline Wide heel_rise(const LegSize& leg, const Footing& foot, const Place& hip, const Wide& knee) {
   const Wide dx = hip.out - foot.half_width, dy = hip.up - leg.ankle_height;
   const Wide flat_reach = sqrt(fma(dx, dx, fma(dy, dy, hip.forward * hip.forward)));

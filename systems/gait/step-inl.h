@@ -41,7 +41,21 @@ struct Pitch {
   Wide value, rate;
 };
 
-/// A curve through value(t) at equal times from `start` over `span`, slopes by central differences; the ends as given.
+/// A curve over `span` through `at`, given twice as densely as its knots, slopes by central differences; the ends as
+/// given.
+HWY_NOINLINE inline void fit_samples(Curve<Lanes<float>>& curve, const Wide* at, const Wide& span, const Pitch& first,
+                                     const Pitch& last) {
+  const Wide per_knot = span / static_cast<float>(intervals);
+  for (std::size_t k = 0; k <= intervals; ++k) {
+    store(k == 0 ? first.value : k == intervals ? last.value : at[2 * k], curve.value[k]);
+    const Wide slope = k == 0           ? first.rate * per_knot
+                       : k == intervals ? last.rate * per_knot
+                                        : at[2 * k + 1] - at[2 * k - 1];
+    store(slope, curve.slope[k]);
+  }
+}
+
+/// The same through value(t) at equal times from `start`.
 template <class Value>
 HWY_INLINE void fit(Curve<Lanes<float>>& curve, const Wide& start, const Wide& span, const Pitch& first,
                     const Pitch& last, Value value) {
@@ -50,14 +64,7 @@ HWY_INLINE void fit(Curve<Lanes<float>>& curve, const Wide& start, const Wide& s
   at[2 * intervals] = last.value;
   for (std::size_t i = 1; i < 2 * intervals; ++i)
     at[i] = value(fma(span, wide(static_cast<float>(i) / (2 * intervals)), start));
-  const Wide per_knot = span / static_cast<float>(intervals);
-  for (std::size_t k = 0; k <= intervals; ++k) {
-    store(at[2 * k], curve.value[k]);
-    const Wide slope = k == 0           ? first.rate * per_knot
-                       : k == intervals ? last.rate * per_knot
-                                        : at[2 * k + 1] - at[2 * k - 1];
-    store(slope, curve.slope[k]);
-  }
+  fit_samples(curve, at, span, first, last);
 }
 
 }  // namespace mobil::HWY_NAMESPACE

@@ -32,10 +32,12 @@ struct StrikeRequest {
   Wide length;                                    // of the step that ends here
 };
 
-/// One double support as a fraction of the cycle: it falls with cadence (steps a minute, at a height
-/// of 1.8 m) as Bruderlin & Calvert have it, through Schwartz (2008): 12, 10 and 8 % at slow, free and fast speed.
+/// One double support as a fraction of the cycle; the cadence is in steps a minute at a height of 1.8 m.
 HWY_INLINE Wide double_support_of(const Wide& cadence, const Wide& scale) {
-  return clamp((23.6F - 0.131F * cadence) * scale, 6.0F, 18.0F) * 0.01F;
+  namespace d = double_support_law;
+  constexpr auto at_rest = static_cast<float>(d::at_rest), per_cadence = static_cast<float>(d::per_cadence);
+  constexpr auto least = static_cast<float>(d::least), most = static_cast<float>(d::most);
+  return clamp((at_rest - per_cadence * cadence) * scale, least, most) * 0.01F;
 }
 
 /// Height of the hips in mid-stance. Legs of one stiffness sink under the weight that a body of this height carries

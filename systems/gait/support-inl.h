@@ -21,8 +21,8 @@ constexpr std::size_t support_halves = 2 * support_steps;
 /// Masses (kg), lengths (m), moments of inertia (kg m²): Winter's fractions, leg 0.161 of the mass, head, arms and
 /// trunk 0.678; the trunk's length is 0.288 of the height.
 struct SupportMasses {
-  Wide whole, leg, moment, leg_inertia;  // 𝓜 and 𝓖 of the equations stand in `leg` and `moment`
-  Wide coupling, trunk_inertia;          // m₂ r₂ and m₂ r₂² + I₂
+  Wide leg, moment, leg_inertia;  // 𝓜 and 𝓖 of the equations stand in `leg` and `moment`
+  Wide coupling, trunk_inertia;   // m₂ r₂ and m₂ r₂² + I₂
 };
 
 HWY_INLINE SupportMasses support_masses(const Wide& height, const Wide& mass) {
@@ -31,11 +31,8 @@ HWY_INLINE SupportMasses support_masses(const Wide& height, const Wide& mass) {
   const Wide leg_gyration = ratio(0.326 * (fraction::thigh + fraction::shank), height);
   const Wide trunk_centre = 0.626F * trunk, gyration = 0.496F * trunk;
   const Wide above = (leg_part + trunk_part) * mass;
-  return {mass,
-          leg_part * centre * centre * mass + above,
-          leg_part * centre * mass + above,
-          leg_part * mass * leg_gyration * leg_gyration,
-          trunk_part * mass * trunk_centre,
+  return {leg_part * centre * centre * mass + above, leg_part * centre * mass + above,
+          leg_part * mass * leg_gyration * leg_gyration, trunk_part * mass * trunk_centre,
           trunk_part * mass * (trunk_centre * trunk_centre + gyration * gyration)};
 }
 

@@ -182,7 +182,7 @@ double scaled_jacobian(const HexahedralMesh& mesh, std::uint32_t element) {
     const Vec& p = mesh.node[h[corner]];
     const Vec a = mesh.node[h[x]] - p, b = mesh.node[h[y]] - p, c = mesh.node[h[z]] - p;
     const double edges = length(a) * length(b) * length(c);
-    smallest = std::min(smallest, edges > 0 ? determinant(a, b, c) / edges : 0.0);
+    smallest = std::min(smallest, edges > 0 && std::isfinite(edges) ? determinant(a, b, c) / edges : 0.0);
   }
   return smallest;
 }
@@ -193,15 +193,25 @@ double smallest_scaled_jacobian(const HexahedralMesh& mesh) {
   return smallest;
 }
 
+std::string element_label(const Cells& cells, std::uint32_t element) {
+  const auto [nx, ny, nz] = cells;
+  return fmt::format("element {} (cell {},{},{} of {}x{}x{})", element, element % nx, element / nx % ny,
+                     element / (nx * ny), nx, ny, nz);
+}
+
 Result<void> check_elements(const HexahedralMesh& mesh) {
+  if (mesh.node.size() != node_count(mesh.cells)) {
+    return fail(fmt::format("cells {}x{}x{} need {} nodes, not {}", mesh.cells[0], mesh.cells[1], mesh.cells[2],
+                            node_count(mesh.cells), mesh.node.size()));
+  }
   for (std::uint32_t e = 0; e < element_count(mesh.cells); ++e) {
     const double quality = scaled_jacobian(mesh, e);
-    if (quality > 1e-3) continue;
-    const auto [nx, ny, nz] = mesh.cells;
+    if (quality >= least_scaled_jacobian) continue;
     return fail(fmt::format(
-        "element {} (cell {},{},{} of {}x{}x{}) is inverted: scaled Jacobian {:.3g}, must be above 0.001; bring its "
-        "stations closer together in offset or widen them",
-        e, e % nx, e / nx % ny, e / (nx * ny), nx, ny, nz, quality));
+        "{} is {}: scaled Jacobian {:.3g}, must be at least {}; bring its stations closer together in offset or widen "
+        "them",
+        element_label(mesh.cells, e), quality > 0 ? "nearly flat" : "inverted or flat", quality,
+        least_scaled_jacobian));
   }
   return {};
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "components/lanes.h"
@@ -75,9 +76,15 @@ Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStatio
 /// Volume enclosed by the trilinear elements, m³ (exact).
 double volume(const HexahedralMesh& mesh);
 
+/// Elements flatter than this are refused.
+inline constexpr double least_scaled_jacobian = 1e-3;
+
 /// Smallest over the eight corners of det(e₁,e₂,e₃) / (|e₁||e₂||e₃|): 1 for a box, 0 or less where inverted.
 double scaled_jacobian(const HexahedralMesh& mesh, std::uint32_t element);
 double smallest_scaled_jacobian(const HexahedralMesh& mesh);
+
+/// "element 8 (cell 0,0,2 of 2x2x3)", for messages.
+std::string element_label(const Cells& cells, std::uint32_t element);
 
 /// Fails, naming the element, where one is inverted or flat.
 Result<void> check_elements(const HexahedralMesh& mesh);

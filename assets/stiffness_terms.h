@@ -45,9 +45,14 @@ struct StiffnessTerms {
 /// Fails, naming the valid range, unless density > 0, Young's modulus > 0 and −1 < Poisson's ratio < 0.5, all finite.
 Result<void> check_material(const Material& material);
 
-/// Trilinear isotropic elements, 2×2×2 Gauss points (Hughes, The Finite Element Method, 1987, chapter 3). Fails on a
-/// bad material or an inverted element.
-Result<StiffnessTerms> assemble(const HexahedralMesh& mesh, const Material& material);
+/// ε of the hourglass stiffness ε·(λ + 2μ)·V·Σ|∇N|²/8 of one-point elements.
+inline constexpr double hourglass_share = 0.05;
+
+/// Trilinear isotropic elements; masses at 2×2×2 Gauss points for every kind. `full`: 2×2×2 Gauss points. `bbar`: with
+/// the dilatation's mean over the element (Hughes, The Finite Element Method, 1987, sections 3 and 4.5). `one_point`:
+/// mean gradients and hourglass stiffness (Flanagan and Belytschko, Int. J. Numer. Meth. Eng. 17, 1981). Fails on a
+/// bad material or an inverted element, which it names.
+Result<StiffnessTerms> assemble(const HexahedralMesh& mesh, const Material& material, Element element = Element::full);
 
 /// The 3×3 coupling (row-major) of a pair in a body scaled by S across and l along, N/m.
 std::array<double, 9> stiffness_block(const StencilPair& pair, double across, double along);

@@ -24,6 +24,21 @@ struct Material {
   double poisson = 0.3333;
 };
 
+/// How displacements within an eight-node hexahedron become stiffness: at 2×2×2 Gauss points; the same with the
+/// dilatation taken as its mean over the element (B-bar, for nearly incompressible tissue); at one point, with
+/// stiffness against the hourglass modes that it does not see.
+enum class Element : std::uint8_t { full, bbar, one_point };
+inline constexpr std::array<std::string_view, 3> element_name = {"full", "bbar", "one-point"};
+
+/// How a belly's motion follows from its loads (section 6.3 of the paper): K·u = f; explicit central differences with
+/// the lumped mass (ECD); implicit central differences, that is with the consistent mass (ICD); constant average
+/// acceleration (CAA).
+enum class Method : std::uint8_t { statics, ecd, icd, caa };
+inline constexpr std::array<std::string_view, 4> method_name = {"static", "ecd", "icd", "caa"};
+
+enum class Mass : std::uint8_t { lumped, consistent };
+inline constexpr std::array<std::string_view, 2> mass_name = {"lumped", "consistent"};
+
 /// The human a muscle belongs to: entity index and generation, and the side of the body.
 template <class F>
 struct MuscleOwner {
@@ -67,6 +82,21 @@ struct EndTraction {
   Vec3<F> from_n, to_n;
 };
 
+/// Rows of a 3×3 matrix.
+template <class F>
+struct Mat3 {
+  Vec3<F> x, y, z;
+};
+
+/// What a belly feels of gravity and of its frame's motion: a mass at rest position x (m, in the muscle's frame) is
+/// accelerated by `constant` + `gradient`·x, m/s² and 1/s², at the tick's start and end. In a frame with acceleration
+/// a, angular velocity ω and angular acceleration α, constant = g − a and gradient·x = −α×x − ω×(ω×x).
+template <class F>
+struct FrameLoad {
+  Vec3<F> constant_from, constant_to;
+  Mat3<F> gradient_from, gradient_to;
+};
+
 /// What a deforming belly did, written once a tick. Elongation: mean displacement of the far face along z. Reaction:
 /// elastic force along z at the far face, positive in tension. Volume over that at rest. Energies belong together: in
 /// free undamped motion their sum is constant to rounding (kinetic at the last half step, strain across it).
@@ -76,7 +106,8 @@ struct BellyReport {
 };
 
 /// Run-time sized columns (three floats a node, node-major: x0 y0 z0 x1 …) of a table of one mesh template:
-/// displacement from the rest position in m, and velocity at the half step in m/s, in the muscle's frame.
+/// displacement from the rest position in m, and velocity in m/s (of ECD and ICD half a step back), in the muscle's
+/// frame.
 struct NodalDisplacement {};
 struct NodalVelocity {};
 

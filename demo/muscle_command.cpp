@@ -208,8 +208,9 @@ MuscleRun run(const MuscleRequest& request) {
     if (step == request.steps) return result;
     spread(force_at(request.load, time), traction.from_n);
     traction.to_n = traction.from_n;  // one substep a call: only its start counts
-    deform_explicit(request.muscle, scale, traction, displacement.data()->lane, velocity.data()->lane, 1,
-                    static_cast<float>(request.dt_s), report, Stiffness::shared);
+    deform_explicit(
+        {request.muscle, scale, displacement.data()->lane, velocity.data()->lane, report, Stiffness::shared}, traction,
+        1, static_cast<float>(request.dt_s));
     progress.at(step + 1);
   }
 }

@@ -142,8 +142,8 @@ template <template <class> class End>
 void deform(Shared<MuscleTemplate> shape, TagValue<Substeps> substeps, float tick_s,
             const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Field<NodalDisplacement> displacement,
             Field<NodalVelocity> velocity, BellyReport<Lanes<float>>& report) {
-  deform_explicit(*shape, scale, end, displacement.data, velocity.data, static_cast<std::uint32_t>(substeps.value),
-                  tick_s, report);
+  deform_explicit({*shape, scale, displacement.data, velocity.data, report}, end,
+                  static_cast<std::uint32_t>(substeps.value), tick_s);
 }
 
 bool same(const Material& a, const Material& b) {

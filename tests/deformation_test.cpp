@@ -62,7 +62,7 @@ struct Block {
   }
   template <class End>
   void tick(const End& end, std::uint32_t n, float length_s = tick_s) {
-    deform_explicit(muscle, scale, end, u.data()->lane, v.data()->lane, n, length_s, report, stiffness);
+    deform_explicit({muscle, scale, u.data()->lane, v.data()->lane, report, stiffness}, end, n, length_s);
   }
   Vector lane(const std::vector<Lanes<float>>& column, std::size_t l) const {
     Vector x(static_cast<Eigen::Index>(column.size()));

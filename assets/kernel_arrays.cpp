@@ -1,0 +1,121 @@
+#include "assets/kernel_arrays.h"
+
+#include <array>
+#include <cmath>
+
+namespace mobil {
+namespace {
+
+/// ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral).
+std::vector<float> far_shares(const HexahedralMesh& mesh) {
+  const std::uint32_t first = first_insertion_node(mesh.cells);
+  std::vector<double> area(plane_nodes(mesh.cells));
+  double total = 0;
+  const double g = 1 / std::sqrt(3.0);
+  for (const Quad& quad : insertion_quads(mesh.cells)) {
+    for (int point = 0; point < 4; ++point) {
+      const double s = point % 2 == 0 ? -g : g, t = point < 2 ? -g : g;
+      const double n[4] = {(1 - s) * (1 - t) / 4, (1 + s) * (1 - t) / 4, (1 + s) * (1 + t) / 4, (1 - s) * (1 + t) / 4};
+      const double ns[4] = {-(1 - t) / 4, (1 - t) / 4, (1 + t) / 4, -(1 + t) / 4};
+      const double nt[4] = {-(1 - s) / 4, -(1 + s) / 4, (1 + s) / 4, (1 - s) / 4};
+      double u[3] = {}, v[3] = {};
+      for (std::size_t a = 0; a < 4; ++a) {
+        const auto& p = mesh.node[quad[a]];
+        const double x[3] = {p.x, p.y, p.z};
+        for (std::size_t c = 0; c < 3; ++c) {
+          u[c] += ns[a] * x[c];
+          v[c] += nt[a] * x[c];
+        }
+      }
+      const double patch = std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+      total += patch;
+      for (std::size_t a = 0; a < 4; ++a) area[quad[a] - first] += n[a] * patch;
+    }
+  }
+  std::vector<float> share;
+  for (const double a : area) share.push_back(static_cast<float>(a / total));
+  return share;
+}
+
+/// `count` numbers a pair.
+template <std::size_t count>
+using Words = std::array<double, count>;
+
+/// What a kernel reads of a pair, which word is which other's in the pair's transposed, and which are a node's coupling
+/// of x to x, y to y and z to z where it is stiffest.
+struct IndividualWords {
+  static constexpr std::size_t count = KernelArrays::individual_words;
+  static constexpr std::array<std::size_t, count> transposed = {0, 2, 1, 3, 4, 7, 8, 5, 6, 9, 10, 11};
+  static constexpr std::array<std::size_t, 3> stiffest = {0, 3, 4};
+  static Words<count> of(const StencilPair& p) {
+    return {p.a_xx, p.a_xy, p.a_yx, p.a_yy, p.a_zz, p.b_xz, p.b_yz, p.b_zx, p.b_zy, p.c_xx, p.c_yy, p.c_zz};
+  }
+};
+struct SharedWords {
+  static constexpr std::size_t count = KernelArrays::shared_words;
+  static constexpr std::array<std::size_t, count> transposed = {0, 3, 6, 1, 4, 7, 2, 5, 8};
+  static constexpr std::array<std::size_t, 3> stiffest = {0, 4, 8};
+  static Words<count> of(const StencilPair& p) { return stiffness_block(p, 1, 1); }
+};
+
+/// The rows of the moving nodes as the kernels read them.
+template <class Kind>
+std::vector<float> rows(const StiffnessTerms& terms) {
+  const Cells& cells = terms.cells;
+  std::vector<float> row;
+  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    if (k == 0) return;
+    const std::uint32_t n = node_index(cells, i, j, k);
+    Words<Kind::count> own{};
+    std::size_t own_at = 0;
+    for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
+      const auto exact = Kind::of(terms.pair[n * stencil_size + slot]);
+      const bool fixed = m < plane_nodes(cells);
+      if (m == n) own_at = row.size();
+      for (std::size_t w = 0; w < Kind::count; ++w) {
+        const auto single = static_cast<float>(exact[w]);
+        if (m != n) own[w] -= fixed ? exact[w] : static_cast<double>(single);
+        if (!fixed) row.push_back(single);
+      }
+    });
+    for (std::size_t w = 0; w < Kind::count; ++w) {
+      row[own_at + w] = static_cast<float>(0.5 * (own[w] + own[Kind::transposed[w]]));
+    }
+    for (const std::size_t w : Kind::stiffest) {
+      row.push_back(static_cast<float>(own[w] - static_cast<double>(row[own_at + w])));
+    }
+  });
+  return row;
+}
+
+}  // namespace
+
+KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
+  const Cells& cells = mesh.cells;
+  KernelArrays kernel;
+  kernel.individual = rows<IndividualWords>(terms);
+  kernel.shared = rows<SharedWords>(terms);
+  kernel.plane_pair.assign(cells[2] + 1, 0);
+  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    if (k == 0) return;
+    if (i == 0 && j == 0) kernel.plane_pair[k] = kernel.consistent_mass_kg.size();
+    const std::uint32_t n = node_index(cells, i, j, k);
+    for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
+      if (m < plane_nodes(cells)) return;
+      kernel.consistent_mass_kg.push_back(static_cast<float>(terms.consistent_mass_kg[n * stencil_size + slot]));
+    });
+  });
+  for (std::size_t n = 0; n < mesh.node.size(); ++n) {
+    kernel.mass_kg.push_back(static_cast<float>(terms.lumped_mass_kg[n]));
+    kernel.inverse_mass.push_back(static_cast<float>(1 / terms.lumped_mass_kg[n]));
+    for (const double x : {mesh.node[n].x, mesh.node[n].y, mesh.node[n].z}) {
+      kernel.rest_m.push_back(static_cast<float>(x));
+    }
+  }
+  kernel.far_share = far_shares(mesh);
+  kernel.skin = boundary_quads(cells);
+  kernel.volume_m3 = static_cast<float>(volume(mesh));
+  return kernel;
+}
+
+}  // namespace mobil

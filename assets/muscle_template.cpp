@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <numbers>
 #include <utility>
 
 namespace mobil {
@@ -27,12 +28,16 @@ Result<void> check_options(const MuscleOptions& options) {
 
 }  // namespace
 
+StepCase step_case(const MuscleOptions& options) {
+  return {options.far_end, options.mass, options.stiffness_damping_s, 2 * std::numbers::pi * options.foundation_hz};
+}
+
 Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material,
                                             const MuscleOptions& options) {
   if (auto ok = check_options(options); !ok) return tl::unexpected(ok.error());
-  auto terms = assemble(mesh, material);
+  auto terms = assemble(mesh, material, options.element);
   if (!terms) return tl::unexpected(terms.error());
-  auto steps = tabulate_critical_steps(*terms, options.far_end, options.lowest_ratio, options.highest_ratio);
+  auto steps = tabulate_critical_steps(*terms, step_case(options), options.lowest_ratio, options.highest_ratio);
   auto kernel = make_kernel_arrays(mesh, *terms);
   return MuscleTemplate{std::move(mesh), material, options, std::move(*terms), std::move(steps), std::move(kernel)};
 }

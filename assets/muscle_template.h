@@ -37,6 +37,9 @@ struct MuscleTemplate {
   KernelArrays kernel;
 };
 
+/// What a template's critical step depends on.
+StepCase step_case(const MuscleOptions& options);
+
 /// Number of floats that one individual's displacement (or velocity) takes.
 constexpr std::size_t nodal_width(const Cells& cells) {
   return 3 * std::size_t{node_count(cells)};

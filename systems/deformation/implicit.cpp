@@ -1,0 +1,499 @@
+#include "systems/deformation/deformation.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/deformation/implicit.cpp"
+#include <hwy/foreach_target.h>
+
+#include <numbers>
+
+#include "assets/belly_solver.h"
+#include "engine/wide-inl.h"
+#include "systems/deformation/band_solve-inl.h"
+#include "systems/deformation/elastic-inl.h"
+#include "systems/deformation/report-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+namespace {
+
+/// One register of lanes of a block during one tick.
+struct Bellies {
+  const BellyBlock& block;
+  const BellySolver& solver;
+  const KernelArrays& kernel;
+  const Cells& cells;
+  FarEnd end;
+  std::uint32_t first, past;  // nodes that move
+  float *u, *v;
+  float *residual, *direction, *image;  // scratch, of as many floats as u
+  Factors factor;
+  std::size_t first_lane;
+};
+
+/// What a step solves with: mass·M₁ of each component + stiffness·K.
+struct Operator {
+  V mass_x, mass_y, mass_z, stiffness;
+};
+
+/// Loads of a moment: uniform traction's total and the frame's field.
+struct Loads {
+  Vector traction;
+  FrameField field;
+};
+
+HWY_INLINE Vector zero_vector() {
+  const V none = hn::Zero(d);
+  return {none, none, none};
+}
+
+/// Nodes of the planes that move, in the kernel's order.
+template <class F>
+HWY_INLINE void for_each_moving_node(const Bellies& belly, F&& f) {
+  const Cells cells = belly.cells;
+  std::uint32_t n = belly.first;
+  for (std::uint32_t k = 1; n < belly.past; ++k) {
+    for (std::uint32_t j = 0; j <= cells[1]; ++j) {
+      for (std::uint32_t i = 0; i <= cells[0]; ++i, ++n) f(n, i, j, k);
+    }
+  }
+}
+
+/// (M₁·x) of a node. `pair` points at its row of the consistent mass and moves on to the next one.
+template <Mass mass>
+HWY_INLINE Vector inertia(const Bellies& belly, std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k,
+                          const float* x, const float*& pair) {
+  if constexpr (mass == Mass::lumped) {
+    const V m = hn::Set(d, belly.kernel.mass_kg[n]);
+    const float* const p = x + node_stride * n;
+    return {hn::Mul(m, hn::Load(d, p)), hn::Mul(m, hn::Load(d, p + lane_count)),
+            hn::Mul(m, hn::Load(d, p + 2 * lane_count))};
+  } else {
+    const Cells& cells = belly.cells;
+    const std::uint32_t i_low = i > 0 ? i - 1 : 0, i_high = std::min(i + 1, cells[0]);
+    const std::uint32_t j_low = j > 0 ? j - 1 : 0, j_high = std::min(j + 1, cells[1]);
+    const std::uint32_t k_low = k > 1 ? k - 1 : 1, k_high = std::min(k + 1, cells[2]);
+    const float* m = pair;
+    Vector sum = zero_vector();
+    for (std::uint32_t kk = k_low; kk <= k_high; ++kk) {
+      for (std::uint32_t jj = j_low; jj <= j_high; ++jj) {
+        const float* p = x + node_stride * node_index(cells, i_low, jj, kk);
+        for (std::uint32_t ii = i_low; ii <= i_high; ++ii, p += node_stride) {
+          const V w = hn::Set(d, *m++);
+          sum.x = hn::MulAdd(w, hn::Load(d, p), sum.x);
+          sum.y = hn::MulAdd(w, hn::Load(d, p + lane_count), sum.y);
+          sum.z = hn::MulAdd(w, hn::Load(d, p + 2 * lane_count), sum.z);
+        }
+      }
+    }
+    pair = m;
+    return sum;
+  }
+}
+
+/// M₁·(the field's accelerations) of a node, from its row's sums of mass and of mass times place.
+HWY_INLINE Vector field_inertia(const FrameField& field, float mass_kg, const float* moment_kg_m) {
+  const V m = hn::Set(d, mass_kg), mx = hn::Set(d, moment_kg_m[0]), my = hn::Set(d, moment_kg_m[1]),
+          mz = hn::Set(d, moment_kg_m[2]);
+  const auto row = [&](V c, const Vector& g) HWY_ATTR {
+    return hn::MulAdd(g.x, mx, hn::MulAdd(g.y, my, hn::MulAdd(g.z, mz, hn::Mul(c, m))));
+  };
+  return {row(field.constant.x, field.x), row(field.constant.y, field.y), row(field.constant.z, field.z)};
+}
+
+/// residual ← loads − K·strained − S²·l·M₁·rates (none: null), on the nodes that move.
+template <Stiffness stiffness, Mass mass>
+HWY_NOINLINE void write_residual(const Bellies& belly, const float* strained, const float* rates, const Loads& loads) {
+  const Cells cells = belly.cells;
+  const Factors factor = belly.factor;
+  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
+  const float* pair = belly.kernel.consistent_mass_kg.data();
+  const std::uint32_t far = first_insertion_node(cells);
+  const bool framed = belly.block.frame != nullptr;
+  for_each_moving_node(belly, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
+    const Vector elastic = elastic_force<stiffness>(cells, i, j, k, strained, factor, coefficient);
+    Vector r{hn::Neg(elastic.x), hn::Neg(elastic.y), hn::Neg(elastic.z)};
+    if (rates != nullptr || framed) {
+      Vector inert = zero_vector();
+      if (framed) {
+        inert =
+            field_inertia(loads.field, belly.kernel.mass_kg[n], belly.solver.moment_kg_m.data() + 3 * std::size_t{n});
+      }
+      if (rates != nullptr) {
+        const Vector m = inertia<mass>(belly, n, i, j, k, rates, pair);
+        inert = {hn::Sub(inert.x, m.x), hn::Sub(inert.y, m.y), hn::Sub(inert.z, m.z)};
+      }
+      r = {hn::MulAdd(factor.mass, inert.x, r.x), hn::MulAdd(factor.mass, inert.y, r.y),
+           hn::MulAdd(factor.mass, inert.z, r.z)};
+    }
+    if (n >= far) {
+      const V share = hn::Set(d, belly.kernel.far_share[n - far]);
+      r = {hn::MulAdd(share, loads.traction.x, r.x), hn::MulAdd(share, loads.traction.y, r.y),
+           hn::MulAdd(share, loads.traction.z, r.z)};
+    }
+    store_vector(r, belly.residual + node_stride * n);
+  });
+}
+
+/// image ← operator·direction; returns directionᵀ·image.
+template <Stiffness stiffness, Mass mass>
+HWY_NOINLINE V apply(const Bellies& belly, const Operator& what) {
+  const Cells cells = belly.cells;
+  const Factors factor = belly.factor;
+  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
+  const float* pair = belly.kernel.consistent_mass_kg.data();
+  V work = hn::Zero(d);
+  for_each_moving_node(belly, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
+    const Vector elastic = elastic_force<stiffness>(cells, i, j, k, belly.direction, factor, coefficient);
+    const Vector m = inertia<mass>(belly, n, i, j, k, belly.direction, pair);
+    const Vector q{hn::MulAdd(what.mass_x, m.x, hn::Mul(what.stiffness, elastic.x)),
+                   hn::MulAdd(what.mass_y, m.y, hn::Mul(what.stiffness, elastic.y)),
+                   hn::MulAdd(what.mass_z, m.z, hn::Mul(what.stiffness, elastic.z))};
+    const Vector p = load_vector(belly.direction + node_stride * n);
+    work = hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::MulAdd(p.z, q.z, work)));
+    store_vector(q, belly.image + node_stride * n);
+  });
+  return work;
+}
+
+/// a / b, and 0 where b is not positive.
+HWY_INLINE V ratio_or_zero(V a, V b) {
+  const auto sound = hn::Gt(b, hn::Zero(d));
+  return hn::IfThenElseZero(sound, hn::Div(a, hn::IfThenElse(sound, b, hn::Set(d, 1.0F))));
+}
+
+/// target ← target + gain·operator⁻¹·residual: by conjugate gradients, preconditioned with the solver's factor, or
+/// where that is the operator's own by solving again for what is left. Eats the residual.
+template <Stiffness stiffness, Mass mass>
+HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, float gain, float* target) {
+  const BandFactor& factor = belly.solver.factor;
+  const std::size_t from = node_stride * belly.first, to = node_stride * belly.past;
+  const std::uint32_t sweeps = exact ? belly.solver.refinements : belly.solver.sweeps;
+  for (std::size_t at = to; at < node_stride * node_count(belly.cells); at += lane_count) {
+    hn::Store(hn::Zero(d), d, belly.direction + at);
+  }
+  V last_square = hn::Zero(d);
+  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
+    const V square = solve_forward<3>(factor, belly.image + from, [&](std::uint32_t n) HWY_ATTR {
+      return load_vector(belly.residual + from + node_stride * n);
+    });
+    const V keep = exact || sweep == 0 ? hn::Zero(d) : ratio_or_zero(square, last_square);
+    const bool anew = exact || sweep == 0;
+    solve_backward<3>(factor, belly.image + from, [&](std::uint32_t n, const Vector& z) HWY_ATTR {
+      float* const p = belly.direction + from + node_stride * n;
+      if (anew) return store_vector(z, p);
+      const Vector old = load_vector(p);
+      store_vector({hn::MulAdd(keep, old.x, z.x), hn::MulAdd(keep, old.y, z.y), hn::MulAdd(keep, old.z, z.z)}, p);
+    });
+    const bool more = sweep + 1 < sweeps;
+    V step = hn::Set(d, 1.0F);
+    if (more || !exact) {
+      const V work = apply<stiffness, mass>(belly, what);
+      if (!exact) step = ratio_or_zero(square, work);
+    }
+    const V advance = hn::Mul(hn::Set(d, gain), step);
+    for (std::size_t at = from; at < to; at += lane_count) {
+      hn::Store(hn::MulAdd(advance, hn::Load(d, belly.direction + at), hn::Load(d, target + at)), d, target + at);
+      if (more) {
+        const V left = hn::NegMulAdd(step, hn::Load(d, belly.image + at), hn::Load(d, belly.residual + at));
+        hn::Store(left, d, belly.residual + at);
+      }
+    }
+    last_square = square;
+  }
+}
+
+/// One step of a tick in numbers and its far face.
+struct Step {
+  float dt, alpha, beta, foundation;
+  V far_from, far_to, far_speed;  // of a held face along z
+  Loads loads;
+};
+
+HWY_INLINE void set_far_z(const Bellies& belly, float* x, V value) {
+  const std::size_t far = node_stride * first_insertion_node(belly.cells);
+  for (std::size_t at = far; at < node_stride * node_count(belly.cells); at += node_stride) {
+    hn::Store(value, d, x + at + 2 * lane_count);
+  }
+}
+
+/// Writes f(component, offset) for every offset from the second plane of nodes on, components x, y, z in turn.
+template <class F>
+HWY_INLINE void for_each_component(const Bellies& belly, std::uint32_t past_node, F&& f) {
+  for (std::size_t at = node_stride * belly.first; at < node_stride * past_node; at += node_stride) {
+    f(0, at);
+    f(1, at + lane_count);
+    f(2, at + 2 * lane_count);
+  }
+}
+
+/// Constant average acceleration, for the change of velocity from vₙ to the step's mean.
+template <Stiffness stiffness, Mass mass>
+HWY_INLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
+  const bool held = belly.end == FarEnd::held;
+  const float half = 0.5F * step.dt, strain_half = half + step.beta;
+  float *const strained = belly.image, *const rates = belly.direction;
+  const bool rated = step.alpha > 0 || step.foundation > 0;
+  const V half_v = hn::Set(d, half), strain_v = hn::Set(d, strain_half), alpha = hn::Set(d, step.alpha),
+          foundation = hn::Set(d, step.foundation);
+  if (held) set_far_z(belly, belly.v, step.far_speed);
+  for_each_component(belly, node_count(belly.cells), [&](std::size_t c, std::size_t at) HWY_ATTR {
+    const V u = hn::Load(d, belly.u + at), v = hn::Load(d, belly.v + at);
+    hn::Store(hn::MulAdd(strain_v, v, u), d, strained + at);
+    const V middle = hn::MulAdd(half_v, v, u);
+    hn::Store(middle, d, belly.u + at);
+    if (rated) {
+      const V rate = hn::Mul(alpha, v);
+      hn::Store(c < 2 ? hn::MulAdd(foundation, middle, rate) : rate, d, rates + at);
+    }
+  });
+  write_residual<stiffness, mass>(belly, strained, rated ? rates : nullptr, step.loads);
+  const float inertia_factor = 2 / step.dt + step.alpha;
+  const V sideways = hn::Mul(belly.factor.mass, hn::Set(d, inertia_factor + half * step.foundation));
+  const V along = hn::Mul(belly.factor.mass, hn::Set(d, inertia_factor));
+  solve<stiffness, mass>(belly, {sideways, sideways, along, strain_v}, exact, 2, belly.v);
+  for_each_component(belly, belly.past, [&](std::size_t, std::size_t at) HWY_ATTR {
+    hn::Store(hn::MulAdd(half_v, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.u + at);
+  });
+  if (held) set_far_z(belly, belly.u, step.far_to);
+}
+
+/// Implicit (consistent-mass) central differences.
+template <Stiffness stiffness>
+HWY_INLINE void step_icd(const Bellies& belly, const Step& step) {
+  const bool held = belly.end == FarEnd::held;
+  const float* strained = belly.u;
+  if (held) set_far_z(belly, belly.v, step.far_speed);
+  if (step.beta > 0) {
+    const V beta = hn::Set(d, step.beta);
+    for_each_component(belly, node_count(belly.cells), [&](std::size_t, std::size_t at) HWY_ATTR {
+      hn::Store(hn::MulAdd(beta, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.image + at);
+    });
+    strained = belly.image;
+  }
+  write_residual<stiffness, Mass::consistent>(belly, strained, nullptr, step.loads);
+  const std::uint32_t far = first_insertion_node(belly.cells);
+  if (held && step.alpha > 0 && belly.past > belly.first) {
+    const V drag = hn::Mul(hn::Mul(hn::Set(d, step.alpha), step.far_speed), belly.factor.mass);
+    float* r = belly.residual + node_stride * (far - plane_nodes(belly.cells)) + 2 * lane_count;
+    for (std::uint32_t i = 0; i < plane_nodes(belly.cells); ++i, r += node_stride) {
+      hn::Store(hn::NegMulAdd(hn::Set(d, belly.solver.far_mass_kg[i]), drag, hn::Load(d, r)), d, r);
+    }
+  }
+  const float half_damping = 0.5F * step.alpha * step.dt;
+  const V keep = hn::Set(d, (1 - half_damping) / (1 + half_damping));
+  const V field_push = hn::Set(d, step.dt / (1 + half_damping));
+  const V push = hn::Div(field_push, belly.factor.mass);
+  const V dt = hn::Set(d, step.dt), foundation = hn::Set(d, step.foundation);
+  const std::size_t from = node_stride * belly.first;
+  const bool sliding = belly.end == FarEnd::sliding;
+  const auto held_sideways = [&](std::uint32_t n) { return sliding && n + belly.first >= far; };
+  solve_forward<1>(belly.solver.factor, belly.residual + from,
+                   [&](std::uint32_t n) HWY_ATTR { return load_vector(belly.residual + from + node_stride * n); });
+  if (sliding) {  // x and y end one plane earlier, and their factor with them
+    for (std::size_t at = node_stride * far; at < node_stride * node_count(belly.cells); at += node_stride) {
+      hn::Store(hn::Zero(d), d, belly.residual + at);
+      hn::Store(hn::Zero(d), d, belly.residual + at + lane_count);
+    }
+  }
+  solve_backward<1>(belly.solver.factor, belly.residual + from, [&](std::uint32_t n, const Vector& a) HWY_ATTR {
+    const std::size_t at = from + node_stride * n;
+    const auto component = [&](std::size_t offset, V acceleration, V stiff) HWY_ATTR {
+      const V u = hn::Load(d, belly.u + offset);
+      V v = hn::MulAdd(push, acceleration, hn::Mul(keep, hn::Load(d, belly.v + offset)));
+      v = hn::NegMulAdd(hn::Mul(field_push, stiff), u, v);
+      hn::Store(v, d, belly.v + offset);
+      hn::Store(hn::MulAdd(dt, v, u), d, belly.u + offset);
+    };
+    if (!held_sideways(n)) {
+      component(at, a.x, foundation);
+      component(at + lane_count, a.y, foundation);
+    }
+    component(at + 2 * lane_count, a.z, hn::Zero(d));
+  });
+  if (held) set_far_z(belly, belly.u, step.far_to);
+}
+
+template <Stiffness stiffness, Mass mass>
+HWY_INLINE void step_static(const Bellies& belly, const Step& step, bool exact) {
+  if (belly.end == FarEnd::held) set_far_z(belly, belly.u, step.far_to);
+  const V foundation = hn::Set(d, step.foundation);
+  const float* rates = nullptr;
+  if (step.foundation > 0) {
+    for_each_component(belly, node_count(belly.cells), [&](std::size_t c, std::size_t at) HWY_ATTR {
+      hn::Store(c < 2 ? hn::Mul(foundation, hn::Load(d, belly.u + at)) : hn::Zero(d), d, belly.direction + at);
+    });
+    rates = belly.direction;
+  }
+  write_residual<stiffness, mass>(belly, belly.u, rates, step.loads);
+  const V sideways = hn::Mul(belly.factor.mass, foundation);
+  solve<stiffness, mass>(belly, {sideways, sideways, hn::Zero(d), hn::Set(d, 1.0F)}, exact, 1, belly.u);
+}
+
+/// ½·vᵀ·M·v with the consistent mass.
+HWY_INLINE void report_consistent_kinetic_energy(const Bellies& belly) {
+  Bellies all = belly;
+  all.past = node_count(belly.cells);
+  const float* pair = belly.kernel.consistent_mass_kg.data();
+  V sum = hn::Zero(d);
+  for_each_moving_node(all, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
+    const Vector m = inertia<Mass::consistent>(belly, n, i, j, k, belly.v, pair);
+    const Vector v = load_vector(belly.v + node_stride * n);
+    sum = hn::MulAdd(v.x, m.x, hn::MulAdd(v.y, m.y, hn::MulAdd(v.z, m.z, sum)));
+  });
+  hn::Store(hn::Mul(hn::Set(d, 0.5F), hn::Mul(belly.factor.mass, sum)), d,
+            belly.block.report.kinetic_energy_j.lane + belly.first_lane);
+}
+
+/// ½·uₙᵀ·K·uₙ₊₁ from uₙ₊₁ and the velocity between them.
+template <Stiffness stiffness>
+HWY_INLINE void report_strain_across_step(const Bellies& belly, const Step& step) {
+  const Cells cells = belly.cells;
+  Bellies all = belly;
+  all.past = node_count(cells);
+  const V dt = hn::Set(d, step.dt);
+  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
+  V sum = hn::Zero(d);
+  for_each_moving_node(all, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
+    const Vector f = elastic_force<stiffness>(cells, i, j, k, belly.u, belly.factor, coefficient);
+    const Vector u = load_vector(belly.u + node_stride * n), v = load_vector(belly.v + node_stride * n);
+    sum = hn::MulAdd(f.x, hn::NegMulAdd(dt, v.x, u.x), sum);
+    sum = hn::MulAdd(f.y, hn::NegMulAdd(dt, v.y, u.y), sum);
+    sum = hn::MulAdd(f.z, hn::NegMulAdd(dt, v.z, u.z), sum);
+  });
+  hn::Store(hn::Mul(hn::Set(d, 0.5F), sum), d, belly.block.report.strain_energy_j.lane + belly.first_lane);
+}
+
+HWY_INLINE void hold_far_face_sideways(const Bellies& belly, bool moving) {
+  const std::size_t past = node_stride * node_count(belly.cells);
+  for (std::size_t at = node_stride * first_insertion_node(belly.cells); at < past; at += node_stride) {
+    for (const std::size_t c : {std::size_t{0}, lane_count}) {
+      hn::Store(hn::Zero(d), d, belly.u + at + c);
+      if (moving) hn::Store(hn::Zero(d), d, belly.v + at + c);
+    }
+  }
+}
+
+template <Stiffness stiffness, Mass mass>
+void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+                   float tick_s, float* scratch, std::size_t first_lane) {
+  const Cells& cells = block.muscle.mesh.cells;
+  const std::size_t floats = nodal_width(cells) * lane_count;
+  const std::uint32_t first = plane_nodes(cells);
+  const Method method = solver.method;
+  const Bellies belly{block,
+                      solver,
+                      block.muscle.kernel,
+                      cells,
+                      end.way,
+                      first,
+                      end.way == FarEnd::held ? first_insertion_node(cells) : node_count(cells),
+                      block.displacement + first_lane,
+                      block.velocity + first_lane,
+                      scratch + first_lane,
+                      scratch + floats + first_lane,
+                      scratch + 2 * floats + first_lane,
+                      factors(block.scale, first_lane),
+                      first_lane};
+  const MuscleOptions& options = block.muscle.options;
+  const float circular = 2 * std::numbers::pi_v<float> * static_cast<float>(options.foundation_hz);
+  const auto at = [&](const Lanes<float>* const lanes[3]) HWY_ATTR {
+    return Vector{lanes_or_zero(lanes[0], first_lane), lanes_or_zero(lanes[1], first_lane),
+                  lanes_or_zero(lanes[2], first_lane)};
+  };
+  const Vector from = at(end.from), to = at(end.to);
+  const Vector change{hn::Sub(to.x, from.x), hn::Sub(to.y, from.y), hn::Sub(to.z, from.z)};
+  const auto place = [&](V part) HWY_ATTR {
+    return Vector{hn::MulAdd(change.x, part, from.x), hn::MulAdd(change.y, part, from.y),
+                  hn::MulAdd(change.z, part, from.z)};
+  };
+  const auto loads_at = [&](V part) HWY_ATTR {
+    Loads loads{end.way == FarEnd::held ? zero_vector() : place(part), {}};
+    if (block.frame != nullptr) loads.field = frame_field(*block.frame, block.scale, part, first_lane);
+    return loads;
+  };
+  const float count = static_cast<float>(substeps);
+  const auto fraction = [&](float steps) HWY_ATTR { return hn::Set(d, steps / count); };
+  const bool exact = stiffness == Stiffness::shared && solver.across == 1 && solver.along == 1;
+  if (end.way != FarEnd::free) hold_far_face_sideways(belly, method != Method::statics);
+  Step step{tick_s / count,
+            static_cast<float>(options.damping_per_s),
+            static_cast<float>(options.stiffness_damping_s),
+            circular * circular,
+            from.z,
+            to.z,
+            hn::Div(change.z, hn::Set(d, tick_s)),
+            {}};
+  if (method == Method::statics) {
+    step.loads = loads_at(hn::Set(d, 1.0F));
+    step_static<stiffness, mass>(belly, step, exact);
+    report_strain_energy<stiffness>(block, belly.factor, first_lane);
+    hn::Store(hn::Zero(d), d, block.report.kinetic_energy_j.lane + first_lane);
+    return report_shape<stiffness>(block, belly.factor, first_lane);
+  }
+  if (end.way == FarEnd::held) set_far_z(belly, belly.u, from.z);
+  for (std::uint32_t s = 0; s < substeps; ++s) {
+    step.far_to = s + 1 == substeps ? to.z : place(fraction(static_cast<float>(s + 1))).z;
+    const float moment = static_cast<float>(s) + (method == Method::caa ? 0.5F : 0.0F);
+    step.loads = loads_at(fraction(moment));
+    if (method == Method::caa) {
+      step_caa<stiffness, mass>(belly, step, exact);
+    } else {
+      step_icd<stiffness>(belly, step);
+    }
+  }
+  if (method == Method::icd) {
+    report_strain_across_step<stiffness>(belly, step);
+  } else {
+    report_strain_energy<stiffness>(block, belly.factor, first_lane);
+  }
+  if constexpr (mass == Mass::consistent) {
+    report_consistent_kinetic_energy(belly);
+  } else {
+    report_kinetic_energy(block, belly.factor, first_lane);
+  }
+  report_shape<stiffness>(block, belly.factor, first_lane);
+}
+
+template <Stiffness stiffness, Mass mass>
+void tick_of_block(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+                   float tick_s, float* scratch) {
+  for (std::size_t lane = 0; lane < lane_count; lane += vector_lanes) {
+    tick_of_lanes<stiffness, mass>(block, solver, end, substeps, tick_s, scratch, lane);
+  }
+}
+
+void implicit_tick(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+                   float tick_s, float* scratch) {
+  const bool lumped = solver.mass == Mass::lumped;
+  if (block.stiffness == Stiffness::individual) {
+    lumped ? tick_of_block<Stiffness::individual, Mass::lumped>(block, solver, end, substeps, tick_s, scratch)
+           : tick_of_block<Stiffness::individual, Mass::consistent>(block, solver, end, substeps, tick_s, scratch);
+  } else {
+    lumped ? tick_of_block<Stiffness::shared, Mass::lumped>(block, solver, end, substeps, tick_s, scratch)
+           : tick_of_block<Stiffness::shared, Mass::consistent>(block, solver, end, substeps, tick_s, scratch);
+  }
+}
+
+}  // namespace
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+namespace {
+HWY_EXPORT(implicit_tick);
+}  // namespace
+
+std::size_t scratch_floats(const MuscleTemplate& muscle, Method method) {
+  const std::size_t column = nodal_width(muscle.mesh.cells) * lane_count;
+  if (method == Method::ecd) return muscle.options.stiffness_damping_s > 0 ? column : 0;
+  return 3 * column;
+}
+
+void deform_implicit(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+                     float tick_s, float* scratch) {
+  HWY_DYNAMIC_DISPATCH(implicit_tick)(block, solver, end, substeps, tick_s, scratch);
+}
+
+}  // namespace mobil
+#endif

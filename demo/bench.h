@@ -55,5 +55,6 @@ Result<void> bench_kinematics(BenchRun& run);
 Result<void> bench_lines(BenchRun& run);
 Result<void> bench_skinning(BenchRun& run);
 Result<void> bench_table1(BenchRun& run);
+Result<void> bench_fem(BenchRun& run);
 
 }  // namespace mobil

@@ -32,7 +32,8 @@ struct Bench {
 
 constexpr std::array benches = {Bench{"machine", &bench_machine},       Bench{"gait", &bench_gait},
                                 Bench{"kinematics", &bench_kinematics}, Bench{"lines", &bench_lines},
-                                Bench{"skinning", &bench_skinning},     Bench{"table1", &bench_table1}};
+                                Bench{"skinning", &bench_skinning},     Bench{"table1", &bench_table1},
+                                Bench{"fem", &bench_fem}};
 
 struct BenchText {
   std::vector<std::string> names;

@@ -132,16 +132,14 @@ void add(Rival& rival, const std::string& name, const Block& block, const Eigen:
     for (int n = 0; n < checked_steps; n += steps_a_tick) crowd.tick(n);
     const Eigen::VectorXd u = crowd.batches[0].u.col(0).template cast<double>();
     rival.check_error = std::max(rival.check_error, (u - expected).norm() / expected.norm());
+    rival.far_z_m = far_mean(block, u)[0];
   }
   Crowd<Operator, S> crowd(op, block, width, muscles / width);
   int n = 0;
-  rival.variants.push_back(timed(
-      name, muscles * steps_a_tick,
-      [&] {
-        crowd.tick(n);
-        n += steps_a_tick;
-      },
-      0.2));
+  rival.variants.push_back(timed(name, muscles * steps_a_tick, [&] {
+    crowd.tick(n);
+    n += steps_a_tick;
+  }));
 }
 
 }  // namespace

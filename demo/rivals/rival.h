@@ -28,6 +28,7 @@ struct Rival {
   std::string check;       // what its result was compared with
   double check_error = 0;  // relative difference
   bool holds = false;      // the difference is as small as it must be
+  double far_z_m = 0;      // mean displacement of the first muscle's far face along z after those steps
 };
 
 /// Sparse row-major stiffness in double precision, one muscle at a time; all share it.

@@ -20,11 +20,11 @@ inline double cpu_now_s() {
 
 /// Runs `work`, which does `steps` steps of one muscle each, once unmeasured and then `repeats` times or for `limit_s`.
 template <class F>
-Variant timed(std::string name, double steps, F&& work, double limit_s = 0.4) {
+Variant timed(std::string name, double steps, F&& work, double limit_s = 0.12) {
   work();
   std::vector<double> us;
   const double start = cpu_now_s();
-  while (us.size() < 3 || (static_cast<int>(us.size()) < repeats && cpu_now_s() - start < limit_s)) {
+  while (us.size() < 2 || (static_cast<int>(us.size()) < repeats && cpu_now_s() - start < limit_s)) {
     const double before = cpu_now_s();
     work();
     us.push_back((cpu_now_s() - before) / steps * 1e6);

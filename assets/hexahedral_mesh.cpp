@@ -51,6 +51,31 @@ Result<void> check_stations(std::span<const CageStation> stations) {
   return {};
 }
 
+Result<void> check_grading(const Grading& grading) {
+  for (const double ratio : {grading.across, grading.along}) {
+    if (ratio >= 0.01 && ratio <= 100) continue;
+    return fail(
+        fmt::format("grading {} across and {} along: each must lie between 0.01 and 100 (1: all elements alike)",
+                    grading.across, grading.along));
+  }
+  return {};
+}
+
+/// Where the planes between `count` elements lie, in mean element lengths from the first.
+std::vector<double> graded_planes(std::uint32_t count, double ratio) {
+  std::vector<double> planes(count + 1);
+  const std::uint32_t inner = (count - 1) / 2;  // elements from an end to the middle
+  const double growth = inner > 0 ? std::pow(ratio, 1.0 / inner) : 1;
+  for (std::uint32_t i = 0; i < count; ++i) planes[i + 1] = planes[i] + std::pow(growth, std::min(i, count - 1 - i));
+  if (growth == 1) return planes;
+  const double mean = planes[count] / count;
+  for (std::uint32_t i = 0; i <= count / 2; ++i) {
+    planes[i] /= mean;
+    planes[count - i] = count - planes[i];
+  }
+  return planes;
+}
+
 CageStation station_at(std::span<const CageStation> stations, double t) {
   std::size_t upper = 1;
   while (upper + 1 < stations.size() && t > static_cast<double>(stations[upper].t)) ++upper;
@@ -121,39 +146,46 @@ std::vector<std::uint32_t> insertion_centre(const Cells& cells) {
   return nodes;
 }
 
-Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m) {
+Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const Grading& grading) {
   if (auto ok = check_cells(cells); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_grading(grading); !ok) return tl::unexpected(ok.error());
   if (!(cell_size_m >= 1e-6 && cell_size_m <= 10)) {
     return fail(fmt::format("cell size {} m must lie between 1e-6 and 10 m", cell_size_m));
   }
+  const auto x = graded_planes(cells[0], grading.across), y = graded_planes(cells[1], grading.across),
+             z = graded_planes(cells[2], grading.along);
   HexahedralMesh mesh{cells, {}};
   mesh.node.reserve(node_count(cells));
-  for (std::uint32_t k = 0; k <= cells[2]; ++k) {
-    for (std::uint32_t j = 0; j <= cells[1]; ++j) {
-      for (std::uint32_t i = 0; i <= cells[0]; ++i) {
-        mesh.node.push_back({(i - 0.5 * cells[0]) * cell_size_m, (j - 0.5 * cells[1]) * cell_size_m, k * cell_size_m});
+  for (const double c : z) {
+    for (const double b : y) {
+      for (const double a : x) {
+        mesh.node.push_back({(a - 0.5 * cells[0]) * cell_size_m, (b - 0.5 * cells[1]) * cell_size_m, c * cell_size_m});
       }
     }
   }
   return mesh;
 }
 
-Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m) {
+Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,
+                                  const Grading& grading) {
   if (auto ok = check_cells(cells); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_grading(grading); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_stations(stations); !ok) return tl::unexpected(ok.error());
   if (!(length_m >= 1e-6 && length_m <= 10)) {
     return fail(fmt::format("belly length {} m must lie between 1e-6 and 10 m", length_m));
   }
   // At three quarters the corner's scaled Jacobian tends to 0.36 as the grid is refined; a full disc's tends to 0.
   constexpr double roundness = 0.75;
+  const auto columns = graded_planes(cells[0], grading.across), rows = graded_planes(cells[1], grading.across),
+             planes = graded_planes(cells[2], grading.along);
   HexahedralMesh mesh{cells, {}};
   mesh.node.reserve(node_count(cells));
-  for (std::uint32_t k = 0; k <= cells[2]; ++k) {
-    const double t = static_cast<double>(k) / cells[2];
+  for (const double plane : planes) {
+    const double t = plane / cells[2];
     const CageStation s = station_at(stations, t);
-    for (std::uint32_t j = 0; j <= cells[1]; ++j) {
-      for (std::uint32_t i = 0; i <= cells[0]; ++i) {
-        const double a = 2.0 * i / cells[0] - 1, b = 2.0 * j / cells[1] - 1;
+    for (const double row : rows) {
+      for (const double column : columns) {
+        const double a = 2 * column / cells[0] - 1, b = 2 * row / cells[1] - 1;
         const double x = a * (1 + roundness * (std::sqrt(1 - 0.5 * b * b) - 1));
         const double y = b * (1 + roundness * (std::sqrt(1 - 0.5 * a * a) - 1));
         mesh.node.push_back({static_cast<double>(s.offset_x_m) + static_cast<double>(s.semi_x_m) * x,

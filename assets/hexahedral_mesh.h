@@ -64,14 +64,22 @@ std::vector<Quad> insertion_quads(const Cells& cells);
 /// The middle node of the insertion face, or the two or four nearest where cells are odd across.
 std::vector<std::uint32_t> insertion_centre(const Cells& cells);
 
-/// Cubes of edge `cell_size_m`, centred on the z axis, z from 0. Fails outside 1–256 cells a side, beyond
-/// `largest_mesh_nodes`, or for a size outside 1e-6–10 m.
-Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m);
+/// How the elements of a block differ in length: those in the middle over those at its ends (`along`) or edges
+/// (`across`, in x and y), growing geometrically in between. 1: all alike; above 1: fine towards the boundary.
+struct Grading {
+  double across = 1, along = 1;
+};
+
+/// Cubes of edge `cell_size_m`, centred on the z axis, z from 0; graded, elements that fill the same block. Fails
+/// outside 1–256 cells a side, beyond `largest_mesh_nodes`, for a size outside 1e-6–10 m or a grading outside 0.01–100.
+Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const Grading& grading = {});
 
 /// A belly along z from 0 to `length_m`: rounded cross-sections through the stations (t ascending from 0 to 1, linear
 /// between them). A section blends a square grid with its elliptical image (3 : 1), so that its edges' middles touch
-/// the ellipse and its corners stay elements. Fails on a bad station, or where an element would be inverted.
-Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m);
+/// the ellipse and its corners stay elements. Fails on a bad station or grading, or, naming the element, where one
+/// would be inverted or flat.
+Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,
+                                  const Grading& grading = {});
 
 /// Volume enclosed by the trilinear elements, m³ (exact).
 double volume(const HexahedralMesh& mesh);

@@ -156,7 +156,7 @@ ElementTerms one_point_element(const std::array<GaussPoint, 8>& points, const He
     across += g[0] * g[0] + g[1] * g[1];
     along += g[2] * g[2];
   }
-  const double stiffness = hourglass_share * (lambda + 2 * mu) * mean.volume_m3 / 8;
+  const double stiffness = hourglass_share * 4 * mu * mean.volume_m3 / 8;
   for (std::size_t a = 0; a < 8; ++a) {
     for (std::size_t b = 0; b < 8; ++b) {
       StencilPair& pair = terms[a][b];

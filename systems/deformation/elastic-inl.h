@@ -64,73 +64,95 @@ HWY_INLINE const float* coefficients(const KernelArrays& kernel, const Cells& ce
          KernelArrays::rest_words * std::size_t{plane - 1} * plane_nodes(cells);
 }
 
+/// Nine partial sums of a node's force. Individual: those of A (x y z), B and C; shared: those of x, y and z.
+struct Sums {
+  V a0, a1, a2, b0, b1, b2, c0, c1, c2;
+};
+
+HWY_INLINE V add(float coefficient, V value, V sum) {
+  return hn::MulAdd(hn::Set(d, coefficient), value, sum);
+}
+
+/// Adds the coupling `q` to the neighbour whose displacement is at `p`.
+template <Stiffness stiffness>
+HWY_INLINE void add_neighbour(const float* p, const float* q, Sums& s) {
+  const V x = load_once(p), y = load_once(p + lane_count), z = load_once(p + 2 * lane_count);
+  if constexpr (stiffness == Stiffness::individual) {
+    s.a0 = add(q[0], x, s.a0);  // A: xx xy yx yy zz
+    s.a1 = add(q[2], x, s.a1);
+    s.a2 = add(q[4], z, s.a2);
+    s.b0 = add(q[5], z, s.b0);  // B: xz yz zx zy
+    s.b1 = add(q[6], z, s.b1);
+    s.b2 = add(q[7], x, s.b2);
+    s.c0 = add(q[9], x, s.c0);  // C: xx yy zz
+    s.c1 = add(q[10], y, s.c1);
+    s.c2 = add(q[11], z, s.c2);
+    s.a0 = add(q[1], y, s.a0);
+    s.a1 = add(q[3], y, s.a1);
+    s.b2 = add(q[8], y, s.b2);
+  } else {
+    s.a0 = add(q[0], x, s.a0);
+    s.a1 = add(q[3], x, s.a1);
+    s.a2 = add(q[6], x, s.a2);
+    s.b0 = add(q[1], y, s.b0);
+    s.b1 = add(q[4], y, s.b1);
+    s.b2 = add(q[7], y, s.b2);
+    s.c0 = add(q[2], z, s.c0);
+    s.c1 = add(q[5], z, s.c1);
+    s.c2 = add(q[8], z, s.c2);
+  }
+}
+
+/// Adds the neighbours of `across` × `deep` nodes in each plane from the one that begins at `plane` to `last_plane`.
+template <Stiffness stiffness, std::size_t across, std::size_t deep>
+HWY_INLINE const float* add_planes(const float* plane, const float* last_plane, std::size_t row_stride,
+                                   std::size_t plane_stride, const float* q, Sums& sums) {
+  for (; plane <= last_plane; plane += plane_stride) {
+    for (std::size_t row = 0; row < deep; ++row) {
+      const float* p = plane + row * row_stride;
+      for (std::size_t n = 0; n < across; ++n, p += node_stride, q += words<stiffness>) {
+        add_neighbour<stiffness>(p, q, sums);
+      }
+    }
+  }
+  return q;
+}
+
 /// (K·u) of node (i, j, k), k > 0, in N. `coefficient` points at its row and moves on to the next one.
 template <Stiffness stiffness>
 HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32_t j, std::uint32_t k, const float* u,
                                 const Factors& factor, const float*& coefficient) {
-  const std::uint32_t width = cells[0] + 1;
-  const std::uint32_t i_low = i > 0 ? i - 1 : 0;
-  const std::uint32_t j_low = j > 0 ? j - 1 : 0;
-  const std::uint32_t k_low = k > 1 ? k - 1 : 1;  // the first plane is fixed
-  const std::uint32_t i_high = std::min(i + 1, cells[0]);
-  const std::uint32_t j_high = std::min(j + 1, cells[1]);
-  const std::uint32_t k_high = std::min(k + 1, cells[2]);
+  const std::size_t row_stride = node_stride * (cells[0] + 1), plane_stride = row_stride * (cells[1] + 1);
+  const std::uint32_t k_low = k > 1 ? k - 1 : 1, k_high = std::min(k + 1, cells[2]);  // the first plane is fixed
+  const float* const own = u + plane_stride * k + row_stride * j + node_stride * i;
+  const float* const first =
+      u + plane_stride * k_low + row_stride * (j > 0 ? j - 1 : 0) + node_stride * (i > 0 ? i - 1 : 0);
+  const float* const last = first + plane_stride * (k_high - k_low);
+  const bool wide = i > 0 && i<cells[0], deep = j> 0 && j < cells[1];
+  const V zero = hn::Zero(d);
+  Sums s{zero, zero, zero, zero, zero, zero, zero, zero, zero};
   const float* c = coefficient;
-  V s0 = hn::Zero(d), s1 = s0, s2 = s0, s3 = s0, s4 = s0, s5 = s0, s6 = s0, s7 = s0, s8 = s0;
-  const auto add_neighbour = [&](const float* p, const float* q) HWY_ATTR {
-    const V x = load_once(p);
-    const V y = load_once(p + lane_count);
-    const V z = load_once(p + 2 * lane_count);
-    const auto add = [q](std::size_t word, V value, V sum)
-                         HWY_ATTR { return hn::MulAdd(hn::Set(d, q[word]), value, sum); };
-    if constexpr (stiffness == Stiffness::individual) {
-      s0 = add(0, x, s0);  // A: xx xy yx yy zz
-      s1 = add(2, x, s1);
-      s2 = add(4, z, s2);
-      s3 = add(5, z, s3);  // B: xz yz zx zy
-      s4 = add(6, z, s4);
-      s5 = add(7, x, s5);
-      s6 = add(9, x, s6);  // C: xx yy zz
-      s7 = add(10, y, s7);
-      s8 = add(11, z, s8);
-      s0 = add(1, y, s0);
-      s1 = add(3, y, s1);
-      s5 = add(8, y, s5);
-    } else {
-      s0 = add(0, x, s0);
-      s1 = add(3, x, s1);
-      s2 = add(6, x, s2);
-      s3 = add(1, y, s3);
-      s4 = add(4, y, s4);
-      s5 = add(7, y, s5);
-      s6 = add(2, z, s6);
-      s7 = add(5, z, s7);
-      s8 = add(8, z, s8);
-    }
-  };
-  for (std::uint32_t kk = k_low; kk <= k_high; ++kk) {
-    for (std::uint32_t jj = j_low; jj <= j_high; ++jj) {
-      const float* p = u + node_stride * ((kk * (cells[1] + 1) + jj) * width + i_low);
-      for (std::uint32_t ii = i_low; ii <= i_high; ++ii, p += node_stride) {
-        add_neighbour(p, c);
-        c += words<stiffness>;
-      }
-    }
+  if (wide) {
+    c = deep ? add_planes<stiffness, 3, 3>(first, last, row_stride, plane_stride, c, s)
+             : add_planes<stiffness, 3, 2>(first, last, row_stride, plane_stride, c, s);
+  } else {
+    c = deep ? add_planes<stiffness, 2, 3>(first, last, row_stride, plane_stride, c, s)
+             : add_planes<stiffness, 2, 2>(first, last, row_stride, plane_stride, c, s);
   }
-  const float* own = u + node_stride * ((k * (cells[1] + 1) + j) * width + i);
-  s0 = hn::MulAdd(hn::Set(d, c[0]), hn::Load(d, own), s0);
-  (stiffness == Stiffness::individual ? s1 : s4) =
-      hn::MulAdd(hn::Set(d, c[1]), hn::Load(d, own + lane_count), stiffness == Stiffness::individual ? s1 : s4);
-  (stiffness == Stiffness::individual ? s2 : s8) =
-      hn::MulAdd(hn::Set(d, c[2]), hn::Load(d, own + 2 * lane_count), stiffness == Stiffness::individual ? s2 : s8);
   coefficient = c + KernelArrays::rest_words;
+  const V x = hn::Load(d, own), y = hn::Load(d, own + lane_count), z = hn::Load(d, own + 2 * lane_count);
+  s.a0 = add(c[0], x, s.a0);
   if constexpr (stiffness == Stiffness::individual) {
+    s.a1 = add(c[1], y, s.a1);
+    s.a2 = add(c[2], z, s.a2);
     const auto join = [&factor](V a, V b, V e) HWY_ATTR {
       return hn::MulAdd(factor.a, a, hn::MulAdd(factor.b, b, hn::MulAdd(factor.c, e, hn::Mul(factor.c_rest, e))));
     };
-    return {join(s0, s3, s6), join(s1, s4, s7), join(s2, s5, s8)};
+    return {join(s.a0, s.b0, s.c0), join(s.a1, s.b1, s.c1), join(s.a2, s.b2, s.c2)};
   } else {
-    return {hn::Add(hn::Add(s0, s3), s6), hn::Add(hn::Add(s1, s4), s7), hn::Add(hn::Add(s2, s5), s8)};
+    s.b1 = add(c[1], y, s.b1);
+    s.c2 = add(c[2], z, s.c2);
+    return {hn::Add(hn::Add(s.a0, s.b0), s.c0), hn::Add(hn::Add(s.a1, s.b1), s.c1), hn::Add(hn::Add(s.a2, s.b2), s.c2)};
   }
 }
 

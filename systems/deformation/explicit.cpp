@@ -196,6 +196,7 @@ void tick_of_lanes(const BellyBlock& block, const EndDrive& end, std::uint32_t s
     substep<stiffness, far_end, false>(belly, at_substep(s + ahead), work);
   }
   prepare(substeps - 1);
+  if (!block.reported) return substep<stiffness, far_end, false>(belly, at_substep(substeps - 1 + ahead), work);
   substep<stiffness, far_end, true>(belly, at_substep(substeps - 1 + ahead), work);
   hn::Store(hn::Mul(hn::Set(d, 0.5F), work), d, block.report.strain_energy_j.lane + first_lane);
   if (viscous) report_strain_energy<stiffness>(block, factor, first_lane);

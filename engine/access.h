@@ -3,13 +3,15 @@
 //
 //   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
 //   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
+//   Maybe<C>                 reads this block's component where the table has it
 //   Previous<C>              reads what the component was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
+//   Scratch<Tag>             memory to work in, as many floats as the table's tag says
 //   Tick, float              the tick; a plain float is its length in s
 //   Rows                     who the lanes are
 //
-// It runs on every block of every table that has all components, fields and tags named.
+// It runs on every block of every table that has all components, fields and tags named (Maybe and Scratch aside).
 
 #include <cstddef>
 #include <cstdint>
@@ -49,6 +51,20 @@ struct Previous {
   const C<Lanes<float>>* operator->() const { return block; }
 };
 
+/// A component that not every table has: null where it is missing.
+template <template <class> class C>
+struct Maybe {
+  const C<Lanes<float>>* block;
+};
+
+/// Memory of this block's own until the system returns, 64-byte aligned, with anything in it: as many floats as the
+/// table's TagValue<Tag>, null where that is 0 or missing.
+template <class Tag>
+struct Scratch {
+  float* data;
+  std::size_t floats;
+};
+
 /// Rows of component C of any entity.
 template <template <class> class C>
 class Lookup {
@@ -83,6 +99,7 @@ struct Bound {
   std::uint32_t words = 0;
   std::uint64_t tag = 0;
   const void* resource = nullptr;
+  std::size_t scratch_floats = 0;
 };
 
 /// One block, about to be worked on.
@@ -91,6 +108,7 @@ struct BlockView {
   Table& table;
   std::size_t block;
   Tick tick;
+  float* scratch = nullptr;
 };
 
 /// How a parameter of type P is declared (`access`), found in a table (`bind`, false where the table lacks it) and made
@@ -150,6 +168,17 @@ struct Parameter<const C<Lanes<float>>&> : ColumnParameter<Access::Mode::read, C
 };
 
 template <template <class> class C>
+struct Parameter<Maybe<C>> : ColumnParameter<Access::Mode::read, C<float>> {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    if (!Parameter<const C<Lanes<float>>&>::bind(world, table, bound)) bound.words = 0;
+    return true;
+  }
+  static Maybe<C> make(const BlockView& view, const Bound& bound) {
+    return {bound.words == 0 ? nullptr : &Parameter<const C<Lanes<float>>&>::make(view, bound)};
+  }
+};
+
+template <template <class> class C>
 struct Parameter<Previous<C>> : ColumnParameter<Access::Mode::previous, C<float>> {
   static Previous<C> make(const BlockView& view, const Bound& bound) {
     return {&Parameter<C<Lanes<float>>&>::make(view, bound)};
@@ -181,6 +210,25 @@ struct Parameter<Shared<T>> : TagParameter<T> {
     return {static_cast<const T*>(bound.resource), bound.tag};
   }
 };
+
+template <class Tag>
+struct Parameter<Scratch<Tag>> : AnywhereParameter {
+  static bool bind(const World&, const Table& table, Bound& bound) {
+    const KeyPart* part = find_part(table.key(), type_id<Tag>());
+    if (part != nullptr && part->kind == PartKind::tag) bound.scratch_floats = part->value;
+    return true;
+  }
+  static Scratch<Tag> make(const BlockView& view, const Bound& bound) {
+    return {bound.scratch_floats == 0 ? nullptr : view.scratch, bound.scratch_floats};
+  }
+};
+
+template <class P>
+inline constexpr bool is_scratch = false;
+template <class Tag>
+inline constexpr bool is_scratch<Scratch<Tag>> = true;
+template <class Tag>
+inline constexpr bool is_scratch<const Scratch<Tag>&> = true;
 
 template <>
 struct Parameter<Tick> : AnywhereParameter {

@@ -37,12 +37,14 @@ int Threads::count() const {
 
 Jobs Threads::jobs() const {
   if (count() == 1) return {};
-  return {arena_.get(), [](void* user, std::size_t count, Jobs::Body body, void* context) {
+  return {arena_.get(),
+          [](void* user, std::size_t count, Jobs::Body body, void* context) {
             static_cast<Arena*>(user)->arena.execute([=] {
               tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count),
                                 [=](const auto& range) { body(context, range.begin(), range.end()); });
             });
-          }};
+          },
+          static_cast<std::size_t>(count())};
 }
 
 namespace {

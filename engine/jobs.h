@@ -14,6 +14,7 @@ struct Jobs {
   void* user = nullptr;
   void (*parallel_for)(void* user, std::size_t count, Body body, void* context) =
       [](void*, std::size_t count, Body body, void* context) { body(context, 0, count); };
+  std::size_t threads = 1;  // about how many work at once, for memory made ready; more may
 };
 
 /// A pool (oneTBB). One thread runs everything inline and starts nothing; 0 means as many as the machine has. More than

@@ -15,14 +15,20 @@ struct Schedule::Pass {
   const World& world;
   Tick tick;
   const std::vector<ChosenRow>& chosen;
+  ScratchPool* scratch;  // null where the system needs none
 };
 
-Schedule::Schedule(std::vector<System> systems)
-    : systems_(std::move(systems)), timings_(systems_.size()), matches_(systems_.size()) {}
+Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memory)
+    : systems_(std::move(systems)),
+      timings_(systems_.size()),
+      matches_(systems_.size()),
+      scratch_floats_(systems_.size()),
+      scratch_(std::make_unique<ScratchPool>(memory)) {}
 
 void Schedule::match(World& world) {
   if (world_ != world.identity()) {
     for (auto& matches : matches_) matches.clear();
+    std::fill(scratch_floats_.begin(), scratch_floats_.end(), 0);
     tables_seen_ = 0;
     world_ = world.identity();
   }
@@ -30,7 +36,9 @@ void Schedule::match(World& world) {
     Table& table = world.tables()[tables_seen_];
     for (std::size_t s = 0; s < systems_.size(); ++s) {
       std::vector<Bound> bound(systems_[s].parameters);
-      if (systems_[s].bind(world, table, bound.data())) matches_[s].push_back({&table, 0, std::move(bound)});
+      if (!systems_[s].bind(world, table, bound.data())) continue;
+      for (const Bound& b : bound) scratch_floats_[s] = std::max(scratch_floats_[s], b.scratch_floats);
+      matches_[s].push_back({&table, 0, std::move(bound)});
     }
   }
 }
@@ -38,12 +46,14 @@ void Schedule::match(World& world) {
 void Schedule::run_blocks(void* context, std::size_t begin, std::size_t end) {
   const FlushDenormals flush;
   const Pass& pass = *static_cast<const Pass*>(context);
+  const ScratchLease scratch(pass.scratch);
   auto match = std::upper_bound(pass.matches.begin(), pass.matches.end(), begin,
                                 [](std::size_t block, const Match& m) { return block < m.first_block; }) -
                1;
   for (std::size_t b = begin; b < end; ++b) {
     while (b - match->first_block >= match->table->block_count()) ++match;
-    pass.system.run({pass.world, *match->table, b - match->first_block, pass.tick}, match->bound.data());
+    pass.system.run({pass.world, *match->table, b - match->first_block, pass.tick, scratch.data()},
+                    match->bound.data());
   }
 }
 
@@ -76,6 +86,10 @@ void Schedule::choose_rows(const System& system, const std::vector<Match>& match
 
 void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
   match(world);
+  if (const auto most = std::max_element(scratch_floats_.begin(), scratch_floats_.end());
+      most != scratch_floats_.end() && *most > 0) {
+    scratch_->prepare(*most, jobs.threads);
+  }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     const auto start = std::chrono::steady_clock::now();
     std::size_t blocks = 0;
@@ -83,7 +97,7 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
       m.first_block = blocks;
       blocks += m.table->block_count();
     }
-    Pass pass{systems_[s], matches_[s], world, tick, chosen_};
+    Pass pass{systems_[s], matches_[s], world, tick, chosen_, scratch_floats_[s] > 0 ? scratch_.get() : nullptr};
     if (systems_[s].choose) {
       choose_rows(systems_[s], matches_[s], world, tick);
       timings_[s].rows += chosen_.size();
@@ -139,12 +153,12 @@ std::string Schedule::describe() const {
   return text;
 }
 
-Result<Schedule> ScheduleBuilder::build() const {
+Result<Schedule> ScheduleBuilder::build(std::pmr::memory_resource* memory) const {
   const auto order = schedule_order(systems_);
   if (!order) return tl::unexpected(order.error());
   std::vector<System> sorted;
   for (const std::size_t s : *order) sorted.push_back(systems_[s]);
-  return Schedule(std::move(sorted));
+  return Schedule(std::move(sorted), memory);
 }
 
 }  // namespace mobil

@@ -15,6 +15,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <memory_resource>
 #include <span>
 #include <string>
 #include <string_view>
@@ -25,6 +26,7 @@
 #include "engine/error.h"
 #include "engine/jobs.h"
 #include "engine/packed.h"
+#include "engine/scratch.h"
 #include "engine/world.h"
 
 namespace mobil {
@@ -32,7 +34,7 @@ namespace mobil {
 /// A system with its type taken off.
 struct System {
   std::string name;
-  std::vector<Access> accesses;    // of its parameters
+  std::vector<Access> accesses;  // of its parameters
   std::size_t parameters = 0;
   std::vector<std::string> after;  // names of systems that must have run
   bool (*bind)(const World&, const Table&, Bound*) = nullptr;
@@ -53,7 +55,8 @@ struct Timing {
 class Schedule {
  public:
   /// One tick. Every system over all blocks of its tables, one system after the other. Takes memory only when tables
-  /// have been made since the last run or another world comes along. Denormals are zero while a system runs.
+  /// have been made since the last run, another world comes along, or more threads work at once than before. Denormals
+  /// are zero while a system runs.
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
   /// In the order of running.
@@ -78,13 +81,15 @@ class Schedule {
   static void run_chosen(void* pass, std::size_t begin, std::size_t end);
   void choose_rows(const System& system, const std::vector<Match>& matches, const World& world, Tick tick);
 
-  explicit Schedule(std::vector<System> systems);
+  Schedule(std::vector<System> systems, std::pmr::memory_resource* memory);
   void match(World& world);
 
   std::vector<System> systems_;
   std::vector<Timing> timings_;
   std::vector<std::vector<Match>> matches_;  // by system
   std::vector<ChosenRow> chosen_;            // of the packed system that runs, kept for its memory
+  std::vector<std::size_t> scratch_floats_;  // by system, the most that a table of it needs
+  std::unique_ptr<ScratchPool> scratch_;
   std::size_t tables_seen_ = 0;
   std::shared_ptr<const char> world_;
 };
@@ -112,8 +117,9 @@ class ScheduleBuilder {
   }
 
   /// Fails on two systems of one name, on an `after` that names nobody, on a system that takes a component twice and
-  /// writes it, on writers that nobody ordered and on circles.
-  Result<Schedule> build() const;
+  /// writes it, on writers that nobody ordered and on circles. `memory` serves the systems' scratch memory; it is asked
+  /// by one thread at a time, perhaps during a run, and must outlive the schedule.
+  Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
  private:
   template <class... P>
@@ -135,6 +141,7 @@ class ScheduleBuilder {
 
   template <class F, class... P>
   static System erase(std::string name, F function, Parameters<P...>) {
+    static_assert((is_scratch<P> + ... + 0) <= 1, "scratch memory once");
     System system;
     system.name = std::move(name);
     system.accesses = {Parameter<P>::access()...};
@@ -153,6 +160,7 @@ class ScheduleBuilder {
 
   template <class Choose, class F, class... C, class... P>
   static System erase_packed(std::string name, Choose choose, F function, Parameters<C...>, Parameters<P...>) {
+    static_assert(!(is_scratch<C> || ...), "a chooser has no scratch memory");
     System system;
     system.name = std::move(name);
     system.accesses = {Parameter<P>::access()...};

@@ -11,6 +11,7 @@
 
 #include "assets/critical_step.h"
 #include "assets/hexahedral_mesh.h"
+#include "assets/stiffness_terms.h"
 #include "components/muscle.h"
 
 namespace mobil::oracle {
@@ -68,25 +69,77 @@ struct Model {
   Vector lumped;
 };
 
-inline Model assemble(const HexahedralMesh& mesh, const Material& material) {
-  const auto size = static_cast<Eigen::Index>(3 * mesh.node.size());
-  Model model{Matrix::Zero(size, size), Matrix::Zero(size, size), Vector::Zero(size)};
+/// One element: stiffness of its 24 displacements, N/m, and consistent mass of its 8 corners, kg.
+struct ElementMatrices {
+  Eigen::Matrix<double, 24, 24> stiffness = Eigen::Matrix<double, 24, 24>::Zero();
+  Eigen::Matrix<double, 8, 8> mass = Eigen::Matrix<double, 8, 8>::Zero();
+};
+
+/// Hourglass stiffness of Flanagan and Belytschko: `share`·4μ·V·Σ|b|²/8 on each pattern's part orthogonal to linear
+/// fields; `mean` the mean strain matrix.
+inline Eigen::Matrix<double, 24, 24> hourglass_stiffness(const HexahedralMesh& mesh, const Hexahedron& h,
+                                                         const Eigen::Matrix<double, 6, 24>& mean, double volume_m3,
+                                                         const Material& material, double share) {
+  Eigen::Matrix<double, 8, 3> b, place;
+  for (int a = 0; a < 8; ++a) {
+    const auto& p = mesh.node[h[static_cast<std::size_t>(a)]];
+    place.row(a) << p.x, p.y, p.z;
+    for (int d = 0; d < 3; ++d) b(a, d) = mean(d, 3 * a + d);
+  }
+  Eigen::Matrix<double, 8, 4> pattern;
+  pattern.col(0) << 1, 1, -1, -1, -1, -1, 1, 1;
+  pattern.col(1) << 1, -1, -1, 1, -1, 1, 1, -1;
+  pattern.col(2) << 1, -1, 1, -1, 1, -1, 1, -1;
+  pattern.col(3) << -1, 1, -1, 1, 1, -1, 1, -1;
+  const Eigen::Matrix<double, 8, 4> gamma = pattern - b * (place.transpose() * pattern);
+  const double mu = material.young_pa / (2 * (1 + material.poisson));
+  const Eigen::Matrix<double, 8, 8> k = share * 4 * mu * volume_m3 * b.squaredNorm() / 8 * gamma * gamma.transpose();
+  Eigen::Matrix<double, 24, 24> all = Eigen::Matrix<double, 24, 24>::Zero();
+  for (int a = 0; a < 8; ++a) {
+    for (int c = 0; c < 8; ++c) all.block<3, 3>(3 * a, 3 * c) = k(a, c) * Eigen::Matrix3d::Identity();
+  }
+  return all;
+}
+
+inline ElementMatrices element_matrices(const HexahedralMesh& mesh, const Hexahedron& h, const Material& material,
+                                        Element kind = Element::full) {
+  ElementMatrices element;
   const auto d = elasticity(material);
   const double g = 1 / std::sqrt(3.0);
-  for (std::uint32_t e = 0; e < element_count(mesh.cells); ++e) {
-    const Hexahedron h = element_nodes(mesh.cells, e);
-    Eigen::Matrix<double, 24, 24> k = Eigen::Matrix<double, 24, 24>::Zero();
-    Eigen::Matrix<double, 8, 8> m = Eigen::Matrix<double, 8, 8>::Zero();
-    for (const double x : {-g, g}) {
-      for (const double y : {-g, g}) {
-        for (const double z : {-g, g}) {
-          const Shape s = shape_at(mesh, h, x, y, z);
-          const auto b = strain_matrix(s);
-          k += s.jacobian * b.transpose() * d * b;
-          m += s.jacobian * material.density_kg_m3 * s.n * s.n.transpose();
-        }
+  std::vector<Shape> points;
+  double volume_m3 = 0;
+  Eigen::Matrix<double, 6, 24> mean = Eigen::Matrix<double, 6, 24>::Zero();
+  for (const double x : {-g, g}) {
+    for (const double y : {-g, g}) {
+      for (const double z : {-g, g}) {
+        points.push_back(shape_at(mesh, h, x, y, z));
+        volume_m3 += points.back().jacobian;
+        mean += points.back().jacobian * strain_matrix(points.back());
       }
     }
+  }
+  mean /= volume_m3;
+  Eigen::Matrix<double, 6, 1> unit;
+  unit << 1, 1, 1, 0, 0, 0;
+  for (const Shape& s : points) {
+    Eigen::Matrix<double, 6, 24> b = strain_matrix(s);
+    if (kind == Element::bbar) b += unit * unit.transpose() * (mean - b) / 3;
+    if (kind == Element::one_point) b = mean;
+    element.stiffness += s.jacobian * b.transpose() * d * b;
+    element.mass += s.jacobian * material.density_kg_m3 * s.n * s.n.transpose();
+  }
+  if (kind == Element::one_point) {
+    element.stiffness += hourglass_stiffness(mesh, h, mean, volume_m3, material, hourglass_share);
+  }
+  return element;
+}
+
+inline Model assemble(const HexahedralMesh& mesh, const Material& material, Element kind = Element::full) {
+  const auto size = static_cast<Eigen::Index>(3 * mesh.node.size());
+  Model model{Matrix::Zero(size, size), Matrix::Zero(size, size), Vector::Zero(size)};
+  for (std::uint32_t e = 0; e < element_count(mesh.cells); ++e) {
+    const Hexahedron h = element_nodes(mesh.cells, e);
+    const auto [k, m] = element_matrices(mesh, h, material, kind);
     for (std::size_t a = 0; a < 8; ++a) {
       for (std::size_t c = 0; c < 8; ++c) {
         const auto ra = static_cast<Eigen::Index>(3 * h[a]), rc = static_cast<Eigen::Index>(3 * h[c]);

@@ -56,10 +56,9 @@ double foundation(const MuscleOptions& options) {
   return circular * circular;
 }
 
-/// Nodes back to the first of the stencil in one dimension numbering.
+/// How many numbers apart two neighbours are at most.
 std::size_t node_reach(const Cells& cells) {
-  const std::size_t i = cells[0] > 0 ? 1 : 0;
-  return plane_nodes(cells) + (cells[0] + 1) + i;
+  return std::size_t{plane_nodes(cells)} + (cells[0] + 1) + 1;
 }
 
 /// Rows of the moving planes with `components` to a node. Components that do not move get a row of their own alone.
@@ -204,7 +203,6 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
     case Method::statics:
       what = {{sideways, sideways, 0}, 1};
       solver.sweeps = 5;
-      solver.refinements = 2;
       break;
     case Method::icd:
       what = {{1, 0, 0}, 0};

@@ -30,7 +30,7 @@ struct BellySolver {
   Mass mass = Mass::lumped;
   double dt_s = 0;
   double across = 1, along = 1;   // the body it solves exactly
-  std::uint32_t sweeps = 4;       // of conjugate gradients, for bodies of other sizes
+  std::uint32_t sweeps = 3;       // of conjugate gradients, for bodies of other sizes
   std::uint32_t refinements = 1;  // solutions, each for what the last left, of bodies of just its size
   BandFactor factor;
   std::vector<float> moment_kg_m;  // ∑ mass·(rest position) over a node's row of the mass matrix, three a node

@@ -97,6 +97,17 @@ struct FrameLoad {
   Mat3<F> gradient_from, gradient_to;
 };
 
+/// Where a muscle's frame was at the last tick and how it got there from the one before: its origin, m; its rotation;
+/// the step of its origin, m, and its turn as a rotation vector in the world, rad. `known`: 0 nothing of it, 1 the
+/// place alone, 2 all.
+template <class F>
+struct FrameHistory {
+  Vec3<F> start_m, step_m;
+  Quat<F> rotation;
+  Vec3<F> turn_rad;
+  Whole<F> known;
+};
+
 /// What a deforming belly did, written once a tick. Elongation: mean displacement of the far face along z. Reaction:
 /// elastic force along z at the far face, positive in tension. Volume over that at rest. Energies belong together: in
 /// free undamped motion their sum is constant to rounding (kinetic at the last half step, strain across it).

@@ -102,7 +102,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   WalkOutcome& outcome = walked.outcome;
   outcome.gait = human.gait;
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
-  const std::string_view method = options.force_driven ? "ecd_force" : "ecd";
+  const std::string method = method_label(options.muscles);
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
   std::uint32_t steps_before = 0;
@@ -177,7 +177,7 @@ Result<void> run_walk(const WalkOptions& options) {
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));
     changes = std::move(*planned);
   }
-  const auto added = simulation.add_leg_muscles(*entity, options.force_driven ? Drive::force : Drive::displacement);
+  const auto added = simulation.add_leg_muscles(*entity, options.muscles);
   if (!added) return added;
   if (options.forces) simulation.add_forces(*entity);
   const auto figure = make_figure(simulation, human, options.anatomy);
@@ -203,9 +203,10 @@ Result<void> run_walk(const WalkOptions& options) {
 void add_walk_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("walk", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures");
-  command->footer(std::string(walk_script_help) +
+  command->footer(std::string(walk_muscles_help) + "\n" + walk_script_help +
                   "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
-                  "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10");
+                  "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
+                  "          mobil walk --method caa --inertia --view wireframe --video");
   auto text = std::make_shared<WalkText>();
   command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
   add_walk_options(*command, *text);

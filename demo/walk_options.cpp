@@ -1,7 +1,10 @@
 #include "demo/walk_options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cstdio>
 
 #include "demo/gait_parameters.h"
@@ -39,7 +42,23 @@ Result<Biotype> read_biotype(const std::string& text) {
   return biotype;
 }
 
+/// One of the names of an enumeration, in its order.
+template <class T, std::size_t N>
+Result<T> choose(std::string_view option, const std::string& text, const std::array<std::string_view, N>& names) {
+  const auto at = std::find(names.begin(), names.end(), text);
+  if (at != names.end()) return static_cast<T>(at - names.begin());
+  return fail(fmt::format("{} '{}': choose one of {}", option, text, fmt::join(names, ", ")));
+}
+
 }  // namespace
+
+const char* const walk_muscles_help =
+    "Muscles: a belly is a block of elements in the frame of its line of action.\n"
+    "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
+    "    caa: implicit, one step a tick; static: no vibration at all. summary.json tells the steps taken.\n"
+    "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
+    "Hz);\n"
+    "    without it they move by the line's pull alone.\n";
 
 void add_walk_options(CLI::App& command, WalkText& text) {
   command.add_option("--height", text.height, "Stature, 1.2m to 2.2m")->capture_default_str()->group("Body");
@@ -72,6 +91,17 @@ void add_walk_options(CLI::App& command, WalkText& text) {
       .add_option("--drive", text.drive,
                   "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
       ->capture_default_str()
+      ->group("Muscles");
+  command.add_option("--method", text.method, "How muscles move: ecd, icd, caa or static, see below")
+      ->capture_default_str()
+      ->group("Muscles");
+  command
+      .add_option(
+          "--element", text.element,
+          "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness")
+      ->capture_default_str()
+      ->group("Muscles");
+  command.add_flag("--inertia", text.inertia, "Muscles feel gravity and the leg's acceleration, see below")
       ->group("Muscles");
   command.add_option("--anatomy", text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv")
       ->group("Pictures");
@@ -145,10 +175,17 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   if (!seconds) return tl::unexpected(seconds.error());
   options.seconds = *seconds;
 
-  static constexpr Named<bool> drives[] = {{"displacement", false}, {"force", true}};
+  static constexpr Named<Drive> drives[] = {{"displacement", Drive::displacement}, {"force", Drive::force}};
   const auto drive = choose("--drive", text.drive, drives);
   if (!drive) return tl::unexpected(drive.error());
-  options.force_driven = *drive;
+  options.muscles.drive = *drive;
+  const auto method = choose<Method>("--method", text.method, method_name);
+  if (!method) return tl::unexpected(method.error());
+  options.muscles.method = *method;
+  const auto element = choose<Element>("--element", text.element, element_name);
+  if (!element) return tl::unexpected(element.error());
+  options.muscles.element = *element;
+  options.muscles.inertia = text.inertia;
   static constexpr Named<View> views[] = {
       {"stick", View::stick}, {"wireframe", View::wireframe}, {"surface", View::surface}};
   const auto view = choose("--view", text.view, views);

@@ -11,6 +11,7 @@
 #include "components/gait.h"
 #include "demo/walk_script.h"
 #include "engine/error.h"
+#include "systems/simulation_muscles.h"
 
 namespace mobil {
 
@@ -21,8 +22,8 @@ struct WalkOptions {
   GaitRequest gait;
   std::optional<WalkScript> script;
   double seconds = 5;
-  bool force_driven = false;  // of the muscles
-  bool forces = true;         // ground reactions and joint moments
+  LegMuscles muscles;
+  bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
   View view = View::surface;
   bool frames = false, video = false, stereo = false;
@@ -33,14 +34,17 @@ struct WalkOptions {
 struct WalkText {
   std::string height = "1.75", mass = "75", biotype, constitution = "average";
   std::string speed, step_length, step_frequency, seconds = "5";
-  std::string drive = "displacement", anatomy, view = "surface", out = "out";
+  std::string drive = "displacement", method = "ecd", element = "full", anatomy, view = "surface", out = "out";
   std::vector<std::string> set;
   std::string script;
-  bool list_parameters = false, no_forces = false;
+  bool list_parameters = false, no_forces = false, inertia = false;
   bool frames = false, video = false, stereo = false;
 };
 
 void add_walk_options(CLI::App& command, WalkText& text);
+
+/// What the options above mean for muscles, for the end of --help.
+extern const char* const walk_muscles_help;
 
 /// Reads and checks every option. Errors name the option, the valid range and the mend.
 Result<WalkOptions> read_walk_options(const WalkText& text);

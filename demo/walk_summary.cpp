@@ -18,15 +18,19 @@ double decimal(float value) {
 }
 
 Json muscles_json(const Simulation& simulation, const Human& human) {
+  const Method method = human.leg_muscles.method;
   Json muscles = Json::array();
   for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
     for (std::size_t side = 0; side < 2; ++side) {
       const Entity entity = human.muscle[g][side];
       const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
       const auto scale = simulation.get<BellyScale>(entity);
-      const auto substeps = simulation.world().get<Substeps>(entity);
       const auto line = simulation.get<LineOfAction>(entity);
-      if (shape == nullptr || !scale || !substeps || !line) continue;
+      if (shape == nullptr || !scale || !line) continue;
+      const bool stepped = method != Method::statics;
+      const bool limited = method == Method::ecd || method == Method::icd;
+      const std::uint64_t steps =
+          simulation.world().get<Substeps>(entity).value_or(simulation.world().get<SolvedSteps>(entity).value_or(1));
       const double critical =
           critical_step(shape->critical_steps, static_cast<double>(scale->across), static_cast<double>(scale->along))
               .value_or(0.0);
@@ -38,9 +42,9 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
                          {"belly_length_m", plan.belly_length_m},
                          {"section_m2", plan.section_m2},
                          {"stiffness_n_per_m", line->stiffness_n_per_m},
-                         {"dt_s", simulation.tick_s() / static_cast<double>(*substeps)},
-                         {"critical_dt_s", critical},
-                         {"substeps_per_tick", *substeps}});
+                         {"dt_s", stepped ? Json(simulation.tick_s() / static_cast<double>(steps)) : Json()},
+                         {"critical_dt_s", limited ? Json(critical) : Json()},
+                         {"substeps_per_tick", stepped ? Json(steps) : Json()}});
     }
   }
   return muscles;
@@ -66,7 +70,10 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                      {"double_support_cycle", decimal(outcome.gait.double_support_cycle)},
                      {"parameters", parameters}};
   if (options.script) summary["script"] = {{"file", options.script->path}, {"changes", outcome.changes}};
-  summary["drive"] = options.force_driven ? "force" : "displacement";
+  summary["drive"] = options.muscles.drive == Drive::force ? "force" : "displacement";
+  summary["method"] = method_name[static_cast<std::size_t>(options.muscles.method)];
+  summary["element"] = element_name[static_cast<std::size_t>(options.muscles.element)];
+  summary["inertia"] = options.muscles.inertia;
   summary["anatomy"] = options.anatomy ? Json(options.anatomy->string()) : Json("built-in");
 
   const double simulated = outcome.simulated_s;

@@ -57,6 +57,11 @@ void MotionTable::add(const MotionRow& row, const std::optional<WalkForces>& for
   text += '\n';
 }
 
+std::string method_label(const LegMuscles& muscles) {
+  const std::string_view method = method_name[static_cast<std::size_t>(muscles.method)];
+  return fmt::format("{}{}", method, muscles.drive == Drive::force ? "_force" : "");
+}
+
 MuscleTable::MuscleTable()
     : text(
           "time_s,side,group,line_length_m,rest_length_m,line_ratio,stiffness_n_per_m,force_n,belly_elongation_m,"

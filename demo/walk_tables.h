@@ -8,6 +8,7 @@
 #include "components/forces.h"
 #include "components/muscle.h"
 #include "components/pose.h"
+#include "systems/simulation_muscles.h"
 
 namespace mobil {
 
@@ -32,6 +33,9 @@ struct MotionTable {
   void add(const MotionRow& row, const std::optional<WalkForces>& forces);
   std::string text;
 };
+
+/// The method column: ecd, icd, caa or static; where the end is pulled ecd_force and so on.
+std::string method_label(const LegMuscles& muscles);
 
 /// muscles.csv under way.
 struct MuscleTable {

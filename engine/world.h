@@ -50,6 +50,10 @@ class World {
   template <class... P>
   Entity create(const P&... parts);
   Status destroy(Entity entity);
+  /// Makes an entity consist of just these parts: component rows are written, fields of the same width keep their
+  /// values, other ones begin with zeros.
+  template <class... P>
+  Status remake(Entity entity, const P&... parts);
   bool alive(Entity entity) const { return entities_.alive(entity); }
 
   /// One more part. Values of the others are kept.
@@ -168,6 +172,18 @@ Entity World::create(const P&... parts) {
   [[maybe_unused]] const Place<Table> place = create_row(scratch_, entity);
   (write_part(place, parts), ...);
   return entity;
+}
+
+template <class... P>
+Status World::remake(Entity entity, const P&... parts) {
+  static_assert(distinct({part_id<P>...}), "each component, field and tag once");
+  if (!alive(entity)) return Status::stale_entity;
+  scratch_.clear();
+  (insert_part(scratch_, key_part(parts)), ...);
+  if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
+  [[maybe_unused]] const Place<Table> place = find(entity);
+  (write_part(place, parts), ...);
+  return Status::ok;
 }
 
 template <class P>

@@ -17,7 +17,6 @@
 #include <optional>
 #include <vector>
 
-#include "assets/axial_stiffness.h"
 #include "assets/muscle_plan.h"
 #include "assets/muscle_template.h"
 #include "components/body.h"
@@ -29,6 +28,7 @@
 #include "engine/jobs.h"
 #include "engine/schedule.h"
 #include "engine/world.h"
+#include "systems/simulation_muscles.h"
 
 namespace mobil {
 
@@ -40,15 +40,6 @@ struct SimulationOptions {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// How the far end of a belly is driven: `displacement` makes it follow the line of action exactly, `force` pulls it
-/// with the spring force of the paper's equations 2 and 3.
-enum class Drive : std::uint8_t { displacement, force };
-
-/// The number of equal steps a tick is cut into; a tag of every muscle table.
-struct Substeps {};
-
-struct MuscleLines;  // systems/lines/line_of_action.h
-
 /// One walking person as set up at spawn; what changes is in the world.
 struct Human {
   Entity entity;
@@ -56,6 +47,7 @@ struct Human {
   Gait<float> gait;
   std::vector<MusclePlan> muscle_plan;                             // by group; empty without muscles
   std::array<std::array<Entity, 2>, muscle_group_count> muscle{};  // [group][side]
+  LegMuscles leg_muscles;                                          // as asked for; means nothing without muscles
 };
 
 /// One individual's nodal displacement within its block: component c of node n (m) at first[(3·n + c)·16].
@@ -80,8 +72,8 @@ class Simulation {
   /// was.
   Result<void> change_gait(Entity human, const GaitRequest& gait);
   /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
-  /// part of it each step; who stands turns when they walk on. Errors: a stale handle, a heading that is not finite; all
-  /// is as it was.
+  /// part of it each step; who stands turns when they walk on. Errors: a stale handle, a heading that is not finite;
+  /// all is as it was.
   Result<void> turn_to(Entity human, float heading_rad);
 
   /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one.
@@ -89,8 +81,16 @@ class Simulation {
   Status remove_forces(Entity human);
 
   /// The effect of leg muscles: lines of action and finite-element bellies of hamstrings, quadriceps and triceps surae,
-  /// both legs, at rest where the person stands in the stride. Errors: a stale handle, muscles that are there already.
-  Result<void> add_leg_muscles(Entity human, Drive drive = Drive::displacement, const Material& material = {});
+  /// both legs, at rest where the person stands in the stride (with inertia under the load of that moment). Errors: a
+  /// stale handle, muscles that are there already, a choice out of range, a step above an individual's critical step,
+  /// which names the group and the limit; all is as it was.
+  Result<void> add_leg_muscles(Entity human, const LegMuscles& choice = {});
+  /// The same muscles otherwise from the next tick on: critical steps and substeps are computed anew, handles stay.
+  /// Displacement and velocity stay while the cells do (velocities are taken as they are, be they half a step back or
+  /// not; from static on they begin with zero); other cells begin at rest. Inertia that begins under way lets the
+  /// bellies sag. Every choice not made before is set up and kept. Errors: as above, and muscles that are not there;
+  /// all is as it was.
+  Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
   Status remove_leg_muscles(Entity human);
 
   /// Runs as many whole ticks as fit into the accumulated time.
@@ -120,25 +120,7 @@ class Simulation {
   const Schedule& schedule() const { return *schedule_; }
 
  private:
-  struct Template {
-    Drive drive;
-    Material material;
-    MuscleGroup group;
-    std::shared_ptr<const MuscleTemplate> shape;
-    std::shared_ptr<const MuscleLines> lines;
-    AxialStiffness axial;
-    StaticStretch stretch;  // of the template's own size
-  };
-
-  struct Belly {
-    MusclePlan plan;
-    const Template* shape;
-    std::uint32_t substeps;
-  };
-
-  template <template <class> class End>
-  Entity create_muscle(Entity human, Side side, const Belly& belly, const Pose<float>& pose);
-  Result<const Template*> muscle_template(MuscleGroup group, Drive drive, const Material& material);
+  void set_muscle(Entity& muscle, const Human& human, Side side, const Belly& belly, const LegMuscles& choice);
   Human* find(Entity entity);
 
   World world_;
@@ -147,11 +129,11 @@ class Simulation {
   Jobs jobs_;
   std::optional<Schedule> schedule_;
   std::vector<std::unique_ptr<Human>> humans_;  // by entity index
-  std::vector<std::unique_ptr<Template>> templates_;
+  BellyLibrary bellies_;
   std::uint32_t tick_ = 0;
 };
 
-/// The systems of a simulation in the order of their data, for a schedule.
-Result<Schedule> make_schedule();
+/// The systems of a simulation in the order of their data, for a schedule; `memory` as ScheduleBuilder::build has it.
+Result<Schedule> make_schedule(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace mobil

@@ -206,7 +206,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
   Simulation simulation;
   for (const int who : {0, 7, 19}) {
     const auto human = *simulation.spawn(person(who).body, person(who).gait);
-    ASSERT_TRUE(simulation.add_leg_muscles(human, Drive::force));
+    ASSERT_TRUE(simulation.add_leg_muscles(human, {.drive = Drive::force}));
     double asked = 0, missed = 0;
     for (int i = 0; i < 300; ++i) {
       simulation.tick();
@@ -296,7 +296,7 @@ TEST(Effects, AddingTwiceIsAnErrorAndChangesNothing) {
   for (int i = 0; i < 10; ++i) simulation.tick();
   const auto before = hash_world(simulation);
   for (const Drive drive : {Drive::displacement, Drive::force}) {
-    const auto again = simulation.add_leg_muscles(human, drive);
+    const auto again = simulation.add_leg_muscles(human, {.drive = drive});
     ASSERT_FALSE(again);
     EXPECT_NE(again.error().message.find("remove them first"), std::string::npos) << again.error().message;
   }
@@ -309,7 +309,7 @@ TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
   const auto before = hash_world(simulation);
   for (const Material& bad : {Material{1000, 1e4, 0.5}, Material{0, 1e4, 0.3}, Material{1000, NAN, 0.3},
                               Material{1000, 1e4, -1}, Material{INFINITY, 1e4, 0.3}}) {
-    EXPECT_FALSE(simulation.add_leg_muscles(human, Drive::displacement, bad));
+    EXPECT_FALSE(simulation.add_leg_muscles(human, {.material = bad}));
     EXPECT_EQ(hash_world(simulation), before);
   }
   EXPECT_TRUE(simulation.add_leg_muscles(human));

@@ -1,0 +1,98 @@
+#pragma once
+// What can be chosen of leg muscles, and what people who choose alike share. Part of the front door
+// (systems/simulation.h).
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "assets/axial_stiffness.h"
+#include "assets/belly_solver.h"
+#include "assets/hexahedral_mesh.h"
+#include "assets/muscle_plan.h"
+#include "assets/muscle_template.h"
+#include "components/body.h"
+#include "components/muscle.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+struct MuscleLines;  // systems/lines/line_of_action.h
+
+/// How the far end of a belly is driven: `displacement` makes it follow the line of action exactly, `force` pulls it
+/// with the spring force of the paper's equations 2 and 3.
+enum class Drive : std::uint8_t { displacement, force };
+
+/// How leg muscles deform. Every choice is a matter of which components a muscle has: see the tags below.
+struct LegMuscles {
+  Drive drive = Drive::displacement;
+  Method method = Method::ecd;
+  Material material{};
+  Element element = Element::full;
+  Mass mass = Mass::lumped;        // of CAA; ECD's is lumped, ICD's consistent, static has none
+  double damping_per_s = 8;        // Rayleigh's α, 0–1000
+  double stiffness_damping_s = 0;  // Rayleigh's β, 0–1
+  bool inertia = false;            // gravity and the acceleration of the muscle's frame
+  /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: 7 Hz with
+  /// inertia, where a belly would sag by its own length without, and none otherwise.
+  std::optional<double> foundation_hz{};
+  Cells cells = {2, 2, 8};  // 81 nodes, the paper's choice for real time
+  /// Longest step; a tick is cut into equal ones no longer than that. Left out: of ECD and ICD 0.9 of each individual's
+  /// own critical step, of CAA the tick. Static has no steps.
+  std::optional<double> dt_s{};
+};
+
+// Tags of muscle tables. Who steps explicitly (ECD) has Substeps and NodalVelocity; who solves (ICD, CAA) SolvedSteps,
+// NodalVelocity and a Shared<BellySolver>; who stands still (static) StaticSteps and a Shared<BellySolver>. Those with
+// inertia have FrameHistory and FrameLoad besides.
+
+/// The number of equal steps a tick is cut into.
+struct Substeps {};
+struct SolvedSteps {};
+struct StaticSteps {};
+/// Floats that one block is worked on with.
+struct ScratchFloats {};
+
+/// What all people share whose muscles of a group are alike but for size.
+struct BellyTemplate {
+  LegMuscles choice;
+  MuscleGroup group{};
+  std::shared_ptr<const MuscleTemplate> shape;
+  std::shared_ptr<const MuscleLines> lines;
+  AxialStiffness axial;
+  StaticStretch stretch;  // of the template's own size
+};
+
+/// One group of one person, checked and ready.
+struct Belly {
+  MusclePlan plan;
+  const BellyTemplate* shape = nullptr;
+  std::uint32_t steps = 1;                     // a tick
+  std::shared_ptr<const BellySolver> solver;   // null with ECD
+  std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; null without
+};
+
+/// Templates and solvers, made when they are first asked for and kept. Solvers are those of bodies in the middle of a
+/// range of sizes: what one gets depends on one's own size alone.
+class BellyLibrary {
+ public:
+  /// The groups of a person in the order of MuscleGroup. Errors: a choice out of range; a `dt_s` above a belly's
+  /// critical step, which names the group and the limit.
+  Result<std::vector<Belly>> bellies(const Body& body, const LegMuscles& choice, double tick_s);
+
+ private:
+  struct Solver {
+    const BellyTemplate* shape;
+    std::shared_ptr<const BellySolver> solver;
+  };
+
+  Result<const BellyTemplate*> shape(MuscleGroup group, const LegMuscles& choice);
+  Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
+                                                    const BellyScale<float>& scale);
+
+  std::vector<std::unique_ptr<BellyTemplate>> templates_;
+  std::vector<Solver> solvers_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,85 @@
+// The systems of a simulation, and what joins them to tables.
+#include "systems/deformation/deformation.h"
+#include "systems/forces/forces.h"
+#include "systems/gait/gait.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/lines/frame_motion.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+namespace {
+
+void gather_legs(Lookup<Pose> poses, const MuscleOwner<Lanes<float>>& owner, LegFrames<Lanes<float>>& leg) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const float* pose = poses.find({owner.index[lane], owner.generation[lane]});
+    if (pose != nullptr) gather_leg(pose, static_cast<Side>(owner.side[lane]), leg, lane);
+  }
+}
+
+template <template <class> class End>
+void follow_lines(Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
+                  LineOfAction<Lanes<float>>& line, End<Lanes<float>>& end) {
+  lines_of_action(*lines, scale, leg, line, end);
+}
+
+/// ECD.
+template <template <class> class End>
+void deform(Shared<MuscleTemplate> shape, TagValue<Substeps> substeps, float tick_s, Scratch<ScratchFloats> scratch,
+            const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Maybe<FrameLoad> frame,
+            Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity, BellyReport<Lanes<float>>& report) {
+  deform_explicit({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block}, end,
+                  static_cast<std::uint32_t>(substeps.value), tick_s, scratch.data);
+}
+
+/// ICD and CAA.
+template <template <class> class End>
+void solve(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<SolvedSteps> steps, float tick_s,
+           Scratch<ScratchFloats> scratch, const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end,
+           Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity,
+           BellyReport<Lanes<float>>& report) {
+  deform_implicit({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
+                  *solver, end, static_cast<std::uint32_t>(steps.value), tick_s, scratch.data);
+}
+
+/// Static. There is no velocity; what stands in for it is not touched.
+template <template <class> class End>
+void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<StaticSteps>, float tick_s,
+            Scratch<ScratchFloats> scratch, const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end,
+            Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+  deform_implicit({*shape, scale, displacement.data, displacement.data, report, Stiffness::individual, frame.block},
+                  *solver, end, 1, tick_s, scratch.data);
+}
+
+}  // namespace
+
+Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
+  ScheduleBuilder systems;
+  systems.add("gait", &advance_gait)
+      .add_packed("replan", &lanes_to_plan, &plan_next_step)
+      .after("gait")
+      .add("turn", &turn_gait)
+      .after("replan")
+      .add("kinematics", &pose_skeleton)
+      .add("centre of mass", &centre_of_mass)
+      .add("forces", &joint_forces)
+      .add("leg frames", &gather_legs)
+      .add("lines of action", &follow_lines<EndDisplacement>)
+      .add("lines of action, pulling", &follow_lines<EndForce>)
+      .after("lines of action")
+      .add("frame motion", &frame_motion)
+      .add("deformation", &deform<EndDisplacement>)
+      .add("deformation, pulled", &deform<EndForce>)
+      .after("deformation")
+      .add("deformation, solved", &solve<EndDisplacement>)
+      .after("deformation, pulled")
+      .add("deformation, solved, pulled", &solve<EndForce>)
+      .after("deformation, solved")
+      .add("deformation, static", &settle<EndDisplacement>)
+      .after("deformation, solved, pulled")
+      .add("deformation, static, pulled", &settle<EndForce>)
+      .after("deformation, static");
+  return systems.build(memory);
+}
+
+}  // namespace mobil

@@ -10,6 +10,8 @@
 #include <set>
 #include <utility>
 
+#include "assets/element_size.h"
+#include "assets/stiffness_terms.h"
 #include "tests/oracle.h"
 
 namespace mobil {
@@ -30,6 +32,9 @@ std::vector<CageStation> any_belly() {
   }
   return stations;
 }
+
+const std::vector<CageStation> fixed_belly = {
+    {0, 0.01F, 0, 0.02F, 0.03F}, {0.4F, 0, 0.01F, 0.03F, 0.035F}, {1, 0, 0, 0.02F, 0.02F}};
 
 double volume_by_gauss(const HexahedralMesh& mesh) {
   double sum = 0;
@@ -114,7 +119,114 @@ TEST(HexahedralMesh, InvertedElementIsNamed) {
   EXPECT_NE(checked.error().message.find("element 8 "), std::string::npos) << checked.error().message;
 }
 
+RC_GTEST_PROP(HexahedralMesh, GradedElementsFillTheSameBlockAndGrowGeometricallyToTheMiddle, ()) {
+  const Cells cells = any_cells(6, 12);
+  const Grading grading{*rc::gen::inRange(1, 400) * 0.05, *rc::gen::inRange(1, 400) * 0.05};
+  const auto uniform = make_block(cells, 0.01), graded = make_block(cells, 0.01, grading);
+  RC_ASSERT(graded.has_value());
+  RC_ASSERT(std::abs(volume(*graded) / volume(*uniform) - 1) < 1e-12);
+  RC_ASSERT(smallest_scaled_jacobian(*graded) > 1 - 1e-9);
+  RC_ASSERT(graded->node.front().x == uniform->node.front().x);
+  RC_ASSERT(std::abs(graded->node.back().z - uniform->node.back().z) < 1e-15);
+  std::vector<double> length;
+  for (std::uint32_t k = 0; k < cells[2]; ++k) {
+    length.push_back(graded->node[node_index(cells, 0, 0, k + 1)].z - graded->node[node_index(cells, 0, 0, k)].z);
+  }
+  const std::size_t middle = (length.size() - 1) / 2;
+  if (middle > 0) RC_ASSERT(std::abs(length[middle] / length[0] / grading.along - 1) < 1e-9);
+  for (std::size_t k = 0; k < length.size(); ++k) {
+    RC_ASSERT(length[k] > 0);
+    RC_ASSERT(std::abs(length[k] - length[length.size() - 1 - k]) < 1e-14);
+    if (k >= 1 && k < middle) RC_ASSERT(std::abs(length[k] * length[k] / (length[k - 1] * length[k + 1]) - 1) < 1e-9);
+  }
+}
+
+TEST(HexahedralMesh, GradedBelliesLieWithinTheSameEllipses) {
+  const auto uniform = bend_block({4, 4, 10}, fixed_belly, 0.2),
+             graded = bend_block({4, 4, 10}, fixed_belly, 0.2, {3, 4});
+  ASSERT_TRUE(graded.has_value());
+  EXPECT_NEAR(volume(*graded) / volume(*uniform), 1, 0.05);
+  EXPECT_LT(graded->node[plane_nodes({4, 4, 10})].z, 0.5 * uniform->node[plane_nodes({4, 4, 10})].z);
+}
+
+/// Whether every node of the coarse block is one of the fine block's.
+bool nested(const Cells& coarse, const Cells& fine) {
+  const auto a = make_block(coarse, 0.12 / coarse[0]), b = make_block(fine, 0.12 / fine[0]);
+  for (std::uint32_t n = 0; n < 3; ++n) {
+    if (fine[n] % coarse[n] != 0) return false;
+  }
+  bool same = true;
+  for_each_node(coarse, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const auto times = [&](std::size_t d) { return fine[d] / coarse[d]; };
+    const auto& p = a->node[node_index(coarse, i, j, k)];
+    const auto& q = b->node[node_index(fine, i * times(0), j * times(1), k * times(2))];
+    same = same && std::abs(p.x - q.x) + std::abs(p.y - q.y) + std::abs(p.z - q.z) < 1e-12;
+  });
+  return same;
+}
+
+TEST(HexahedralMesh, BlocksOfThePaperAndThoseBetweenThemNest) {
+  const std::pair<Cells, std::uint32_t> blocks[] = {{{2, 2, 8}, 81},   {{2, 2, 10}, 99},   {{4, 4, 16}, 425},
+                                                    {{4, 4, 20}, 525}, {{8, 8, 32}, 2673}, {{8, 8, 40}, 3321}};
+  for (const auto& [cells, nodes] : blocks) {
+    EXPECT_EQ(node_count(cells), nodes);
+    EXPECT_TRUE(make_block(cells, 0.01).has_value());
+  }
+  EXPECT_TRUE(nested({2, 2, 8}, {4, 4, 16}));
+  EXPECT_TRUE(nested({4, 4, 16}, {8, 8, 32}));
+  EXPECT_TRUE(nested({2, 2, 10}, {4, 4, 20}));
+  EXPECT_TRUE(nested({4, 4, 20}, {8, 8, 40}));
+  EXPECT_FALSE(nested({2, 2, 8}, {4, 4, 20}));
+}
+
+TEST(HexahedralMesh, SliversAndNeedlesAreTakenDownToAThousandth) {
+  const auto sheared = [](float shift) {
+    return bend_block({2, 2, 2}, std::vector<CageStation>{{0, 0, 0, 0.02F, 0.02F}, {1, shift, 0, 0.02F, 0.02F}}, 0.02);
+  };
+  const auto sliver = sheared(12);
+  ASSERT_TRUE(sliver.has_value());
+  EXPECT_LT(smallest_scaled_jacobian(*sliver), 2e-3);
+  const auto flat = sheared(40);
+  ASSERT_FALSE(flat.has_value());
+  EXPECT_NE(flat.error().message.find("element 0 (cell 0,0,0 of 2x2x2)"), std::string::npos) << flat.error().message;
+  const auto needle =
+      bend_block({2, 2, 2}, std::vector<CageStation>{{0, 0, 0, 1e-3F, 1e-3F}, {1, 0, 0, 1e-3F, 1e-3F}}, 0.2);
+  ASSERT_TRUE(needle.has_value());
+  EXPECT_NEAR(longest_edge_m(*needle), 0.1, 1e-12);
+}
+
+TEST(HexahedralMesh, BadNodesAreRefused) {
+  for (const double bad : {std::nan(""), double{INFINITY}, 1e200}) {
+    auto mesh = make_block({2, 2, 2}, 0.01);
+    mesh->node[13].y = bad;
+    EXPECT_FALSE(check_elements(*mesh).has_value());
+  }
+  auto mesh = make_block({2, 2, 2}, 0.01);
+  mesh->node.pop_back();
+  EXPECT_FALSE(check_elements(*mesh).has_value());
+}
+
+TEST(ElementSize, MaterialOfThePaperTakesThirtyMillimetres) {
+  EXPECT_NEAR(compression_wave_speed(Material{}), 4, 1e-3);
+  EXPECT_NEAR(largest_element_m(Material{}), 0.030, 1e-5);
+}
+
+RC_GTEST_PROP(ElementSize, GrowsWithTheSpeedOfCompressionWaves, ()) {
+  const double poisson = *rc::gen::inRange(-50, 49) * 0.01, times = *rc::gen::inRange(1, 100) * 0.1;
+  const Material soft{1000, 1e4, poisson}, stiff{1000, 1e4 * times * times, poisson},
+      heavy{1000 * times * times, 1e4, poisson};
+  RC_ASSERT(std::abs(largest_element_m(stiff) / largest_element_m(soft) / times - 1) < 1e-12);
+  RC_ASSERT(std::abs(largest_element_m(heavy) / largest_element_m(soft) * times - 1) < 1e-12);
+  // λ and μ from their own definitions
+  const double lambda = 1e4 * poisson / ((1 + poisson) * (1 - 2 * poisson)), mu = 1e4 / (2 * (1 + poisson));
+  RC_ASSERT(std::abs(compression_wave_speed(soft) / std::sqrt((lambda + 2 * mu) / 1000) - 1) < 1e-12);
+}
+
 TEST(HexahedralMesh, NonsenseIsRefused) {
+  for (const double bad : {0.0, -1.0, 1e-3, 101.0, std::nan("")}) {
+    EXPECT_FALSE(make_block({2, 2, 4}, 0.01, {bad, 1}));
+    EXPECT_FALSE(bend_block({2, 2, 4}, fixed_belly, 0.2, {1, bad}));
+  }
   EXPECT_FALSE(make_block({0, 2, 2}, 0.01));
   EXPECT_FALSE(make_block({2, 2, 257}, 0.01));
   EXPECT_FALSE(make_block({60, 60, 60}, 0.01));

@@ -10,197 +10,12 @@
 #include "engine/wide-inl.h"
 #include "systems/deformation/band_solve-inl.h"
 #include "systems/deformation/elastic-inl.h"
+#include "systems/deformation/operator-inl.h"
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace {
-
-/// One register of lanes of a block during one tick.
-struct Bellies {
-  const BellyBlock& block;
-  const BellySolver& solver;
-  const KernelArrays& kernel;
-  const Cells& cells;
-  FarEnd end;
-  std::uint32_t first, past;  // nodes that move
-  float *u, *v;
-  float *residual, *direction, *image;  // scratch, of as many floats as u
-  Factors factor;
-  std::size_t first_lane;
-};
-
-/// What a step solves with: mass·M₁ of each component + stiffness·K.
-struct Operator {
-  V mass_x, mass_y, mass_z, stiffness;
-};
-
-/// Loads of a moment: uniform traction's total and the frame's field.
-struct Loads {
-  Vector traction;
-  FrameField field;
-};
-
-HWY_INLINE Vector zero_vector() {
-  const V none = hn::Zero(d);
-  return {none, none, none};
-}
-
-/// Nodes of the planes that move, in the kernel's order.
-template <class F>
-HWY_INLINE void for_each_moving_node(const Bellies& belly, F&& f) {
-  const Cells cells = belly.cells;
-  std::uint32_t n = belly.first;
-  for (std::uint32_t k = 1; n < belly.past; ++k) {
-    for (std::uint32_t j = 0; j <= cells[1]; ++j) {
-      for (std::uint32_t i = 0; i <= cells[0]; ++i, ++n) f(n, i, j, k);
-    }
-  }
-}
-
-/// (M₁·x) of a node. `pair` points at its row of the consistent mass and moves on to the next one.
-template <Mass mass>
-HWY_INLINE Vector inertia(const Bellies& belly, std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k,
-                          const float* x, const float*& pair) {
-  if constexpr (mass == Mass::lumped) {
-    const V m = hn::Set(d, belly.kernel.mass_kg[n]);
-    const float* const p = x + node_stride * n;
-    return {hn::Mul(m, hn::Load(d, p)), hn::Mul(m, hn::Load(d, p + lane_count)),
-            hn::Mul(m, hn::Load(d, p + 2 * lane_count))};
-  } else {
-    const Cells& cells = belly.cells;
-    const std::uint32_t i_low = i > 0 ? i - 1 : 0, i_high = std::min(i + 1, cells[0]);
-    const std::uint32_t j_low = j > 0 ? j - 1 : 0, j_high = std::min(j + 1, cells[1]);
-    const std::uint32_t k_low = k > 1 ? k - 1 : 1, k_high = std::min(k + 1, cells[2]);
-    const float* m = pair;
-    Vector sum = zero_vector();
-    for (std::uint32_t kk = k_low; kk <= k_high; ++kk) {
-      for (std::uint32_t jj = j_low; jj <= j_high; ++jj) {
-        const float* p = x + node_stride * node_index(cells, i_low, jj, kk);
-        for (std::uint32_t ii = i_low; ii <= i_high; ++ii, p += node_stride) {
-          const V w = hn::Set(d, *m++);
-          sum.x = hn::MulAdd(w, hn::Load(d, p), sum.x);
-          sum.y = hn::MulAdd(w, hn::Load(d, p + lane_count), sum.y);
-          sum.z = hn::MulAdd(w, hn::Load(d, p + 2 * lane_count), sum.z);
-        }
-      }
-    }
-    pair = m;
-    return sum;
-  }
-}
-
-/// M₁·(the field's accelerations) of a node, from its row's sums of mass and of mass times place.
-HWY_INLINE Vector field_inertia(const FrameField& field, float mass_kg, const float* moment_kg_m) {
-  const V m = hn::Set(d, mass_kg), mx = hn::Set(d, moment_kg_m[0]), my = hn::Set(d, moment_kg_m[1]),
-          mz = hn::Set(d, moment_kg_m[2]);
-  const auto row = [&](V c, const Vector& g) HWY_ATTR {
-    return hn::MulAdd(g.x, mx, hn::MulAdd(g.y, my, hn::MulAdd(g.z, mz, hn::Mul(c, m))));
-  };
-  return {row(field.constant.x, field.x), row(field.constant.y, field.y), row(field.constant.z, field.z)};
-}
-
-/// residual ← loads − K·strained − S²·l·M₁·rates (none: null), on the nodes that move.
-template <Stiffness stiffness, Mass mass>
-HWY_NOINLINE void write_residual(const Bellies& belly, const float* strained, const float* rates, const Loads& loads) {
-  const Cells cells = belly.cells;
-  const Factors factor = belly.factor;
-  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
-  const float* pair = belly.kernel.consistent_mass_kg.data();
-  const std::uint32_t far = first_insertion_node(cells);
-  const bool framed = belly.block.frame != nullptr;
-  for_each_moving_node(belly, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
-    const Vector elastic = elastic_force<stiffness>(cells, i, j, k, strained, factor, coefficient);
-    Vector r{hn::Neg(elastic.x), hn::Neg(elastic.y), hn::Neg(elastic.z)};
-    if (rates != nullptr || framed) {
-      Vector inert = zero_vector();
-      if (framed) {
-        inert =
-            field_inertia(loads.field, belly.kernel.mass_kg[n], belly.solver.moment_kg_m.data() + 3 * std::size_t{n});
-      }
-      if (rates != nullptr) {
-        const Vector m = inertia<mass>(belly, n, i, j, k, rates, pair);
-        inert = {hn::Sub(inert.x, m.x), hn::Sub(inert.y, m.y), hn::Sub(inert.z, m.z)};
-      }
-      r = {hn::MulAdd(factor.mass, inert.x, r.x), hn::MulAdd(factor.mass, inert.y, r.y),
-           hn::MulAdd(factor.mass, inert.z, r.z)};
-    }
-    if (n >= far) {
-      const V share = hn::Set(d, belly.kernel.far_share[n - far]);
-      r = {hn::MulAdd(share, loads.traction.x, r.x), hn::MulAdd(share, loads.traction.y, r.y),
-           hn::MulAdd(share, loads.traction.z, r.z)};
-    }
-    store_vector(r, belly.residual + node_stride * n);
-  });
-}
-
-/// image ← operator·direction; returns directionᵀ·image.
-template <Stiffness stiffness, Mass mass>
-HWY_NOINLINE V apply(const Bellies& belly, const Operator& what) {
-  const Cells cells = belly.cells;
-  const Factors factor = belly.factor;
-  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
-  const float* pair = belly.kernel.consistent_mass_kg.data();
-  V work = hn::Zero(d);
-  for_each_moving_node(belly, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
-    const Vector elastic = elastic_force<stiffness>(cells, i, j, k, belly.direction, factor, coefficient);
-    const Vector m = inertia<mass>(belly, n, i, j, k, belly.direction, pair);
-    const Vector q{hn::MulAdd(what.mass_x, m.x, hn::Mul(what.stiffness, elastic.x)),
-                   hn::MulAdd(what.mass_y, m.y, hn::Mul(what.stiffness, elastic.y)),
-                   hn::MulAdd(what.mass_z, m.z, hn::Mul(what.stiffness, elastic.z))};
-    const Vector p = load_vector(belly.direction + node_stride * n);
-    work = hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::MulAdd(p.z, q.z, work)));
-    store_vector(q, belly.image + node_stride * n);
-  });
-  return work;
-}
-
-/// a / b, and 0 where b is not positive.
-HWY_INLINE V ratio_or_zero(V a, V b) {
-  const auto sound = hn::Gt(b, hn::Zero(d));
-  return hn::IfThenElseZero(sound, hn::Div(a, hn::IfThenElse(sound, b, hn::Set(d, 1.0F))));
-}
-
-/// target ← target + gain·operator⁻¹·residual: by conjugate gradients, preconditioned with the solver's factor, or
-/// where that is the operator's own by solving again for what is left. Eats the residual.
-template <Stiffness stiffness, Mass mass>
-HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, float gain, float* target) {
-  const BandFactor& factor = belly.solver.factor;
-  const std::size_t from = node_stride * belly.first, to = node_stride * belly.past;
-  const std::uint32_t sweeps = exact ? belly.solver.refinements : belly.solver.sweeps;
-  for (std::size_t at = to; at < node_stride * node_count(belly.cells); at += lane_count) {
-    hn::Store(hn::Zero(d), d, belly.direction + at);
-  }
-  V last_square = hn::Zero(d);
-  for (std::uint32_t sweep = 0; sweep < sweeps; ++sweep) {
-    const V square = solve_forward<3>(factor, belly.image + from, [&](std::uint32_t n) HWY_ATTR {
-      return load_vector(belly.residual + from + node_stride * n);
-    });
-    const V keep = exact || sweep == 0 ? hn::Zero(d) : ratio_or_zero(square, last_square);
-    const bool anew = exact || sweep == 0;
-    solve_backward<3>(factor, belly.image + from, [&](std::uint32_t n, const Vector& z) HWY_ATTR {
-      float* const p = belly.direction + from + node_stride * n;
-      if (anew) return store_vector(z, p);
-      const Vector old = load_vector(p);
-      store_vector({hn::MulAdd(keep, old.x, z.x), hn::MulAdd(keep, old.y, z.y), hn::MulAdd(keep, old.z, z.z)}, p);
-    });
-    const bool more = sweep + 1 < sweeps;
-    V step = hn::Set(d, 1.0F);
-    if (more || !exact) {
-      const V work = apply<stiffness, mass>(belly, what);
-      if (!exact) step = ratio_or_zero(square, work);
-    }
-    const V advance = hn::Mul(hn::Set(d, gain), step);
-    for (std::size_t at = from; at < to; at += lane_count) {
-      hn::Store(hn::MulAdd(advance, hn::Load(d, belly.direction + at), hn::Load(d, target + at)), d, target + at);
-      if (more) {
-        const V left = hn::NegMulAdd(step, hn::Load(d, belly.image + at), hn::Load(d, belly.residual + at));
-        hn::Store(left, d, belly.residual + at);
-      }
-    }
-    last_square = square;
-  }
-}
 
 /// One step of a tick in numbers and its far face.
 struct Step {
@@ -426,6 +241,7 @@ void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const End
   if (method == Method::statics) {
     step.loads = loads_at(hn::Set(d, 1.0F));
     step_static<stiffness, mass>(belly, step, exact);
+    if (!block.reported) return;
     report_strain_energy<stiffness>(block, belly.factor, first_lane);
     hn::Store(hn::Zero(d), d, block.report.kinetic_energy_j.lane + first_lane);
     return report_shape<stiffness>(block, belly.factor, first_lane);
@@ -441,6 +257,7 @@ void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const End
       step_icd<stiffness>(belly, step);
     }
   }
+  if (!block.reported) return;
   if (method == Method::icd) {
     report_strain_across_step<stiffness>(belly, step);
   } else {

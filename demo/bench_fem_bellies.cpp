@@ -27,10 +27,9 @@ double useful_multiply_adds(const Cells& cells) {
   return 9 * pairs(cells[0] + 1) * pairs(cells[1] + 1) * pairs(cells[2]);
 }
 
-double bench_pull_n(int step) {
-  const double t = step * paper_step_s;
+double bench_pull_n(double time_s) {
   constexpr double circle = 2 * std::numbers::pi;
-  return 0.2 * (1 - std::cos(circle * 1.3 * t)) + 0.05 * std::sin(circle * 7 * t);
+  return 0.2 * (1 - std::cos(circle * 1.3 * time_s)) + 0.05 * std::sin(circle * 7 * time_s);
 }
 
 BenchBellies::BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, std::size_t blocks)
@@ -47,8 +46,8 @@ BenchBellies::BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, st
     block.scratch.resize(scratch);
     for (std::size_t l = 0; l < lane_count; ++l, ++i) {
       const bool own = stiffness == Stiffness::individual && i > 0;
-      block.scale.across[l] = own ? 0.8F + 0.5F * static_cast<float>(i % 32) / 31 : 1.0F;
-      block.scale.along[l] = own ? 0.85F + 0.3F * static_cast<float>(i / 32 % 32) / 31 : 1.0F;
+      block.scale.across[l] = own ? 0.8F + 0.5F * static_cast<float>(7 * i % 32) / 31 : 1.0F;
+      block.scale.along[l] = own ? 0.85F + 0.3F * static_cast<float>((5 * i + i / 32) % 32) / 31 : 1.0F;
       block.strength[l] = 1.0F + 0.5F * static_cast<float>(i) / static_cast<float>(muscles());
     }
   }
@@ -61,8 +60,9 @@ void BenchBellies::tick(std::uint32_t substeps, float tick_s, const BellySolver*
 void BenchBellies::tick_block(std::size_t b, std::uint32_t substeps, float tick_s, const BellySolver* solver) {
   Block& block = blocks_[b];
   EndTraction<Lanes<float>> end{};
-  const auto from = static_cast<float>(bench_pull_n(block.step));
-  const auto to = static_cast<float>(bench_pull_n(block.step + static_cast<int>(substeps)));
+  const auto from = static_cast<float>(bench_pull_n(block.time_s));
+  block.time_s += static_cast<double>(tick_s);
+  const auto to = static_cast<float>(bench_pull_n(block.time_s));
   constexpr auto sideways = static_cast<float>(bench_sideways);
   for (std::size_t l = 0; l < lane_count; ++l) {
     end.from_n.z[l] = from * block.strength[l];
@@ -70,7 +70,6 @@ void BenchBellies::tick_block(std::size_t b, std::uint32_t substeps, float tick_
     end.from_n.x[l] = sideways * end.from_n.z[l];
     end.to_n.x[l] = sideways * end.to_n.z[l];
   }
-  block.step += static_cast<int>(substeps);
   const BellyBlock bellies{muscle_,      block.scale, block.displacement.data()->lane, block.velocity.data()->lane,
                            block.report, stiffness_};
   float* const scratch = block.scratch.empty() ? nullptr : block.scratch.data()->lane;
@@ -85,6 +84,30 @@ bool BenchBellies::finite() const {
   return std::ranges::all_of(blocks_, [](const Block& block) {
     return std::ranges::all_of(block.report.elongation_m.lane, [](float e) { return std::isfinite(e); });
   });
+}
+
+Histories bench_histories(const MuscleTemplate& muscle, Stiffness stiffness, double dt_s, double seconds,
+                          const BellySolver* solver) {
+  BenchBellies bellies(muscle, stiffness, 1);
+  Histories histories;
+  for (int n = 0; n < std::lround(seconds / dt_s); ++n) {
+    bellies.tick(1, static_cast<float>(dt_s), solver);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      histories[l].push_back(static_cast<double>(bellies.elongation_m()[l]));
+    }
+  }
+  return histories;
+}
+
+double history_error(const std::vector<double>& history, const std::vector<double>& truth) {
+  const std::size_t each = truth.size() / history.size();
+  double square = 0, largest = 0;
+  for (std::size_t n = 0; n < history.size(); ++n) {
+    const double expected = truth[(n + 1) * each - 1];
+    square += (history[n] - expected) * (history[n] - expected);
+    largest = std::max(largest, std::abs(expected));
+  }
+  return std::sqrt(square / static_cast<double>(history.size())) / largest;
 }
 
 void Rounds::add(const Measured& round) {

@@ -1,6 +1,7 @@
 #pragma once
 // Blocks of bellies as the engine steps them: sixteen individuals a block, a tick at a time.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -25,8 +26,8 @@ double paper_limit_s(const MuscleTemplate& muscle, Mass mass = Mass::lumped);
 /// Multiply-adds of one step's K·u without clamped rows and columns: 9702 on 81 nodes.
 double useful_multiply_adds(const Cells& cells);
 
-/// Pull along z in step `n` of 2 ms, N: the load that the comparison program has, and what part of it is sideways.
-double bench_pull_n(int step);
+/// Pull along z, N: the load that the comparison program has, and what part of it is sideways.
+double bench_pull_n(double time_s);
 inline constexpr double bench_sideways = 0.05;
 
 class BenchBellies {
@@ -43,8 +44,11 @@ class BenchBellies {
   std::size_t muscles() const { return blocks_.size() * lane_count; }
   /// Whether every elongation is a number.
   bool finite() const;
-  /// Mean displacement of the far face along z of the first belly, m.
-  float elongation_m() const { return blocks_.front().report.elongation_m[0]; }
+
+  // Of the first block: mean displacement of the far face along z, m; sizes; how much harder each is pulled.
+  const Lanes<float>& elongation_m() const { return blocks_.front().report.elongation_m; }
+  const BellyScale<Lanes<float>>& scale() const { return blocks_.front().scale; }
+  const Lanes<float>& strength() const { return blocks_.front().strength; }
 
  private:
   struct Block {
@@ -52,13 +56,23 @@ class BenchBellies {
     BellyScale<Lanes<float>> scale;
     BellyReport<Lanes<float>> report;
     Lanes<float> strength;
-    int step = 0;
+    double time_s = 0;
   };
 
   const MuscleTemplate& muscle_;
   Stiffness stiffness_;
   std::vector<Block> blocks_;
 };
+
+/// Far-face elongations over time, one a step; of each lane of a block.
+using Histories = std::array<std::vector<double>, lane_count>;
+/// The first block of such bellies for `seconds` in steps of `dt_s`, by ECD or by the method of `solver`.
+Histories bench_histories(const MuscleTemplate& muscle, Stiffness stiffness, double dt_s, double seconds,
+                          const BellySolver* solver = nullptr);
+
+/// Root mean square of the difference over the largest of `truth`, which has a whole number of samples for each of
+/// `history`.
+double history_error(const std::vector<double>& history, const std::vector<double>& truth);
 
 /// The best of several rounds, other work in between.
 class Rounds {

@@ -203,7 +203,7 @@ Result<void> run_walk(const WalkOptions& options) {
 void add_walk_command(CLI::App& app, int& exit_status) {
   auto* command =
       app.add_subcommand("walk", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures");
-  command->footer(std::string(walk_muscles_help) + "\n" + walk_script_help +
+  command->footer(std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) +
                   "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
                   "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
                   "          mobil walk --method caa --inertia --view wireframe --video");

@@ -11,8 +11,8 @@
 namespace mobil {
 
 struct WalkOutcome {
-  decltype(Human::gait) gait{};  // at the start
-  std::size_t changes = 0;       // of the script that fell within the walk
+  decltype(Human::gait) gait{};     // at the start
+  std::size_t changes = 0;          // of the script that fell within the walk
   std::uint32_t clamped_steps = 0;  // that no forces within bounds make as asked
   std::uint32_t ticks = 0;
   double simulated_s = 0;

@@ -4,7 +4,7 @@
 build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
   libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1 libgles2 libgl1-mesa-dri
   ffmpeg libbullet-dev"
-test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev"
+test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx"
 
 # need PACKAGE…: installs what is missing through apt; whoever is not root is told the line to run instead.
 need() {

@@ -150,8 +150,8 @@ Result<void> check(const ReferenceOptions& o, const Cells& cells) {
 struct ReferenceBelly::State {
   HexahedralMesh mesh;
   ReferenceOptions o;
-  Matrix mass, stiffness;  // of all components; the foundation is part of the stiffness
-  Matrix elastic;          // without it
+  Matrix mass, stiffness;  // of all components; the foundation K_f is part of the stiffness
+  Matrix elastic;          // K, without it
   std::vector<Index> moving;
   std::vector<double> far_share;
   Eigen::SimplicialLDLT<Matrix> operator_;  // what a step solves with: M, K, or CAA's
@@ -190,8 +190,8 @@ ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& term
       operator_.compute(of_moving(mass, moving));
       break;
     case Method::caa:
-      operator_.compute(
-          of_moving(Matrix((2 / dt + o.damping_per_s) * mass + (dt / 2 + o.stiffness_damping_s) * stiffness), moving));
+      operator_.compute(of_moving(
+          Matrix((2 / dt + o.damping_per_s) * mass + dt / 2 * stiffness + o.stiffness_damping_s * elastic), moving));
       break;
   }
   u = v = before = Vector::Zero(mass.rows());
@@ -228,11 +228,12 @@ void ReferenceBelly::State::set_far_z(Vector& x, double value) const {
   for (std::uint32_t n = first_insertion_node(mesh.cells); n < node_count(mesh.cells); ++n) x(row_of(n, 2)) = value;
 }
 
-/// ECD and ICD: M·[(1 + αΔt/2)·v⁺ − (1 − αΔt/2)·v⁻] = Δt·[f − K·(u + β·v⁻)], u⁺ = u + Δt·v⁺.
+/// ECD and ICD: M·[(1 + αΔt/2)·v⁺ − (1 − αΔt/2)·v⁻] = Δt·[f − (K + K_f)·u − β·K·v⁻], u⁺ = u + Δt·v⁺.
 void ReferenceBelly::State::step_explicitly(const ReferenceLoad& now, const ReferenceLoad& next) {
   const double dt = o.dt_s, h = o.damping_per_s * dt / 2;
   if (held()) set_far_z(v, (next.end.z - u(row_of(first_insertion_node(mesh.cells), 2))) / dt);
-  Vector right_side = force(now) - stiffness * (u + o.stiffness_damping_s * v);
+  Vector right_side = force(now) - stiffness * u;
+  if (o.stiffness_damping_s > 0) right_side -= o.stiffness_damping_s * (elastic * v);
   if (held() && o.mass == Mass::consistent && o.damping_per_s > 0) {
     Vector far = Vector::Zero(u.size());
     set_far_z(far, v(row_of(first_insertion_node(mesh.cells), 2)));
@@ -244,12 +245,13 @@ void ReferenceBelly::State::step_explicitly(const ReferenceLoad& now, const Refe
 }
 
 /// CAA, for the change δ = w − v to the step's mean velocity, which rounds less than w itself:
-///   [(2/Δt + α)·M + (Δt/2 + β)·K]·δ = (f + f⁺)/2 − α·M·v − K·(u + (Δt/2 + β)·v),
+///   [(2/Δt + α)·M + (Δt/2)·(K + K_f) + β·K]·δ = (f + f⁺)/2 − α·M·v − β·K·v − (K + K_f)·(u + ½Δt·v),
 /// u⁺ = u + Δt·(v + δ), v⁺ = v + 2δ.
 void ReferenceBelly::State::step_by_mean_acceleration(const ReferenceLoad& now, const ReferenceLoad& next) {
   const double dt = o.dt_s;
   if (held()) set_far_z(v, (next.end.z - u(row_of(first_insertion_node(mesh.cells), 2))) / dt);
-  Vector right_side = (force(now) + force(next)) / 2 - stiffness * (u + (dt / 2 + o.stiffness_damping_s) * v);
+  Vector right_side = (force(now) + force(next)) / 2 - stiffness * (u + dt / 2 * v);
+  if (o.stiffness_damping_s > 0) right_side -= o.stiffness_damping_s * (elastic * v);
   if (o.damping_per_s > 0) right_side -= o.damping_per_s * (mass * v);
   const Vector change = solve(right_side);
   u += dt * v;
@@ -258,7 +260,7 @@ void ReferenceBelly::State::step_by_mean_acceleration(const ReferenceLoad& now, 
   if (held()) set_far_z(u, next.end.z);
 }
 
-/// Static: K·u = f.
+/// Static: (K + K_f)·u = f.
 void ReferenceBelly::State::settle(const ReferenceLoad& load) {
   u.setZero();
   if (held()) set_far_z(u, load.end.z);

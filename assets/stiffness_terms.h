@@ -29,7 +29,8 @@ inline constexpr std::size_t stencil_size = 27;
 
 /// Place in a node's stencil of the neighbour at offset (dx, dy, dz), each −1, 0 or 1.
 constexpr std::size_t stencil_slot(int dx, int dy, int dz) {
-  return static_cast<std::size_t>((dz + 1) * 9 + (dy + 1) * 3 + dx + 1);
+  const int slot = (dz + 1) * 9 + (dy + 1) * 3 + dx + 1;
+  return static_cast<std::size_t>(slot);
 }
 
 /// Unconstrained operators of a template. `pair[27·node + slot]` and `consistent_mass_kg[27·node + slot]` couple a node

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <random>
 
@@ -83,7 +84,7 @@ BandCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
 /// v ↦ L⁻¹·K·L⁻ᵀ·v, whose spectrum is the pencil's.
 class SymmetricOperator {
  public:
-  explicit SymmetricOperator(const StencilPencil& pencil) : pencil_(pencil), work_(pencil.moving.size()) {
+  explicit SymmetricOperator(const StencilPencil& pencil) : work_(pencil.moving.size()) {
     first_.push_back(0);
     for_each_node(pencil.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
       const std::uint32_t n = node_index(pencil.cells, i, j, k);
@@ -94,7 +95,8 @@ class SymmetricOperator {
       first_.push_back(neighbour_.size());
     });
     if (pencil.mass.empty()) return;
-    for (const std::size_t component : {std::size_t{0}, std::size_t{2}}) factor_.push_back(mass_factor(pencil, component));
+    for (const std::size_t component : {std::size_t{0}, std::size_t{2}})
+      factor_.push_back(mass_factor(pencil, component));
   }
 
   void apply(const Numbers& x, Numbers& y) {
@@ -140,7 +142,6 @@ class SymmetricOperator {
     }
   }
 
-  const StencilPencil& pencil_;
   std::vector<std::size_t> first_, neighbour_;
   std::vector<std::array<double, 9>> block_;
   std::vector<BandCholesky> factor_;  // of x and y, of z
@@ -255,10 +256,11 @@ double top_eigenvalue_bound(const StencilPencil& pencil) {
   const double below = lanczos_top(op, pencil.moving, 240, false);
   constexpr double first_margin = 2e-4, tight = 1e-3;
   double low = below, high = below * (1 + first_margin);
-  for (double margin = first_margin; !exceeds_spectrum(pencil, high); margin *= 2) {
+  for (double margin = first_margin; std::isfinite(high) && !exceeds_spectrum(pencil, high); margin *= 2) {
     low = high;
     high = below * (1 + 2 * margin);
   }
+  if (!std::isfinite(high)) return std::numeric_limits<double>::infinity();
   while (low > below && high > low * (1 + tight)) {
     const double middle = 0.5 * (low + high);
     (exceeds_spectrum(pencil, middle) ? high : low) = middle;

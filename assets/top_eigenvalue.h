@@ -17,7 +17,8 @@ struct StencilPencil {
   std::vector<bool> moving;                      // three a node
 };
 
-/// Never below the largest λ and at most 0.1 % above it, 1/s²; 0 where nothing moves. Lanczos iteration estimates λ
+/// Never below the largest λ and at most 0.1 % above it, 1/s²; 0 where nothing moves, infinite where
+/// an entry is not finite. Lanczos iteration estimates λ
 /// from below, a banded Cholesky factor of σ·M − K proves that none reaches σ, and where it does not exist σ is raised
 /// and then bisected. Beyond 2e10 operations for one factor (some 12000 nodes of usual shape) no proof is
 /// attempted: Lanczos runs on for so long that its estimate, from a start drawn at random, lies 2 % too low with a

@@ -25,6 +25,10 @@ struct BandFactor {
   std::vector<float> inverse_diagonal;  // inverse of G's own block: xx, yx, yy, zx, zy, zz
 };
 
+/// One serves bellies whose S/l lies within 6 % of its own and whose S·l within 12 %. Worst relative error of their
+/// displacements over a driven second at 81 nodes and a step of 1/60 s (undamped; some five times less with α = 8 1/s),
+/// by sweeps from two on: 4e-3, 3e-4, 1e-5. Within 12 % and 25 %: 2e-2, 2e-3, 2e-4. Of static answers, which have no
+/// mass to hold them, 2e-2, 4e-3, 7e-5 and 2e-5. Bodies of just its size are solved to rounding.
 struct BellySolver {
   Method method = Method::caa;
   Mass mass = Mass::lumped;

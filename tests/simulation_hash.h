@@ -20,7 +20,8 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
   const auto place = world.find(entity);
   if (!place) return fnv(hash, 0xdead);
   for (const KeyPart& part : place.table->key()) {
-    if (part.id == type_id<Substeps>()) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
+    const bool steps = part.id == type_id<Substeps>() || part.id == type_id<SolvedSteps>();
+    if (steps) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
     if (part.kind == PartKind::tag || part.id == type_id<MuscleOwner<float>>()) continue;
     std::vector<std::uint32_t> words(part.value);
     const auto width = static_cast<std::uint32_t>(part.value);

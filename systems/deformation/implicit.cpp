@@ -130,6 +130,10 @@ HWY_INLINE void step_icd(const Bellies& belly, const Step& step) {
 
 template <Stiffness stiffness, Mass mass>
 HWY_INLINE void step_static(const Bellies& belly, const Step& step, bool exact) {
+  if (exact) {  // anew: what K·u rounds off would be some per mille of a slender belly's bending, tick by tick
+    for_each_component(belly, belly.past,
+                       [&](std::size_t, std::size_t at) HWY_ATTR { hn::Store(hn::Zero(d), d, belly.u + at); });
+  }
   if (belly.end == FarEnd::held) set_far_z(belly, belly.u, step.far_to);
   const V foundation = hn::Set(d, step.foundation);
   const float* rates = nullptr;

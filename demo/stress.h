@@ -1,0 +1,66 @@
+#pragma once
+// What every entry of `mobil stress` is made of: hard cases, each a promise with its bound, and what came of it.
+//
+// An entry is one function, `Result<void> stress_x(StressRun&)`, and one line in the list of stress_command.cpp. It
+// adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is no
+// number.
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/error.h"
+
+namespace mobil {
+
+enum class Promise : unsigned char { at_most, at_least };
+
+/// One promise and what came of it.
+struct StressRow {
+  std::string tried;     // the hard case
+  std::string quantity;  // what is held to the bound, with its unit
+  Promise promise = Promise::at_most;
+  double bound = 0;
+  std::string reason;  // of the bound: theory, or the margin over what was measured
+  double value = 0;
+  std::string detail{};  // further figures, or empty
+
+  std::string_view entry{};  // filled in by the run
+
+  bool held() const { return promise == Promise::at_most ? value <= bound : value >= bound; }
+};
+
+struct StressRun {
+  bool quick = false;
+  std::vector<StressRow> rows;
+  void (*show)(std::string_view entry, double part) = [](std::string_view, double) {};  // progress, part 0–1
+  std::string_view entry;                                                               // being run
+
+  void add(StressRow row);
+  void progress(double part) const { show(entry, part); }
+};
+
+Result<void> stress_slivers(StressRun& run);
+Result<void> stress_flat(StressRun& run);
+Result<void> stress_aspect(StressRun& run);
+Result<void> stress_inverted(StressRun& run);
+Result<void> stress_poisson(StressRun& run);
+Result<void> stress_young(StressRun& run);
+Result<void> stress_density(StressRun& run);
+Result<void> stress_damping(StressRun& run);
+Result<void> stress_steps(StressRun& run);
+Result<void> stress_caa(StressRun& run);
+Result<void> stress_step_load(StressRun& run);
+Result<void> stress_impulse(StressRun& run);
+Result<void> stress_resonance(StressRun& run);
+Result<void> stress_energy_single(StressRun& run);
+Result<void> stress_energy_double(StressRun& run);
+Result<void> stress_denormals(StressRun& run);
+Result<void> stress_nan(StressRun& run);
+Result<void> stress_explosion(StressRun& run);
+Result<void> stress_requests(StressRun& run);
+Result<void> stress_tables(StressRun& run);
+Result<void> stress_hitch(StressRun& run);
+Result<void> stress_walkers(StressRun& run);
+
+}  // namespace mobil

@@ -236,6 +236,11 @@ TEST(BadOutput, WithoutFfmpegOrADriverNothingIsWritten) {
   }
 }
 
+TEST(BadWalk, NamesTheMethodsAndElements) {
+  expect_refused("walk --method magic", {"--method", "'magic'", "static, ecd, icd, caa"});
+  expect_refused("walk --element cube", {"--element", "'cube'", "full, bbar, one-point"});
+}
+
 TEST(BadMuscle, NamesTheLimit) {
   expect_refused("muscle --dt 0.0037", {"0.0037", "critical step 0.003483 s", "0.00313 s"});
   expect_refused("muscle --poisson 0.5", {"0.5", "-1"});

@@ -122,6 +122,9 @@ class Pair {
       case 18:
         remove_part(p, &Person::substeps, world_.remove<Substeps>(e));
         break;
+      case 19:
+        remake(p, e, n);
+        break;
       default:
         remove_part(p, &Person::cells, world_.remove<Mesh>(e));
     }
@@ -197,6 +200,25 @@ class Pair {
     (person->*part).reset();
   }
 
+  /// Everything else goes; a field that stays keeps its values.
+  void remake(Person* person, Entity e, unsigned n) {
+    const TagValue<Substeps> substeps{n % 3};
+    const bool with_nodes = n % 2 == 0;
+    const Status status = with_nodes ? world_.remake(e, size(n), substeps, FieldWidth<Nodes>{node_words})
+                                     : world_.remake(e, size(n), substeps, mesh(static_cast<int>(n % 3)));
+    if (person == nullptr) return expect(status, Status::stale_entity);
+    expect(status, Status::ok);
+    Person made;
+    made.size = size(n);
+    made.substeps = n % 3;
+    if (with_nodes) {
+      made.nodes = person->nodes.value_or(std::array<float, node_words>{});
+    } else {
+      made.cells = static_cast<int>(n % 3);
+    }
+    *person = made;
+  }
+
   template <class T>
   static void compare_row(const std::optional<T>& wanted, const tl::expected<T, Status>& got) {
     RC_ASSERT(got.has_value() == wanted.has_value());
@@ -265,7 +287,7 @@ class Pair {
 };
 
 rc::Gen<Change> any_change() {
-  return rc::gen::construct<Change>(rc::gen::inRange(0U, 20U), rc::gen::arbitrary<unsigned>(),
+  return rc::gen::construct<Change>(rc::gen::inRange(0U, 21U), rc::gen::arbitrary<unsigned>(),
                                     rc::gen::inRange(0U, 1000U));
 }
 }  // namespace

@@ -299,6 +299,29 @@ TEST(Walk, ForceDrivenEndsLagTheirLines) {
   EXPECT_EQ(read_bytes(walk.file("motion.csv")), read_bytes(walk_of(0).file("motion.csv")));
 }
 
+TEST(Walk, MusclesMoveByTheMethodAsked) {
+  for (const std::string method : {"ecd", "icd", "caa", "static"}) {
+    const Walk walk(fmt::format("--seconds 0.5 --inertia --element bbar --method {}", method));
+    const auto& summary = walk.summary();
+    EXPECT_EQ(summary.at("method"), method);
+    EXPECT_EQ(summary.at("element"), "bbar");
+    EXPECT_EQ(summary.at("inertia"), true);
+    for (const auto& muscle : summary.at("muscles")) {
+      EXPECT_EQ(muscle.at("dt_s").is_null(), method == "static");
+      EXPECT_EQ(muscle.at("critical_dt_s").is_null(), method == "caa" || method == "static");
+      if (method == "caa") {
+        EXPECT_EQ(muscle.at("substeps_per_tick"), 1);
+      }
+    }
+    for (std::size_t i = 0; i < walk.muscles->rows.size(); ++i) {
+      EXPECT_EQ(walk.muscles->text(i, "method"), method);
+      EXPECT_LT(std::abs(walk.muscles->number(i, "volume_ratio") - 1), 0.2);
+    }
+  }
+  const Walk pulled("--seconds 0.2 --drive force --method caa");
+  EXPECT_EQ(pulled.muscles->text(0, "method"), "caa_force");
+}
+
 /// Ground reaction and moments of a row, or the columns that hold none.
 const std::vector<std::string> force_columns = [] {
   std::vector<std::string> names;

@@ -101,7 +101,7 @@ TEST(Scratch, IsAsLargeAsTheTableSaysAndNullWhereItSaysNothing) {
   World world;
   const Entity none = world.create(A<float>{}), zero = world.create(A<float>{}, TagValue<Floats>{0});
   std::vector<Entity> some;
-  for (std::uint64_t floats : {1, 16, 5000}) some.push_back(world.create(A<float>{}, TagValue<Floats>{floats}));
+  for (const std::uint64_t floats : {1U, 16U, 5000U}) some.push_back(world.create(A<float>{}, TagValue<Floats>{floats}));
   std::vector<std::size_t> seen;
   auto schedule = ScheduleBuilder()
                       .add("look", [&](const A<Lanes<float>>&, Scratch<Floats> s) { seen.push_back(s.floats); })

@@ -37,16 +37,22 @@ std::vector<float> far_shares(const HexahedralMesh& mesh) {
   return share;
 }
 
+constexpr std::size_t own_slot = stencil_slot(0, 0, 0);
+
+/// The node at that slot of node n's stencil, which must exist.
+std::uint32_t neighbour(const Cells& cells, std::uint32_t n, std::size_t slot) {
+  const auto offset = [slot](std::size_t unit) { return static_cast<std::int64_t>(slot / unit % 3) - 1; };
+  return static_cast<std::uint32_t>(n + offset(1) + offset(3) * (cells[0] + 1) + offset(9) * plane_nodes(cells));
+}
+
 /// `count` numbers a pair.
 template <std::size_t count>
 using Words = std::array<double, count>;
 
-/// What a kernel reads of a pair, which word is which other's in the pair's transposed, and which are a node's coupling
-/// of x to x, y to y and z to z where it is stiffest.
+/// What a kernel reads of a pair, and which word is which other's in the pair's transposed.
 struct IndividualWords {
   static constexpr std::size_t count = KernelArrays::individual_words;
   static constexpr std::array<std::size_t, count> transposed = {0, 2, 1, 3, 4, 7, 8, 5, 6, 9, 10, 11};
-  static constexpr std::array<std::size_t, 3> stiffest = {0, 3, 4};
   static Words<count> of(const StencilPair& p) {
     return {p.a_xx, p.a_xy, p.a_yx, p.a_yy, p.a_zz, p.b_xz, p.b_yz, p.b_zx, p.b_zy, p.c_xx, p.c_yy, p.c_zz};
   }
@@ -54,7 +60,6 @@ struct IndividualWords {
 struct SharedWords {
   static constexpr std::size_t count = KernelArrays::shared_words;
   static constexpr std::array<std::size_t, count> transposed = {0, 3, 6, 1, 4, 7, 2, 5, 8};
-  static constexpr std::array<std::size_t, 3> stiffest = {0, 4, 8};
   static Words<count> of(const StencilPair& p) { return stiffness_block(p, 1, 1); }
 };
 
@@ -62,28 +67,42 @@ struct SharedWords {
 template <class Kind>
 std::vector<float> rows(const StiffnessTerms& terms) {
   const Cells& cells = terms.cells;
+  const std::uint32_t fixed = plane_nodes(cells);
+  std::vector<std::array<float, Kind::count>> single(terms.pair.size());
+  for (std::size_t at = 0; at < terms.pair.size(); ++at) {
+    const auto exact = Kind::of(terms.pair[at]);
+    for (std::size_t w = 0; w < Kind::count; ++w) single[at][w] = static_cast<float>(exact[w]);
+  }
   std::vector<float> row;
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    if (k == 0) return;
     const std::uint32_t n = node_index(cells, i, j, k);
+    if (n < fixed) return;
     Words<Kind::count> own{};
-    std::size_t own_at = 0;
+    std::array<std::size_t, Kind::count> weakest{};  // slot of a neighbour whose own row is yet to come
     for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
-      const auto exact = Kind::of(terms.pair[n * stencil_size + slot]);
-      const bool fixed = m < plane_nodes(cells);
-      if (m == n) own_at = row.size();
+      if (m == n) return;
+      const std::size_t at = n * stencil_size + slot;
+      const auto exact = Kind::of(terms.pair[at]);
       for (std::size_t w = 0; w < Kind::count; ++w) {
-        const auto single = static_cast<float>(exact[w]);
-        if (m != n) own[w] -= fixed ? exact[w] : static_cast<double>(single);
-        if (!fixed) row.push_back(single);
+        own[w] -= m < fixed ? exact[w] : static_cast<double>(single[at][w]);
+        const auto size = [&](std::size_t s) { return std::abs(single[n * stencil_size + s][w]); };
+        if (m > n && (weakest[w] == 0 || size(slot) < size(weakest[w]))) weakest[w] = slot;
       }
     });
     for (std::size_t w = 0; w < Kind::count; ++w) {
-      row[own_at + w] = static_cast<float>(0.5 * (own[w] + own[Kind::transposed[w]]));
+      const auto value = static_cast<float>(0.5 * (own[w] + own[Kind::transposed[w]]));
+      single[n * stencil_size + own_slot][w] = value;
+      if (weakest[w] == 0 || Kind::transposed[w] != w) continue;
+      float& taken = single[n * stencil_size + weakest[w]][w];
+      taken = static_cast<float>(static_cast<double>(taken) + own[w] - static_cast<double>(value));
+      const std::uint32_t m = neighbour(cells, n, weakest[w]);
+      single[m * stencil_size + stencil_size - 1 - weakest[w]][w] = taken;
     }
-    for (const std::size_t w : Kind::stiffest) {
-      row.push_back(static_cast<float>(own[w] - static_cast<double>(row[own_at + w])));
-    }
+    for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
+      if (m < fixed) return;
+      const auto& words = single[n * stencil_size + slot];
+      row.insert(row.end(), words.begin(), words.end());
+    });
   });
   return row;
 }

@@ -10,13 +10,14 @@
 namespace mobil {
 
 /// Rows are the nodes from the second plane to the last, x fastest; a row's neighbours are those that exist, except in
-/// the (fixed) first plane, x fastest. A row of stiffness ends with what single precision left of the node's coupling
-/// to itself along x, y and z. With that a translation costs no force, however the couplings were rounded: else slender
-/// bellies would bend to a wrong beat. The rounded operator is symmetric, or bellies would gain energy as they circle.
+/// the (fixed) first plane, x fastest.
+///
+/// The rounded operator is symmetric, or bellies would gain energy as they circle. What rounding a node's coupling to
+/// itself takes along x, y or z its weakest coupling makes up for, so that a translation costs no force: else slender
+/// bellies would bend to a wrong beat.
 struct KernelArrays {
   static constexpr std::size_t individual_words = 12;  // a pair's A, B, C, as in StencilPair
   static constexpr std::size_t shared_words = 9;       // a pair's 3×3 block at S = l = 1, row-major
-  static constexpr std::size_t rest_words = 3;         // at the end of a row
   std::vector<float> individual, shared;
   std::vector<float> consistent_mass_kg;     // one a pair
   std::vector<std::size_t> plane_pair;       // first pair of each plane k, 0 for the planes 0 and 1

@@ -58,10 +58,9 @@ inline constexpr std::size_t words =
     stiffness == Stiffness::individual ? KernelArrays::individual_words : KernelArrays::shared_words;
 
 template <Stiffness stiffness>
-HWY_INLINE const float* coefficients(const KernelArrays& kernel, const Cells& cells, std::uint32_t plane) {
+HWY_INLINE const float* coefficients(const KernelArrays& kernel, std::uint32_t plane) {
   return (stiffness == Stiffness::individual ? kernel.individual : kernel.shared).data() +
-         kernel.plane_pair[plane] * words<stiffness> +
-         KernelArrays::rest_words * std::size_t{plane - 1} * plane_nodes(cells);
+         kernel.plane_pair[plane] * words<stiffness>;
 }
 
 /// Nine partial sums of a node's force. Individual: those of A (x y z), B and C; shared: those of x, y and z.
@@ -124,7 +123,6 @@ HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32
                                 const Factors& factor, const float*& coefficient) {
   const std::size_t row_stride = node_stride * (cells[0] + 1), plane_stride = row_stride * (cells[1] + 1);
   const std::uint32_t k_low = k > 1 ? k - 1 : 1, k_high = std::min(k + 1, cells[2]);  // the first plane is fixed
-  const float* const own = u + plane_stride * k + row_stride * j + node_stride * i;
   const float* const first =
       u + plane_stride * k_low + row_stride * (j > 0 ? j - 1 : 0) + node_stride * (i > 0 ? i - 1 : 0);
   const float* const last = first + plane_stride * (k_high - k_low);
@@ -139,19 +137,13 @@ HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32
     c = deep ? add_planes<stiffness, 2, 3>(first, last, row_stride, plane_stride, c, s)
              : add_planes<stiffness, 2, 2>(first, last, row_stride, plane_stride, c, s);
   }
-  coefficient = c + KernelArrays::rest_words;
-  const V x = hn::Load(d, own), y = hn::Load(d, own + lane_count), z = hn::Load(d, own + 2 * lane_count);
-  s.a0 = add(c[0], x, s.a0);
+  coefficient = c;
   if constexpr (stiffness == Stiffness::individual) {
-    s.a1 = add(c[1], y, s.a1);
-    s.a2 = add(c[2], z, s.a2);
     const auto join = [&factor](V a, V b, V e) HWY_ATTR {
       return hn::MulAdd(factor.a, a, hn::MulAdd(factor.b, b, hn::MulAdd(factor.c, e, hn::Mul(factor.c_rest, e))));
     };
     return {join(s.a0, s.b0, s.c0), join(s.a1, s.b1, s.c1), join(s.a2, s.b2, s.c2)};
   } else {
-    s.b1 = add(c[1], y, s.b1);
-    s.c2 = add(c[2], z, s.c2);
     return {hn::Add(hn::Add(s.a0, s.b0), s.c0), hn::Add(hn::Add(s.a1, s.b1), s.c1), hn::Add(hn::Add(s.a2, s.b2), s.c2)};
   }
 }

@@ -36,7 +36,7 @@ HWY_NOINLINE void advance_velocity(const Bellies& belly, std::uint32_t first, st
   const float* const strained = belly.strained;
   V sum = work;
   std::uint32_t n = first * plane_nodes(cells);
-  const float* coefficient = coefficients<stiffness>(belly.kernel, cells, first);
+  const float* coefficient = coefficients<stiffness>(belly.kernel, first);
   const float* inverse_mass = belly.kernel.inverse_mass.data() + n;
   const float* share = belly.kernel.far_share.data();
   float* v = belly.v + node_stride * n;

@@ -170,7 +170,7 @@ HWY_INLINE void report_strain_across_step(const Bellies& belly, const Step& step
   Bellies all = belly;
   all.past = node_count(cells);
   const V dt = hn::Set(d, step.dt);
-  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
+  const float* coefficient = coefficients<stiffness>(belly.kernel, 1);
   V sum = hn::Zero(d);
   for_each_moving_node(all, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
     const Vector f = elastic_force<stiffness>(cells, i, j, k, belly.u, belly.factor, coefficient);

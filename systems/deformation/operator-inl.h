@@ -107,7 +107,7 @@ template <Stiffness stiffness, Mass mass>
 HWY_NOINLINE void write_residual(const Bellies& belly, const float* strained, const float* rates, const Loads& loads) {
   const Cells cells = belly.cells;
   const Factors factor = belly.factor;
-  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
+  const float* coefficient = coefficients<stiffness>(belly.kernel, 1);
   const float* pair = belly.kernel.consistent_mass_kg.data();
   const std::uint32_t far = first_insertion_node(cells);
   const bool framed = belly.block.frame != nullptr;
@@ -141,7 +141,7 @@ template <Stiffness stiffness, Mass mass>
 HWY_NOINLINE V apply(const Bellies& belly, const Operator& what) {
   const Cells cells = belly.cells;
   const Factors factor = belly.factor;
-  const float* coefficient = coefficients<stiffness>(belly.kernel, belly.cells, 1);
+  const float* coefficient = coefficients<stiffness>(belly.kernel, 1);
   const float* pair = belly.kernel.consistent_mass_kg.data();
   V work = hn::Zero(d);
   for_each_moving_node(belly, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {

@@ -47,7 +47,7 @@ HWY_INLINE void report_shape(const BellyBlock& block, const Factors& factor, std
   const std::uint32_t far = first_insertion_node(cells);
   V elongation = hn::Zero(d), reaction = elongation;
   std::uint32_t n = far;
-  const float* coefficient = coefficients<stiffness>(kernel, cells, cells[2]);
+  const float* coefficient = coefficients<stiffness>(kernel, cells[2]);
   for (std::uint32_t j = 0; j <= cells[1]; ++j) {
     for (std::uint32_t i = 0; i <= cells[0]; ++i, ++n) {
       reaction = hn::Add(reaction, elastic_force<stiffness>(cells, i, j, cells[2], u, factor, coefficient).z);
@@ -82,7 +82,7 @@ template <Stiffness stiffness>
 HWY_INLINE void report_strain_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
   const float* const u = block.displacement + first_lane;
-  const float* coefficient = coefficients<stiffness>(block.muscle.kernel, cells, 1);
+  const float* coefficient = coefficients<stiffness>(block.muscle.kernel, 1);
   V sum = hn::Zero(d);
   const float* at = u + node_stride * plane_nodes(cells);
   for (std::uint32_t k = 1; k <= cells[2]; ++k) {

@@ -189,9 +189,20 @@ Result<void> check(const MuscleTemplate& muscle, Method method, double dt_s, dou
 
 }  // namespace
 
+Result<void> check_belly_solver(const Cells& cells, Method method) {
+  const std::size_t width = method == Method::icd ? 1 : 3;
+  const std::size_t size = (node_count(cells) - plane_nodes(cells)) * width * (node_reach(cells) + 1) * width;
+  if (size <= largest_band_factor) return {};
+  return fail(
+      fmt::format("an implicit solver of {}x{}x{} cells would hold {} numbers, more than {}: take fewer cells"
+                  " across, or the explicit method",
+                  cells[0], cells[1], cells[2], size, largest_band_factor));
+}
+
 Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method method, Mass mass, double dt_s,
                                       double across, double along) {
   if (auto ok = check(muscle, method, dt_s, across, along); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_belly_solver(muscle.terms.cells, method); !ok) return tl::unexpected(ok.error());
   const MuscleOptions& options = muscle.options;
   const Cells& cells = muscle.terms.cells;
   BellySolver solver;
@@ -229,14 +240,6 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
   factor.first_node = plane_nodes(cells);
   factor.nodes =
       (options.far_end == FarEnd::held ? first_insertion_node(cells) : node_count(cells)) - factor.first_node;
-  const std::size_t width = factor.components;
-  const std::size_t size = factor.nodes * width * (node_reach(cells) + 1) * width;
-  if (size > largest_band_factor) {
-    return fail(
-        fmt::format("an implicit solver of {}x{}x{} cells would hold {} numbers, more than {}: take fewer cells"
-                    " across, or the explicit method",
-                    cells[0], cells[1], cells[2], size, largest_band_factor));
-  }
   if (factor.nodes > 0) {
     Band band = make_band(muscle, solver.mass, what, solver.across, solver.along, factor);
     if (!band.factorise()) return fail("the belly's operator has no factor: its material is too near incompressible");

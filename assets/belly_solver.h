@@ -51,4 +51,7 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
 
 inline constexpr std::size_t largest_band_factor = 50'000'000;
 
+/// The last of these refusals, ahead of all work.
+Result<void> check_belly_solver(const Cells& cells, Method method);
+
 }  // namespace mobil

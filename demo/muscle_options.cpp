@@ -120,6 +120,11 @@ Result<Choices> read_choices(const MuscleText& text) {
 Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choices) {
   const auto cells = parse_cells(text.cells);
   if (!cells) return tl::unexpected(cells.error());
+  if (!choices.in_double && choices.method != Method::ecd) {
+    if (auto ok = check_belly_solver(*cells, choices.method); !ok) {
+      return fail(ok.error().message + "; --precision double has no such limit");
+    }
+  }
   const auto size = read_value("--cell-size", text.cell_size, Quantity::length, 1e-4, 1);
   if (!size) return tl::unexpected(size.error());
   const auto young = read_value("--young", text.young, Quantity::pressure);
@@ -257,7 +262,7 @@ Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
   std::optional<BellySolver> solver;
   if (!choices->in_double && choices->method != Method::ecd) {
     auto made = make_belly_solver(*muscle, choices->method, choices->mass, stepping->dt_s);
-    if (!made) return fail(made.error().message + "; --precision double has no such limit");
+    if (!made) return tl::unexpected(made.error());
     solver = std::move(*made);
   }
   std::string warning = warn_of_coarse_elements(*muscle);

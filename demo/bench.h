@@ -30,6 +30,7 @@ struct BenchResult {
 
 struct BenchRun {
   std::size_t humans = 10000;
+  bool quick = false;  // one short round where there would be many; so far of the finite-element benches
   Machine machine;
   std::vector<BenchResult> results;
   std::vector<std::string> notes;  // what was not measured, and why
@@ -38,6 +39,9 @@ struct BenchRun {
   Result<BenchCrowd*> crowd();
   /// A part of it small enough for the caches; null when the crowd itself is no larger.
   Result<BenchCrowd*> small_crowd();
+
+  /// How often to do what is usually done `usual` times.
+  int rounds(int usual) const { return quick ? 1 : usual; }
 
   /// Adds the time of one item, `unit_s` the unit in s, of a run over `items`. Good until the next is added.
   BenchResult& add_time(std::string name, const Measured& time, double items, double unit_s, std::string unit);
@@ -56,5 +60,6 @@ Result<void> bench_lines(BenchRun& run);
 Result<void> bench_skinning(BenchRun& run);
 Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);
+Result<void> bench_paper_figures(BenchRun& run);
 
 }  // namespace mobil

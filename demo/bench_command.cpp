@@ -30,15 +30,20 @@ struct Bench {
   Result<void> (*run)(BenchRun&);
 };
 
-constexpr std::array benches = {Bench{"machine", &bench_machine},       Bench{"gait", &bench_gait},
-                                Bench{"kinematics", &bench_kinematics}, Bench{"lines", &bench_lines},
-                                Bench{"skinning", &bench_skinning},     Bench{"table1", &bench_table1},
-                                Bench{"fem", &bench_fem}};
+constexpr std::array benches = {Bench{"machine", &bench_machine},
+                                Bench{"gait", &bench_gait},
+                                Bench{"kinematics", &bench_kinematics},
+                                Bench{"lines", &bench_lines},
+                                Bench{"skinning", &bench_skinning},
+                                Bench{"table1", &bench_table1},
+                                Bench{"fem", &bench_fem},
+                                Bench{"paper_figures", &bench_paper_figures}};
 
 struct BenchText {
   std::vector<std::string> names;
   std::string humans = "10000";
   std::optional<std::string> json;
+  bool quick = false;
 };
 
 struct BenchRequest {
@@ -159,6 +164,7 @@ int bench(const BenchText& text) {
   if (!request) return complain(request.error().message, 2);
   BenchRun run;
   run.humans = request->humans;
+  run.quick = text.quick;
   run.machine = describe_machine();
   show("measuring the machine");
   measure_machine(run.machine);
@@ -196,6 +202,8 @@ void add_bench_command(CLI::App& app, int& exit_status) {
   command->add_option("--humans", text->humans, "How many walk, 1 to 200000, all different")
       ->capture_default_str()
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_flag("--quick", text->quick,
+                    "One short round of fem and paper_figures: all figures, but not to be quoted");
   command->add_option("--json", text->json, "File for the figures")
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   command->callback([text, &exit_status] { exit_status = bench(*text); });

@@ -20,7 +20,6 @@ namespace {
 
 constexpr std::size_t crowd_blocks = 64;  // 1024 muscles
 constexpr int rounds = 5;
-constexpr int repeats_a_round = 20;
 
 struct Comparison {
   Rounds shared, individual, lanes;
@@ -28,7 +27,7 @@ struct Comparison {
 };
 
 /// Ours and theirs in turn, so that a busy moment hits all alike.
-Result<Comparison> compare(const MuscleTemplate& muscle, bool with_rivals) {
+Result<Comparison> compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_rivals) {
   BenchBellies shared(muscle, Stiffness::shared, crowd_blocks);
   BenchBellies individual(muscle, Stiffness::individual, crowd_blocks);
   BellyScale<Lanes<float>> scale{};
@@ -37,18 +36,18 @@ Result<Comparison> compare(const MuscleTemplate& muscle, bool with_rivals) {
   std::vector<OwnStiffness> own(4, OwnStiffness(muscle, scale));
   Comparison found;
   std::optional<double> bullet_dt_s;
-  for (int round = 0; round < rounds; ++round) {
-    found.shared.add(measure(repeats_a_round, [&] { shared.tick(steps_a_tick, paper_tick_s); }));
-    found.individual.add(measure(repeats_a_round, [&] { individual.tick(steps_a_tick, paper_tick_s); }));
-    found.lanes.add(measure(repeats_a_round, [&] {
+  for (int round = 0; round < run.rounds(rounds); ++round) {
+    found.shared.add(measure(run.rounds(20), [&] { shared.tick(steps_a_tick, paper_tick_s); }));
+    found.individual.add(measure(run.rounds(20), [&] { individual.tick(steps_a_tick, paper_tick_s); }));
+    found.lanes.add(measure(run.rounds(20), [&] {
       for (OwnStiffness& block : own) step_own(block, steps_a_tick);
     }));
     if (!with_rivals) continue;
-    if (auto done = found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}); !done) {
+    if (auto done = found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}, run.quick); !done) {
       return tl::unexpected(done.error());
     }
     if (round > 0 && !bullet_dt_s) continue;  // it was not there
-    if (found.rivals.add({bullet_dt_s ? fmt::format("bullet@{:.9g}", *bullet_dt_s) : "bullet"})) {
+    if (found.rivals.add({bullet_dt_s ? fmt::format("bullet@{:.9g}", *bullet_dt_s) : "bullet"}, run.quick)) {
       bullet_dt_s = found.rivals.find("bullet")->dt_s;
     }
   }
@@ -112,22 +111,36 @@ Result<void> bench_two_threads(BenchRun& run, const MuscleTemplate& muscle) {
     return {};
   }
   BenchBellies bellies(muscle, Stiffness::shared, crowd_blocks);
-  const Jobs jobs = pool.jobs(), alone{};
-  const auto ticks = [&bellies](const Jobs& by) {
-    by.parallel_for(
-        by.user, bellies.blocks(),
-        [](void* crowd, std::size_t begin, std::size_t end) {
-          const FlushDenormals flushed;
-          for (std::size_t b = begin; b < end; ++b) {
-            static_cast<BenchBellies*>(crowd)->tick_block(b, steps_a_tick, paper_tick_s);
-          }
-        },
-        &bellies);
+  struct Work {
+    BenchBellies& bellies;
+    int ticks;
   };
+  // Short turns and long ones: among other work the second thread may be a while getting its core.
+  const auto time_a_tick = [&](const Jobs& by, int repeats, int ticks) {
+    Work work{bellies, ticks};
+    Measured time = measure(repeats, [&] {
+      by.parallel_for(
+          by.user, bellies.blocks(),
+          [](void* context, std::size_t begin, std::size_t end) {
+            const FlushDenormals flushed;
+            const Work& given = *static_cast<const Work*>(context);
+            for (std::size_t block = begin; block < end; ++block) {
+              for (int n = 0; n < given.ticks; ++n) given.bellies.tick_block(block, steps_a_tick, paper_tick_s);
+            }
+          },
+          &work);
+    });
+    time.best_s /= ticks;
+    time.median_s /= ticks;
+    return time;
+  };
+  const Jobs jobs = pool.jobs(), alone{};
   Rounds one, two;
-  for (int round = 0; round < 100; ++round) {  // short turns, so that in some of them both cores are ours
-    one.add(measure(5, [&] { ticks(alone); }));
-    two.add(measure(10, [&] { ticks(jobs); }));
+  for (int round = 0; round < run.rounds(30); ++round) {
+    one.add(time_a_tick(alone, 5, 1));
+    two.add(time_a_tick(jobs, 10, 1));
+    two.add(time_a_tick(jobs, 2, 10));
+    if (round % 5 == 4) two.add(time_a_tick(jobs, 2, 100));
   }
   const double once_s = one.all().best_s, twice_s = two.all().best_s;
   add_figure(run, "fem.threads2_speedup", once_s / twice_s, "1",
@@ -169,7 +182,7 @@ Result<void> bench_fem(BenchRun& run) {
     run.notes.emplace_back(
         "fem.ecd81.ratio_to_*: mobil_rivals is not beside this program; build the CMake target mobil_rivals");
   }
-  const auto found = compare(*muscle, with_rivals);
+  const auto found = compare(run, *muscle, with_rivals);
   if (!found) return tl::unexpected(found.error());
   const Measured shared = found->shared.all(), individual = found->individual.all(), lanes = found->lanes.all();
   constexpr auto muscles = static_cast<double>(crowd_blocks * lane_count);

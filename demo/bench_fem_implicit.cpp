@@ -75,7 +75,7 @@ Result<void> bench_caa(BenchRun& run, const MuscleTemplate& muscle) {
     const auto tick_s = static_cast<float>(c.dt_s * c.steps);
     const auto measured = [&](Stiffness stiffness) {
       BenchBellies bellies(muscle, stiffness, crowd_blocks);
-      return measure(15, [&] { bellies.tick(c.steps, tick_s, &*solver); });
+      return measure(run.rounds(15), [&] { bellies.tick(c.steps, tick_s, &*solver); });
     };
     constexpr auto muscles = static_cast<double>(crowd_blocks * lane_count);
     for (const Stiffness stiffness : {Stiffness::shared, Stiffness::individual}) {
@@ -135,12 +135,12 @@ Result<void> bench_icd_and_static(BenchRun& run, const MuscleTemplate& muscle) {
     if (!still) return tl::unexpected(still.error());
     BenchBellies moving(muscle, stiffness, crowd_blocks), resting(muscle, stiffness, crowd_blocks);
     const Measured step =
-        measure(15, [&] { moving.tick(steps_a_tick, static_cast<float>(dt_s * steps_a_tick), &*icd); });
+        measure(run.rounds(15), [&] { moving.tick(steps_a_tick, static_cast<float>(dt_s * steps_a_tick), &*icd); });
     if (!moving.finite()) return fail("icd: a displacement is not a number");
     run.add_time(fmt::format("fem.icd81.{}.us_per_step", whose), step, muscles * steps_a_tick, 1e-6, "us").bound =
         fmt::format("exact for every body; limit {:.3g} ms, with the lumped mass {:.3g}", limit_s * 1e3,
                     paper_limit_s(muscle) * 1e3);
-    const Measured solve = measure(15, [&] { resting.tick(1, paper_tick_s, &*still); });
+    const Measured solve = measure(run.rounds(15), [&] { resting.tick(1, paper_tick_s, &*still); });
     run.add_time(fmt::format("fem.static81.{}.us_per_solve", whose), solve, muscles, 1e-6, "us").bound =
         stiffness == Stiffness::shared ? "the factor solves it exactly"
                                        : fmt::format("{} sweeps from the last answer", still->sweeps);

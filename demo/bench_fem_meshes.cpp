@@ -28,8 +28,8 @@ Result<void> bench_fem_meshes(BenchRun& run) {
     for (const Stiffness stiffness : {Stiffness::shared, Stiffness::individual}) {
       BenchBellies bellies(*muscle, stiffness, node_count(mesh.cells) > 1000 ? 1 : 4);
       Rounds rounds;
-      for (int round = 0; round < 3; ++round) {
-        rounds.add(measure(15, [&] { bellies.tick(steps_a_tick, tick_s); }));
+      for (int round = 0; round < run.rounds(3); ++round) {
+        rounds.add(measure(run.rounds(15), [&] { bellies.tick(steps_a_tick, tick_s); }));
       }
       if (!bellies.finite()) return fail(fmt::format("{}: a displacement is not a number", mesh.name));
       add_step_time(run, fmt::format("{}.{}", mesh.name, stiffness == Stiffness::shared ? "shared" : "individual"),

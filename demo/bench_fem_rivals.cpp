@@ -35,8 +35,8 @@ bool rivals_found() {
   return access(program().c_str(), X_OK) == 0;
 }
 
-Result<RivalTime> measure_rival(const std::string& name) {
-  const std::string command = quoted(program().string()) + " " + quoted(name) + " 2>&1";
+Result<RivalTime> measure_rival(const std::string& name, bool quick) {
+  const std::string command = quoted(program().string()) + (quick ? " --quick " : " ") + quoted(name) + " 2>&1";
   const auto close = [](FILE* f) { return pclose(f); };
   std::FILE* pipe = popen(command.c_str(), "r");
   if (pipe == nullptr) return fail("mobil_rivals could not be started");
@@ -63,9 +63,9 @@ Result<RivalTime> measure_rival(const std::string& name) {
   return time;
 }
 
-Result<void> RivalRounds::add(const std::vector<std::string>& names) {
+Result<void> RivalRounds::add(const std::vector<std::string>& names, bool quick) {
   for (const std::string& name : names) {
-    const auto time = measure_rival(name);
+    const auto time = measure_rival(name, quick);
     if (!time) return tl::unexpected(time.error());
     const std::string stem = name.substr(0, name.find('@'));
     auto& medians = medians_[stem];

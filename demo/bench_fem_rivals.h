@@ -20,14 +20,15 @@ struct RivalTime {
 /// Whether the comparison program is there.
 bool rivals_found();
 
-/// Runs it once for the measurement `name`. Fails with its own words.
-Result<RivalTime> measure_rival(const std::string& name);
+/// Runs it once for the measurement `name`; `quick`: for a moment, whatever else the machine does. Fails with its own
+/// words.
+Result<RivalTime> measure_rival(const std::string& name, bool quick);
 
 /// The best of several rounds by the name of the measurement.
 class RivalRounds {
  public:
   /// One more round of each of `names`.
-  Result<void> add(const std::vector<std::string>& names);
+  Result<void> add(const std::vector<std::string>& names, bool quick);
   /// Null where it was not measured.
   const RivalTime* find(const std::string& name) const;
 

@@ -145,7 +145,7 @@ double largest_stable_step(double static_m) {
 
 }  // namespace
 
-Rival bullet(double dt_s) {
+Rival bullet(double dt_s, double limit_s) {
   const Block block = make_block(1, 1);
   const Eigen::Vector2d expected = far_mean(block, deflection(block, pull));
   Rival rival{.name = "bullet", .dt_s = dt_s > 0 ? dt_s : largest_stable_step(expected.norm()), .repeats = repeats};
@@ -162,10 +162,10 @@ Rival bullet(double dt_s) {
   for (const int bodies : {1, 16}) {
     World world(bodies, 0, 0.5);
     const int steps = std::max(1, 64 / bodies);
-    rival.variants.push_back(
-        timed(bodies == 1 ? "a body a world" : "sixteen bodies a world", static_cast<double>(steps) * bodies, [&] {
-          for (int n = 0; n < steps; ++n) world.step(rival.dt_s);
-        }));
+    rival.variants.push_back(timed(bodies == 1 ? "a body a world" : "sixteen bodies a world",
+                                   static_cast<double>(steps) * bodies, limit_s, [&] {
+                                     for (int n = 0; n < steps; ++n) world.step(rival.dt_s);
+                                   }));
   }
   return rival;
 }
@@ -180,7 +180,7 @@ bool has_bullet() {
 
 namespace rivals {
 
-Rival bullet(double) {
+Rival bullet(double, double) {
   return {};
 }
 

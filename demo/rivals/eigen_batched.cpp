@@ -124,7 +124,8 @@ Eigen::VectorXd expected_history(const Block& block, int steps) {
 constexpr int checked_steps = 31 * steps_a_tick;
 
 template <class Operator, int columns, int order>
-void add(Rival& rival, const std::string& name, const Block& block, const Eigen::VectorXd& expected, int width) {
+void add(Rival& rival, double limit_s, const std::string& name, const Block& block, const Eigen::VectorXd& expected,
+         int width) {
   using S = States<columns, order>;
   const Operator op(block);
   {
@@ -136,7 +137,7 @@ void add(Rival& rival, const std::string& name, const Block& block, const Eigen:
   }
   Crowd<Operator, S> crowd(op, block, width, muscles / width);
   int n = 0;
-  rival.variants.push_back(timed(name, muscles * steps_a_tick, [&] {
+  rival.variants.push_back(timed(name, muscles * steps_a_tick, limit_s, [&] {
     crowd.tick(n);
     n += steps_a_tick;
   }));
@@ -144,23 +145,23 @@ void add(Rival& rival, const std::string& name, const Block& block, const Eigen:
 
 }  // namespace
 
-Rival eigen_batched() {
+Rival eigen_batched(double limit_s) {
   const Block block = make_block(1, 1);
   Rival rival{.name = "eigen_batched", .repeats = repeats};
   const Eigen::VectorXd expected = expected_history(block, checked_steps);
   using Eigen::ColMajor, Eigen::RowMajor;
-  add<Sparse, 32, RowMajor>(rival, "sparse rows, states by row, 32 known", block, expected, 32);
-  add<Sparse, 0, RowMajor>(rival, "sparse rows, states by row, 32", block, expected, 32);
-  add<Sparse, 32, ColMajor>(rival, "sparse rows, states by column, 32 known", block, expected, 32);
-  add<Sparse, 0, ColMajor>(rival, "sparse rows, states by column, 32", block, expected, 32);
-  add<SparseColumns, 32, RowMajor>(rival, "sparse columns, states by row, 32 known", block, expected, 32);
-  add<SparseColumns, 0, ColMajor>(rival, "sparse columns, states by column, 32", block, expected, 32);
-  add<Dense, 0, ColMajor>(rival, "dense, states by column, 32", block, expected, 32);
-  add<Dense, 0, RowMajor>(rival, "dense, states by row, 32", block, expected, 32);
-  add<DensePlanes, 0, ColMajor>(rival, "dense planes, states by column, 32", block, expected, 32);
-  add<DensePlanes, 0, RowMajor>(rival, "dense planes, states by row, 32", block, expected, 32);
-  add<Sparse, 16, RowMajor>(rival, "sparse rows, states by row, 16 known", block, expected, 16);
-  add<Sparse, 64, RowMajor>(rival, "sparse rows, states by row, 64 known", block, expected, 64);
+  add<Sparse, 32, RowMajor>(rival, limit_s, "sparse rows, states by row, 32 known", block, expected, 32);
+  add<Sparse, 0, RowMajor>(rival, limit_s, "sparse rows, states by row, 32", block, expected, 32);
+  add<Sparse, 32, ColMajor>(rival, limit_s, "sparse rows, states by column, 32 known", block, expected, 32);
+  add<Sparse, 0, ColMajor>(rival, limit_s, "sparse rows, states by column, 32", block, expected, 32);
+  add<SparseColumns, 32, RowMajor>(rival, limit_s, "sparse columns, states by row, 32 known", block, expected, 32);
+  add<SparseColumns, 0, ColMajor>(rival, limit_s, "sparse columns, states by column, 32", block, expected, 32);
+  add<Dense, 0, ColMajor>(rival, limit_s, "dense, states by column, 32", block, expected, 32);
+  add<Dense, 0, RowMajor>(rival, limit_s, "dense, states by row, 32", block, expected, 32);
+  add<DensePlanes, 0, ColMajor>(rival, limit_s, "dense planes, states by column, 32", block, expected, 32);
+  add<DensePlanes, 0, RowMajor>(rival, limit_s, "dense planes, states by row, 32", block, expected, 32);
+  add<Sparse, 16, RowMajor>(rival, limit_s, "sparse rows, states by row, 16 known", block, expected, 16);
+  add<Sparse, 64, RowMajor>(rival, limit_s, "sparse rows, states by row, 64 known", block, expected, 64);
   rival.check = "muscle 0 after 248 steps against double precision, every variant";
   rival.holds = rival.check_error < 3e-5;
   return rival;

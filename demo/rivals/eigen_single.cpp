@@ -59,7 +59,7 @@ Eigen::VectorXd dense_history(const Block& block, int steps) {
 constexpr int checked_steps = 31 * steps_a_tick;
 
 template <class Stiffness, class FactorsOf>
-Rival measured(std::string name, const Block& block, Stiffness&& stiffness, FactorsOf&& factors) {
+Rival measured(std::string name, double limit_s, const Block& block, Stiffness&& stiffness, FactorsOf&& factors) {
   Rival rival{.name = std::move(name), .repeats = repeats};
   Eigen::VectorXd elastic(moving);
   {
@@ -74,25 +74,26 @@ Rival measured(std::string name, const Block& block, Stiffness&& stiffness, Fact
   std::vector<State> states(muscles);
   for (const int visit : {1, steps_a_tick}) {
     int n = 0;
-    rival.variants.push_back(
-        timed(visit == 1 ? "a step of everyone in turn" : "a tick of everyone in turn", muscles * steps_a_tick, [&] {
-          tick(states, n, visit, elastic, stiffness, factors);
-          n += steps_a_tick;
-        }));
+    rival.variants.push_back(timed(visit == 1 ? "a step of everyone in turn" : "a tick of everyone in turn",
+                                   muscles * steps_a_tick, limit_s, [&] {
+                                     tick(states, n, visit, elastic, stiffness, factors);
+                                     n += steps_a_tick;
+                                   }));
   }
   return rival;
 }
 
 }  // namespace
 
-Rival eigen() {
+Rival eigen(double limit_s) {
   const Block block = make_block(1, 1);
   const Factors factors(block);
   return measured(
-      "eigen", block, [&](int) -> const auto& { return block.stiffness; }, [&](int) -> const auto& { return factors; });
+      "eigen", limit_s,
+      block, [&](int) -> const auto& { return block.stiffness; }, [&](int) -> const auto& { return factors; });
 }
 
-Rival eigen_individual() {
+Rival eigen_individual(double limit_s) {
   std::vector<Block> blocks;
   std::vector<Factors> factors;
   for (int m = 0; m < muscles; ++m) {
@@ -101,7 +102,7 @@ Rival eigen_individual() {
     factors.emplace_back(blocks.back());
   }
   return measured(
-      "eigen_individual",
+      "eigen_individual", limit_s,
       blocks[0], [&](int m) -> const auto& { return blocks[static_cast<std::size_t>(m)].stiffness; },
       [&](int m) -> const auto& { return factors[static_cast<std::size_t>(m)]; });
 }

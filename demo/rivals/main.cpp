@@ -1,4 +1,4 @@
-// mobil_rivals NAME…: one JSON object a line for each measurement asked for, all by default.
+// mobil_rivals [--quick] [NAME…]: one JSON object a line for each measurement asked for, all by default.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -37,6 +37,9 @@ int main(int argc, char** argv) {
   _mm_setcsr(_mm_getcsr() | 0x8040);  // denormal numbers are zero, as in mobil
 #endif
   std::vector<std::string> names(argv + 1, argv + argc);
+  const bool quick = !names.empty() && names.front() == "--quick";
+  if (quick) names.erase(names.begin());
+  const double limit_s = quick ? 0 : 0.12;
   if (names.empty()) {
     names = {"eigen", "eigen_individual", "eigen_batched"};
     if (rivals::has_bullet()) names.emplace_back("bullet");
@@ -46,13 +49,13 @@ int main(int argc, char** argv) {
     const double dt = name.starts_with("bullet@") ? std::strtod(name.c_str() + std::strlen("bullet@"), &end) : 0;
     const bool is_bullet = name == "bullet" || (end != nullptr && *end == '\0' && dt >= 1e-5 && dt <= 0.1);
     if (name == "eigen") {
-      print(rivals::eigen());
+      print(rivals::eigen(limit_s));
     } else if (name == "eigen_individual") {
-      print(rivals::eigen_individual());
+      print(rivals::eigen_individual(limit_s));
     } else if (name == "eigen_batched") {
-      print(rivals::eigen_batched());
+      print(rivals::eigen_batched(limit_s));
     } else if (is_bullet && rivals::has_bullet()) {
-      print(rivals::bullet(dt));
+      print(rivals::bullet(dt, limit_s));
     } else {
       std::fprintf(stderr,
                    is_bullet ? "mobil_rivals: '%s': built without Bullet; install libbullet-dev and configure again\n"

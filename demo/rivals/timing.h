@@ -20,7 +20,7 @@ inline double cpu_now_s() {
 
 /// Runs `work`, which does `steps` steps of one muscle each, once unmeasured and then `repeats` times or for `limit_s`.
 template <class F>
-Variant timed(std::string name, double steps, F&& work, double limit_s = 0.12) {
+Variant timed(std::string name, double steps, double limit_s, F&& work) {
   work();
   std::vector<double> us;
   const double start = cpu_now_s();

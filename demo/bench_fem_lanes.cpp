@@ -28,7 +28,7 @@ void own_steps(OwnStiffness& block, std::uint32_t steps) {
         for (std::uint32_t pair = block.first[n]; pair < block.first[n + 1]; ++pair, c += 9 * lane_count) {
           const float* const at = u + 3 * lane_count * block.node[pair];
           const V x = hn::Load(d, at), y = hn::Load(d, at + lane_count), z = hn::Load(d, at + 2 * lane_count);
-          const auto k = [c](std::size_t word) HWY_ATTR { return hn::Load(d, c + word * lane_count); };
+          const auto k = [&](std::size_t word) HWY_ATTR { return hn::Load(d, c + word * lane_count); };
           fx = hn::NegMulAdd(k(0), x, fx);
           gx = hn::MulAdd(k(1), y, gx);
           fx = hn::NegMulAdd(k(2), z, fx);

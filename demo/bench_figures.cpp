@@ -89,6 +89,7 @@ Result<std::map<double, Cost>> figure18(BenchRun& run, const Mesh& mesh, const M
   run.notes.push_back(fmt::format(
       "Figure 18, {} nodes: processor time for a simulated second of one of sixteen (of the block)", mesh.nodes));
   std::vector<std::string> head;
+  head.reserve(steps_ms.size());
   for (const double ms : steps_ms) head.push_back(fmt::format("{:.1f} ms", ms));
   run.notes.push_back(row("step", head));
   std::map<double, Cost> explicit_costs;

@@ -77,9 +77,11 @@ class World {
  private:
   void add(int number) {
     std::vector<btVector3> at;
+    at.reserve(nodes);
     for (int n = 0; n < nodes; ++n) {
+      const int plane = n / nodes_a_plane;
       at.emplace_back(btScalar((n % 3 - 1) * cube_m), btScalar((n / 3 % 3 - 1) * cube_m + number),
-                      btScalar(n / nodes_a_plane * cube_m));
+                      btScalar(plane * cube_m));
     }
     auto body = std::make_unique<btSoftBody>(&world_.getWorldInfo(), nodes, at.data(), nullptr);
     // two mirror-image cuts, as a checkerboard, so that neighbours share their faces' diagonals

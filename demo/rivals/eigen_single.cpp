@@ -97,7 +97,8 @@ Rival eigen_individual(double limit_s) {
   std::vector<Block> blocks;
   std::vector<Factors> factors;
   for (int m = 0; m < muscles; ++m) {
-    const double across = m == 0 ? 1 : 0.8 + 0.5 * (m % 32) / 31, along = m == 0 ? 1 : 0.85 + 0.3 * (m / 32) / 31;
+    const int row = m / 32;
+    const double across = m == 0 ? 1 : 0.8 + 0.5 * (m % 32) / 31, along = m == 0 ? 1 : 0.85 + 0.3 * row / 31;
     blocks.push_back(make_block(across, along));
     factors.emplace_back(blocks.back());
   }

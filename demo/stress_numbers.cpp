@@ -276,14 +276,16 @@ Result<void> stress_denormals(StressRun& run) {
                .value = static_cast<double>(without),
                .detail = fmt::format("in {} ticks", ticks_with_subnormals)});
     }
-    run.add({.tried = tried,
-             .quantity = "largest difference between the two motions, m",
-             .bound = solves ? 1e-16 : 1e-34,
-             .reason =
-                 solves ? "its conjugate gradients square the forces, and take those below 1e-19 N for none; under one "
-                          "that small a belly gives some hundredfold of it in m at most"
-                        : "what is taken for zero is below 1.2e-38, and a motion is a sum of some thousand of such",
-             .value = apart});
+    run.add(
+        {.tried = tried,
+         .quantity = "largest difference between the two motions, m",
+         .bound = solves ? 1e-16 : 1e-34,
+         .reason =
+             solves
+                 ? "its conjugate gradients square the forces, take those below some 1e-19 N for none and leave what "
+                   "they would move"
+                 : "what is taken for zero is below 1.2e-38, and a motion is a sum of some thousand of such",
+         .value = apart});
   }
   return {};
 }

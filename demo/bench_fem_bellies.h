@@ -36,7 +36,7 @@ class BenchBellies {
   /// with Stiffness::shared all are. Each is pulled a little more than the one before.
   BenchBellies(const MuscleTemplate& muscle, Stiffness stiffness, std::size_t blocks);
 
-  /// One tick of everybody, or of one block: by ECD, or by the method of `solver`.
+  /// One tick of everybody, or of one block: by ECD, or by the method of `solver`. Nobody asks for a BellyReport.
   void tick(std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
   void tick_block(std::size_t block, std::uint32_t substeps, float tick_s, const BellySolver* solver = nullptr);
 
@@ -46,7 +46,7 @@ class BenchBellies {
   bool finite() const;
 
   // Of the first block: mean displacement of the far face along z, m; sizes; how much harder each is pulled.
-  const Lanes<float>& elongation_m() const { return blocks_.front().report.elongation_m; }
+  Lanes<float> elongation_m() const { return elongation_m(blocks_.front()); }
   const BellyScale<Lanes<float>>& scale() const { return blocks_.front().scale; }
   const Lanes<float>& strength() const { return blocks_.front().strength; }
 
@@ -54,10 +54,11 @@ class BenchBellies {
   struct Block {
     std::vector<Lanes<float>> displacement, velocity, scratch;
     BellyScale<Lanes<float>> scale;
-    BellyReport<Lanes<float>> report;
     Lanes<float> strength;
     double time_s = 0;
   };
+
+  Lanes<float> elongation_m(const Block& block) const;
 
   const MuscleTemplate& muscle_;
   Stiffness stiffness_;

@@ -36,6 +36,7 @@ struct BellySolver {
   double across = 1, along = 1;   // the body it solves exactly
   std::uint32_t sweeps = 3;       // of conjugate gradients, for bodies of other sizes
   std::uint32_t refinements = 1;  // solutions, each for what the last left, of bodies of just its size
+  float correction = 1;           // part of CAA's change of velocity that is taken; below 1 at many critical steps
   BandFactor factor;
   std::vector<float> moment_kg_m;  // ∑ mass·(rest position) over a node's row of the mass matrix, three a node
   std::vector<float> far_mass_kg;  // coupling by mass of a node of the last plane but one to the whole insertion face

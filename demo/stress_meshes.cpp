@@ -284,7 +284,7 @@ namespace {
 /// The elements with a corner whose three edges are left-handed or flat, reckoned from the node numbers alone.
 std::vector<std::uint32_t> folded(const HexahedralMesh& mesh) {
   std::vector<std::uint32_t> found;
-  const auto [nx, ny, nz] = mesh.cells;
+  const std::uint32_t nx = mesh.cells[0], ny = mesh.cells[1], nz = mesh.cells[2];
   for (std::uint32_t e = 0; e < nx * ny * nz; ++e) {
     const std::uint32_t i = e % nx, j = e / nx % ny, k = e / nx / ny;
     bool bad = false;

@@ -65,7 +65,7 @@ HWY_INLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
   const float inertia_factor = 2 / step.dt + step.alpha;
   const V sideways = hn::Mul(belly.factor.mass, hn::Set(d, inertia_factor + half * step.foundation));
   const V along = hn::Mul(belly.factor.mass, hn::Set(d, inertia_factor));
-  solve<stiffness, mass>(belly, {sideways, sideways, along, strain_v}, exact, 2, belly.v);
+  solve<stiffness, mass>(belly, {sideways, sideways, along, strain_v}, exact, 2 * belly.solver.correction, belly.v);
   for_each_component(belly, belly.past, [&](std::size_t, std::size_t at) HWY_ATTR {
     hn::Store(hn::MulAdd(half_v, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.u + at);
   });

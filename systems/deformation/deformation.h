@@ -7,7 +7,7 @@
 // consistent mass. CAA, Newmark's β = 1/4 and γ = 1/2, solves for the mean velocity w of the step,
 //   [(2/Δt + α)·M + (Δt/2 + β)·K]·w = (fₙ + fₙ₊₁)/2 + (2/Δt)·M·vₙ − K·uₙ,   uₙ₊₁ = uₙ + Δt·w,   vₙ₊₁ = 2w − vₙ.
 // Static: K·u = f. ECD and ICD are stable while Δt stays under the individual's critical step: choose n with
-// `substeps_within`; CAA always is.
+// `substeps_within`; CAA always is, for bellies of about the size that its solver was made for.
 
 #include <cstddef>
 #include <cstdint>

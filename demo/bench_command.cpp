@@ -20,7 +20,7 @@
 #include "demo/bench.h"
 #include "demo/bench_crowd.h"
 #include "demo/commands.h"
-#include "demo/nearest_name.h"
+#include "demo/named_entries.h"
 
 namespace mobil {
 namespace {
@@ -52,12 +52,6 @@ struct BenchRequest {
   std::filesystem::path json;
 };
 
-std::vector<std::string> known_names() {
-  std::vector<std::string> names(benches.size());
-  std::ranges::transform(benches, names.begin(), [](const Bench& known) { return std::string(known.name); });
-  return names;
-}
-
 Result<std::size_t> parse_humans(const std::string& text) {
   constexpr std::size_t most = 200'000;
   const bool digits =
@@ -69,32 +63,11 @@ Result<std::size_t> parse_humans(const std::string& text) {
   return humans;
 }
 
-/// So that nobody waits a minute for figures that cannot be written.
-Result<void> check_json_place(const std::string& text) {
-  if (text.empty()) return fail("--json is empty; give it a file's name");
-  const std::filesystem::path path = text;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return fail(fmt::format("--json {}: a folder has that name", text));
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0) {
-    return fail(fmt::format("--json {}: cannot be written; choose a folder that exists and is writable", text));
-  }
-  return {};
-}
-
 Result<BenchRequest> read_request(const BenchText& text) {
   BenchRequest request;
-  for (const std::string& name : text.names) {
-    if (std::ranges::find(benches, name, &Bench::name) == benches.end()) {
-      return fail(fmt::format("there is no bench '{}'{}; there are: {}", name, suggestion(name, known_names()),
-                              fmt::join(known_names(), ", ")));
-    }
-  }
-  for (const Bench& bench : benches) {
-    if (text.names.empty() || std::ranges::find(text.names, bench.name) != text.names.end()) {
-      request.chosen.push_back(bench);
-    }
-  }
+  auto chosen = choose_named(benches, text.names, "bench");
+  if (!chosen) return tl::unexpected(chosen.error());
+  request.chosen = std::move(*chosen);
   const auto humans = parse_humans(text.humans);
   if (!humans) return tl::unexpected(humans.error());
   request.humans = *humans;
@@ -197,7 +170,7 @@ void add_bench_command(CLI::App& app, int& exit_status) {
       "Example: mobil bench gait kinematics --humans 2000 --json bench.json");
   command
       ->add_option("name", text->names,
-                   fmt::format("What to measure, of {}; all by default", fmt::join(known_names(), ", ")))
+                   fmt::format("What to measure, of {}; all by default", fmt::join(names_of(benches), ", ")))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_option("--humans", text->humans, "How many walk, 1 to 200000, all different")
       ->capture_default_str()

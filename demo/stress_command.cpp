@@ -22,7 +22,7 @@
 
 #include "assets/output_file.h"
 #include "demo/commands.h"
-#include "demo/nearest_name.h"
+#include "demo/named_entries.h"
 #include "demo/stress.h"
 
 namespace mobil {
@@ -69,40 +69,6 @@ struct StressText {
   std::optional<std::string> json;
   bool list = false, quick = false;
 };
-
-std::vector<std::string> known_names() {
-  std::vector<std::string> names(stresses.size());
-  std::ranges::transform(stresses, names.begin(), [](const Stress& known) { return std::string(known.name); });
-  return names;
-}
-
-/// So that nobody waits minutes for figures that cannot be written.
-Result<void> check_json_place(const std::string& text) {
-  if (text.empty()) return fail("--json is empty; give it a file's name");
-  const std::filesystem::path path = text;
-  std::error_code ignored;
-  if (std::filesystem::is_directory(path, ignored)) return fail(fmt::format("--json {}: a folder has that name", text));
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  if (!std::filesystem::is_directory(folder, ignored) || access(folder.c_str(), W_OK) != 0) {
-    return fail(fmt::format("--json {}: cannot be written; choose a folder that exists and is writable", text));
-  }
-  return {};
-}
-
-/// Those that were named, in the list's order; all where none was.
-Result<std::vector<Stress>> choose(const std::vector<std::string>& names) {
-  for (const std::string& name : names) {
-    if (std::ranges::find(stresses, name, &Stress::name) == stresses.end()) {
-      return fail(fmt::format("there is no stress '{}'{}; there are: {}", name, suggestion(name, known_names()),
-                              fmt::join(known_names(), ", ")));
-    }
-  }
-  std::vector<Stress> chosen;
-  for (const Stress& stress : stresses) {
-    if (names.empty() || std::ranges::find(names, stress.name) != names.end()) chosen.push_back(stress);
-  }
-  return chosen;
-}
 
 std::string_view words(Promise promise) {
   return promise == Promise::at_most ? "at most" : "at least";
@@ -185,7 +151,7 @@ int stress(const StressText& text) {
     fmt::print(stderr, "mobil stress: {}\n", message);
     return 2;
   };
-  const auto chosen = choose(text.names);
+  const auto chosen = choose_named(stresses, text.names, "stress");
   if (!chosen) return complain(chosen.error().message);
   if (text.json) {
     if (auto ok = check_json_place(*text.json); !ok) return complain(ok.error().message);
@@ -222,7 +188,7 @@ void add_stress_command(CLI::App& app, int& exit_status) {
       "Example: mobil stress slivers nan --json stress.json");
   command
       ->add_option("name", text->names,
-                   fmt::format("What to try, of {}; all by default", fmt::join(known_names(), ", ")))
+                   fmt::format("What to try, of {}; all by default", fmt::join(names_of(stresses), ", ")))
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command->add_flag("--list", text->list, "Say what there is to try, and try nothing");
   command->add_flag("--quick", text->quick, "Shorter long runs, some seconds in all");

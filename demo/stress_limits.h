@@ -2,9 +2,11 @@
 // The critical step tried out: a shaken belly in double precision, stepped just below it and just above it.
 
 #include <cstdint>
+#include <string>
 
 #include "assets/hexahedral_mesh.h"
 #include "assets/stiffness_terms.h"
+#include "demo/stress.h"
 #include "engine/error.h"
 #include "systems/deformation/reference.h"
 
@@ -33,5 +35,8 @@ struct WorstProbe {
 
   void take(const LimitProbe& probe);
 };
+
+/// Two rows: what the worst did just below its limit, and just above.
+void add_rows(StressRun& run, const std::string& tried, const WorstProbe& worst);
 
 }  // namespace mobil

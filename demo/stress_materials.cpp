@@ -76,17 +76,7 @@ Result<void> stress_poisson(StressRun& run) {
       run.progress(static_cast<double>(e * ratios.size() + r + 1) / (elements.size() * ratios.size()));
     }
     const std::string tried = fmt::format("{} elements, Poisson's ratio -0.99 to 0.4999", name(elements[e]));
-    run.add({.tried = tried + fmt::format(", in double at {} of the critical step", just_below),
-             .quantity = "change of energy in parts of itself",
-             .bound = 1e-8,
-             .reason = "conserved exactly below the limit; rounding is amplified by 500",
-             .value = worst.drift_below});
-    run.add({.tried = tried + fmt::format(", at {} of it", just_above),
-             .quantity = "growth of kinetic energy in 600 steps",
-             .promise = Promise::at_least,
-             .bound = 1e6,
-             .reason = "at least e^0.15 a step; the computed limit is at most 0.1 % low",
-             .value = worst.growth_above});
+    add_rows(run, tried, worst);
     run.add({.tried = tried + ", sixteen sizes in lanes at the substeps that the engine chooses",
              .quantity = "change of energy in parts of itself",
              .bound = 1e-4,

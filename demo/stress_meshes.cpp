@@ -134,18 +134,7 @@ void tell(StressRun& run, const std::string& tried, const MeshFigures& f) {
            .reason = "patch test, all three elements; in double rounding grows with 1/Jacobian",
            .value = f.patch,
            .detail = figures});
-  run.add({.tried = tried + fmt::format(", stepped at {} of the critical step in double", just_below),
-           .quantity = "change of energy in parts of itself",
-           .bound = 1e-8,
-           .reason = "conserved exactly below the limit; rounding is amplified by 1/(1 - 0.999^2) = 500",
-           .value = f.probe.drift_below,
-           .detail = fmt::format("{} bellies", f.probe.tried)});
-  run.add({.tried = tried + fmt::format(", stepped at {} of it", just_above),
-           .quantity = "growth of kinetic energy in 600 steps",
-           .promise = Promise::at_least,
-           .bound = 1e6,
-           .reason = "at least e^0.15 a step once above; the computed limit is at most 0.1 % low",
-           .value = f.probe.growth_above});
+  add_rows(run, tried, f.probe);
   run.add({.tried = tried + ", sixteen sizes in lanes at 0.9 of it",
            .quantity = "change of energy in parts of itself",
            .bound = 1e-4,

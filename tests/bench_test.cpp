@@ -174,16 +174,7 @@ TEST(Bench, BadInputIsOneLineAndNothingIsWritten) {
       {"gait --json taken", {"--json taken", "folder"}},
       {"gait --jsn bench.json", {"--jsn", "did you mean --json?"}},
   };
-  for (const auto& [arguments, pieces] : refused) {
-    const Ran ran = run_mobil("bench " + arguments, folder.path);
-    EXPECT_EQ(ran.status, 2) << arguments;
-    EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << arguments << ": " << ran.err;
-    EXPECT_TRUE(ran.err.starts_with("mobil bench: ")) << ran.err;
-    EXPECT_EQ(ran.out, "") << arguments;
-    for (const auto& piece : pieces) {
-      EXPECT_NE(ran.err.find(piece), std::string::npos) << "no '" << piece << "' in: " << ran.err;
-    }
-  }
+  expect_refused("bench", refused, folder.path);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
 }
 

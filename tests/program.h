@@ -2,6 +2,7 @@
 // Runs the `mobil` program itself, and reads what it wrote.
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -11,6 +12,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -59,6 +61,25 @@ inline Ran run_shell(const std::string& command, const std::filesystem::path& in
 /// `mobil` with those arguments, as a shell reads them.
 inline Ran run_mobil(const std::string& arguments, const std::filesystem::path& in) {
   return run_shell("'" MOBIL_PROGRAM "' " + arguments, in);
+}
+
+/// Whether `mobil COMMAND` refuses each of those arguments with status 2 and one line that holds all its pieces, and
+/// leaves nothing in the folder `in` that was not there.
+inline void expect_refused(const std::string& command, const std::map<std::string, std::vector<std::string>>& refused,
+                           const std::filesystem::path& in) {
+  const auto entries = [&in] { return std::distance(std::filesystem::directory_iterator(in), {}); };
+  const auto before = entries();
+  for (const auto& [arguments, pieces] : refused) {
+    const Ran ran = run_mobil(command + " " + arguments, in);
+    EXPECT_EQ(ran.status, 2) << arguments;
+    EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << arguments << ": " << ran.err;
+    EXPECT_TRUE(ran.err.starts_with("mobil " + command + ": ")) << ran.err;
+    EXPECT_EQ(ran.out, "") << arguments;
+    for (const auto& piece : pieces) {
+      EXPECT_NE(ran.err.find(piece), std::string::npos) << "no '" << piece << "' in: " << ran.err;
+    }
+  }
+  EXPECT_EQ(entries(), before);
 }
 
 /// A CSV with a header, by column.

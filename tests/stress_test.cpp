@@ -102,16 +102,7 @@ TEST(Stress, BadInputIsOneLineAndNothingIsTried) {
       {"nan --json taken", {"--json taken", "folder"}},
       {"nan --quik", {"--quik", "did you mean --quick?"}},
   };
-  for (const auto& [arguments, pieces] : refused) {
-    const Ran ran = run_mobil("stress " + arguments, folder.path);
-    EXPECT_EQ(ran.status, 2) << arguments;
-    EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << arguments << ": " << ran.err;
-    EXPECT_TRUE(ran.err.starts_with("mobil stress: ")) << ran.err;
-    EXPECT_EQ(ran.out, "") << arguments;
-    for (const auto& piece : pieces) {
-      EXPECT_NE(ran.err.find(piece), std::string::npos) << "no '" << piece << "' in: " << ran.err;
-    }
-  }
+  expect_refused("stress", refused, folder.path);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
 }
 

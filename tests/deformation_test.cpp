@@ -2,7 +2,6 @@
 #include "systems/deformation/deformation.h"
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 #include <rapidcheck/gtest.h>
 
 #include <array>
@@ -12,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "tests/instruction_sets.h"
 #include "tests/oracle.h"
 
 namespace mobil {
@@ -343,15 +343,6 @@ TEST(Deformation, HeldEndIsExactlyWhereItIsToldAndOriginStays) {
   }
 }
 
-bool same_bits(const std::vector<Lanes<float>>& a, const std::vector<Lanes<float>>& b, std::size_t but_lane) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l != but_lane && std::memcmp(&a[i].lane[l], &b[i].lane[l], sizeof(float)) != 0) return false;
-    }
-  }
-  return true;
-}
-
 TEST(Deformation, NotANumberStaysInItsLane) {
   for (std::size_t sick = 0; sick < lane_count; sick += 5) {
     Block clean(make(spindle({2, 2, 8}), FarEnd::held, 8)), dirty(clean);
@@ -375,10 +366,7 @@ TEST(Deformation, NotANumberStaysInItsLane) {
 
 TEST(Deformation, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) {
   std::vector<Block> results;
-  for (const std::int64_t target : {std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}, std::int64_t{HWY_NEON}}) {
-    if ((hwy::SupportedTargets() & target) == 0) continue;
-    hwy::SetSupportedTargetsForTest(target);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  for_each_fused_instruction_set([&] {
     Block block(make(spindle({2, 2, 8}), FarEnd::sliding, 8));
     for (std::size_t l = 0; l < lane_count; ++l) {
       block.scale.across[l] = 1.1F;
@@ -388,9 +376,7 @@ TEST(Deformation, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAd
     for (std::size_t l = 0; l < lane_count; ++l) end.from_n[l] = end.to_n[l] = 0.4F;
     for (int tick = 0; tick < 60; ++tick) block.tick(end, block.substeps());
     results.push_back(block);
-    hwy::SetSupportedTargetsForTest(0);
-    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  }
+  });
   if (results.empty()) GTEST_SKIP() << "no instruction set with fused multiply-add here";
   for (const Block& block : results) {
     EXPECT_TRUE(same_bits(block.u, results.front().u, lane_count));

@@ -1,6 +1,5 @@
 // The implicit methods' sixteen-lane kernels against a dense double-precision model, and what must hold of each method.
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "tests/implicit_oracle.h"
+#include "tests/instruction_sets.h"
 
 namespace mobil {
 namespace {
@@ -210,15 +210,6 @@ TEST(Implicit, RestStaysAtRest) {
   }
 }
 
-bool same_bits(const std::vector<Lanes<float>>& a, const std::vector<Lanes<float>>& b, std::size_t but_lane) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l != but_lane && std::memcmp(&a[i].lane[l], &b[i].lane[l], sizeof(float)) != 0) return false;
-    }
-  }
-  return true;
-}
-
 TEST(Implicit, NotANumberStaysInItsLane) {
   for (const Method method : {Method::caa, Method::icd, Method::statics}) {
     for (const FarEnd end : far_ends) {
@@ -254,10 +245,7 @@ TEST(Implicit, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) 
     const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::sliding, 8});
     const BellySolver solver = make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s));
     std::vector<Block> results;
-    for (const std::int64_t target : {std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}, std::int64_t{HWY_NEON}}) {
-      if ((hwy::SupportedTargets() & target) == 0) continue;
-      hwy::SetSupportedTargetsForTest(target);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    for_each_fused_instruction_set([&] {
       Block block(muscle, solver, 0, 0);
       for (std::size_t l = 0; l < lane_count; ++l) {
         block.scale.across[l] = 1.02F;
@@ -272,9 +260,7 @@ TEST(Implicit, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) 
         block.tick(drive, method == Method::icd ? 32 : 1);
       }
       results.push_back(block);
-      hwy::SetSupportedTargetsForTest(0);
-      hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    }
+    });
     if (results.empty()) GTEST_SKIP() << "no instruction set with fused multiply-add here";
     for (const Block& block : results) {
       EXPECT_TRUE(same_bits(block.u, results.front().u, lane_count));

@@ -136,12 +136,7 @@ void add_compare_command(CLI::App& app, int& exit_status) {
   auto text = std::make_shared<CompareText>();
   command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
   WalkText& walk = text->walk;
-  command->add_option("--height", walk.height, "Stature, 1.2m to 2.2m")->capture_default_str()->group("Body");
-  command->add_option("--mass", walk.mass, "Body mass, 30kg to 200kg")->capture_default_str()->group("Body");
-  command->add_option("--biotype", walk.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3")->group("Body");
-  command->add_option("--constitution", walk.constitution, "thin, average, athletic or heavy")
-      ->capture_default_str()
-      ->group("Body");
+  add_body_options(*command, walk.body);
   command
       ->add_option("--set", walk.set, "NAME=VALUE: any gait parameter of mobil walk --list-parameters; again for more")
       ->expected(1)

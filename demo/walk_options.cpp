@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "demo/gait_parameters.h"
 #include "demo/units.h"
@@ -29,19 +28,6 @@ Result<T> choose(std::string_view option, const std::string& text, const Named<T
   return fail(fmt::format("{} '{}': choose one of {}", option, text, known));
 }
 
-Result<Biotype> read_biotype(const std::string& text) {
-  if (text.empty()) return Biotype{};
-  Biotype biotype;
-  int used = 0;
-  const int read = std::sscanf(text.c_str(), "%f-%f-%f%n", &biotype.endo, &biotype.meso, &biotype.ecto, &used);
-  const bool whole = read == 3 && used == static_cast<int>(text.size());
-  const auto valid = [](float part) { return part >= 0.1F && part <= 12.0F; };
-  if (!whole || !valid(biotype.endo) || !valid(biotype.meso) || !valid(biotype.ecto)) {
-    return fail(fmt::format("--biotype '{}': write endo-meso-ecto, each 0.1 to 12, like 2-5-3", text));
-  }
-  return biotype;
-}
-
 /// One of the names of an enumeration, in its order.
 template <class T, std::size_t N>
 Result<T> choose(std::string_view option, const std::string& text, const std::array<std::string_view, N>& names) {
@@ -61,12 +47,7 @@ const char* const walk_muscles_help =
     "    without it they move by the line's pull alone.\n";
 
 void add_walk_options(CLI::App& command, WalkText& text) {
-  command.add_option("--height", text.height, "Stature, 1.2m to 2.2m")->capture_default_str()->group("Body");
-  command.add_option("--mass", text.mass, "Body mass, 30kg to 200kg")->capture_default_str()->group("Body");
-  command.add_option("--biotype", text.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3")->group("Body");
-  command.add_option("--constitution", text.constitution, "thin, average, athletic or heavy")
-      ->capture_default_str()
-      ->group("Body");
+  add_body_options(command, text.body);
   command.add_option("--speed", text.speed, "Walking speed (5km/h when no gait option is given)")->group("Gait");
   command.add_option("--step-length", text.step_length, "Heel to opposite heel; any two of the three give the third")
       ->group("Gait");
@@ -112,11 +93,7 @@ void add_walk_options(CLI::App& command, WalkText& text) {
   command.add_flag("--frames", text.frames, "Write frame_*.png, 1280x720, 30 a second")->group("Pictures");
   command.add_flag("--video", text.video, "Write walk.mp4")->group("Pictures");
   command.add_option("--out", text.out, "Folder for the results, made if missing")->capture_default_str();
-  for (CLI::Option* option : command.get_options([](const CLI::Option* o) { return o->get_items_expected() > 0; })) {
-    option->check([](const std::string& value) {
-      return value.empty() ? std::string("is empty; give a value or leave the option out") : std::string();
-    });
-  }
+  refuse_empty_values(command);
 }
 
 Result<WalkOptions> read_walk_options(const WalkText& text) {
@@ -127,22 +104,9 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.forces = !text.no_forces;
   options.out = text.out;
 
-  const auto height = read_value("--height", text.height, Quantity::length, 1.2, 2.2);
-  if (!height) return tl::unexpected(height.error());
-  options.body.height_m = static_cast<float>(*height);
-  const auto mass = read_value("--mass", text.mass, Quantity::mass, 30, 200);
-  if (!mass) return tl::unexpected(mass.error());
-  options.body.mass_kg = static_cast<float>(*mass);
-  const auto biotype = read_biotype(text.biotype);
-  if (!biotype) return tl::unexpected(biotype.error());
-  options.body.biotype = *biotype;
-  static constexpr Named<Constitution> constitutions[] = {{"thin", Constitution::thin},
-                                                          {"average", Constitution::average},
-                                                          {"athletic", Constitution::athletic},
-                                                          {"heavy", Constitution::heavy}};
-  const auto constitution = choose("--constitution", text.constitution, constitutions);
-  if (!constitution) return tl::unexpected(constitution.error());
-  options.body.constitution = *constitution;
+  const auto body = read_body_options(text.body);
+  if (!body) return tl::unexpected(body.error());
+  options.body = *body;
 
   // The gait's own ranges depend on the body and are checked when the walk is resolved.
   const auto optional = [](std::string_view option, const std::string& given, Quantity quantity,

@@ -9,6 +9,7 @@
 
 #include "components/body.h"
 #include "components/gait.h"
+#include "demo/body_options.h"
 #include "demo/walk_script.h"
 #include "engine/error.h"
 #include "systems/simulation_muscles.h"
@@ -32,7 +33,7 @@ struct WalkOptions {
 
 /// The options as text, as the command line hands them over; bound by `add_walk_options`.
 struct WalkText {
-  std::string height = "1.75", mass = "75", biotype, constitution = "average";
+  BodyText body;
   std::string speed, step_length, step_frequency, seconds = "5";
   std::string drive = "displacement", method = "ecd", element = "full", anatomy, view = "surface", out = "out";
   std::vector<std::string> set;

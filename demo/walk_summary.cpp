@@ -10,8 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::string_view constitution_name[] = {"thin", "average", "athletic", "heavy"};
-
 /// The shortest decimal that reads as this number: 0.1, not 0.10000000149.
 double decimal(float value) {
   return std::stod(fmt::format("{}", value));
@@ -20,9 +18,9 @@ double decimal(float value) {
 Json muscles_json(const Simulation& simulation, const Human& human) {
   const Method method = human.leg_muscles.method;
   Json muscles = Json::array();
-  for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      const Entity entity = human.muscle[g][side];
+  for (const HumanMuscle& own : human.muscles) {
+    for (const Side side : {right, left}) {
+      const Entity entity = own.entity[side];
       const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
       const auto scale = simulation.get<BellyScale>(entity);
       const auto line = simulation.get<LineOfAction>(entity);
@@ -34,8 +32,8 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
       const double critical =
           critical_step(shape->critical_steps, static_cast<double>(scale->across), static_cast<double>(scale->along))
               .value_or(0.0);
-      const MusclePlan& plan = human.muscle_plan[g];
-      muscles.push_back({{"group", muscle_group_name[g]},
+      const MusclePlan& plan = own.plan;
+      muscles.push_back({{"group", muscle_name(plan.muscle)},
                          {"side", side == right ? "right" : "left"},
                          {"nodes", node_count(shape->mesh.cells)},
                          {"rest_length_m", line->rest_length_m},

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "assets/body_composition.h"
+
 namespace mobil {
 namespace {
 
@@ -12,6 +14,17 @@ std::string out_of_range(const char* name, float value, const char* unit, float 
   if (value >= low && value <= high) return {};
   return fmt::format("body: {} = {}{} is outside {}–{}{}; choose a value within that range", name, value, unit, low,
                      high, unit);
+}
+
+/// Empty if a living body can have that height and mass.
+std::string not_living(const BodyRequest& request) {
+  const auto [low, high] = living_mass_kg(static_cast<double>(request.height_m));
+  const auto mass = static_cast<double>(request.mass_kg);
+  // Limits are written rounded inwards: what a message names is taken.
+  if (mass >= low * (1 - 1e-6) && mass <= high * (1 + 1e-6)) return {};
+  return fmt::format(
+      "body: nobody of {} m weighs {} kg and lives; choose a mass of {:.1f}–{:.1f} kg, or another height",
+      request.height_m, request.mass_kg, std::ceil(10 * low) / 10, std::floor(10 * high) / 10);
 }
 
 Vec3<float> scaled(const Vec3<double>& v, double by) {
@@ -28,10 +41,12 @@ Result<Body> make_body(const BodyRequest& request) {
   if (wrong.empty()) wrong = out_of_range("ectomorphy", request.biotype.ecto, "", 0.1F, 12.0F);
   if (wrong.empty() && request.constitution > Constitution::heavy)
     wrong = "body: constitution is none of thin, average, athletic, heavy; choose one of them";
+  if (wrong.empty()) wrong = not_living(request);
   if (!wrong.empty()) return fail(wrong);
 
   Body body{};
   body.request = request;
+  body.composition = body_composition(request);
   const double height = request.height_m;
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.
   const double quantum = std::ldexp(1.0, std::ilogb(request.mass_kg) - 23);

@@ -40,6 +40,10 @@ Result<void> check_stations(std::span<const CageStation> stations) {
       return fail(
           fmt::format("station {}: half-widths {} and {} m must lie between 1e-6 and 10 m", s, c.semi_x_m, c.semi_y_m));
     }
+    if (!(c.semi_x_m * c.semi_y_m - c.shear_x_m * c.shear_y_m > 1e-12F)) {
+      return fail(fmt::format("station {}: shears {} and {} m fold half-widths {} and {} m over; make them smaller", s,
+                              c.shear_x_m, c.shear_y_m, c.semi_x_m, c.semi_y_m));
+    }
     if (s > 0 && !(c.t > stations[s - 1].t)) {
       return fail(fmt::format("station {}: t = {} does not follow {}; sort the stations", s, c.t, stations[s - 1].t));
     }
@@ -61,16 +65,14 @@ Result<void> check_grading(const Grading& grading) {
   return {};
 }
 
-/// Where the planes between `count` elements lie, in mean element lengths from the first.
+/// Where the planes between `count` elements lie, in mean element lengths from the first: a function of i / count
+/// alone, so that meshes nest.
 std::vector<double> graded_planes(std::uint32_t count, double ratio) {
   std::vector<double> planes(count + 1);
-  const std::uint32_t inner = (count - 1) / 2;  // elements from an end to the middle
-  const double growth = inner > 0 ? std::pow(ratio, 1.0 / inner) : 1;
-  for (std::uint32_t i = 0; i < count; ++i) planes[i + 1] = planes[i] + std::pow(growth, std::min(i, count - 1 - i));
-  if (growth == 1) return planes;
-  const double mean = planes[count] / count;
+  const double steepness = std::log(ratio);
   for (std::uint32_t i = 0; i <= count / 2; ++i) {
-    planes[i] /= mean;
+    const double part = 2.0 * i / count;  // of the way to the middle
+    planes[i] = 0.5 * count * (ratio == 1 ? part : std::expm1(part * steepness) / (ratio - 1));
     planes[count - i] = count - planes[i];
   }
   return planes;
@@ -83,8 +85,9 @@ CageStation station_at(std::span<const CageStation> stations, double t) {
   const CageStation& b = stations[upper];
   const auto s = static_cast<float>((t - static_cast<double>(a.t)) / static_cast<double>(b.t - a.t));
   const auto mix = [s](float p, float q) { return p + s * (q - p); };
-  return {static_cast<float>(t), mix(a.offset_x_m, b.offset_x_m), mix(a.offset_y_m, b.offset_y_m),
-          mix(a.semi_x_m, b.semi_x_m), mix(a.semi_y_m, b.semi_y_m)};
+  return {static_cast<float>(t),        mix(a.offset_x_m, b.offset_x_m), mix(a.offset_y_m, b.offset_y_m),
+          mix(a.semi_x_m, b.semi_x_m),  mix(a.semi_y_m, b.semi_y_m),     mix(a.shear_x_m, b.shear_x_m),
+          mix(a.shear_y_m, b.shear_y_m)};
 }
 
 /// A corner's three edges, right-handed: this corner, and its neighbours along x, y and z.
@@ -188,8 +191,11 @@ Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStatio
         const double a = 2 * column / cells[0] - 1, b = 2 * row / cells[1] - 1;
         const double x = a * (1 + roundness * (std::sqrt(1 - 0.5 * b * b) - 1));
         const double y = b * (1 + roundness * (std::sqrt(1 - 0.5 * a * a) - 1));
-        mesh.node.push_back({static_cast<double>(s.offset_x_m) + static_cast<double>(s.semi_x_m) * x,
-                             static_cast<double>(s.offset_y_m) + static_cast<double>(s.semi_y_m) * y, t * length_m});
+        const auto reach = [x, y](float from, float along_x, float along_y) {
+          return static_cast<double>(from) + static_cast<double>(along_x) * x + static_cast<double>(along_y) * y;
+        };
+        mesh.node.push_back(
+            {reach(s.offset_x_m, s.semi_x_m, s.shear_x_m), reach(s.offset_y_m, s.shear_y_m, s.semi_y_m), t * length_m});
       }
     }
   }

@@ -22,10 +22,12 @@ struct HexahedralMesh {
   std::vector<Vec3<double>> node;
 };
 
-/// One cross-section of a bent block at the fraction t (0–1) of its length: where its centre lies off the z axis and
-/// the half-widths of its ellipse, m.
+/// One cross-section of a bent block at the fraction t (0–1) of its length: where its centre lies off the z axis, and
+/// how far the block's own x and y directions reach from there, m: (semi_x, shear_y) and (shear_x, semi_y). Without
+/// shear, the half-widths of an ellipse along x and y.
 struct CageStation {
   float t, offset_x_m, offset_y_m, semi_x_m, semi_y_m;
+  float shear_x_m = 0, shear_y_m = 0;
 };
 
 using Quad = std::array<std::uint32_t, 4>;
@@ -65,7 +67,9 @@ std::vector<Quad> insertion_quads(const Cells& cells);
 std::vector<std::uint32_t> insertion_centre(const Cells& cells);
 
 /// How the elements of a block differ in length: those in the middle over those at its ends (`along`) or edges
-/// (`across`, in x and y), growing geometrically in between. 1: all alike; above 1: fine towards the boundary.
+/// (`across`, in x and y), growing geometrically in between; of ever finer blocks exactly so, of n elements the power
+/// 1 − 2/n of it. A block of twice the elements has all nodes of the other. 1: all alike; above 1: fine towards the
+/// boundary.
 struct Grading {
   double across = 1, along = 1;
 };

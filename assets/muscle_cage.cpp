@@ -1,14 +1,13 @@
-// The block that encloses a group's bellies, from its members' sections in the reference body.
+// The block that follows and encloses a muscle's surfaces in the reference body.
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "assets/anthropometry.h"
-#include "assets/leg_sections.h"
 #include "assets/muscle_plan.h"
+#include "assets/muscle_surfaces.h"
 #include "assets/muscle_table.h"
 #include "engine/geometry.h"
 
@@ -17,112 +16,170 @@ namespace {
 
 using namespace geometry;
 
-constexpr double margin = 1.10, thinnest_end = 0.35;
+constexpr double thinnest_end = 0.35;
+/// A block of two cells across comes within 0.962 of its ellipse.
+constexpr double margin = 1.05;
+constexpr std::size_t last = cage_station_count - 1;
 
-/// Points round the members' sections, in the muscle's frame.
-std::vector<Vec> outline(const LegFrame& leg, const MusclePlan& plan) {
-  constexpr int levels = 80, round = 24;
+/// An ellipse: the image of the unit circle under a symmetric matrix, moved to (x, y).
+struct Station {
+  double x = 0, y = 0, xx = 0, xy = 0, yy = 0;
+};
+
+/// 1 on the ellipse, less inside.
+double reach(const Station& s, double x, double y) {
+  const double det = s.xx * s.yy - s.xy * s.xy, dx = x - s.x, dy = y - s.y;
+  return std::hypot(s.yy * dx - s.xy * dy, s.xx * dy - s.xy * dx) / det;
+}
+
+Station mix(const Station& a, const Station& b, double w) {
+  const auto m = [w](double p, double q) { return p + w * (q - p); };
+  return {m(a.x, b.x), m(a.y, b.y), m(a.xx, b.xx), m(a.xy, b.xy), m(a.yy, b.yy)};
+}
+
+/// The smallest ellipse round some points, nearly (Khachiyan 1996; Todd & Yildirim, Discrete Appl. Math. 155, 2007).
+Station enclose(const std::vector<Vec>& points) {
+  constexpr int rounds = 200;
+  const std::size_t n = points.size();
+  std::vector<double> weight(n, 1 / static_cast<double>(n));
+  Station s;
+  for (int round = 0; round <= rounds; ++round) {
+    Vec mean{0, 0, 0};
+    for (std::size_t i = 0; i < n; ++i) mean = mean + weight[i] * points[i];
+    double xx = 1e-12, xy = 0, yy = 1e-12;
+    for (std::size_t i = 0; i < n; ++i) {
+      const Vec d = points[i] - mean;
+      xx += 2 * weight[i] * d.x * d.x, xy += 2 * weight[i] * d.x * d.y, yy += 2 * weight[i] * d.y * d.y;
+    }
+    const double root = std::sqrt(xx * yy - xy * xy), norm = std::sqrt(xx + yy + 2 * root);
+    s = {mean.x, mean.y, (xx + root) / norm, xy / norm, (yy + root) / norm};
+    std::size_t farthest = 0;
+    double most = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const double r = reach(s, points[i].x, points[i].y);
+      if (r > most) most = r, farthest = i;
+    }
+    if (round == rounds) {
+      s.xx *= most, s.xy *= most, s.yy *= most;
+      break;
+    }
+    const double m = 2 * most * most + 1, step = (m - 3) / (3 * (m - 1));
+    if (step <= 0) break;
+    for (double& w : weight) w *= 1 - step;
+    weight[farthest] += step;
+  }
+  return s;
+}
+
+/// Neither semi-axis less than `least`.
+void widen(Station& s, double least) {
+  const double mean = (s.xx + s.yy) / 2, half = std::hypot((s.xx - s.yy) / 2, s.xy);
+  const double longer = std::max(mean + half, least), shorter = std::max(mean - half, least);
+  const double stretch = half > 0 ? (longer - shorter) / (2 * half) : 0;
+  const double xx = (longer + shorter) / 2 + stretch * (s.xx - s.yy) / 2;
+  s.yy = longer + shorter - xx;
+  s.xx = xx;
+  s.xy *= stretch;
+}
+
+/// The surfaces' vertices, in the muscle's frame.
+std::vector<Vec> outline(const Body& body, const MusclePlan& plan) {
   std::vector<Vec> points;
   const Quat<double> into_frame = conjugate(plan.rotation);
-  for (const auto& muscle : members_of(plan.group)) {
-    const auto top = static_cast<double>(muscle.sections.front().level);
-    const auto bottom = static_cast<double>(muscle.sections.back().level);
-    for (int i = 0; i <= levels; ++i) {
-      const double level = std::min(top + (bottom - top) * i / levels, bottom);
-      const auto e = leg_ellipse(muscle.sections, level);
-      if (!e) continue;
-      for (int j = 0; j < round; ++j) {
-        const double a = 2 * std::numbers::pi * j / round, c = std::cos(a), s = std::sin(a);
-        const Vec p = leg_point(leg, level, e->lateral + e->al * c + e->ll * s, e->anterior + e->aa * c + e->al * s);
-        points.push_back(rotated(into_frame, p - plan.start_m));
-      }
-    }
+  for (const GroupSurface& s : make_muscle_surfaces(body)) {
+    const bool own = s.muscle == plan.muscle || s.group == plan.muscle;
+    if (!own || members_of(s.muscle).size() > 1) continue;  // tendons and ligaments have no mesh of their own
+    for (const auto& p : s.surface.mesh.position) points.push_back(rotated(into_frame, to_double(p) - plan.start_m));
   }
   return points;
 }
 
-struct Station {
-  double x, y, semi_x, semi_y;
-};
+using Stations = std::array<Station, cage_station_count>;
 
-/// An ellipse along x and y round the points with from ≤ z ≤ to: that of their bounding box, as large as it must be.
-Station enclose(const std::vector<Vec>& points, double from, double to) {
-  double left = 1, right = -1, back = 1, front = -1;
-  const auto within = [from, to](const Vec& p) { return p.z >= from && p.z <= to; };
-  for (const auto& p : points) {
-    if (!within(p)) continue;
-    left = std::min(left, p.x), right = std::max(right, p.x);
-    back = std::min(back, p.y), front = std::max(front, p.y);
+/// Ellipses round the outline near each station, smoothed, and no thinner than they may be.
+Stations follow(const std::vector<Vec>& points, double spacing) {
+  Stations tight, smooth;
+  double middle = 0;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double z = static_cast<double>(i) * spacing;
+    std::vector<Vec> near;
+    for (double within = 0.6 * spacing; near.size() < 8; within *= 1.5) {
+      near.clear();
+      std::copy_if(points.begin(), points.end(), std::back_inserter(near),
+                   [&](const Vec& p) { return std::fabs(p.z - z) <= within; });
+    }
+    tight[i] = enclose(near);
   }
-  Station s{(left + right) / 2, (back + front) / 2, (right - left) / 2, (front - back) / 2};
-  double reach = 0;
-  for (const auto& p : points) {
-    if (within(p)) reach = std::max(reach, std::hypot((p.x - s.x) / s.semi_x, (p.y - s.y) / s.semi_y));
+  for (std::size_t i = 0; i <= last; ++i) {
+    const Station ends = mix(tight[i > 0 ? i - 1 : 0], tight[std::min(i + 1, last)], 0.5);
+    smooth[i] = mix(tight[i], ends, 0.5);
+    const double half = std::hypot((smooth[i].xx - smooth[i].yy) / 2, smooth[i].xy);
+    middle = std::max(middle, (smooth[i].xx + smooth[i].yy) / 2 - half);
   }
-  s.semi_x *= margin * reach;
-  s.semi_y *= margin * reach;
-  return s;
+  for (Station& s : smooth) widen(s, thinnest_end * middle);
+  return smooth;
 }
 
-/// How far the farthest point of the belly's span lies from the cage's axis, over the cage's own reach there.
-double reach(const std::vector<Vec>& points, const std::array<Station, cage_station_count>& cage, double belly_m) {
-  double farthest = 0;
-  for (const auto& p : points) {
-    if (p.z < 0 || p.z > belly_m) continue;
-    const double at = p.z / belly_m * (cage_station_count - 1);
-    const auto i = std::min(static_cast<std::size_t>(at), cage_station_count - 2);
-    const double w = at - static_cast<double>(i);
-    const auto mix = [&](double Station::*field) { return (1 - w) * cage[i].*field + w * cage[i + 1].*field; };
-    farthest = std::max(farthest, std::hypot((p.x - mix(&Station::x)) / mix(&Station::semi_x),
-                                             (p.y - mix(&Station::y)) / mix(&Station::semi_y)));
+/// Widens each station until the outline round it lies inside with its margin.
+void surround(const std::vector<Vec>& points, double spacing, Stations& stations) {
+  std::array<double, cage_station_count> most{};
+  for (const Vec& p : points) {
+    const double at = p.z / spacing;
+    if (at < 0 || at > static_cast<double>(last)) continue;
+    const auto i = std::min(static_cast<std::size_t>(at), last - 1);
+    const double r = reach(mix(stations[i], stations[i + 1], at - static_cast<double>(i)), p.x, p.y);
+    most[i] = std::max(most[i], r);
+    most[i + 1] = std::max(most[i + 1], r);
   }
-  return farthest;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double grow = std::max(1.0, margin * most[i]);
+    stations[i].xx *= grow, stations[i].xy *= grow, stations[i].yy *= grow;
+  }
 }
 
-CageStations make_cage(MuscleGroup group) {
+/// The block's own axes are turned to where the sections reach farthest and least, as much as by half a right angle.
+double roll(const Stations& stations) {
+  Station sum;
+  for (const Station& s : stations) sum.xx += s.xx, sum.xy += s.xy, sum.yy += s.yy;
+  const double turn = 0.5 * std::atan2(2 * sum.xy, sum.xx - sum.yy), right = std::asin(1.0);
+  return turn > right / 2 ? turn - right : turn < -right / 2 ? turn + right : turn;
+}
+
+CageStations make_cage(Muscle muscle) {
   const Body body = make_body({.height_m = static_cast<float>(reference_body_height_m),
                                .mass_kg = static_cast<float>(reference_body_mass_kg)})
                         .value();
-  const MusclePlan plan = make_muscle_plan(body, group).value();
-  const std::vector<Vec> points = outline(leg_frame(body), plan);
-  constexpr std::size_t last = cage_station_count - 1;
+  const MusclePlan plan = make_muscle_plan(body, muscle).value();
+  const std::vector<Vec> points = outline(body, plan);
   const double spacing = plan.belly_length_m / last;
+  Stations stations = follow(points, spacing);
+  surround(points, spacing, stations);
 
-  std::array<Station, cage_station_count> tight{}, cage{};
+  const double c = std::cos(roll(stations)), n = std::sin(roll(stations));
+  CageStations cage{};
   for (std::size_t i = 0; i <= last; ++i) {
-    const double z = static_cast<double>(i) * spacing;
-    tight[i] = enclose(points, std::max(z - spacing, 0.0), std::min(z + spacing, plan.belly_length_m));
+    const Station& s = stations[i];
+    const auto f = [](double value) { return static_cast<float>(value); };
+    cage[i] = {f(static_cast<double>(i) / last),
+               f(s.x),
+               f(s.y),
+               f(s.xx * c + s.xy * n),
+               f(s.yy * c - s.xy * n),
+               f(s.xy * c - s.xx * n),
+               f(s.xy * c + s.yy * n)};
   }
-  Station middle{};
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Station &a = tight[i > 0 ? i - 1 : 0], &b = tight[i], &c = tight[std::min(i + 1, last)];
-    const auto smooth = [&](double Station::*field) { return (a.*field + 2 * b.*field + c.*field) / 4; };
-    cage[i] = {smooth(&Station::x), smooth(&Station::y), smooth(&Station::semi_x), smooth(&Station::semi_y)};
-    middle.semi_x = std::max(middle.semi_x, cage[i].semi_x);
-    middle.semi_y = std::max(middle.semi_y, cage[i].semi_y);
-  }
-  for (auto& s : cage) {
-    s.semi_x = std::max(s.semi_x, thinnest_end * middle.semi_x);
-    s.semi_y = std::max(s.semi_y, thinnest_end * middle.semi_y);
-  }
-  // Smoothing has taken some of the margin here and there: the whole cage grows until all have it again.
-  const double grow = std::max(1.0, margin * reach(points, cage, plan.belly_length_m));
-
-  CageStations stations{};
-  for (std::size_t i = 0; i <= last; ++i) {
-    const Station& s = cage[i];
-    stations[i] = {static_cast<float>(i) / static_cast<float>(last), static_cast<float>(s.x), static_cast<float>(s.y),
-                   static_cast<float>(grow * s.semi_x), static_cast<float>(grow * s.semi_y)};
-  }
-  return stations;
+  return cage;
 }
 
 }  // namespace
 
-const CageStations& group_cage(MuscleGroup group) {
-  static const std::array<CageStations, muscle_group_count> cages = {
-      make_cage(MuscleGroup::hamstrings), make_cage(MuscleGroup::quadriceps), make_cage(MuscleGroup::triceps_surae)};
-  return cages[static_cast<std::size_t>(group)];
+const CageStations& muscle_cage(Muscle muscle) {
+  static const std::vector<CageStations> cages = [] {
+    std::vector<CageStations> all;
+    for (std::size_t i = 0; i < muscles().size(); ++i) all.push_back(make_cage(static_cast<Muscle>(i)));
+    return all;
+  }();
+  return cages[static_cast<std::size_t>(muscle)];
 }
 
 }  // namespace mobil

@@ -72,13 +72,13 @@ Quat<double> muscle_rotation(const Quat<double>& bone, const Vec& z) {
   return product(swing, product(bone, {half, 0, 0, half}));
 }
 
-double along_scale(const GroupLine& line, const LegScale<double>& scale) {
+double along_scale(const DrawnLine& line, const LegScale<double>& scale) {
   return line.along == LegBone::shank ? scale.shank : scale.thigh;
 }
 
-double group_volume_m3(MuscleGroup group, double height_m, double mass_kg) {
+double volume_of(Muscle row, double height_m, double mass_kg) {
   double cm3 = 0;
-  for (const auto& muscle : members_of(group)) cm3 += handsfield_volume_cm3(muscle, height_m, mass_kg);
+  for (const auto& muscle : members_of(row)) cm3 += handsfield_volume_cm3(muscle, height_m, mass_kg);
   return 1e-6 * cm3;
 }
 
@@ -117,9 +117,9 @@ LegScale<double> leg_scale(const Body& body) {
   return scale_of(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
 }
 
-double reference_belly_m(MuscleGroup group) {
+double reference_belly_m(Muscle muscle) {
   constexpr double height = reference_body_height_m;
-  const GroupLine& line = group_line(group);
+  const DrawnLine& line = muscle_row(muscle).drawn;
   return line.belly_m * along_scale(line, scale_of(fraction::thigh * height, fraction::shank * height));
 }
 
@@ -159,17 +159,16 @@ double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, 
   return muscle.kneecap == nullptr ? sum : sum + length(end - at);
 }
 
-double member_weight(const MemberMuscle& muscle) {
+double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle) {
   double all = 0;
-  for (const auto& m : members_of(muscle.group)) {
-    all += handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
-  }
+  for (const auto& m : members) all += handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
   return handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg) / all;
 }
 
-double group_length(MuscleGroup group, const LegScale<double>& scale, const LegFrames<double>& leg) {
+double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const auto members = members_of(muscle);
   double sum = 0;
-  for (const auto& muscle : members_of(group)) sum += member_weight(muscle) * member_length(muscle, scale, leg);
+  for (const auto& m : members) sum += member_weight(members, m) * member_length(m, scale, leg);
   return sum;
 }
 
@@ -183,39 +182,42 @@ double bar_stiffness(const Material& material, double section_m2, double rest_le
   return material.young_pa * section_m2 / rest_length_m;
 }
 
-Result<MusclePlan> make_muscle_plan(const Body& body, MuscleGroup group) {
+Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
   const BodyRequest& request = body.request;
   if (!(body.thigh_length_m > 0 && body.shank_length_m > 0 && request.height_m > 0 && request.mass_kg > 0)) {
     return fail(fmt::format(
         "muscles: a body with thigh {} m, shank {} m, height {} m and mass {} kg; all must be positive, use make_body",
         body.thigh_length_m, body.shank_length_m, request.height_m, request.mass_kg));
   }
-  if (static_cast<std::size_t>(group) >= muscle_group_count || request.constitution > Constitution::heavy) {
-    return fail("muscles: no such muscle group or constitution; choose one of the named values");
+  if (static_cast<std::size_t>(muscle) >= muscles().size() || request.constitution > Constitution::heavy) {
+    return fail("muscles: no such muscle or constitution; choose a row of the table and one of the named values");
   }
-  const GroupLine& line = group_line(group);
+  const MuscleRow& row = muscle_row(muscle);
+  const DrawnLine& line = row.drawn;
   const LegScale<double> scale = leg_scale(body);
   const LegFrames<double> leg = anatomical_leg(body);
   const Vec anchor = world_point(line.anchor, scale, leg);
-  const Vec end = world_point(path_end(*find_member_muscle(line.towards), 0), scale, leg);
+  const MemberMuscle& towards = row.members[line.towards];
+  const Vec end =
+      world_point(line.point < towards.path.size() ? towards.path[line.point] : path_end(towards, 0), scale, leg);
   const Vec z = normalised(end - anchor);
 
   MusclePlan plan;
-  plan.group = group;
-  plan.rest_length_m = group_length(group, scale, leg);
+  plan.muscle = muscle;
+  plan.rest_length_m = muscle_length(muscle, scale, leg);
   plan.belly_length_m = line.belly_m * along_scale(line, scale);
   const double start = line.start_m * along_scale(line, scale);
   plan.tendon_length_m = length(end - anchor) - start - plan.belly_length_m;
   plan.volume_m3 = physique_factor(request) *
-                   group_volume_m3(group, static_cast<double>(request.height_m), static_cast<double>(request.mass_kg));
+                   volume_of(muscle, static_cast<double>(request.height_m), static_cast<double>(request.mass_kg));
   plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
   plan.start_m = anchor + start * z;
   plan.rotation = muscle_rotation({0, 0, 0, 1}, z);
   plan.origin = line.origin;
   plan.insertion = line.insertion;
 
-  const double belly = reference_belly_m(group);
-  const double section = group_volume_m3(group, reference_body_height_m, reference_body_mass_kg) / belly;
+  const double belly = reference_belly_m(muscle);
+  const double section = volume_of(muscle, reference_body_height_m, reference_body_mass_kg) / belly;
   plan.scale = {static_cast<float>(std::sqrt(plan.section_m2 / section)),
                 static_cast<float>(plan.belly_length_m / belly)};
   plan.leg_scale = {static_cast<float>(scale.thigh), static_cast<float>(scale.shank), static_cast<float>(scale.across)};

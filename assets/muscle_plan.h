@@ -3,6 +3,8 @@
 
 #include <array>
 
+#include <span>
+
 #include "assets/muscle_table.h"
 #include "components/body.h"
 #include "components/leg_frames.h"
@@ -14,12 +16,12 @@ namespace mobil {
 
 /// Right side; the left is its mirror image. Lengths m.
 struct MusclePlan {
-  MuscleGroup group = MuscleGroup::hamstrings;
+  Muscle muscle = Muscle::hamstrings;
   /// L₀: the volume-weighted mean of the members' lengths in the anatomical position.
   double rest_length_m = 0;
   /// The belly's span at rest, the length of its mesh; and the drawn line's tendon from there to the insertion.
   double belly_length_m = 0, tendon_length_m = 0;
-  /// Volume of the group, and the section of a bar of that volume and of the belly's length.
+  /// Its volume, and the section of a bar of that volume and of the belly's length.
   double volume_m3 = 0, section_m2 = 0;
   /// The muscle frame in the anatomical position, the body standing at x = z = 0: origin at the belly's origin-side
   /// end, z along it, y the proximal bone's anterior axis carried without twist from that bone's long axis to z, x =
@@ -28,21 +30,21 @@ struct MusclePlan {
   Quat<double> rotation{};
   /// What the surface beyond the belly's ends follows (right side).
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;
-  /// Size against the group's template (the reference body's).
+  /// Size against the muscle's template (the reference body's).
   BellyScale<float> scale{};
   LegScale<float> leg_scale{};
 };
 
 /// Fails on a body without positive lengths or masses, in one line.
-Result<MusclePlan> make_muscle_plan(const Body& body, MuscleGroup group);
+Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle);
 
 /// k = E·s/L₀ (equation 3 of the paper), N/m. `section_m2`: a plan's own, or the effective one of its mesh.
 double bar_stiffness(const Material& material, double section_m2, double rest_length_m);
 
-/// Length of the belly of a group's template: that of the reference body.
-double reference_belly_m(MuscleGroup group);
+/// Length of the belly of a muscle's template: that of the reference body.
+double reference_belly_m(Muscle muscle);
 
-/// What physique does to a group's volume and section: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 % more for each
+/// What physique does to a muscle's volume and section: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 % more for each
 /// point of mesomorphy above 4 (or less, below), within 0.7–1.6. Our choice: the published volumes do not tell them
 /// apart.
 double physique_factor(const BodyRequest& request);
@@ -54,10 +56,10 @@ LegScale<double> leg_scale(const Body& body);
 
 /// Length (m) of one member's path, in double: what the tick's kernel computes in lanes.
 double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
-/// Volume-weighted mean of a group's members.
-double group_length(MuscleGroup group, const LegScale<double>& scale, const LegFrames<double>& leg);
-/// The member's share of its group's volume in the reference body: its weight in the group's mean.
-double member_weight(const MemberMuscle& muscle);
+/// Volume-weighted mean of a muscle's members.
+double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
+/// The share of one of a row's members in its volume in the reference body: its weight in the mean.
+double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle);
 
 /// Knee flexion (rad) from the rotations of the two bones.
 double knee_flexion(const LegFrames<double>& leg);

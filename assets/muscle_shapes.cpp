@@ -7,39 +7,31 @@
 namespace mobil {
 namespace {
 
-/// What a member's table of sections lacks: its bones, the ends at which it is attached. `keep`: the number of sections
+/// What a member's table of sections lacks: the ends at which it is attached. `keep`: the number of sections
 /// that stay, where the measured end does not suit this skeleton's kneecap or bones.
 struct Attachment {
   std::string_view member;
-  Segment origin, insertion;
   std::string_view lies_on;
   std::size_t keep;
   std::vector<LegSection> before, after;
 };
 
 std::vector<Attachment> attachments() {
-  using enum Segment;
   return {
       {"semimembranosus",
-       pelvis,
-       shank_right,
        "",
        12,
        {{0.140F, -33, -32, 6, 3, 105}},
        {{1.100F, -36, -4, 9, 2.5F, 0}, {1.145F, -33, -1, 7, 2, 0}}},
-      {"semitendinosus", pelvis, shank_right, "semimembranosus", 14, {{0.128F, -27, -43, 5, 3, 95}}, {}},
+      {"semitendinosus", "semimembranosus", 14, {{0.128F, -27, -43, 5, 3, 95}}, {}},
       {"biceps_femoris_long_head",
-       pelvis,
-       shank_right,
        "biceps_femoris_short_head",
        13,
        {{0.108F, -20, -46, 5, 3, 80}},
        {{1.163F, 45, -9, 6.5F, 1.9F, 11}}},
-      {"biceps_femoris_short_head", thigh_right, shank_right, "", 14, {}, {}},
-      {"rectus_femoris", pelvis, patella_right, "vastus_intermedius", 13, {}, {{0.992F, 11, 44, 12, 3, 92}}},
+      {"biceps_femoris_short_head", "", 14, {}, {}},
+      {"rectus_femoris", "vastus_intermedius", 13, {}, {{0.992F, 11, 44, 12, 3, 92}}},
       {"vastus_medialis",
-       thigh_right,
-       patella_right,
        "",
        11,
        {},
@@ -47,11 +39,13 @@ std::vector<Attachment> attachments() {
         {0.926F, -15.5F, 36.8F, 21, 11.5F, 52},
         {0.962F, -9, 38.5F, 15, 6.5F, 68},
         {0.994F, -1, 41, 9, 2.8F, 80}}},
-      {"vastus_intermedius", thigh_right, patella_right, "", 13, {}, {{0.985F, 13, 39, 10, 2.2F, 92}}},
-      {"vastus_lateralis", thigh_right, patella_right, "", 13, {}, {{0.990F, 25, 41, 8, 3, 110}}},
-      {"gastrocnemius_medial", thigh_right, foot_right, "soleus", 14, {}, {}},
-      {"gastrocnemius_lateral", thigh_right, foot_right, "soleus", 14, {}, {}},
-      {"soleus", shank_right, foot_right, "", 14, {}, {}},
+      {"vastus_intermedius", "", 13, {}, {{0.985F, 13, 39, 10, 2.2F, 92}}},
+      {"vastus_lateralis", "", 13, {}, {{0.990F, 25, 41, 8, 3, 110}}},
+      {"gastrocnemius_medial", "soleus", 14, {}, {}},
+      {"gastrocnemius_lateral", "soleus", 14, {}, {}},
+      {"soleus", "", 14, {}, {}},
+      {"plantaris", "soleus", 14, {}, {}},
+      {"tibialis_anterior", "", 14, {}, {}},
   };
 }
 
@@ -78,13 +72,13 @@ std::vector<MuscleShape> muscle_shapes() {
   for (const Attachment& a : attachments()) {
     const std::size_t m = place(a.member);
     MuscleShape& shape = all[m];
-    shape = {members[m].name, members[m].group, a.origin, a.insertion, a.before, place(a.lies_on)};
+    shape = {members[m].name, members[m].group, members[m].origin, members[m].insertion, a.before, place(a.lies_on)};
     const auto measured = members[m].sections.first(a.keep);
     shape.sections.insert(shape.sections.end(), measured.begin(), measured.end());
     shape.sections.insert(shape.sections.end(), a.after.begin(), a.after.end());
   }
   all.push_back({"calcaneal_tendon",
-                 MuscleGroup::triceps_surae,
+                 Muscle::triceps_surae,
                  Segment::shank_right,
                  Segment::foot_right,
                  {calcaneal_tendon.begin(), calcaneal_tendon.end()},

@@ -18,7 +18,7 @@ inline constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 /// covers and is pushed out by.
 struct MuscleShape {
   std::string_view name;
-  MuscleGroup group;
+  Muscle group;
   Segment origin, insertion;
   std::vector<LegSection> sections;
   std::size_t lies_on;

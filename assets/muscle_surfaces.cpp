@@ -103,7 +103,7 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
     if (beneath != nullptr) shift += 2 * growth(*beneath, girth_beneath, level, away) * thick;
     const double factor = 1 + (girth - 1) * thick;
     Point moved{static_cast<double>(s.lateral) + shift * away.l, static_cast<double>(s.anterior) + shift * away.a};
-    if (shape.group == MuscleGroup::quadriceps) {
+    if (shape.group == Muscle::quadriceps) {
       const double w = smoothstep(0.45, measured_patella_top, level);
       moved.l += w * (f.patella.l - measured_patella_lateral);
       moved.a += w * (f.patella.a - measured_patella_anterior);
@@ -201,7 +201,7 @@ GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
                                            {at(0.3), 2.6 * unit, 13 * unit},
                                            {at(0.7), 2.6 * unit, 12 * unit},
                                            {at(1), 3 * unit, 9 * unit}};
-  GroupSurface s{MuscleGroup::quadriceps, {}, {}, true};
+  GroupSurface s{Muscle::quadriceps, Muscle::quadriceps, {}, {}, true};
   s.surface.mesh =
       loft(line, {.reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = 10, .segments = 12, .cap = 0.6});
   s.surface.mesh.name = "patellar_ligament_right";
@@ -254,7 +254,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   std::vector<GroupSurface> all;
   for (std::size_t m = 0; m < shapes.size(); ++m) {
     const auto sections = surface_of(m, girth[m]);
-    GroupSurface s{shapes[m].group, {}, {}, false};
+    GroupSurface s{shapes[m].group, find_muscle(shapes[m].name).value_or(shapes[m].group), {}, {}, false};
     s.surface.mesh = build(f, sections);
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;

@@ -1,154 +1,124 @@
 #include "assets/muscle_table.h"
 
 #include <algorithm>
+#include <vector>
 
+#include "assets/drawn_line.h"
+#include "assets/muscle_paths.h"
 #include "assets/muscle_sections.h"
 
 namespace mobil {
 namespace {
 
-// The published figures, as printed there (x forward, y up, z to the right, m), and their way into this table's frames.
+using enum Muscle;
+using enum Segment;
 
-/// The best pin's place from the origin of the published shank, and the published hip–knee and knee–ankle vectors.
-constexpr double pin_x = -0.00478, pin_y = -0.01264;
-constexpr double knee_x = -0.0045 + pin_x, knee_y = -0.39582 + pin_y;
-constexpr double ankle_x = -pin_x, ankle_y = -0.43 - pin_y;
-static_assert(knee_y == -published_leg::thigh_m && ankle_y == -published_leg::shank_m);
-
-constexpr Vec3<double> to_mobil(double x, double y, double z) {
-  return {-z, y, x};
-}
-constexpr PathPoint pelvis(double x, double y, double z) {
-  return {LegBone::pelvis, to_mobil(x + 0.0707, y + 0.0661, z - 0.0835)};
-}
-/// The slanting lines of the published joint centres become this skeleton's vertical ones.
-constexpr PathPoint femur(double x, double y, double z) {
-  return {LegBone::thigh, to_mobil(x - knee_x * y / knee_y, y, z)};
-}
-constexpr PathPoint tibia(double x, double y, double z) {
-  return {LegBone::shank, to_mobil(x - pin_x - ankle_x * (y - pin_y) / ankle_y, y - pin_y, z)};
-}
-constexpr PathPoint calcaneus(double x, double y, double z) {
-  return {LegBone::foot, to_mobil(x - 0.04877, y - 0.04195, z + 0.00792)};
-}
-/// Bends the path while the knee is flexed less, or more, than that.
-constexpr PathPoint below(double flexion_deg, PathPoint p) {
-  p.to_deg = flexion_deg;
-  return p;
-}
-constexpr PathPoint above(double flexion_deg, PathPoint p) {
-  p.from_deg = flexion_deg;
-  return p;
-}
-constexpr KneecapTrack kneecap(const KneecapTrack& tibial) {
-  KneecapTrack track{};
-  for (std::size_t i = 0; i < kneecap_knots; ++i) track[i] = tibia(tibial[i].x, tibial[i].y, tibial[i].z).at_m;
-  return track;
-}
-
-constexpr std::array semimembranosus = {pelvis(-0.1192, -0.09747, 0.07151),
-                                        below(32, tibia(-0.0348, -0.03519, -0.01891)),
-                                        tibia(-0.027, -0.04771, -0.01957)};
-constexpr std::array semitendinosus = {
-    pelvis(-0.12635, -0.10988, 0.06039), below(19, tibia(-0.04203, -0.02859, -0.02277)),
-    tibia(-0.03322, -0.05282, -0.02288), tibia(-0.0113, -0.0746, -0.0245), tibia(0.0027, -0.0956, -0.0193)};
-constexpr std::array biceps_femoris_long_head = {pelvis(-0.12596, -0.10257, 0.06944), tibia(-0.0301, -0.036, 0.02943),
-                                                 tibia(-0.0234, -0.0563, 0.0343)};
-constexpr std::array biceps_femoris_short_head = {femur(0.005, -0.2111, 0.0234), tibia(-0.0301, -0.036, 0.02943),
-                                                  tibia(-0.0234, -0.0563, 0.0343)};
-constexpr std::array rectus_femoris = {pelvis(-0.0295, -0.0311, 0.0968), above(83.65, femur(0.0334, -0.403, 0.0019))};
-constexpr KneecapTrack rectus_femoris_kneecap = kneecap({{{0.06176, 0.02098, 0.0014},
-                                                          {0.04839, 0.02342, 0.0014},
-                                                          {0.04221, 0.02424, 0.0014},
-                                                          {0.03657, 0.02492, 0.0014},
-                                                          {0.03076, 0.02531, 0.0014},
-                                                          {0.02391, 0.02466, 0.0014}}});
-constexpr std::array vastus_medialis = {femur(0.014, -0.2099, 0.0188), femur(0.0356, -0.2769, 0.0009),
-                                        above(69.33, femur(0.037, -0.4048, -0.0125)),
-                                        above(101.99, femur(0.0274, -0.4255, -0.0131))};
-constexpr KneecapTrack vastus_medialis_kneecap = kneecap({{{0.05596, 0.02179, -0.0146},
-                                                           {0.04257, 0.02283, -0.0146},
-                                                           {0.03642, 0.02336, -0.0146},
-                                                           {0.0308, 0.02395, -0.0146},
-                                                           {0.02499, 0.02433, -0.0146},
-                                                           {0.01814, 0.02367, -0.0146}}});
-constexpr std::array vastus_intermedius = {femur(0.029, -0.1924, 0.031), femur(0.0335, -0.2084, 0.0285),
-                                           above(81.36, femur(0.0343, -0.403, 0.0055))};
-constexpr KneecapTrack vastus_intermedius_kneecap = kneecap({{{0.05546, 0.02529, 0.0018},
-                                                              {0.04126, 0.02612, 0.0018},
-                                                              {0.03495, 0.02657, 0.0018},
-                                                              {0.02927, 0.02714, 0.0018},
-                                                              {0.02346, 0.02752, 0.0018},
-                                                              {0.01661, 0.02685, 0.0018}}});
-constexpr std::array vastus_lateralis = {femur(0.0048, -0.1854, 0.0349), femur(0.0269, -0.2591, 0.0409),
-                                         above(69.33, femur(0.0361, -0.403, 0.0205)),
-                                         above(110.01, femur(0.0253, -0.4243, 0.0184))};
-constexpr KneecapTrack vastus_lateralis_kneecap = kneecap({{{0.05996, 0.01959, 0.0165},
-                                                            {0.04697, 0.02164, 0.0165},
-                                                            {0.04088, 0.02238, 0.0165},
-                                                            {0.03527, 0.02304, 0.0165},
-                                                            {0.02947, 0.02344, 0.0165},
-                                                            {0.02262, 0.02278, 0.0165}}});
-constexpr std::array gastrocnemius_medial = {femur(-0.019, -0.3929, -0.0235), below(45, femur(-0.03, -0.4022, -0.0258)),
-                                             calcaneus(0, 0.031, -0.0053)};
-constexpr std::array gastrocnemius_lateral = {femur(-0.022, -0.3946, 0.0272), below(45, femur(-0.03, -0.4018, 0.0274)),
-                                              calcaneus(0, 0.031, -0.0053)};
-constexpr std::array soleus = {tibia(-0.0024, -0.1533, 0.0071), calcaneus(0, 0.031, -0.0053)};
-
-// Name, group, path, kneecap, share of the limb's volume and its offset, sections.
+// Name, group, path, kneecap, share of the limb's volume and its offset, bones it is attached to, sections.
 constexpr std::array<MemberMuscle, member_muscle_count> members = {{
-    {"semimembranosus", MuscleGroup::hamstrings, semimembranosus, nullptr, 0.0319, 18.2, sections::semimembranosus},
-    {"semitendinosus", MuscleGroup::hamstrings, semitendinosus, nullptr, 0.0285, -16.8, sections::semitendinosus},
-    {"biceps_femoris_long_head", MuscleGroup::hamstrings, biceps_femoris_long_head, nullptr, 0.0256, 24.3,
-     sections::biceps_femoris_long_head},
-    {"biceps_femoris_short_head", MuscleGroup::hamstrings, biceps_femoris_short_head, nullptr, 0.016, -13.8,
-     sections::biceps_femoris_short_head},
-    {"rectus_femoris", MuscleGroup::quadriceps, rectus_femoris, &rectus_femoris_kneecap, 0.0371, 4.97,
-     sections::rectus_femoris},
-    {"vastus_medialis", MuscleGroup::quadriceps, vastus_medialis, &vastus_medialis_kneecap, 0.0631, -16.3,
-     sections::vastus_medialis},
-    {"vastus_intermedius", MuscleGroup::quadriceps, vastus_intermedius, &vastus_intermedius_kneecap, 0.0273, 76.5,
-     sections::vastus_intermedius},
-    {"vastus_lateralis", MuscleGroup::quadriceps, vastus_lateralis, &vastus_lateralis_kneecap, 0.125, -55.7,
-     sections::vastus_lateralis},
-    {"gastrocnemius_medial", MuscleGroup::triceps_surae, gastrocnemius_medial, nullptr, 0.0348, 9.42,
+    {"semimembranosus", hamstrings, paths::semimembranosus, nullptr, 0.0319, 18.2, pelvis, shank_right,
+     sections::semimembranosus},
+    {"semitendinosus", hamstrings, paths::semitendinosus, nullptr, 0.0285, -16.8, pelvis, shank_right,
+     sections::semitendinosus},
+    {"biceps_femoris_long_head", hamstrings, paths::biceps_femoris_long_head, nullptr, 0.0256, 24.3, pelvis,
+     shank_right, sections::biceps_femoris_long_head},
+    {"biceps_femoris_short_head", hamstrings, paths::biceps_femoris_short_head, nullptr, 0.016, -13.8, thigh_right,
+     shank_right, sections::biceps_femoris_short_head},
+    {"rectus_femoris", quadriceps, paths::rectus_femoris, &paths::rectus_femoris_kneecap, 0.0371, 4.97, pelvis,
+     patella_right, sections::rectus_femoris},
+    {"vastus_medialis", quadriceps, paths::vastus_medialis, &paths::vastus_medialis_kneecap, 0.0631, -16.3, thigh_right,
+     patella_right, sections::vastus_medialis},
+    {"vastus_intermedius", quadriceps, paths::vastus_intermedius, &paths::vastus_intermedius_kneecap, 0.0273, 76.5,
+     thigh_right, patella_right, sections::vastus_intermedius},
+    {"vastus_lateralis", quadriceps, paths::vastus_lateralis, &paths::vastus_lateralis_kneecap, 0.125, -55.7,
+     thigh_right, patella_right, sections::vastus_lateralis},
+    {"gastrocnemius_medial", triceps_surae, paths::gastrocnemius_medial, nullptr, 0.0348, 9.42, thigh_right, foot_right,
      sections::gastrocnemius_medial},
-    {"gastrocnemius_lateral", MuscleGroup::triceps_surae, gastrocnemius_lateral, nullptr, 0.0199, 8.21,
-     sections::gastrocnemius_lateral},
-    {"soleus", MuscleGroup::triceps_surae, soleus, nullptr, 0.0507, 78.2, sections::soleus},
+    {"gastrocnemius_lateral", triceps_surae, paths::gastrocnemius_lateral, nullptr, 0.0199, 8.21, thigh_right,
+     foot_right, sections::gastrocnemius_lateral},
+    {"soleus", triceps_surae, paths::soleus, nullptr, 0.0507, 78.2, shank_right, foot_right, sections::soleus},
+    {"plantaris", triceps_surae, paths::plantaris, nullptr, 0.001, 0, thigh_right, foot_right, sections::plantaris},
+    {"tibialis_anterior", tibialis_anterior, paths::tibialis_anterior, nullptr, 0.0161, 20.3, shank_right, foot_right,
+     sections::tibialis_anterior},
 }};
 
-constexpr std::array<GroupLine, muscle_group_count> lines = {{
-    {MuscleGroup::hamstrings, semimembranosus[0], "semimembranosus", LegBone::thigh, 0.0463, 0.2686, Segment::pelvis,
-     Segment::shank_right},
-    {MuscleGroup::quadriceps,
-     {LegBone::thigh, {-0.0362, -0.0817, 0.0259}},
-     "rectus_femoris",
-     LegBone::thigh,
-     0,
-     0.285,
-     Segment::thigh_right,
-     Segment::patella_right},
-    {MuscleGroup::triceps_surae,
-     {LegBone::shank, {-0.0056, -0.0083, -0.0294}},
-     "soleus",
-     LegBone::shank,
-     0,
-     0.2498,
-     Segment::shank_right,
-     Segment::foot_right},
+/// Where the paths of groups are drawn; of muscles on their own that follows from their sections.
+struct GroupRow {
+  std::string_view name;
+  Muscle group;
+  DrawnLine drawn;
+};
+constexpr std::array<GroupRow, muscle_group_count> groups = {{
+    {"hamstrings",
+     hamstrings,
+     {paths::semimembranosus[0], 0, end_of_path, LegBone::thigh, 0.0463, 0.2686, pelvis, shank_right}},
+    {"quadriceps",
+     quadriceps,
+     {{LegBone::thigh, {-0.0362, -0.0817, 0.0259}},
+      0,
+      end_of_path,
+      LegBone::thigh,
+      0,
+      0.285,
+      thigh_right,
+      patella_right}},
+    {"triceps_surae",
+     triceps_surae,
+     {{LegBone::shank, {-0.0056, -0.0083, -0.0294}},
+      2,
+      end_of_path,
+      LegBone::shank,
+      0,
+      0.2498,
+      shank_right,
+      foot_right}},
+    {"tibialis_anterior", tibialis_anterior, {}},
 }};
+
+/// Groups, then the members of those that have several.
+std::vector<MuscleRow> make_rows() {
+  std::vector<MuscleRow> rows, single;
+  for (const GroupRow& g : groups) {
+    const auto in_group = [&g](const MemberMuscle& m) { return m.group == g.group; };
+    const auto first = std::find_if(members.begin(), members.end(), in_group);
+    const std::span<const MemberMuscle> own{first, std::find_if_not(first, members.end(), in_group)};
+    rows.push_back({g.name, own, own.size() == 1 ? line_through_belly(own[0]) : g.drawn});
+    if (own.size() == 1) continue;
+    for (const MemberMuscle& m : own) single.push_back({m.name, {&m, 1}, line_through_belly(m)});
+  }
+  rows.insert(rows.end(), single.begin(), single.end());
+  return rows;
+}
 
 }  // namespace
 
-std::span<const MemberMuscle> member_muscles() {
-  return members;
+std::span<const MuscleRow> muscles() {
+  static const std::vector<MuscleRow> rows = make_rows();
+  return rows;
 }
 
-std::span<const MemberMuscle> members_of(MuscleGroup group) {
-  const auto in_group = [group](const MemberMuscle& m) { return m.group == group; };
-  const auto first = std::find_if(members.begin(), members.end(), in_group);
-  return {first, std::find_if_not(first, members.end(), in_group)};
+std::string_view muscle_name(Muscle muscle) {
+  return muscle_row(muscle).name;
+}
+
+std::optional<Muscle> find_muscle(std::string_view name) {
+  const auto rows = muscles();
+  const auto found = std::find_if(rows.begin(), rows.end(), [name](const MuscleRow& r) { return r.name == name; });
+  if (found == rows.end()) return std::nullopt;
+  return static_cast<Muscle>(found - rows.begin());
+}
+
+MuscleSet muscle_groups() {
+  return MuscleSet((1ULL << muscle_group_count) - 1);
+}
+
+MuscleSet muscle_members() {
+  MuscleSet set;
+  for (std::size_t i = 0; i < muscles().size(); ++i) set[i] = muscles()[i].members.size() == 1;
+  return set;
+}
+
+std::span<const MemberMuscle> member_muscles() {
+  return members;
 }
 
 const MemberMuscle* find_member_muscle(std::string_view name) {
@@ -158,10 +128,6 @@ const MemberMuscle* find_member_muscle(std::string_view name) {
 
 double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double mass_kg) {
   return muscle.limb_share * (47 * mass_kg * height_m + 1285) + muscle.offset_cm3;
-}
-
-const GroupLine& group_line(MuscleGroup group) {
-  return lines[static_cast<std::size_t>(group)];
 }
 
 }  // namespace mobil

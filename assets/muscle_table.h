@@ -11,6 +11,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -54,22 +55,23 @@ inline constexpr std::size_t kneecap_knots = 6;
 inline constexpr double kneecap_knot_deg = 20;
 using KneecapTrack = std::array<Vec3<double>, kneecap_knots>;
 
+/// One muscle of the leg as it was published.
 struct MemberMuscle {
   std::string_view name;
-  MuscleGroup group;
+  Muscle group;
   std::span<const PathPoint> path;  // origin first
   const KneecapTrack* kneecap;      // what a path ends on after its last point, or null
   /// Volume (cm³) = limb_share · (47 · mass · height + 1285) + offset_cm3, in kg and m.
   double limb_share, offset_cm3;
+  Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
   /// The muscle's shape, upper end first, tendon included: see assets/leg_sections.h for what a section means.
   std::span<const LegSection> sections;
 };
 
-inline constexpr std::size_t member_muscle_count = 11;
+inline constexpr std::size_t member_muscle_count = 13;
 
-/// All muscles, groups one after the other in the order of MuscleGroup.
+/// All published muscles, groups one after the other in the order of Muscle.
 std::span<const MemberMuscle> member_muscles();
-std::span<const MemberMuscle> members_of(MuscleGroup group);
 
 /// The muscle of that name, or null.
 const MemberMuscle* find_member_muscle(std::string_view name);
@@ -77,28 +79,54 @@ const MemberMuscle* find_member_muscle(std::string_view name);
 /// Volume of a member in a body of that height and mass, cm³ (Handsfield et al. 2014).
 double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double mass_kg);
 
-/// How a group is drawn, at the published leg's size: from `anchor` towards an insertion of one of its members. Its
-/// belly's mesh begins `start_m` from the anchor and is `belly_m` long; both scale as y of the bone `along` does.
-/// Hamstrings and triceps surae follow their largest member, semimembranosus and soleus, the latter from the middle of
-/// the calf under the knee, because soleus' published origin is the centroid of a long one. The quadriceps runs from
-/// the middle of its bellies to the middle of the kneecap: its largest member's line would leave the other three aside.
-struct GroupLine {
-  MuscleGroup group;
+/// Where a muscle is drawn, at the published leg's size: from `anchor` towards point `point` of the path of member
+/// `towards` of its row. The belly's mesh begins `start_m` from the anchor and is `belly_m` long; both scale as y of
+/// the bone `along` does.
+struct DrawnLine {
   PathPoint anchor;
-  std::string_view towards;  // the member whose path's end it is
-  LegBone along;
-  double start_m, belly_m;
-  Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
+  std::size_t towards = 0, point = 0;
+  LegBone along{};
+  double start_m = 0, belly_m = 0;
+  Segment origin{}, insertion{};  // right side: what the surface beyond the belly's ends follows
 };
-const GroupLine& group_line(MuscleGroup group);
+/// Instead of a point's number: what the path ends on.
+inline constexpr std::size_t end_of_path = static_cast<std::size_t>(-1);
+
+/// What can be simulated: a group, or a single muscle. The group's line of action is as long as its members' are in the
+/// mean, by volume. Hamstrings and triceps surae are drawn along their largest member, semimembranosus and soleus, the
+/// latter from the middle of the calf under the knee, because soleus' published origin is the centroid of a long one;
+/// the quadriceps from the middle of its bellies to the middle of the kneecap: its largest member's line would leave
+/// the other three aside. Single muscles: assets/drawn_line.h.
+struct MuscleRow {
+  std::string_view name;
+  std::span<const MemberMuscle> members;
+  DrawnLine drawn;
+};
+
+/// All rows, numbered as Muscle: groups first, then the members of groups that have several.
+std::span<const MuscleRow> muscles();
+inline const MuscleRow& muscle_row(Muscle muscle) {
+  return muscles()[static_cast<std::size_t>(muscle)];
+}
+inline std::span<const MemberMuscle> members_of(Muscle muscle) {
+  return muscle_row(muscle).members;
+}
+std::string_view muscle_name(Muscle muscle);
+/// The muscle of that name, or nothing.
+std::optional<Muscle> find_muscle(std::string_view name);
+
+/// The groups; and the single muscles, which are tibialis anterior and the others' members.
+MuscleSet muscle_groups();
+MuscleSet muscle_members();
 
 /// The body that templates are made for: 1.80 m, 80 kg, average.
 inline constexpr double reference_body_height_m = 1.80, reference_body_mass_kg = 80;
 
-/// The cage of a group's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. It encloses
-/// its members' bellies with a tenth to spare; its ends are no thinner than 0.35 of its middle.
+/// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its stations
+/// follow the surfaces of its members as they are drawn in that body and enclose them; its ends are no thinner than
+/// 0.35 of its middle.
 inline constexpr std::size_t cage_station_count = 9;
 using CageStations = std::array<CageStation, cage_station_count>;
-const CageStations& group_cage(MuscleGroup group);
+const CageStations& muscle_cage(Muscle muscle);
 
 }  // namespace mobil

@@ -11,12 +11,16 @@ namespace mobil {
 
 enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
 
-/// Heath–Carter somatotype, each part from 1 (little) to about 7 (much).
+/// Heath–Carter somatotype, each part from 1 (little) to about 7 (much): fat, muscle and bone, slenderness. As it
+/// stands here it counts as not asked for: fat and slenderness then follow from height and mass.
 struct Biotype {
   float endo = 3, meso = 4, ecto = 3;
+  friend bool operator==(const Biotype&, const Biotype&) = default;
 };
 
-/// What a caller asks of a body. Ranges: height 1.2–2.2 m, mass 30–200 kg, each part of the biotype 0.1–12.
+/// What a caller asks of a body. Ranges: height 1.2–2.2 m, mass 30–200 kg and at that height what a living body may
+/// have
+/// (`living_mass_kg`), each part of the biotype 0.1–12.
 struct BodyRequest {
   float height_m = 1.75F;
   float mass_kg = 75.0F;
@@ -24,12 +28,36 @@ struct BodyRequest {
   Constitution constitution = Constitution::average;
 };
 
+/// What a request had to give way in: bits of BodyComposition::notes, in words by `body_notes`
+/// (assets/body_composition.h).
+enum class BodyNote : std::uint8_t {
+  ectomorphy = 1,     // was asked otherwise than height and mass make it; what they make is taken
+  fat_raised = 2,     // the endomorphy asked would leave more lean mass than anybody has at that height
+  fat_lowered = 4,    // it would leave less than a living body has
+  fat_essential = 8,  // it would leave less fat than a living body has
+  muscle = 16,        // constitution and mesomorphy ask for more muscle than the lean mass holds
+};
+
+/// What a body is made of, from its request; assets/body_composition.h says how and after whom.
+struct BodyComposition {
+  float body_mass_index = 0;             // mass over height², kg/m²
+  float height_over_cube_root_mass = 0;  // HWR, cm over kg^(1/3)
+  float fat_kg = 0, lean_kg = 0;         // add up to the mass
+  Biotype biotype{};                     // as it was taken: endomorphy of that fat, ectomorphy of height and mass
+  float muscle_factor = 1;               // of the regression's muscle volumes, constitution and mesomorphy included
+  std::uint8_t notes = 0;
+};
+constexpr bool has_note(const BodyComposition& composition, BodyNote note) {
+  return (composition.notes & static_cast<std::uint8_t>(note)) != 0;
+}
+
 /// One individual's skeleton, host side: made once at spawn by `make_body` (assets/anthropometry.h).
 /// Frames: every segment's origin is its proximal joint (thigh: hip centre, shank: knee, foot: ankle, toes: ball of
 /// the foot, pelvis: midpoint of the hip centres, patella: its centre); in the anatomical position all rotations are
 /// identity, +Y up, +Z forward, +X left.
 struct Body {
   BodyRequest request;
+  BodyComposition composition;
   /// Origin of each segment in its parent's frame, m; the pelvis: its height over the ground when standing.
   std::array<Vec3<float>, segment_count> joint_offset_m;
   /// Centre of mass of each segment in its own frame, m.

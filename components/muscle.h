@@ -1,9 +1,10 @@
 #pragma once
-// A muscle group of one leg: whose it is, its size against its template, its line of action, its moving nodes.
+// A muscle of one leg: whose it is, its size against its template, its line of action, its moving nodes.
 // Mechanics: a linear elastic belly in the frame of its line of action, z from origin to insertion; a left muscle is
 // solved as a right one and reflected when drawn.
 
 #include <array>
+#include <bitset>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -12,10 +13,14 @@
 
 namespace mobil {
 
-enum class MuscleGroup : std::uint8_t { hamstrings, quadriceps, triceps_surae };
-inline constexpr std::size_t muscle_group_count = 3;
-inline constexpr std::array<std::string_view, muscle_group_count> muscle_group_name = {"hamstrings", "quadriceps",
-                                                                                       "triceps_surae"};
+/// One of the table's muscles (assets/muscle_table.h): a group of muscles that act alike, or one muscle on its own.
+/// Groups have names here; the others are numbered as the table's rows and found by `find_muscle("soleus")`.
+enum class Muscle : std::uint8_t { hamstrings, quadriceps, triceps_surae, tibialis_anterior };
+inline constexpr std::size_t muscle_group_count = 4;
+
+/// Some of them, by number.
+inline constexpr std::size_t most_muscles = 32;
+using MuscleSet = std::bitset<most_muscles>;
 
 /// Linear elastic material. The defaults are the paper's (section 6.1).
 struct Material {

@@ -40,7 +40,7 @@ Result<std::vector<LineBlock>> make_blocks(BenchCrowd& crowd) {
       block.group = g;
       for (std::size_t l = 0; l < lane_count; ++l) {
         block.owner[l] = people[std::min(first + l / 2, people.size() - 1)];
-        const auto plan = make_muscle_plan(crowd.simulation().human(block.owner[l])->body, static_cast<MuscleGroup>(g));
+        const auto plan = make_muscle_plan(crowd.simulation().human(block.owner[l])->body, static_cast<Muscle>(g));
         if (!plan) return tl::unexpected(plan.error());
         block.scale.thigh[l] = plan->leg_scale.thigh;
         block.scale.shank[l] = plan->leg_scale.shank;
@@ -64,7 +64,7 @@ Result<void> bench_lines(BenchRun& run) {
   auto blocks = make_blocks(crowd);
   if (!blocks) return tl::unexpected(blocks.error());
   std::array<MuscleLines, muscle_group_count> lines;
-  for (std::size_t g = 0; g < muscle_group_count; ++g) lines[g] = make_muscle_lines(static_cast<MuscleGroup>(g));
+  for (std::size_t g = 0; g < muscle_group_count; ++g) lines[g] = make_muscle_lines(static_cast<Muscle>(g));
 
   const Lookup<Pose> poses(crowd.simulation().world());
   const auto gather = [&](LineBlock& block) {

@@ -44,7 +44,7 @@ Result<void> bench_skinning(BenchRun& run) {
   const auto pose = *simulation.get<Pose>(*entity);
   for (const FigureMuscle& muscle : figure->muscles) {
     for (const Side side : {right, left}) {
-      const Entity belly = simulation.muscle(*entity, muscle.group, side);
+      const Entity belly = simulation.muscle(*entity, muscle.muscle, side);
       const NodalView nodes = simulation.nodal_displacement(belly);
       skins.push_back({&muscle.surface,
                        skin_pose(muscle.surface, side, human.body, pose, *simulation.get<LineOfAction>(belly)),

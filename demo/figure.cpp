@@ -17,7 +17,7 @@ namespace {
 constexpr double blend_per_height = 0.04 / 1.80;
 constexpr Vec3<float> belly_colour{0.40F, 0.055F, 0.04F}, tendon_colour{0.62F, 0.53F, 0.42F};
 
-/// The cage of one person's muscle group: the template's nodes at the person's size.
+/// The mesh of one person's muscle: the template's nodes at the person's size.
 HexahedralMesh individual_cage(const MuscleTemplate& shape, const BellyScale<float>& scale) {
   HexahedralMesh cage = shape.mesh;
   for (auto& node : cage.node) {
@@ -32,15 +32,14 @@ bool is_tendon(const std::string& name) {
   return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
 }
 
-/// Binds the surfaces of each group to the group's cage in this person.
+/// Binds the surfaces of each muscle to its mesh in this person.
 void bind_muscles(const Simulation& simulation, const Human& human, Figure& figure, const std::vector<bool>& ligament) {
-  for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
-    const MusclePlan& plan = human.muscle_plan[g];
-    const auto* shape = simulation.world().shared<MuscleTemplate>(human.muscle[g][right]);
+  for (const auto& [plan, entity] : human.muscles) {
+    const auto* shape = simulation.world().shared<MuscleTemplate>(entity[right]);
     const RestFrame frame{geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)};
     std::vector<MuscleSurface*> together;
     for (std::size_t i = 0; i < figure.muscles.size(); ++i) {
-      if (figure.muscles[i].group == plan.group && !ligament[i]) together.push_back(&figure.muscles[i].surface);
+      if (figure.muscles[i].muscle == plan.muscle && !ligament[i]) together.push_back(&figure.muscles[i].surface);
     }
     bind_surfaces(together, individual_cage(*shape, plan.scale), frame,
                   blend_per_height * static_cast<double>(human.body.request.height_m));
@@ -59,9 +58,15 @@ Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
   return (1.0F / static_cast<float>(count)) * sum;
 }
 
-FigureMuscle figure_muscle(MuscleGroup group, MuscleSurface surface) {
+/// Its own muscle where that is simulated, else its group.
+Muscle driver(const Human& human, Muscle group, Muscle muscle) {
+  const auto own = [muscle](const HumanMuscle& m) { return m.plan.muscle == muscle; };
+  return std::any_of(human.muscles.begin(), human.muscles.end(), own) ? muscle : group;
+}
+
+FigureMuscle figure_muscle(Muscle muscle, MuscleSurface surface) {
   const Vec3<float> colour = is_tendon(surface.mesh.name) ? tendon_colour : belly_colour;
-  return {group, colour, std::move(surface)};
+  return {muscle, colour, std::move(surface)};
 }
 
 /// Real quadriceps meshes run past the kneecap down to the tibia; those end there.
@@ -87,7 +92,7 @@ Result<Figure> real_figure(const Simulation& simulation, const Human& human, con
   }
   for (auto& muscle : fitted->muscles) {
     end_on_shank_below_kneecap(human.body, muscle.surface);
-    figure.muscles.push_back(figure_muscle(muscle.group, std::move(muscle.surface)));
+    figure.muscles.push_back(figure_muscle(driver(human, muscle.group, muscle.muscle), std::move(muscle.surface)));
   }
   bind_muscles(simulation, human, figure, std::vector<bool>(figure.muscles.size(), false));
   return figure;
@@ -106,7 +111,7 @@ Result<Figure> make_figure(const Simulation& simulation, const Human& human,
     if (muscle.ligament) {
       bind_ligament(muscle.surface, extreme(muscle.surface.mesh, true), extreme(muscle.surface.mesh, false));
     }
-    figure.muscles.push_back(figure_muscle(muscle.group, std::move(muscle.surface)));
+    figure.muscles.push_back(figure_muscle(driver(human, muscle.group, muscle.muscle), std::move(muscle.surface)));
   }
   bind_muscles(simulation, human, figure, ligament);
   return figure;
@@ -123,8 +128,7 @@ WalkRecording begin_recording(const Figure& figure, float frame_s) {
       RecordedMuscle recorded;
       recorded.name = name + (side == right ? "_right" : "_left");
       recorded.segment = on_side(
-          group_line(muscle.group).insertion == Segment::foot_right ? Segment::shank_right : Segment::thigh_right,
-          side);
+          muscle_row(muscle.muscle).drawn.along == LegBone::shank ? Segment::shank_right : Segment::thigh_right, side);
       recorded.colour = muscle.colour;
       recorded.triangle = muscle.surface.mesh.triangle;
       if (side == left) turn_over(recorded.triangle);
@@ -141,7 +145,7 @@ void record_frame(const Figure& figure, const Simulation& simulation, const Huma
   std::size_t next = 0;
   for (const auto& muscle : figure.muscles) {
     for (std::size_t side = 0; side < 2; ++side) {
-      const Entity entity = human.muscle[static_cast<std::size_t>(muscle.group)][side];
+      const Entity entity = simulation.muscle(human.entity, muscle.muscle, static_cast<Side>(side));
       const auto line = simulation.get<LineOfAction>(entity);
       const auto nodes = simulation.nodal_displacement(entity);
       auto& out = recording.muscles[next++].position_m.emplace_back(muscle.surface.mesh.position.size());

@@ -11,10 +11,10 @@
 
 namespace mobil {
 
-/// A muscle surface bound to its group's cage; one serves both sides.
+/// A muscle surface bound to the mesh of its own muscle, or else of its group; one serves both sides.
 struct FigureMuscle {
-  MuscleGroup group = MuscleGroup::hamstrings;
-  Vec3<float> colour{};  // linear
+  Muscle muscle = Muscle::hamstrings;  // whose mesh that is
+  Vec3<float> colour{};                // linear
   MuscleSurface surface;
 };
 

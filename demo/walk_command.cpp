@@ -69,11 +69,11 @@ std::optional<WalkForces> forces_before(const Simulation& simulation, Entity ent
 }
 
 void add_muscle_rows(const Simulation& simulation, const Human& human, std::string_view method, MuscleTable& table) {
-  for (std::size_t side = 0; side < 2; ++side) {
-    for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
-      const Entity muscle = human.muscle[g][side];
-      table.add(simulation.time_s(), static_cast<Side>(side), static_cast<MuscleGroup>(g),
-                *simulation.get<LineOfAction>(muscle), *simulation.get<BellyReport>(muscle), method);
+  for (const Side side : {right, left}) {
+    for (const HumanMuscle& own : human.muscles) {
+      const Entity muscle = own.entity[side];
+      table.add(simulation.time_s(), side, own.plan.muscle, *simulation.get<LineOfAction>(muscle),
+                *simulation.get<BellyReport>(muscle), method);
     }
   }
 }

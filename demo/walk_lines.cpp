@@ -30,13 +30,13 @@ std::vector<std::array<std::uint32_t, 2>> boundary_edges(const Cells& cells) {
   return edges;
 }
 
-/// Calls f(group, side, line) for every muscle that is there.
+/// Calls f(plan, entity, side, line) for every muscle that is there.
 template <class F>
 void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
-  for (std::size_t g = 0; g < human.muscle_plan.size(); ++g) {
+  for (const HumanMuscle& own : human.muscles) {
     for (const Side side : {right, left}) {
-      const auto line = simulation.get<LineOfAction>(human.muscle[g][side]);
-      if (line) f(g, side, *line);
+      const auto line = simulation.get<LineOfAction>(own.entity[side]);
+      if (line) f(own.plan, own.entity[side], side, *line);
     }
   }
 }
@@ -45,8 +45,8 @@ void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
 
 std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human& human) {
   std::vector<Vec3<float>> ends;
-  for_each_muscle(simulation, human, [&](std::size_t g, Side side, const LineOfAction<float>& line) {
-    const float rest = static_cast<float>(human.muscle_plan[g].belly_length_m);
+  for_each_muscle(simulation, human, [&](const MusclePlan& plan, Entity, Side side, const LineOfAction<float>& line) {
+    const float rest = static_cast<float>(plan.belly_length_m);
     ends.push_back(to_world(line, side, {0, 0, 0}));
     ends.push_back(to_world(line, side, {0, 0, rest + line.length_m - line.rest_length_m}));
   });
@@ -55,24 +55,24 @@ std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human&
 
 std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Human& human) {
   std::vector<Vec3<float>> ends;
-  for_each_muscle(simulation, human, [&](std::size_t g, Side side, const LineOfAction<float>& line) {
-    const Entity muscle = human.muscle[g][side];
-    const auto* shape = simulation.world().shared<MuscleTemplate>(muscle);
-    const NodalView moved = simulation.nodal_displacement(muscle);
-    const BellyScale<float> scale = human.muscle_plan[g].scale;
-    const auto node = [&](std::uint32_t n) {
-      const auto& rest = shape->mesh.node[n];
-      const float* u = moved.first + std::size_t{3} * n * lane_count;
-      return to_world(
-          line, side,
-          {scale.across * static_cast<float>(rest.x) + u[0], scale.across * static_cast<float>(rest.y) + u[lane_count],
-           scale.along * static_cast<float>(rest.z) + u[2 * lane_count]});
-    };
-    for (const auto& [from, to] : boundary_edges(shape->mesh.cells)) {
-      ends.push_back(node(from));
-      ends.push_back(node(to));
-    }
-  });
+  for_each_muscle(simulation, human,
+                  [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
+                    const auto* shape = simulation.world().shared<MuscleTemplate>(muscle);
+                    const NodalView moved = simulation.nodal_displacement(muscle);
+                    const BellyScale<float> scale = plan.scale;
+                    const auto node = [&](std::uint32_t n) {
+                      const auto& rest = shape->mesh.node[n];
+                      const float* u = moved.first + std::size_t{3} * n * lane_count;
+                      return to_world(line, side,
+                                      {scale.across * static_cast<float>(rest.x) + u[0],
+                                       scale.across * static_cast<float>(rest.y) + u[lane_count],
+                                       scale.along * static_cast<float>(rest.z) + u[2 * lane_count]});
+                    };
+                    for (const auto& [from, to] : boundary_edges(shape->mesh.cells)) {
+                      ends.push_back(node(from));
+                      ends.push_back(node(to));
+                    }
+                  });
   return ends;
 }
 

@@ -101,7 +101,7 @@ Result<Entity> Simulation::spawn(const BodyRequest& request, const GaitRequest& 
   const Entity entity = world_.create(size, *gait, first_lane(plan), GaitState<float>{}, standing.pose, standing.angles,
                                       standing.feet, standing.centre);
   if (humans_.size() <= entity.index) humans_.resize(entity.index + std::size_t{1});
-  humans_[entity.index] = std::make_unique<Human>(Human{entity, *body, *gait, {}, {}, {}});
+  humans_[entity.index] = std::make_unique<Human>(Human{entity, *body, *gait, {}, {}});
   return entity;
 }
 
@@ -173,9 +173,13 @@ Human* Simulation::find(Entity entity) {
   return human != nullptr && human->entity == entity ? human : nullptr;
 }
 
-Entity Simulation::muscle(Entity entity, MuscleGroup group, Side side) const {
+Entity Simulation::muscle(Entity entity, Muscle muscle, Side side) const {
   const Human* owner = human(entity);
-  return owner == nullptr ? Entity{} : owner->muscle[static_cast<std::size_t>(group)][side];
+  if (owner == nullptr) return {};
+  for (const HumanMuscle& m : owner->muscles) {
+    if (m.plan.muscle == muscle) return m.entity[side];
+  }
+  return {};
 }
 
 NodalView Simulation::nodal_displacement(Entity muscle) const {

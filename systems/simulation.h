@@ -40,14 +40,19 @@ struct SimulationOptions {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
+/// One of a person's muscles, by side.
+struct HumanMuscle {
+  MusclePlan plan;
+  std::array<Entity, 2> entity;
+};
+
 /// One walking person as set up at spawn; what changes is in the world.
 struct Human {
   Entity entity;
   Body body;
   Gait<float> gait;
-  std::vector<MusclePlan> muscle_plan;                             // by group; empty without muscles
-  std::array<std::array<Entity, 2>, muscle_group_count> muscle{};  // [group][side]
-  LegMuscles leg_muscles;                                          // as asked for; means nothing without muscles
+  std::vector<HumanMuscle> muscles;  // in the table's order; empty without muscles
+  LegMuscles leg_muscles;            // as asked for; means nothing without muscles
 };
 
 /// One individual's nodal displacement within its block: component c of node n (m) at first[(3·n + c)·16].
@@ -80,16 +85,16 @@ class Simulation {
   Status add_forces(Entity human);
   Status remove_forces(Entity human);
 
-  /// The effect of leg muscles: lines of action and finite-element bellies of hamstrings, quadriceps and triceps surae,
-  /// both legs, at rest where the person stands in the stride (with inertia under the load of that moment). Errors: a
-  /// stale handle, muscles that are there already, a choice out of range, a step above an individual's critical step,
-  /// which names the group and the limit; all is as it was.
+  /// The effect of leg muscles: lines of action and finite-element bellies of the muscles chosen, both legs, at rest
+  /// where the person stands in the stride (with inertia under the load of that moment). Errors: a stale handle,
+  /// muscles that are there already, a choice out of range, a step above an individual's critical step, which names the
+  /// muscle and the limit; all is as it was.
   Result<void> add_leg_muscles(Entity human, const LegMuscles& choice = {});
-  /// The same muscles otherwise from the next tick on: critical steps and substeps are computed anew, handles stay.
-  /// Displacement and velocity stay while the cells do (velocities are taken as they are, be they half a step back or
-  /// not; from static on they begin with zero); other cells begin at rest. Inertia that begins under way lets the
-  /// bellies sag. Every choice not made before is set up and kept. Errors: as above, and muscles that are not there;
-  /// all is as it was.
+  /// Other muscles, or the same otherwise, from the next tick on: critical steps and substeps are computed anew. Those
+  /// that stay keep their handles; of them displacement and velocity stay while the cells do (velocities are taken as
+  /// they are, be they half a step back or not; from static on they begin with zero); other cells begin at rest.
+  /// Inertia that begins under way lets the bellies sag. Every choice not made before is set up and kept. Errors: as
+  /// above, and muscles that are not there; all is as it was.
   Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
   Status remove_leg_muscles(Entity human);
 
@@ -109,7 +114,7 @@ class Simulation {
   /// What a person was set up as; null for a stale handle.
   const Human* human(Entity entity) const;
   /// A person's muscle; a stale handle where there is none.
-  Entity muscle(Entity human, MuscleGroup group, Side side) const;
+  Entity muscle(Entity human, Muscle muscle, Side side) const;
 
   /// A muscle's nodes where they are now, in its frame; `first` is null for a stale handle. Until the next spawn.
   NodalView nodal_displacement(Entity muscle) const;
@@ -121,6 +126,7 @@ class Simulation {
 
  private:
   void set_muscle(Entity& muscle, const Human& human, Side side, const Belly& belly, const LegMuscles& choice);
+  void set_muscles(Human& human, std::vector<Belly>& bellies, const LegMuscles& choice);
   Human* find(Entity entity);
 
   World world_;

@@ -12,6 +12,7 @@
 namespace mobil {
 namespace {
 
+constexpr Grading belly_grading{1, 1.5};                   // across, along
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
 constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
 constexpr double most_steps = 1e6;                         // a tick
@@ -44,6 +45,12 @@ Result<void> check(const LegMuscles& choice, double tick_s) {
   if (choice.drive > Drive::force || choice.method > Method::caa || choice.element > Element::one_point ||
       choice.mass > Mass::consistent) {
     return fail("a drive, method, element or mass is none of those named; take one of the enumerations' values");
+  }
+  if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
+    return fail(
+        fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
+                    " muscle_members() or find_muscle(name)",
+                    muscles().size()));
   }
   if (!choice.dt_s) return {};
   const double least = tick_s / most_steps;
@@ -86,20 +93,20 @@ double middle(double value, double width) {
   return at;
 }
 
-Error of_group(MuscleGroup group, const Error& error) {
-  return {fmt::format("{}: {}", muscle_group_name[static_cast<std::size_t>(group)], error.message)};
+Error of_muscle(Muscle muscle, const Error& error) {
+  return {fmt::format("{}: {}", muscle_name(muscle), error.message)};
 }
 
 }  // namespace
 
-Result<const BellyTemplate*> BellyLibrary::shape(MuscleGroup group, const LegMuscles& choice) {
+Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles& choice) {
   const BellyTemplate* alike = nullptr;  // but for what the tissue itself does not depend on
   for (const auto& made : templates_) {
-    if (made->group != group || !same_tissue(made->choice, choice)) continue;
+    if (made->muscle != muscle || !same_tissue(made->choice, choice)) continue;
     if (same_template(made->choice, choice)) return made.get();
     alike = made.get();
   }
-  auto mesh = bend_block(choice.cells, group_cage(group), reference_belly_m(group));
+  auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   MuscleOptions options;
   options.far_end = choice.drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;
@@ -114,10 +121,10 @@ Result<const BellyTemplate*> BellyLibrary::shape(MuscleGroup group, const LegMus
   if (!shape) return tl::unexpected(shape.error());
   auto made = std::make_unique<BellyTemplate>();
   made->choice = choice;
-  made->group = group;
+  made->muscle = muscle;
   made->axial = alike ? alike->axial : tabulate_axial_stiffness(shape->terms, lowest_ratio, highest_ratio);
   made->stretch = alike ? alike->stretch : static_stretch(shape->terms, 1, 1);
-  made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(group));
+  made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
   made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));
   templates_.push_back(std::move(made));
   return templates_.back().get();
@@ -150,21 +157,22 @@ Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTempl
 Result<std::vector<Belly>> BellyLibrary::bellies(const Body& body, const LegMuscles& choice, double tick_s) {
   if (auto ok = check(choice, tick_s); !ok) return tl::unexpected(ok.error());
   std::vector<Belly> all;
-  for (std::size_t g = 0; g < muscle_group_count; ++g) {
-    const auto group = static_cast<MuscleGroup>(g);
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (!choice.muscles[m]) continue;
+    const auto muscle = static_cast<Muscle>(m);
     Belly belly;
-    auto plan = make_muscle_plan(body, group);
-    if (!plan) return tl::unexpected(of_group(group, plan.error()));
+    auto plan = make_muscle_plan(body, muscle);
+    if (!plan) return tl::unexpected(of_muscle(muscle, plan.error()));
     belly.plan = std::move(*plan);
-    const auto made = shape(group, choice);
-    if (!made) return tl::unexpected(of_group(group, made.error()));
+    const auto made = shape(muscle, choice);
+    if (!made) return tl::unexpected(of_muscle(muscle, made.error()));
     belly.shape = *made;
     const auto count = steps(*belly.shape->shape, choice, belly.plan.scale, tick_s);
-    if (!count) return tl::unexpected(of_group(group, count.error()));
+    if (!count) return tl::unexpected(of_muscle(muscle, count.error()));
     belly.steps = *count;
     const auto solve_with = [&](Method method, std::shared_ptr<const BellySolver>& to) -> Result<void> {
       auto found = solver(*belly.shape, method, choice.mass, tick_s / belly.steps, belly.plan.scale);
-      if (!found) return tl::unexpected(of_group(group, found.error()));
+      if (!found) return tl::unexpected(of_muscle(muscle, found.error()));
       to = std::move(*found);
       return {};
     };

@@ -177,45 +177,52 @@ void Simulation::set_muscle(Entity& muscle, const Human& human, Side side, const
   }
 }
 
+/// Muscles that are there keep their handles, others begin; those that are no longer asked for go.
+void Simulation::set_muscles(Human& human, std::vector<Belly>& bellies, const LegMuscles& choice) {
+  std::vector<HumanMuscle> all;
+  for (Belly& belly : bellies) {
+    HumanMuscle own{{}, {}};
+    for (HumanMuscle& before : human.muscles) {
+      if (before.plan.muscle == belly.plan.muscle) std::swap(own.entity, before.entity);
+    }
+    for (const Side side : {right, left}) set_muscle(own.entity[side], human, side, belly, choice);
+    own.plan = std::move(belly.plan);
+    all.push_back(std::move(own));
+  }
+  for (const HumanMuscle& before : human.muscles) {
+    for (const Entity muscle : before.entity) world_.destroy(muscle);
+  }
+  human.muscles = std::move(all);
+  human.leg_muscles = choice;
+}
+
 Result<void> Simulation::add_leg_muscles(Entity entity, const LegMuscles& choice) {
   Human* human = find(entity);
   if (human == nullptr) return fail("add_leg_muscles: that person is not there (a stale handle); spawn one first");
-  if (!human->muscle_plan.empty()) return fail("add_leg_muscles: this person has leg muscles; remove them first");
+  if (!human->muscles.empty()) return fail("add_leg_muscles: this person has leg muscles; remove them first");
   auto bellies = bellies_.bellies(human->body, choice, clock_.tick_s());
   if (!bellies) return fail("add_leg_muscles: " + bellies.error().message);
-  for (Belly& belly : *bellies) {
-    auto& muscles = human->muscle[static_cast<std::size_t>(belly.plan.group)];
-    for (const Side side : {right, left}) set_muscle(muscles[side], *human, side, belly, choice);
-    human->muscle_plan.push_back(std::move(belly.plan));
-  }
-  human->leg_muscles = choice;
+  set_muscles(*human, *bellies, choice);
   return {};
 }
 
 Result<void> Simulation::change_leg_muscles(Entity entity, const LegMuscles& choice) {
   Human* human = find(entity);
   if (human == nullptr) return fail("change_leg_muscles: that person is not there (a stale handle); spawn one first");
-  if (human->muscle_plan.empty()) return fail("change_leg_muscles: this person has no leg muscles; add them first");
-  const auto bellies = bellies_.bellies(human->body, choice, clock_.tick_s());
+  if (human->muscles.empty()) return fail("change_leg_muscles: this person has no leg muscles; add them first");
+  auto bellies = bellies_.bellies(human->body, choice, clock_.tick_s());
   if (!bellies) return fail("change_leg_muscles: " + bellies.error().message);
-  for (const Belly& belly : *bellies) {
-    auto& muscles = human->muscle[static_cast<std::size_t>(belly.plan.group)];
-    for (const Side side : {right, left}) set_muscle(muscles[side], *human, side, belly, choice);
-  }
-  human->leg_muscles = choice;
+  set_muscles(*human, *bellies, choice);
   return {};
 }
 
 Status Simulation::remove_leg_muscles(Entity entity) {
   Human* human = find(entity);
   if (human == nullptr) return Status::stale_entity;
-  for (auto& group : human->muscle) {
-    for (Entity& muscle : group) {
-      if (!human->muscle_plan.empty()) world_.destroy(muscle);
-      muscle = Entity{};
-    }
+  for (const HumanMuscle& own : human->muscles) {
+    for (const Entity muscle : own.entity) world_.destroy(muscle);
   }
-  human->muscle_plan.clear();
+  human->muscles.clear();
   human->leg_muscles = {};
   return Status::ok;
 }

@@ -11,6 +11,7 @@
 #include "assets/belly_solver.h"
 #include "assets/hexahedral_mesh.h"
 #include "assets/muscle_plan.h"
+#include "assets/muscle_table.h"
 #include "assets/muscle_template.h"
 #include "components/body.h"
 #include "components/muscle.h"
@@ -26,6 +27,8 @@ enum class Drive : std::uint8_t { displacement, force };
 
 /// How leg muscles deform. Every choice is a matter of which components a muscle has: see the tags below.
 struct LegMuscles {
+  /// Which ones: the groups unless a scene comes close (muscle_members()) or calls for few.
+  MuscleSet muscles = muscle_groups();
   Drive drive = Drive::displacement;
   Method method = Method::ecd;
   Material material{};
@@ -37,7 +40,8 @@ struct LegMuscles {
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: 7 Hz with
   /// inertia, where a belly would sag by its own length without, and none otherwise.
   std::optional<double> foundation_hz{};
-  Cells cells = {2, 2, 8};  // 81 nodes, the paper's choice for real time
+  /// 81 nodes, the paper's choice for real time; meshes of {4, 4, 16}, {8, 8, 32} … have all its nodes.
+  Cells cells = {2, 2, 8};
   /// Longest step; a tick is cut into equal ones no longer than that. Left out: of ECD and ICD 0.9 of each individual's
   /// own critical step, of CAA the tick. Static has no steps.
   std::optional<double> dt_s{};
@@ -54,17 +58,17 @@ struct StaticSteps {};
 /// Floats that one block is worked on with.
 struct ScratchFloats {};
 
-/// What all people share whose muscles of a group are alike but for size.
+/// What all people share whose muscles of a kind are alike but for size.
 struct BellyTemplate {
   LegMuscles choice;
-  MuscleGroup group{};
+  Muscle muscle{};
   std::shared_ptr<const MuscleTemplate> shape;
   std::shared_ptr<const MuscleLines> lines;
   AxialStiffness axial;
   StaticStretch stretch;  // of the template's own size
 };
 
-/// One group of one person, checked and ready.
+/// One muscle of one person, checked and ready.
 struct Belly {
   MusclePlan plan;
   const BellyTemplate* shape = nullptr;
@@ -77,8 +81,8 @@ struct Belly {
 /// range of sizes: what one gets depends on one's own size alone.
 class BellyLibrary {
  public:
-  /// The groups of a person in the order of MuscleGroup. Errors: a choice out of range; a `dt_s` above a belly's
-  /// critical step, which names the group and the limit.
+  /// A person's chosen muscles in the table's order. Errors: a choice out of range; a `dt_s` above a belly's critical
+  /// step, which names the muscle and the limit.
   Result<std::vector<Belly>> bellies(const Body& body, const LegMuscles& choice, double tick_s);
 
  private:
@@ -87,7 +91,7 @@ class BellyLibrary {
     std::shared_ptr<const BellySolver> solver;
   };
 
-  Result<const BellyTemplate*> shape(MuscleGroup group, const LegMuscles& choice);
+  Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
   Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                     const BellyScale<float>& scale);
 

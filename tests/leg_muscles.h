@@ -23,7 +23,9 @@ inline std::string name(Method method) {
 
 inline std::vector<Entity> muscles_of(const Simulation& simulation, Entity human) {
   std::vector<Entity> all;
-  for (const auto& group : simulation.human(human)->muscle) all.insert(all.end(), group.begin(), group.end());
+  for (const auto& own : simulation.human(human)->muscles) {
+    all.insert(all.end(), own.entity.begin(), own.entity.end());
+  }
   return all;
 }
 

@@ -165,7 +165,7 @@ TEST(Steps, AreTakenAsAsked) {
                long_ones = join_with(simulation, person(0), {.method = Method::caa, .dt_s = 1.0}),
                thrice = join_with(simulation, person(0), {.method = Method::caa, .dt_s = tick / 2.5});
   const auto& world = simulation.world();
-  for (const auto group : {MuscleGroup::hamstrings, MuscleGroup::quadriceps, MuscleGroup::triceps_surae}) {
+  for (const auto group : {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae}) {
     EXPECT_EQ(world.get<Substeps>(simulation.muscle(explicitly, group, left)), 8U);
     EXPECT_EQ(world.get<Substeps>(simulation.muscle(hardly_less, group, left)), 9U);
     EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(once, group, left)), 1U);
@@ -181,7 +181,7 @@ TEST(Steps, AboveTheLimitAreRefusedByName) {
     const Entity probe = join_with(simulation, person(2), {.method = method});
     std::array<double, muscle_group_count> limit{};
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
-      limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<MuscleGroup>(g), right));
+      limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), right));
     }
     EXPECT_EQ(simulation.remove_leg_muscles(probe), Status::ok);
     const std::size_t lowest = static_cast<std::size_t>(std::min_element(limit.begin(), limit.end()) - limit.begin());
@@ -189,7 +189,7 @@ TEST(Steps, AboveTheLimitAreRefusedByName) {
     const auto refused = simulation.add_leg_muscles(probe, {.method = method, .dt_s = limit[lowest] * 1.0001});
     ASSERT_FALSE(refused);
     const std::string& message = refused.error().message;
-    EXPECT_NE(message.find(muscle_group_name[lowest]), std::string::npos) << message;
+    EXPECT_NE(message.find(muscle_name(static_cast<Muscle>(lowest))), std::string::npos) << message;
     char number[32];
     std::snprintf(number, sizeof number, "%.6g", limit[lowest]);
     EXPECT_NE(message.find(number), std::string::npos) << message << " " << number;
@@ -234,7 +234,7 @@ TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
     double turning = 0, swinging = 0;  // ω² and α times 0.4 m
     for (int i = 0; i < 90; ++i) {
       simulation.tick();
-      const Entity muscle = simulation.muscle(human, MuscleGroup::triceps_surae, side);
+      const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, side);
       const auto g = simulation.get<FrameLoad>(muscle)->gradient_to;
       turning = std::max(turning, 0.4 * static_cast<double>(g.x.x + g.y.y + g.z.z) / 2);
       swinging = std::max(swinging, 0.2 * size({g.z.y - g.y.z, g.x.z - g.z.x, g.y.x - g.x.y}));

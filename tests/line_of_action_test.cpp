@@ -21,7 +21,8 @@ using test::degree;
 using test::LegAngles;
 using test::posed;
 
-constexpr std::array groups = {MuscleGroup::hamstrings, MuscleGroup::quadriceps, MuscleGroup::triceps_surae};
+constexpr std::array groups = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
+                               Muscle::tibialis_anterior};
 
 struct Block {
   LegScale<Lanes<float>> scale;
@@ -41,7 +42,7 @@ void set(LegFrames<Lanes<float>>& to, const LegFrames<double>& leg, std::size_t 
   set(to.hip_m, leg.hip_m, l), set(to.knee_m, leg.knee_m, l), set(to.ankle_m, leg.ankle_m, l);
   set(to.pelvis, leg.pelvis, l), set(to.thigh, leg.thigh, l), set(to.shank, leg.shank, l), set(to.foot, leg.foot, l);
 }
-void set(Block& block, const Body& body, const LegFrames<double>& leg, MuscleGroup group, std::size_t l) {
+void set(Block& block, const Body& body, const LegFrames<double>& leg, Muscle group, std::size_t l) {
   const MusclePlan plan = make_muscle_plan(body, group).value();
   block.scale.thigh[l] = plan.leg_scale.thigh;
   block.scale.shank[l] = plan.leg_scale.shank;
@@ -91,7 +92,7 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
         const Body body = random.body();
         leg[l] = random.leg(body);
         set(block, body, leg[l], group, l);
-        expected[l] = group_length(group, leg_scale(body), leg[l]);
+        expected[l] = muscle_length(group, leg_scale(body), leg[l]);
       }
       lines_of_action(lines, block.scale, block.legs, block.line, block.end);
       Lanes<float> flexion;
@@ -305,7 +306,7 @@ TEST(LineOfAction, WalkingFarAwayOrAnotherWayChangesNoLength) {
 TEST(LineOfAction, ATickBeginsWhereTheLastOneEnded) {
   Random random;
   const Body body = make_body({1.9F, 90}).value();
-  const MuscleLines lines = make_muscle_lines(MuscleGroup::quadriceps);
+  const MuscleLines lines = make_muscle_lines(Muscle::quadriceps);
   Block block, pulled;
   EndForce<Lanes<float>> force{};
   EndDisplacement<Lanes<float>> last{};
@@ -313,8 +314,8 @@ TEST(LineOfAction, ATickBeginsWhereTheLastOneEnded) {
   for (int tick = 0; tick < 5; ++tick) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const LegFrames<double> leg = random.leg(body);
-      set(block, body, leg, MuscleGroup::quadriceps, l);
-      set(pulled, body, leg, MuscleGroup::quadriceps, l);
+      set(block, body, leg, Muscle::quadriceps, l);
+      set(pulled, body, leg, Muscle::quadriceps, l);
     }
     lines_of_action(lines, block.scale, block.legs, block.line, block.end);
     lines_of_action(lines, pulled.scale, pulled.legs, pulled.line, force);
@@ -330,11 +331,11 @@ TEST(LineOfAction, ATickBeginsWhereTheLastOneEnded) {
 
 TEST(LineOfAction, ANaNStaysInItsLane) {
   Random random;
-  const MuscleLines lines = make_muscle_lines(MuscleGroup::hamstrings);
+  const MuscleLines lines = make_muscle_lines(Muscle::hamstrings);
   Block good;
   for (std::size_t l = 0; l < lane_count; ++l) {
     const Body body = random.body();
-    set(good, body, random.leg(body), MuscleGroup::hamstrings, l);
+    set(good, body, random.leg(body), Muscle::hamstrings, l);
   }
   Block bad = good;
   bad.legs.thigh.x[3] = bad.legs.hip_m.z[3] = std::numeric_limits<float>::quiet_NaN();

@@ -28,14 +28,15 @@ using test::degree;
 using test::LegAngles;
 using test::posed;
 
-constexpr std::array groups = {MuscleGroup::hamstrings, MuscleGroup::quadriceps, MuscleGroup::triceps_surae};
+constexpr std::array groups = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
+                               Muscle::tibialis_anterior};
 
 Body body_of(float height_m, float mass_kg, Constitution constitution = Constitution::average, float meso = 4) {
   return make_body({height_m, mass_kg, {3, meso, 3}, constitution}).value();
 }
 const Body reference = body_of(1.80F, 80);
 
-MusclePlan plan_of(const Body& body, MuscleGroup group) {
+MusclePlan plan_of(const Body& body, Muscle group) {
   return make_muscle_plan(body, group).value();
 }
 
@@ -220,18 +221,18 @@ TEST(MuscleTable, LengthsFollowThePublishedModelOverItsWholeRange) {
   const LegFrames<double> rest = posed(reference, {});
   for (const auto group : groups) {
     Fit fit;
-    for (const auto& row : group == MuscleGroup::triceps_surae ? knee_ankle : hip_knee) {
+    for (const auto& row : group == Muscle::triceps_surae ? knee_ankle : hip_knee) {
       const LegAngles at{angle(row, "hip_flexion_deg"), row.at("knee_flexion_deg"),
                          angle(row, "ankle_dorsiflexion_deg")};
       double theirs = 0;
       for (const auto& m : members_of(group)) {
-        theirs += member_weight(m) * member_length(m, scale, rest) * published(m, at);
+        theirs += member_weight(members_of(group), m) * member_length(m, scale, rest) * published(m, at);
       }
-      const double rest_length = group_length(group, scale, rest);
-      fit.add(group_length(group, scale, posed(reference, at)) / rest_length, theirs / rest_length);
+      const double rest_length = muscle_length(group, scale, rest);
+      fit.add(muscle_length(group, scale, posed(reference, at)) / rest_length, theirs / rest_length);
     }
-    EXPECT_LT(fit.rms(), 0.02) << muscle_group_name[static_cast<std::size_t>(group)];
-    EXPECT_GT(fit.correlation(), 0.95) << muscle_group_name[static_cast<std::size_t>(group)];
+    EXPECT_LT(fit.rms(), 0.02) << muscle_name(group);
+    EXPECT_GT(fit.correlation(), 0.95) << muscle_name(group);
   }
 }
 
@@ -253,9 +254,8 @@ TEST(MuscleTable, VolumesAreThePublishedOnes) {
   }
   for (const auto group : groups) {
     double sum = 0, weights = 0;
-    for (const auto& m : members_of(group)) sum += published.at(m.name), weights += member_weight(m);
-    EXPECT_NEAR(1e6 * plan_of(reference, group).volume_m3 / sum, 1, 0.15)
-        << muscle_group_name[static_cast<std::size_t>(group)];
+    for (const auto& m : members_of(group)) sum += published.at(m.name), weights += member_weight(members_of(group), m);
+    EXPECT_NEAR(1e6 * plan_of(reference, group).volume_m3 / sum, 1, 0.15) << muscle_name(group);
     EXPECT_NEAR(weights, 1, 1e-12);
   }
 }
@@ -301,9 +301,8 @@ RC_GTEST_PROP(MusclePlan, ATallerBodyHasTheSameLegsLonger, ()) {
 }
 
 TEST(MusclePlan, BelliesLieWhereTheAnatomyHasThem) {
-  const std::map<MuscleGroup, std::pair<double, double>> span = {{MuscleGroup::hamstrings, {0.26, 0.30}},
-                                                                 {MuscleGroup::quadriceps, {0.28, 0.33}},
-                                                                 {MuscleGroup::triceps_surae, {0.22, 0.28}}};
+  const std::map<Muscle, std::pair<double, double>> span = {
+      {Muscle::hamstrings, {0.26, 0.30}}, {Muscle::quadriceps, {0.28, 0.33}}, {Muscle::triceps_surae, {0.22, 0.28}}};
   const LegFrames<double> leg = anatomical_leg(reference);
   for (const auto group : groups) {
     const MusclePlan plan = plan_of(reference, group);
@@ -317,15 +316,15 @@ TEST(MusclePlan, BelliesLieWhereTheAnatomyHasThem) {
     EXPECT_LT(z.y, -0.95);
     EXPECT_GT(y.z, 0.95);
     // Behind the thigh, in front of it, behind the shank; from the middle of the cage.
-    const CageStation& middle = group_cage(group)[cage_station_count / 2];
+    const CageStation& middle = muscle_cage(group)[cage_station_count / 2];
     const Vec centre =
         plan.start_m + rotated(plan.rotation, {static_cast<double>(middle.offset_x_m),
                                                static_cast<double>(middle.offset_y_m), plan.belly_length_m / 2});
-    const double upper = group == MuscleGroup::triceps_surae ? leg.knee_m.y : leg.hip_m.y;
-    const double lower = group == MuscleGroup::triceps_surae ? leg.ankle_m.y : leg.knee_m.y;
+    const double upper = group == Muscle::triceps_surae ? leg.knee_m.y : leg.hip_m.y;
+    const double lower = group == Muscle::triceps_surae ? leg.ankle_m.y : leg.knee_m.y;
     EXPECT_LT(centre.y, upper);
     EXPECT_GT(centre.y, lower);
-    if (group == MuscleGroup::quadriceps) {
+    if (group == Muscle::quadriceps) {
       EXPECT_GT(centre.z, 0.01);
     } else {
       EXPECT_LT(centre.z, -0.01);
@@ -338,7 +337,7 @@ TEST(MusclePlan, TheCageHoldsItsMembersWithATenthToSpare) {
   const LegFrame leg = leg_frame(reference);
   for (const auto group : groups) {
     const MusclePlan plan = plan_of(reference, group);
-    const CageStations& cage = group_cage(group);
+    const CageStations& cage = muscle_cage(group);
     std::size_t inside = 0;
     for (const auto& m : members_of(group)) {
       for (const auto& s : m.sections) {
@@ -369,7 +368,7 @@ TEST(MusclePlan, TheCageHoldsItsMembersWithATenthToSpare) {
 
 TEST(MusclePlan, TheCageIsSmoothAndItsElementsWellShaped) {
   for (const auto group : groups) {
-    const CageStations& cage = group_cage(group);
+    const CageStations& cage = muscle_cage(group);
     float widest_x = 0, widest_y = 0;
     for (const auto& s : cage) widest_x = std::max(widest_x, s.semi_x_m), widest_y = std::max(widest_y, s.semi_y_m);
     for (std::size_t i = 0; i < cage.size(); ++i) {
@@ -396,10 +395,10 @@ TEST(MusclePlan, StiffnessIsThePapersThirdEquation) {
 }
 
 TEST(MusclePlan, ABodyThatWasNeverMadeIsRefused) {
-  const auto plan = make_muscle_plan(Body{}, MuscleGroup::quadriceps);
+  const auto plan = make_muscle_plan(Body{}, Muscle::quadriceps);
   ASSERT_FALSE(plan);
   EXPECT_NE(plan.error().message.find("must be positive"), std::string::npos);
-  EXPECT_FALSE(make_muscle_plan(reference, static_cast<MuscleGroup>(7)));
+  EXPECT_FALSE(make_muscle_plan(reference, static_cast<Muscle>(99)));
 }
 
 }  // namespace

@@ -210,8 +210,8 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
     double asked = 0, missed = 0;
     for (int i = 0; i < 300; ++i) {
       simulation.tick();
-      for (const auto& group : simulation.human(human)->muscle) {
-        for (const Entity muscle : group) {
+      for (const auto& own : simulation.human(human)->muscles) {
+        for (const Entity muscle : own.entity) {
           const auto line = *simulation.get<LineOfAction>(muscle);
           const auto report = *simulation.get<BellyReport>(muscle);
           const double change = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
@@ -260,13 +260,14 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 6U);
     EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
     std::vector<Entity> muscles;
-    for (const auto& group : simulation.human(human)->muscle) muscles.insert(muscles.end(), group.begin(), group.end());
+    for (const auto& own : simulation.human(human)->muscles)
+      muscles.insert(muscles.end(), own.entity.begin(), own.entity.end());
     for (const Entity muscle : muscles) {
       EXPECT_TRUE(simulation.world().alive(muscle));
       EXPECT_EQ(simulation.get<MuscleOwner>(muscle)->index, human.index);
       EXPECT_EQ(simulation.nodal_displacement(muscle).nodes, 81U);
     }
-    EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, MuscleGroup::quadriceps, left)));
+    EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, Muscle::quadriceps, left)));
     simulation.tick();
     EXPECT_EQ(simulation.remove_leg_muscles(human), Status::ok);
     EXPECT_EQ(rows(simulation.world()), 2U);
@@ -275,7 +276,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
       EXPECT_EQ(simulation.get<LineOfAction>(muscle).error(), Status::stale_entity);
       EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
     }
-    EXPECT_TRUE(simulation.human(human)->muscle_plan.empty());
+    EXPECT_TRUE(simulation.human(human)->muscles.empty());
     simulation.tick();
   }
 }
@@ -318,7 +319,7 @@ TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
 TEST(Handles, OfTheGoneAreStaleEverywhere) {
   Simulation simulation;
   const Entity human = join(simulation, person(0)), other = join(simulation, person(1));
-  const Entity muscle = simulation.muscle(human, MuscleGroup::hamstrings, right);
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, right);
   const auto before = hash_human(simulation, other);
   ASSERT_EQ(simulation.despawn(human), Status::ok);
   EXPECT_EQ(rows(simulation.world()), 7U);
@@ -330,13 +331,13 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
     EXPECT_FALSE(simulation.add_leg_muscles(gone));
     EXPECT_EQ(simulation.human(gone), nullptr);
     EXPECT_EQ(simulation.get<Pose>(gone).error(), Status::stale_entity);
-    EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, MuscleGroup::hamstrings, right)));
+    EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, right)));
   }
   EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
   EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
   EXPECT_EQ(simulation.human(muscle), nullptr);
   // A muscle is no person, though it lives.
-  const Entity living = simulation.muscle(next, MuscleGroup::hamstrings, left);
+  const Entity living = simulation.muscle(next, Muscle::hamstrings, left);
   ASSERT_TRUE(simulation.world().alive(living));
   EXPECT_EQ(simulation.human(living), nullptr);
   EXPECT_EQ(simulation.despawn(living), Status::stale_entity);

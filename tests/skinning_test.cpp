@@ -153,7 +153,7 @@ TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
   const RestFrame frame{to_float(knee + Vec{0, -0.01, -0.02}), rotation({1, 0, 0}, 1.5708)};
   std::vector<MuscleSurface*> group;
   for (auto& m : muscles) {
-    if (m.group == MuscleGroup::triceps_surae) group.push_back(&m.surface);
+    if (m.group == Muscle::triceps_surae) group.push_back(&m.surface);
   }
   ASSERT_EQ(group.size(), 4U);
   bind_surfaces(group, base.mesh, frame, blend_m);

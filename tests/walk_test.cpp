@@ -107,7 +107,10 @@ TEST_P(WalkOf, AllPromisedColumnsAndRowsAreThere) {
   for (std::size_t i = 0; i < each; ++i) kinds.insert(muscles.text(i, "side") + " " + muscles.text(i, "group"));
   EXPECT_EQ(kinds.size(), each);
   for (const auto& side : sides) {
-    for (const auto group : muscle_group_name) EXPECT_TRUE(kinds.contains(fmt::format("{} {}", side, group))) << group;
+    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+      const auto group = muscle_name(static_cast<Muscle>(g));
+      EXPECT_TRUE(kinds.contains(fmt::format("{} {}", side, group))) << group;
+    }
   }
 }
 

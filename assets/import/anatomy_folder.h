@@ -26,7 +26,7 @@ enum class AnatomyKind : std::uint8_t { bone, muscle, tendon, skin };
 struct AnatomyPart {
   SurfaceMesh mesh;  // named by its file's stem
   AnatomyKind kind = AnatomyKind::bone;
-  std::optional<MuscleGroup> group;  // of a muscle or tendon that a group's cage drives
+  std::optional<Muscle> group;  // of a muscle or tendon that a group's cage drives
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;  // a bone's own segment in both
   std::optional<Vec3<float>> origin_m, insertion_m;                    // centroids of the attachments
   bool midline = false;  // the mesh spans both sides and has no mirror image
@@ -54,7 +54,7 @@ struct AnatomyOptions {
   unsigned threads = 2;
 };
 
-/// Reads the folder. Muscles of the groups in `muscle_group_name` are wanted, the tendon goes with triceps_surae, and
+/// Reads the folder. Muscles of the table's groups are wanted, the tendon goes with triceps_surae, and
 /// the rest is as `options` says; left-hand rows are passed over. A closed mesh that is wound inwards is turned. Fails
 /// with one line naming file and row for: a missing folder, file, column or landmark; a number that is not one; a mesh
 /// that cannot be read (see read_mesh), has another count of triangles than the manifest says, is open where the

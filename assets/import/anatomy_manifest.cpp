@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "assets/csv_table.h"
+#include "assets/muscle_table.h"
 
 namespace mobil {
 namespace {
@@ -51,22 +52,23 @@ std::string known_bones() {
   return names;
 }
 
-std::optional<MuscleGroup> group_of(std::string_view name) {
-  const auto found = std::find(muscle_group_name.begin(), muscle_group_name.end(), name);
-  if (found == muscle_group_name.end()) return std::nullopt;
-  return static_cast<MuscleGroup>(found - muscle_group_name.begin());
+std::optional<Muscle> group_of(std::string_view name) {
+  const auto found = find_muscle(name);
+  return found && muscle_groups()[static_cast<std::size_t>(*found)] ? found : std::nullopt;
 }
 
 /// Where a muscle of this group begins and ends when the manifest does not say.
-std::pair<Segment, Segment> usual_ends(AnatomyKind kind, std::optional<MuscleGroup> group) {
+std::pair<Segment, Segment> usual_ends(AnatomyKind kind, std::optional<Muscle> group) {
   using enum Segment;
   if (kind == AnatomyKind::tendon) return {shank_right, foot_right};
   if (kind == AnatomyKind::skin || !group) return {pelvis, foot_right};
   switch (*group) {
-    case MuscleGroup::quadriceps:
+    case Muscle::quadriceps:
       return {pelvis, patella_right};
-    case MuscleGroup::triceps_surae:
+    case Muscle::triceps_surae:
       return {thigh_right, foot_right};
+    case Muscle::tibialis_anterior:
+      return {shank_right, foot_right};
     default:
       return {pelvis, shank_right};
   }
@@ -198,7 +200,7 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& folder, double
     const auto group = cell(*table, row, "group");
     read.part.kind = *kind;
     if (*kind == AnatomyKind::muscle) read.part.group = group_of(group);
-    if (*kind == AnatomyKind::tendon) read.part.group = MuscleGroup::triceps_surae;
+    if (*kind == AnatomyKind::tendon) read.part.group = Muscle::triceps_surae;
     if (!wanted(read.part, group, options)) continue;
     read.part.midline = side == "mid";
     read.part.mesh.name = std::filesystem::path(file).stem().string();

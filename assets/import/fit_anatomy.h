@@ -12,10 +12,10 @@
 
 namespace mobil {
 
-/// A right-hand muscle (or the tendon) with the group whose cage drives it, and its attachments where they are known,
-/// m, in the frame of the surface.
+/// A right-hand muscle (or the tendon) with the meshes that can drive it, its own muscle's or its group's, and its
+/// attachments where they are known, m, in the frame of the surface.
 struct FittedMuscle {
-  MuscleGroup group;
+  Muscle group, muscle;
   MuscleSurface surface;
   std::optional<Vec3<float>> origin_m, insertion_m;
 };

@@ -108,7 +108,7 @@ Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const Le
     const MuscleLines::Member& member = lines.members[m];
     const WideVec end = path_end(leg, member);
     mean = fma(wide(member.weight), path_length(leg, member, end), mean);
-    if (m == lines.towards) target = end;
+    if (m == lines.towards) target = lines.point < member.path.size() ? place(leg, member.path[lines.point]) : end;
   }
   const Wide elongation = mean - load(line.rest_length_m);
   store(mean, line.length_m);
@@ -237,18 +237,13 @@ void gather(Word word, Side side, LegFrames<Lanes<float>>& legs, std::size_t lan
 
 }  // namespace
 
-MuscleLines make_muscle_lines(MuscleGroup group) {
-  const GroupLine& drawn = group_line(group);
-  MuscleLines lines{{}, point(drawn.anchor), 0, drawn.along, static_cast<float>(drawn.start_m)};
-  for (const auto& muscle : members_of(group)) {
-    if (muscle.name == drawn.towards) lines.towards = lines.members.size();
-    lines.members.push_back(member(muscle, member_weight(muscle)));
-  }
+MuscleLines make_muscle_lines(Muscle muscle) {
+  const MuscleRow& row = muscle_row(muscle);
+  const DrawnLine& drawn = row.drawn;
+  MuscleLines lines{{},          point(drawn.anchor), drawn.towards,
+                    drawn.point, drawn.along,         static_cast<float>(drawn.start_m)};
+  for (const auto& m : row.members) lines.members.push_back(member(m, member_weight(row.members, m)));
   return lines;
-}
-
-MuscleLines make_muscle_lines(const MemberMuscle& muscle) {
-  return {{member(muscle, 1)}, point(muscle.path.front()), 0, muscle.path.front().bone, 0};
 }
 
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {

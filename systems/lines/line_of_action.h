@@ -11,7 +11,7 @@
 
 namespace mobil {
 
-/// The paths of a group, or of one member, as the kernel reads them: the table's rows in single precision, at the
+/// The paths of a muscle's members as the kernel reads them: the table's rows in single precision, at the
 /// published leg's size. Immutable, the same for everybody.
 struct MuscleLines {
   struct Point {
@@ -30,17 +30,16 @@ struct MuscleLines {
     Vec3<float> kneecap_at_zero, kneecap_slope, kneecap_cubic[kneecap_knots];  // a spline: assets/muscle_plan.h
   };
   std::vector<Member> members;
-  // The drawn line: from the anchor towards the end of members[towards]; the belly begins start_m from the anchor.
+  // The drawn line: from the anchor towards a point of members[towards], or what its path ends on where it has no such
+  // point; the belly begins start_m from the anchor.
   Point anchor;
-  std::size_t towards;
+  std::size_t towards, point;
   LegBone along;  // the bone that start_m scales with
   float start_m;
 };
 
-/// A group's lines: its length is the volume-weighted mean of its members'.
-MuscleLines make_muscle_lines(MuscleGroup group);
-/// One member alone, drawn along the straight line from its origin to its end.
-MuscleLines make_muscle_lines(const MemberMuscle& muscle);
+/// A muscle's lines: its length is the volume-weighted mean of its members'.
+MuscleLines make_muscle_lines(Muscle muscle);
 
 /// Copies one leg of one human into a lane: joint centres and rotations of thigh, shank and foot, and the pelvis'
 /// rotation; a left leg as its mirror image. `pose`: the human's lane of a block of Pose, that is its first word, the

@@ -1,10 +1,7 @@
 #pragma once
 // One muscle group of one body: its size, its line at rest, its belly in the anatomical position.
 
-#include <array>
-
-#include <span>
-
+#include "assets/muscle_path.h"
 #include "assets/muscle_table.h"
 #include "components/body.h"
 #include "components/leg_frames.h"
@@ -48,27 +45,5 @@ double reference_belly_m(Muscle muscle);
 /// point of mesomorphy above 4 (or less, below), within 0.7–1.6. Our choice: the published volumes do not tell them
 /// apart.
 double physique_factor(const BodyRequest& request);
-
-/// A leg's bones in the anatomical position, the body standing at x = z = 0.
-LegFrames<double> anatomical_leg(const Body& body);
-/// The body's thigh, shank and leg over the published ones.
-LegScale<double> leg_scale(const Body& body);
-
-/// Length (m) of one member's path, in double: what the tick's kernel computes in lanes.
-double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
-/// Volume-weighted mean of a muscle's members.
-double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
-/// The share of one of a row's members in its volume in the reference body: its weight in the mean.
-double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle);
-
-/// Knee flexion (rad) from the rotations of the two bones.
-double knee_flexion(const LegFrames<double>& leg);
-
-/// Natural cubic spline through a kneecap's track as t₀ + t₁u + Σ cₖ·max(u − k, 0)³, u = flexion / 20°.
-struct KneecapSpline {
-  Vec3<double> at_zero, slope;
-  std::array<Vec3<double>, kneecap_knots> cubic;
-};
-KneecapSpline kneecap_spline(const KneecapTrack& track);
 
 }  // namespace mobil

@@ -169,7 +169,7 @@ HWY_AFTER_NAMESPACE();
 #include <iterator>
 #include <numbers>
 
-#include "assets/muscle_plan.h"
+#include "assets/muscle_path.h"
 #include "components/segments.h"
 #include "engine/geometry.h"
 

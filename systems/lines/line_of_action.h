@@ -27,7 +27,7 @@ struct MuscleLines {
     std::vector<Point> path;
     float weight;
     bool on_kneecap;
-    Vec3<float> kneecap_at_zero, kneecap_slope, kneecap_cubic[kneecap_knots];  // a spline: assets/muscle_plan.h
+    Vec3<float> kneecap_at_zero, kneecap_slope, kneecap_cubic[kneecap_knots];  // a spline: assets/muscle_path.h
   };
   std::vector<Member> members;
   // The drawn line: from the anchor towards a point of members[towards], or what its path ends on where it has no such

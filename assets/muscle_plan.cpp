@@ -79,7 +79,7 @@ Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
   plan.belly_length_m = line.belly_m * along_scale(line, scale);
   const double start = line.start_m * along_scale(line, scale);
   plan.tendon_length_m = length(end - anchor) - start - plan.belly_length_m;
-  plan.volume_m3 = physique_factor(request) *
+  plan.volume_m3 = static_cast<double>(body.composition.muscle_factor) *
                    volume_of(muscle, static_cast<double>(request.height_m), static_cast<double>(request.mass_kg));
   plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
   plan.start_m = anchor + start * z;

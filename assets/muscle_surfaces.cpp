@@ -216,7 +216,7 @@ GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
 std::vector<double> member_volumes_m3(const Body& body) {
   std::vector<double> volume;
   for (const MemberMuscle& m : member_muscles()) {
-    volume.push_back(1e-6 * physique_factor(body.request) *
+    volume.push_back(1e-6 * static_cast<double>(body.composition.muscle_factor) *
                      handsfield_volume_cm3(m, static_cast<double>(body.request.height_m),
                                            static_cast<double>(body.request.mass_kg)));
   }

@@ -11,11 +11,10 @@ namespace mobil {
 
 enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
 
-/// Heath–Carter somatotype, each part from 1 (little) to about 7 (much): fat, muscle and bone, slenderness. As it
-/// stands here it counts as not asked for: fat and slenderness then follow from height and mass.
+/// Heath–Carter somatotype, each part from 1 (little) to about 7 (much): fat, muscle and bone, slenderness. With
+/// endomorphy and ectomorphy as they stand here, these count as not asked for: they then follow from height and mass.
 struct Biotype {
   float endo = 3, meso = 4, ecto = 3;
-  friend bool operator==(const Biotype&, const Biotype&) = default;
 };
 
 /// What a caller asks of a body. Ranges: height 1.2–2.2 m, mass 30–200 kg and at that height what a living body may

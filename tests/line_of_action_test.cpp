@@ -11,6 +11,7 @@
 #include "assets/anthropometry.h"
 #include "assets/muscle_plan.h"
 #include "tests/leg_pose.h"
+#include "tests/people.h"
 
 namespace mobil {
 namespace {
@@ -64,7 +65,8 @@ struct Random {
   std::mt19937 engine{7};
   double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
   Body body() {
-    return make_body({static_cast<float>(between(1.2, 2.2)), static_cast<float>(between(30, 200))}).value();
+    const auto height = static_cast<float>(between(1.2, 2.2));
+    return make_body({height, living_mass(height, between(0, 1))}).value();
   }
   LegAngles angles() { return {between(-30, 100), between(-5, 125), between(-40, 30)}; }
   Quat<double> turn(double most_deg) {

@@ -19,6 +19,7 @@
 #include "assets/muscle_plan.h"
 #include "assets/muscle_table.h"
 #include "tests/leg_pose.h"
+#include "tests/people.h"
 
 namespace mobil {
 namespace {
@@ -262,7 +263,7 @@ TEST(MuscleTable, VolumesAreThePublishedOnes) {
 
 RC_GTEST_PROP(MusclePlan, VolumeGrowsWithHeightAndWithMass, ()) {
   const auto height = static_cast<float>(*rc::gen::inRange(1200, 2190)) / 1000;
-  const auto mass = static_cast<float>(*rc::gen::inRange(30, 199));
+  const float mass = living_mass(height + 0.01F, *rc::gen::inRange(0, 951) / 1000.0);
   for (const auto group : groups) {
     const double volume = plan_of(body_of(height, mass), group).volume_m3;
     RC_ASSERT(volume > 0);
@@ -287,7 +288,7 @@ TEST(MusclePlan, SectionGrowsWithPhysique) {
 
 RC_GTEST_PROP(MusclePlan, ATallerBodyHasTheSameLegsLonger, ()) {
   const auto height = static_cast<float>(*rc::gen::inRange(1200, 2200)) / 1000;
-  const auto mass = static_cast<float>(*rc::gen::inRange(30, 200));
+  const float mass = living_mass(height, *rc::gen::inRange(0, 1001) / 1000.0);
   const double by = static_cast<double>(height) / 1.80;
   for (const auto group : groups) {
     const MusclePlan own = plan_of(body_of(height, mass), group), other = plan_of(reference, group);

@@ -4,10 +4,17 @@
 #include <cmath>
 #include <cstddef>
 
+#include "assets/body_composition.h"
 #include "components/body.h"
 #include "components/gait.h"
 
 namespace mobil {
+
+/// From the least to the most that a living body of that height weighs, kg: `part` 0 to 1.
+inline float living_mass(float height_m, double part) {
+  const auto [low, high] = living_mass_kg(static_cast<double>(height_m));
+  return static_cast<float>(low + part * (high - low));
+}
 
 struct Person {
   BodyRequest body;

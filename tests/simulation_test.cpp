@@ -166,7 +166,7 @@ Person any_person() {
   };
   Person p;
   p.body.height_m = uniform(1.2, 2.2);
-  p.body.mass_kg = uniform(30, 200);
+  p.body.mass_kg = living_mass(p.body.height_m, static_cast<double>(uniform(0, 1)));
   p.body.biotype = {uniform(0.1, 12), uniform(0.1, 12), uniform(0.1, 12)};
   p.body.constitution = static_cast<Constitution>(*rc::gen::inRange(0, 4));
   p.gait.speed_m_s = uniform(0.4, 2.2);
@@ -234,7 +234,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
 TEST(Effects, EveryBodyInRangeGetsMuscles) {
   Simulation simulation;
   for (const float height : {1.2F, 2.2F}) {
-    for (const float mass : {30.0F, 200.0F}) {
+    for (const float mass : {living_mass(height, 0), living_mass(height, 1)}) {
       for (const float meso : {0.1F, 12.0F}) {
         for (const auto build :
              {Constitution::thin, Constitution::average, Constitution::athletic, Constitution::heavy}) {

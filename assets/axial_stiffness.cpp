@@ -33,27 +33,22 @@ double dot(const Vector& a, const Vector& b) {
   return sum;
 }
 
-}  // namespace
-
-StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along) {
+/// u such that K·u = `load` where it is free to move, from a u that has the prescribed ends.
+void solve(const StiffnessTerms& terms, FarEnd end, double across, double along, const Vector& load, Vector& u) {
   const Cells& cells = terms.cells;
-  const std::size_t size = 3 * std::size_t{node_count(cells)};
   const auto hold = [&](Vector& v) {  // zero where the displacement is prescribed
     for (std::uint32_t n = 0; n < node_count(cells); ++n) {
       for (std::size_t c = 0; c < 3; ++c) {
-        if (!moves(cells, FarEnd::held, n, c)) v[3 * n + c] = 0;
+        if (!moves(cells, end, n, c)) v[3 * n + c] = 0;
       }
     }
   };
-  // Start from the uniform stretch, which already has the prescribed ends.
-  Vector u(size, 0.0), r(size), p, q(size);
-  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    u[3 * node_index(cells, i, j, k) + 2] = static_cast<double>(k) / cells[2];
-  });
+  const std::size_t size = u.size();
+  Vector r(size), q(size);
   multiply(terms, across, along, u, r);
-  for (double& x : r) x = -x;
+  for (std::size_t i = 0; i < size; ++i) r[i] = load[i] - r[i];
   hold(r);
-  p = r;
+  Vector p = r;
   double rr = dot(r, r);
   const double enough = 1e-20 * rr;
   for (std::size_t step = 0; step < 4 * size && rr > enough; ++step) {
@@ -68,22 +63,45 @@ StaticStretch static_stretch(const StiffnessTerms& terms, double across, double 
     for (std::size_t i = 0; i < size; ++i) p[i] = r[i] + next / rr * p[i];
     rr = next;
   }
-  multiply(terms, across, along, u, q);
+}
+
+}  // namespace
+
+StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along) {
+  const Cells& cells = terms.cells;
+  const std::size_t size = 3 * std::size_t{node_count(cells)};
+  // The uniform stretch already has the prescribed ends.
+  Vector u(size, 0.0), force(size);
+  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    u[3 * node_index(cells, i, j, k) + 2] = static_cast<double>(k) / cells[2];
+  });
+  solve(terms, FarEnd::held, across, along, Vector(size, 0.0), u);
+  multiply(terms, across, along, u, force);
   StaticStretch stretch{std::move(u), 0};
   for (std::uint32_t n = first_insertion_node(cells); n < node_count(cells); ++n) {
-    stretch.stiffness_n_per_m += q[3 * n + 2];
+    stretch.stiffness_n_per_m += force[3 * n + 2];
   }
   return stretch;
 }
 
-AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, double lowest, double highest) {
+double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double across, double along) {
+  const std::size_t size = 3 * std::size_t{node_count(terms.cells)};
+  const std::size_t far = first_insertion_node(terms.cells);
+  Vector u(size, 0.0), load(size, 0.0);
+  for (std::size_t i = 0; i < far_share.size(); ++i) load[3 * (far + i) + 2] = static_cast<double>(far_share[i]);
+  solve(terms, FarEnd::sliding, across, along, load, u);
+  return 1 / dot(load, u);
+}
+
+AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,
+                                        double highest) {
   const auto steps =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::log(highest / lowest) / std::log(1.2))));
   AxialStiffness table;
   for (std::size_t i = 0; i <= steps; ++i) {
     const double r = lowest * std::pow(highest / lowest, static_cast<double>(i) / static_cast<double>(steps));
     table.ratio.push_back(r);
-    table.per_ratio.push_back(static_stretch(terms, r, 1.0).stiffness_n_per_m / (r * r));
+    table.per_ratio.push_back(pulled_stiffness(terms, far_share, r, 1.0) / (r * r));
   }
   return table;
 }

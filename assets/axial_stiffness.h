@@ -1,6 +1,7 @@
 #pragma once
 // How stiff a belly is along its line: the k of equations 2 and 3, taken from the mesh itself.
 
+#include <span>
 #include <vector>
 
 #include "assets/stiffness_terms.h"
@@ -18,14 +19,19 @@ struct StaticStretch {
 /// By conjugate gradients to 1e-10; the same bits on every machine.
 StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along);
 
-/// The axial stiffness of every individual of a template: `across` · κ(r), r = across / along, with κ(r) / r tabulated.
+/// How stiff the same belly is where its far face may warp: the total of a uniform traction along z over the mean
+/// displacement along z that it makes, N/m. `far_share`: part of the traction on each node of the far face, sum 1.
+double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double across, double along);
+
+/// That stiffness of every individual of a template: `across` · κ(r), r = across / along, with κ(r) / r tabulated.
 struct AxialStiffness {
   std::vector<double> ratio;      // ascending
   std::vector<double> per_ratio;  // κ(r) / r there, N/m
 };
 
 /// Tabulates r from `lowest` to `highest` (0 < lowest ≤ highest) in steps of at most 20 %.
-AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, double lowest, double highest);
+AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,
+                                        double highest);
 
 /// N/m; ratios outside the table take its end.
 double axial_stiffness(const AxialStiffness& table, double across, double along);

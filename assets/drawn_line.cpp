@@ -10,7 +10,7 @@ namespace {
 
 using namespace geometry;
 
-constexpr double belly_share = 0.125;  // of the largest section
+constexpr double belly_share = 0.2;  // of the largest section
 
 /// A millimetre of the measured man in a leg of the published size, m.
 constexpr double unit_m = published_leg::leg_m / (fraction::thigh + fraction::shank) / reference_height_mm;
@@ -76,7 +76,7 @@ DrawnLine line_through_belly(const MemberMuscle& muscle) {
   Vec target = place(muscle.kneecap ? PathPoint{LegBone::shank, muscle.kneecap->front()} : muscle.path.back());
   for (std::size_t i = 1; i < muscle.path.size(); ++i) {
     const PathPoint& p = muscle.path[i];
-    if (p.bone == line.anchor.bone && bends_always(p) && place(p).y < belly.bottom.y) {
+    if (p.bone == line.anchor.bone && p.hold == PathHold::fixed && place(p).y < belly.bottom.y) {
       line.point = i;
       target = place(p);
     }

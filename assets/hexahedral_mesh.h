@@ -79,7 +79,7 @@ struct Grading {
 Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const Grading& grading = {});
 
 /// A belly along z from 0 to `length_m`: rounded cross-sections through the stations (t ascending from 0 to 1, linear
-/// between them). A section blends a square grid with its elliptical image (3 : 1), so that its edges' middles touch
+/// between them). A section blends a square grid with its elliptical image (2 : 3), so that its edges' middles touch
 /// the ellipse and its corners stay elements. Fails on a bad station or grading, or, naming the element, where one
 /// would be inverted or flat.
 Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,

@@ -1,4 +1,4 @@
-// The block that follows and encloses a muscle's surfaces in the reference body.
+// The block that follows a muscle's surfaces in the reference body.
 
 #include <algorithm>
 #include <array>
@@ -111,10 +111,19 @@ Stations follow(const std::vector<Vec>& points, double spacing) {
     tight[i] = enclose(near);
   }
   for (std::size_t i = 0; i <= last; ++i) {
-    const Station ends = mix(tight[i > 0 ? i - 1 : 0], tight[std::min(i + 1, last)], 0.5);
-    smooth[i] = mix(tight[i], ends, 0.5);
-    const double half = std::hypot((smooth[i].xx - smooth[i].yy) / 2, smooth[i].xy);
-    middle = std::max(middle, (smooth[i].xx + smooth[i].yy) / 2 - half);
+    smooth[i] = mix(tight[i], mix(tight[i > 0 ? i - 1 : 0], tight[std::min(i + 1, last)], 0.5), 0.5);
+  }
+  // Centres further: elements shear where they bend.
+  for (int pass = 0; pass < 3; ++pass) {
+    const Stations once = smooth;
+    for (std::size_t i = 0; i <= last; ++i) {
+      const Station &before = once[i > 0 ? i - 1 : 0], &after = once[std::min(i + 1, last)];
+      smooth[i].x = (before.x + 2 * once[i].x + after.x) / 4;
+      smooth[i].y = (before.y + 2 * once[i].y + after.y) / 4;
+    }
+  }
+  for (const Station& s : smooth) {
+    middle = std::max(middle, (s.xx + s.yy) / 2 - std::hypot((s.xx - s.yy) / 2, s.xy));
   }
   for (Station& s : smooth) widen(s, thinnest_end * middle);
   return smooth;
@@ -145,20 +154,11 @@ double roll(const Stations& stations) {
   return turn > right / 2 ? turn - right : turn < -right / 2 ? turn + right : turn;
 }
 
-CageStations make_cage(Muscle muscle) {
-  const Body body = make_body({.height_m = static_cast<float>(reference_body_height_m),
-                               .mass_kg = static_cast<float>(reference_body_mass_kg)})
-                        .value();
-  const MusclePlan plan = make_muscle_plan(body, muscle).value();
-  const std::vector<Vec> points = outline(body, plan);
-  const double spacing = plan.belly_length_m / last;
-  Stations stations = follow(points, spacing);
-  surround(points, spacing, stations);
-
-  const double c = std::cos(roll(stations)), n = std::sin(roll(stations));
+CageStations stations_of(const Stations& ellipses) {
+  const double turn = roll(ellipses), c = std::cos(turn), n = std::sin(turn);
   CageStations cage{};
   for (std::size_t i = 0; i <= last; ++i) {
-    const Station& s = stations[i];
+    const Station& s = ellipses[i];
     const auto f = [](double value) { return static_cast<float>(value); };
     cage[i] = {f(static_cast<double>(i) / last),
                f(s.x),
@@ -169,6 +169,29 @@ CageStations make_cage(Muscle muscle) {
                f(s.xy * c + s.yy * n)};
   }
   return cage;
+}
+
+/// The same sections, all as much larger or smaller as gives the block that volume, m³.
+void fill(double volume_m3, double length_m, Stations& stations) {
+  const double now = volume(bend_block({2, 2, 2 * last}, stations_of(stations), length_m).value());
+  const double factor = std::sqrt(volume_m3 / now);
+  for (Station& s : stations) s.xx *= factor, s.xy *= factor, s.yy *= factor;
+}
+
+CageStations make_cage(Muscle muscle) {
+  const Body body = make_body({.height_m = static_cast<float>(reference_body_height_m),
+                               .mass_kg = static_cast<float>(reference_body_mass_kg)})
+                        .value();
+  const MusclePlan plan = make_muscle_plan(body, muscle).value();
+  const std::vector<Vec> points = outline(body, plan);
+  const double spacing = plan.belly_length_m / last;
+  Stations stations = follow(points, spacing);
+  if (members_of(muscle).size() > 1) {
+    surround(points, spacing, stations);
+  } else {
+    fill(plan.volume_m3, plan.belly_length_m, stations);
+  }
+  return stations_of(stations);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 
+#include "assets/muscle_table.h"
 #include "demo/gait_parameters.h"
 #include "demo/units.h"
 
@@ -36,10 +37,35 @@ Result<T> choose(std::string_view option, const std::string& text, const std::ar
   return fail(fmt::format("{} '{}': choose one of {}", option, text, fmt::join(names, ", ")));
 }
 
+/// "groups", "members" and names of the table, separated by commas.
+Result<MuscleSet> read_muscles(const std::string& text) {
+  MuscleSet set;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string name = text.substr(from, comma - from);
+    from = comma + 1;
+    if (name == "groups") {
+      set |= muscle_groups();
+    } else if (name == "members") {
+      set |= muscle_members();
+    } else if (const auto muscle = find_muscle(name)) {
+      set.set(static_cast<std::size_t>(*muscle));
+    } else {
+      std::string known;
+      for (const MuscleRow& row : muscles()) known += fmt::format(", {}", row.name);
+      return fail(fmt::format("--muscles '{}': '{}' is none of groups, members{}", text, name, known));
+    }
+  }
+  return set;
+}
+
 }  // namespace
 
 const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
+    "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike, "
+    "and\n"
+    "    cheap; members are the thirteen muscles on their own, for close views; only those named are simulated.\n"
     "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
     "    caa: implicit, one step a tick; static: no vibration at all. summary.json tells the steps taken.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
@@ -68,6 +94,12 @@ void add_walk_options(CLI::App& command, WalkText& text) {
       .add_flag("--no-forces", text.no_forces,
                 "Leave ground reactions and joint moments out: empty cells in motion.csv")
       ->group("Gait");
+  command
+      .add_option("--muscles", text.muscles,
+                  "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated")
+      ->capture_default_str()
+      ->group("Muscles");
+  command.add_flag("--members", text.members, "The single muscles too, beside those of --muscles")->group("Muscles");
   command
       .add_option("--drive", text.drive,
                   "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
@@ -140,6 +172,10 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.seconds = *seconds;
 
   static constexpr Named<Drive> drives[] = {{"displacement", Drive::displacement}, {"force", Drive::force}};
+  const auto muscles = read_muscles(text.muscles);
+  if (!muscles) return tl::unexpected(muscles.error());
+  options.muscles.muscles = *muscles;
+  if (text.members) options.muscles.muscles |= muscle_members();
   const auto drive = choose("--drive", text.drive, drives);
   if (!drive) return tl::unexpected(drive.error());
   options.muscles.drive = *drive;

@@ -12,7 +12,6 @@
 namespace mobil {
 namespace {
 
-constexpr Grading belly_grading{1, 1.5};                   // across, along
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
 constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
 constexpr double most_steps = 1e6;                         // a tick
@@ -122,7 +121,7 @@ Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles
   auto made = std::make_unique<BellyTemplate>();
   made->choice = choice;
   made->muscle = muscle;
-  made->axial = alike ? alike->axial : tabulate_axial_stiffness(shape->terms, lowest_ratio, highest_ratio);
+  made->axial = alike ? alike->axial : tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
   made->stretch = alike ? alike->stretch : static_stretch(shape->terms, 1, 1);
   made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
   made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));

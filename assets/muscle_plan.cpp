@@ -29,9 +29,11 @@ double along_scale(const DrawnLine& line, const LegScale<double>& scale) {
   return line.along == LegBone::shank ? scale.shank : scale.thigh;
 }
 
-double volume_of(Muscle row, double height_m, double mass_kg) {
+double reference_volume_m3(Muscle row) {
   double cm3 = 0;
-  for (const auto& muscle : members_of(row)) cm3 += handsfield_volume_cm3(muscle, height_m, mass_kg);
+  for (const auto& muscle : members_of(row)) {
+    cm3 += handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg);
+  }
   return 1e-6 * cm3;
 }
 
@@ -47,6 +49,13 @@ double physique_factor(const BodyRequest& request) {
   constexpr std::array<double, 4> constitution = {0.85, 1.0, 1.20, 1.08};
   const double meso = 1 + 0.06 * (static_cast<double>(request.biotype.meso) - 4);
   return constitution[static_cast<std::size_t>(request.constitution)] * std::clamp(meso, 0.7, 1.6);
+}
+
+double member_volume_m3(const Body& body, const MemberMuscle& member) {
+  const double regressed = handsfield_volume_cm3(member, static_cast<double>(body.request.height_m),
+                                                 static_cast<double>(body.request.mass_kg));
+  const double limb_part = regressed - member.offset_cm3;
+  return 1e-6 * (static_cast<double>(body.composition.muscle_factor) * limb_part + member.offset_cm3);
 }
 
 double bar_stiffness(const Material& material, double section_m2, double rest_length_m) {
@@ -79,8 +88,7 @@ Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
   plan.belly_length_m = line.belly_m * along_scale(line, scale);
   const double start = line.start_m * along_scale(line, scale);
   plan.tendon_length_m = length(end - anchor) - start - plan.belly_length_m;
-  plan.volume_m3 = static_cast<double>(body.composition.muscle_factor) *
-                   volume_of(muscle, static_cast<double>(request.height_m), static_cast<double>(request.mass_kg));
+  for (const auto& member : row.members) plan.volume_m3 += member_volume_m3(body, member);
   plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
   plan.start_m = anchor + start * z;
   plan.rotation = muscle_rotation({0, 0, 0, 1}, z);
@@ -88,7 +96,7 @@ Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
   plan.insertion = line.insertion;
 
   const double belly = reference_belly_m(muscle);
-  const double section = volume_of(muscle, reference_body_height_m, reference_body_mass_kg) / belly;
+  const double section = reference_volume_m3(muscle) / belly;
   plan.scale = {static_cast<float>(std::sqrt(plan.section_m2 / section)),
                 static_cast<float>(plan.belly_length_m / belly)};
   plan.leg_scale = {static_cast<float>(scale.thigh), static_cast<float>(scale.shank), static_cast<float>(scale.across)};

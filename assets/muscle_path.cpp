@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "assets/anthropometry.h"
 #include "engine/geometry.h"
@@ -19,29 +20,26 @@ Vec scaled(const PathPoint& p, const LegScale<double>& scale) {
   return {scale.across * p.at_m.x, along * p.at_m.y, scale.across * p.at_m.z};
 }
 
-/// 1 where the path bends round the point, 0 where it does not.
-double share_of_bend(const PathPoint& p, double flexion_deg) {
-  double share = 1;
-  if (p.from_deg > -180) share *= smoothstep(p.from_deg - path_blend_deg, p.from_deg + path_blend_deg, flexion_deg);
-  if (p.to_deg < 180) share *= 1 - smoothstep(p.to_deg - path_blend_deg, p.to_deg + path_blend_deg, flexion_deg);
-  return share;
+/// The edge's direction where the edge is of that bone.
+Vec edge_axis(LegBone bone, const LegFrames<double>& leg) {
+  return rotated(bone == LegBone::thigh ? leg.thigh : leg.shank, {1, 0, 0});
 }
 
-Vec kneecap_at(const KneecapTrack& track, double flexion_deg) {
-  const KneecapSpline s = kneecap_spline(track);
-  const double u = flexion_deg / kneecap_knot_deg;
-  Vec at = s.at_zero + u * s.slope;
-  for (std::size_t k = 0; k < kneecap_knots; ++k) {
-    const double d = std::max(u - static_cast<double>(k), 0.0);
-    at = at + d * d * d * s.cubic[k];
-  }
-  return at;
+/// Where the shortest path from a to b over the edge through p touches it, relative to p; nothing where the straight
+/// line is free of it.
+std::optional<Vec> touch(const Vec& a, const Vec& b, const Vec& axis, PathHold side) {
+  const double turn = dot(cross(a, b), axis);
+  if (side == PathHold::front ? turn >= 0 : turn <= 0) return std::nullopt;
+  // Unfolded into one plane the path is straight.
+  const double from = dot(a, axis), to = dot(b, axis);
+  const double near = length(a - from * axis), far = length(b - to * axis);
+  return ((from * far + to * near) / (near + far)) * axis;
 }
 
 }  // namespace
 
-KneecapSpline kneecap_spline(const KneecapTrack& track) {
-  constexpr std::size_t n = kneecap_knots;
+KneeSpline knee_spline(const KneeTrack& track) {
+  constexpr std::size_t n = knee_knots;
   // Second derivatives m: m₀ = mₙ₋₁ = 0, mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (tᵢ₋₁ − 2tᵢ + tᵢ₊₁), by elimination.
   std::array<Vec, n> m{}, right{};
   std::array<double, n> diagonal{};
@@ -53,7 +51,7 @@ KneecapSpline kneecap_spline(const KneecapTrack& track) {
     right[i] = right[i] - (1 / diagonal[i - 1]) * right[i - 1];
   }
   for (std::size_t i = n - 2; i > 0; --i) m[i] = (1 / diagonal[i]) * (right[i] - m[i + 1]);
-  KneecapSpline s{track[0], track[1] - track[0] - (1.0 / 6) * m[1], {}};
+  KneeSpline s{track[0], track[1] - track[0] - (1.0 / 6) * m[1], {}};
   // The third derivative of piece k is mₖ₊₁ − mₖ; its jumps are the cubics' coefficients.
   Vec before{};
   for (std::size_t k = 0; k < n; ++k) {
@@ -62,6 +60,17 @@ KneecapSpline kneecap_spline(const KneecapTrack& track) {
     before = third;
   }
   return s;
+}
+
+Vec track_at(const KneeTrack& track, double flexion_deg) {
+  const KneeSpline s = knee_spline(track);
+  const double u = flexion_deg / knee_knot_deg;
+  Vec at = s.at_zero + u * s.slope;
+  for (std::size_t k = 0; k < knee_knots; ++k) {
+    const double d = std::max(u - static_cast<double>(k), 0.0);
+    at = at + d * d * d * s.cubic[k];
+  }
+  return at;
 }
 
 LegScale<double> leg_scale(double thigh_m, double shank_m) {
@@ -90,7 +99,7 @@ Vec path_point(const PathPoint& p, const LegScale<double>& scale, const LegFrame
 
 PathPoint path_end(const MemberMuscle& muscle, double flexion_deg) {
   if (muscle.kneecap == nullptr) return muscle.path.back();
-  return {LegBone::shank, kneecap_at(*muscle.kneecap, flexion_deg)};
+  return {LegBone::shank, track_at(*muscle.kneecap, flexion_deg)};
 }
 
 LegFrames<double> anatomical_leg(const Body& body) {
@@ -107,26 +116,39 @@ double knee_flexion(const LegFrames<double>& leg) {
   return 2 * std::atan2(q.w < 0 ? -q.x : q.x, std::abs(q.w));
 }
 
-double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
-  const double flexion_deg = knee_flexion(leg) / degree;
-  const Vec end = path_point(path_end(muscle, flexion_deg), scale, leg);
-  Vec at = path_point(muscle.path.front(), scale, leg);
-  double sum = 0;
-  for (std::size_t i = 1; i < muscle.path.size(); ++i) {
-    Vec next = path_point(muscle.path[i], scale, leg);
-    if (!bends_always(muscle.path[i])) {
-      // The straight line from where the path has come to the next point that always bends it.
-      std::size_t j = i + 1;
-      while (j < muscle.path.size() && !bends_always(muscle.path[j])) ++j;
-      const Vec line = (j < muscle.path.size() ? path_point(muscle.path[j], scale, leg) : end) - at;
-      const double t = std::clamp(dot(next - at, line) / std::max(dot(line, line), 1e-12), 0.0, 1.0);
-      const Vec straight = at + t * line;
-      next = straight + share_of_bend(muscle.path[i], flexion_deg) * (next - straight);
+LegFrames<double> rolled(const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const Vec by = rotated(leg.shank, scale.across * track_at(knee_rolling(), knee_flexion(leg) / degree));
+  LegFrames<double> there = leg;
+  there.knee_m = leg.knee_m + by;
+  there.ankle_m = leg.ankle_m + by;
+  return there;
+}
+
+std::vector<PathCorner> member_path(const MemberMuscle& muscle, const LegScale<double>& scale,
+                                    const LegFrames<double>& leg) {
+  const LegFrames<double> there = rolled(scale, leg);
+  std::vector<PathPoint> points(muscle.path.begin(), muscle.path.end());
+  if (muscle.kneecap != nullptr) points.push_back(path_end(muscle, knee_flexion(leg) / degree));
+  std::vector<PathCorner> corners;
+  for (auto p = points.begin(); p != points.end(); ++p) {
+    Vec at = path_point(*p, scale, there);
+    if (p->hold != PathHold::fixed) {
+      const auto next = std::find_if(p, points.end(), [](const PathPoint& q) { return q.hold == PathHold::fixed; });
+      const auto touched =
+          touch(corners.back().at - at, path_point(*next, scale, there) - at, edge_axis(p->bone, leg), p->hold);
+      if (!touched) continue;
+      at = at + *touched;
     }
-    sum += length(next - at);
-    at = next;
+    corners.push_back({at, p->bone});
   }
-  return muscle.kneecap == nullptr ? sum : sum + length(end - at);
+  return corners;
+}
+
+double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const auto corners = member_path(muscle, scale, leg);
+  double sum = 0;
+  for (std::size_t i = 1; i < corners.size(); ++i) sum += length(corners[i].at - corners[i - 1].at);
+  return sum;
 }
 
 double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle) {

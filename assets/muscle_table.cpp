@@ -117,6 +117,10 @@ MuscleSet muscle_members() {
   return set;
 }
 
+const KneeTrack& knee_rolling() {
+  return paths::rolling;
+}
+
 std::span<const MemberMuscle> member_muscles() {
   return members;
 }

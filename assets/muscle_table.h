@@ -27,40 +27,39 @@ namespace mobil {
 /// centre, thigh the hip centre, shank the knee, foot the ankle.
 enum class LegBone : std::uint8_t { pelvis, thigh, shank, foot };
 
-/// Sizes of the leg that the paths were published for, m. Its rolling knee is replaced by the pin that fits it best
-/// from 0° to 100° (0.6 mm rms), so that its segments end there.
+/// Sizes of the leg that the paths were published for, m. Its segments end at the pin that fits its rolling knee best
+/// from 0° to 100°; where the knee rolls to besides (0.6 mm rms there, 4 mm at 120°) see knee_rolling().
 namespace published_leg {
 inline constexpr double thigh_m = 0.40846, shank_m = 0.41736, leg_m = thigh_m + shank_m;
 }  // namespace published_leg
 
+/// How a path keeps to a point: it goes through it; or the point lies on an edge across its bone (parallel to the
+/// bone's x axis) that the path must pass in front of, or behind. Over an edge it slides to where it is shortest, as a
+/// taut string without friction, and where the straight line is free of it, it is that line: so the length has a
+/// continuous derivative, and no angle at which to switch needs to be given.
+enum class PathHold : std::uint8_t { fixed, front, back };
+
 /// One point of a path, right side, in its bone's frame at the published leg's size, m. In a body: y of thigh and shank
-/// times that segment's length over the published one, all else times the leg's.
+/// times that segment's length over the published one, all else times the leg's. Edges are of thigh and shank, and
+/// neither first nor last.
 struct PathPoint {
   LegBone bone;
   Vec3<double> at_m;
-  /// Knee flexion (deg) between which the path bends round the point; ±180 means at all angles.
-  double from_deg = -180, to_deg = 180;
+  PathHold hold = PathHold::fixed;
 };
-constexpr bool bends_always(const PathPoint& p) {
-  return p.from_deg <= -180 && p.to_deg >= 180;
-}
 
-/// Over this many degrees to either side of `from_deg` or `to_deg` a point moves from the straight line into its place,
-/// so that a path's length has no corner in time.
-inline constexpr double path_blend_deg = 8;
-
-/// Where the quadriceps ends on the kneecap, in the shank's frame, at knee flexions of 0°, 20°, … 100°: a natural cubic
-/// spline, straight beyond its ends.
-inline constexpr std::size_t kneecap_knots = 6;
-inline constexpr double kneecap_knot_deg = 20;
-using KneecapTrack = std::array<Vec3<double>, kneecap_knots>;
+/// A place that moves in the shank's frame, at knee flexions of 0°, 20°, … 120°: a natural cubic spline, straight
+/// beyond its ends.
+inline constexpr std::size_t knee_knots = 7;
+inline constexpr double knee_knot_deg = 20;
+using KneeTrack = std::array<Vec3<double>, knee_knots>;
 
 /// One muscle of the leg as it was published.
 struct MemberMuscle {
   std::string_view name;
   Muscle group;
   std::span<const PathPoint> path;  // origin first
-  const KneecapTrack* kneecap;      // what a path ends on after its last point, or null
+  const KneeTrack* kneecap;         // what a path ends on after its last point, or null
   /// Volume (cm³) = limb_share · (47 · mass · height + 1285) + offset_cm3, in kg and m.
   double limb_share, offset_cm3;
   Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
@@ -69,6 +68,10 @@ struct MemberMuscle {
 };
 
 inline constexpr std::size_t member_muscle_count = 13;
+
+/// How far the published knee carries shank and foot from where the pin has them, with all that is fixed to them: along
+/// the shank's axes, m, at the published leg's size. Nothing in the anatomical position.
+const KneeTrack& knee_rolling();
 
 /// All published muscles, groups one after the other in the order of Muscle.
 std::span<const MemberMuscle> member_muscles();

@@ -19,7 +19,7 @@
 
 namespace mobil {
 
-struct MuscleLines;  // systems/lines/line_of_action.h
+struct MuscleLines;  // systems/lines/muscle_lines.h
 
 /// How the far end of a belly is driven: `displacement` makes it follow the line of action exactly, `force` pulls it
 /// with the spring force of the paper's equations 2 and 3.

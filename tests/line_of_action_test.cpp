@@ -7,8 +7,10 @@
 #include <cstring>
 #include <limits>
 #include <random>
+#include <vector>
 
 #include "assets/anthropometry.h"
+#include "assets/muscle_path.h"
 #include "assets/muscle_plan.h"
 #include "tests/leg_pose.h"
 #include "tests/people.h"
@@ -22,8 +24,12 @@ using test::degree;
 using test::LegAngles;
 using test::posed;
 
-constexpr std::array groups = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
-                               Muscle::tibialis_anterior};
+/// Groups and single muscles.
+std::vector<Muscle> every_muscle() {
+  std::vector<Muscle> all;
+  for (std::size_t i = 0; i < muscles().size(); ++i) all.push_back(static_cast<Muscle>(i));
+  return all;
+}
 
 struct Block {
   LegScale<Lanes<float>> scale;
@@ -43,8 +49,8 @@ void set(LegFrames<Lanes<float>>& to, const LegFrames<double>& leg, std::size_t 
   set(to.hip_m, leg.hip_m, l), set(to.knee_m, leg.knee_m, l), set(to.ankle_m, leg.ankle_m, l);
   set(to.pelvis, leg.pelvis, l), set(to.thigh, leg.thigh, l), set(to.shank, leg.shank, l), set(to.foot, leg.foot, l);
 }
-void set(Block& block, const Body& body, const LegFrames<double>& leg, Muscle group, std::size_t l) {
-  const MusclePlan plan = make_muscle_plan(body, group).value();
+void set(Block& block, const Body& body, const LegFrames<double>& leg, Muscle muscle, std::size_t l) {
+  const MusclePlan plan = make_muscle_plan(body, muscle).value();
   block.scale.thigh[l] = plan.leg_scale.thigh;
   block.scale.shank[l] = plan.leg_scale.shank;
   block.scale.across[l] = plan.leg_scale.across;
@@ -68,7 +74,7 @@ struct Random {
     const auto height = static_cast<float>(between(1.2, 2.2));
     return make_body({height, living_mass(height, between(0, 1))}).value();
   }
-  LegAngles angles() { return {between(-30, 100), between(-5, 125), between(-40, 30)}; }
+  LegAngles angles() { return {between(-30, 120), between(-5, 140), between(-45, 30)}; }
   Quat<double> turn(double most_deg) {
     return about({between(-1, 1), between(-1, 1), between(-1, 1)}, between(-most_deg, most_deg));
   }
@@ -84,8 +90,8 @@ struct Random {
 
 TEST(LineOfAction, LanesAgreeWithDouble) {
   Random random;
-  for (const auto group : groups) {
-    const MuscleLines lines = make_muscle_lines(group);
+  for (const Muscle muscle : every_muscle()) {
+    const MuscleLines lines = make_muscle_lines(muscle);
     for (int i = 0; i < 200; ++i) {
       Block block;
       std::array<double, lane_count> expected{};
@@ -93,8 +99,8 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
       for (std::size_t l = 0; l < lane_count; ++l) {
         const Body body = random.body();
         leg[l] = random.leg(body);
-        set(block, body, leg[l], group, l);
-        expected[l] = muscle_length(group, leg_scale(body), leg[l]);
+        set(block, body, leg[l], muscle, l);
+        expected[l] = muscle_length(muscle, leg_scale(body), leg[l]);
       }
       lines_of_action(lines, block.scale, block.legs, block.line, block.end);
       Lanes<float> flexion;
@@ -113,31 +119,32 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
 
 TEST(LineOfAction, AMemberAloneHasItsOwnPathsLength) {
   Random random;
-  for (const auto& muscle : member_muscles()) {
+  for (const auto& member : member_muscles()) {
+    const Muscle muscle = find_muscle(member.name).value();
     const MuscleLines lines = make_muscle_lines(muscle);
     Block block;
     std::array<double, lane_count> expected{};
     for (std::size_t l = 0; l < lane_count; ++l) {
       const Body body = random.body();
       const LegFrames<double> leg = random.leg(body);
-      set(block, body, leg, muscle.group, l);
-      expected[l] = member_length(muscle, leg_scale(body), leg);
+      set(block, body, leg, muscle, l);
+      expected[l] = member_length(member, leg_scale(body), leg);
     }
     lines_of_action(lines, block.scale, block.legs, block.line, block.end);
-    for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(block.line.length_m[l], expected[l], 4e-6) << muscle.name;
+    for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(block.line.length_m[l], expected[l], 4e-6) << member.name;
   }
 }
 
 TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
   Random random;
-  for (const auto group : groups) {
-    const MuscleLines lines = make_muscle_lines(group);
+  for (const Muscle muscle : every_muscle()) {
+    const MuscleLines lines = make_muscle_lines(muscle);
     Block block;
     std::array<MusclePlan, lane_count> plan;
     for (std::size_t l = 0; l < lane_count; ++l) {
       const Body body = random.body();
-      plan[l] = make_muscle_plan(body, group).value();
-      set(block, body, anatomical_leg(body), group, l);
+      plan[l] = make_muscle_plan(body, muscle).value();
+      set(block, body, anatomical_leg(body), muscle, l);
     }
     lines_of_action(lines, block.scale, block.legs, block.line, block.end);
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -152,9 +159,9 @@ TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
 
 TEST(LineOfAction, TheFrameIsOrthonormalAndLiesAlongTheDrawnLine) {
   Random random;
-  for (const auto group : groups) {
-    const MuscleLines lines = make_muscle_lines(group);
-    const GroupLine& drawn = group_line(group);
+  for (const Muscle muscle : every_muscle()) {
+    const MuscleLines lines = make_muscle_lines(muscle);
+    const DrawnLine& drawn = muscle_row(muscle).drawn;
     for (int i = 0; i < 50; ++i) {
       Block block;
       std::array<Vec, lane_count> anchor;
@@ -162,7 +169,7 @@ TEST(LineOfAction, TheFrameIsOrthonormalAndLiesAlongTheDrawnLine) {
         const Body body = random.body();
         const LegFrames<double> leg = random.leg(body);
         const LegScale<double> scale = leg_scale(body);
-        set(block, body, leg, group, l);
+        set(block, body, leg, muscle, l);
         const Vec p = drawn.anchor.at_m;
         anchor[l] = drawn.anchor.bone == LegBone::pelvis ? leg.hip_m + rotated(leg.pelvis, scale.across * p)
                     : drawn.anchor.bone == LegBone::thigh
@@ -188,8 +195,8 @@ TEST(LineOfAction, LengthAndFrameAreContinuousInTheJoints) {
   constexpr double longest_arm_m = 0.13, step_deg = 0.25;
   const Body body = make_body({1.8F, 80}).value();
   Random random;
-  for (const auto group : groups) {
-    const MuscleLines lines = make_muscle_lines(group);
+  for (const Muscle muscle : every_muscle()) {
+    const MuscleLines lines = make_muscle_lines(muscle);
     for (int path = 0; path < 40; ++path) {
       const LegAngles from = random.angles(), to = random.angles();
       const double most = std::abs(to.hip_deg - from.hip_deg) + std::abs(to.knee_deg - from.knee_deg) +
@@ -205,7 +212,7 @@ TEST(LineOfAction, LengthAndFrameAreContinuousInTheJoints) {
           set(block, body,
               posed(body, {mix(from.hip_deg, to.hip_deg), mix(from.knee_deg, to.knee_deg),
                            mix(from.ankle_deg, to.ankle_deg)}),
-              group, l);
+              muscle, l);
         }
         lines_of_action(lines, block.scale, block.legs, block.line, block.end);
         for (std::size_t l = 0; l < lane_count; ++l) {
@@ -247,13 +254,13 @@ LegFrames<double> mirror_image(LegFrames<double> leg) {
 
 TEST(LineOfAction, ALeftLegIsTheRightOnesMirrorImage) {
   Random random;
-  for (const auto group : groups) {
-    const MuscleLines lines = make_muscle_lines(group);
+  for (const Muscle muscle : every_muscle()) {
+    const MuscleLines lines = make_muscle_lines(muscle);
     Block of_right, of_left;
     for (std::size_t l = 0; l < lane_count; ++l) {
       const Body body = random.body();
       const LegFrames<double> leg = random.leg(body);
-      for (auto* block : {&of_right, &of_left}) set(*block, body, leg, group, l);
+      for (auto* block : {&of_right, &of_left}) set(*block, body, leg, muscle, l);
       gather_leg(pose_of(leg, right), right, of_right.legs, l);
       gather_leg(pose_of(mirror_image(leg), left), left, of_left.legs, l);
     }
@@ -291,13 +298,13 @@ TEST(LineOfAction, GatheringFromABlockAndFromARowIsTheSame) {
 TEST(LineOfAction, WalkingFarAwayOrAnotherWayChangesNoLength) {
   Random random;
   const Body body = make_body({1.7F, 65}).value();
-  for (const auto group : groups) {
-    const MuscleLines lines = make_muscle_lines(group);
+  for (const Muscle muscle : every_muscle()) {
+    const MuscleLines lines = make_muscle_lines(muscle);
     for (int i = 0; i < 20; ++i) {
       Block block;
       const LegAngles angles = random.angles();
       for (std::size_t l = 0; l < lane_count; ++l) {
-        set(block, body, posed(body, angles, random.turn(180), random.place(l == 0 ? 0 : 20)), group, l);
+        set(block, body, posed(body, angles, random.turn(180), random.place(l == 0 ? 0 : 20)), muscle, l);
       }
       lines_of_action(lines, block.scale, block.legs, block.line, block.end);
       for (std::size_t l = 1; l < lane_count; ++l) EXPECT_NEAR(block.line.length_m[l], block.line.length_m[0], 1e-5);

@@ -4,117 +4,45 @@
 #define HWY_TARGET_INCLUDE "systems/lines/line_of_action.cpp"
 #include <hwy/foreach_target.h>
 
-#include "engine/wide_geometry-inl.h"
+#include "systems/lines/leg_path-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace {
 
-/// Angle about x of the shank's rotation in the thigh's frame.
-HWY_INLINE Wide knee_flexion(const WideQuat& thigh, const WideQuat& shank) {
-  const WideQuat q = WideQuat{-thigh.x, -thigh.y, -thigh.z, thigh.w} * shank;
-  const WideMask other_sign = q.w < wide(0.0F);
-  return wide(2.0F) * atan2(select(other_sign, -q.x, q.x), abs(q.w));
-}
-
-HWY_INLINE Wide smoothstep(float from, float width, const Wide& x) {
-  const Wide t = clamp((x - wide(from)) * wide(1 / width), 0.0F, 1.0F);
-  return t * t * fnma(t, wide(2.0F), wide(3.0F));
-}
-
-constexpr float degree = 0.0174532925F;
-constexpr auto blend = static_cast<float>(path_blend_deg) * degree;
-
-/// A block of legs; places relative to the knee, so that a walk far from the origin loses no digits.
-struct Leg {
-  WideVec origin[4];
-  WideQuat rotation[4];
-  Wide y_scale[4], across;
-  WideVec knee;
-  Wide flexion;
-};
-
-HWY_INLINE Leg load_leg(const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs) {
-  Leg leg;
-  leg.knee = load(legs.knee_m);
-  const WideVec hip = load(legs.hip_m) - leg.knee, ankle = load(legs.ankle_m) - leg.knee;
-  const Wide zero = wide(0.0F);
-  leg.origin[0] = leg.origin[1] = hip;
-  leg.origin[2] = {zero, zero, zero};
-  leg.origin[3] = ankle;
-  leg.rotation[0] = load(legs.pelvis);
-  leg.rotation[1] = load(legs.thigh);
-  leg.rotation[2] = load(legs.shank);
-  leg.rotation[3] = load(legs.foot);
-  leg.across = load(scale.across);
-  leg.y_scale[0] = leg.y_scale[3] = leg.across;
-  leg.y_scale[1] = load(scale.thigh);
-  leg.y_scale[2] = load(scale.shank);
-  leg.flexion = knee_flexion(leg.rotation[1], leg.rotation[2]);
-  return leg;
-}
-
-HWY_INLINE WideVec place(const Leg& leg, LegBone bone, const WideVec& at) {
-  const auto b = static_cast<std::size_t>(bone);
-  return leg.origin[b] + rotate(leg.rotation[b], {leg.across * at.x, leg.y_scale[b] * at.y, leg.across * at.z});
-}
-
-HWY_INLINE WideVec place(const Leg& leg, const MuscleLines::Point& point) {
-  return place(leg, point.bone, wide(point.at_m));
-}
-
-HWY_INLINE WideVec kneecap(const Leg& leg, const MuscleLines::Member& member) {
-  const Wide u = leg.flexion * wide(1 / (static_cast<float>(kneecap_knot_deg) * degree));
-  WideVec at = fma(u, wide(member.kneecap_slope), wide(member.kneecap_at_zero));
-  for (std::size_t k = 0; k < kneecap_knots; ++k) {
-    const Wide d = max(u - wide(static_cast<float>(k)), wide(0.0F));
-    at = fma(d * d * d, wide(member.kneecap_cubic[k]), at);
-  }
-  return place(leg, LegBone::shank, at);
-}
-
-HWY_INLINE WideVec path_end(const Leg& leg, const MuscleLines::Member& member) {
-  return member.on_kneecap ? kneecap(leg, member) : place(leg, member.path.back());
-}
-
 HWY_INLINE Wide path_length(const Leg& leg, const MuscleLines::Member& member, const WideVec& end) {
-  WideVec at = place(leg, member.path.front());
   Wide sum = wide(0.0F);
-  const std::size_t points = member.path.size();
-  for (std::size_t i = 1; i < points; ++i) {
-    const MuscleLines::Point& point = member.path[i];
-    WideVec next = place(leg, point);
-    if (point.straight_to > 0) {
-      const WideVec line = (point.straight_to < points ? place(leg, member.path[point.straight_to]) : end) - at;
-      const Wide t = clamp(dot(next - at, line) / max(dot(line, line), wide(1e-12F)), 0.0F, 1.0F);
-      const Wide share = smoothstep(point.from_rad, 2 * blend, leg.flexion) *
-                         (wide(1.0F) - smoothstep(point.to_rad, 2 * blend, leg.flexion));
-      const WideVec straight = fma(t, line, at);
-      next = fma(share, next - straight, straight);
-    }
-    sum = sum + length(next - at);
-    at = next;
-  }
-  return member.on_kneecap ? sum + length(end - at) : sum;
+  along_path(leg, member, end, [&sum](const WideVec& from, const WideVec& to, LegBone, const WideMask*) HWY_ATTR {
+    sum = sum + length(to - from);
+  });
+  return sum;
+}
+
+/// A place on a path as the bones are drawn.
+HWY_INLINE WideVec unrolled(const Leg& leg, LegBone bone, const WideVec& at) {
+  return bone < LegBone::shank ? at : at - leg.rolled;
 }
 
 /// Writes line; the elongation L − L₀.
 Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
          LineOfAction<Lanes<float>>& line) {
-  const Leg leg = load_leg(scale, legs);
+  const Leg leg = load_leg(lines, scale, legs);
   Wide mean = wide(0.0F);
   WideVec target = leg.knee;
   for (std::size_t m = 0; m < lines.members.size(); ++m) {
     const MuscleLines::Member& member = lines.members[m];
     const WideVec end = path_end(leg, member);
     mean = fma(wide(member.weight), path_length(leg, member, end), mean);
-    if (m == lines.towards) target = lines.point < member.path.size() ? place(leg, member.path[lines.point]) : end;
+    if (m != lines.towards) continue;
+    target = lines.point < member.path.size()
+                 ? unrolled(leg, member.path[lines.point].bone, place(leg, member.path[lines.point]))
+                 : unrolled(leg, end_bone(member), end);
   }
   const Wide elongation = mean - load(line.rest_length_m);
   store(mean, line.length_m);
   store(-(load(line.stiffness_n_per_m) * elongation), line.force_n);
 
-  const WideVec anchor = place(leg, lines.anchor);
+  const WideVec anchor = unrolled(leg, lines.anchor.bone, place(leg, lines.anchor));
   const WideVec span = target - anchor;
   const Wide reach = length(span);
   const WideVec z{span.x / reach, span.y / reach, span.z / reach};
@@ -165,13 +93,7 @@ void flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <algorithm>
-#include <iterator>
-#include <numbers>
-
-#include "assets/muscle_path.h"
 #include "components/segments.h"
-#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
@@ -179,35 +101,6 @@ namespace {
 HWY_EXPORT(act_by_displacement);
 HWY_EXPORT(act_by_force);
 HWY_EXPORT(flexions);
-
-using geometry::to_float;
-
-MuscleLines::Point point(const PathPoint& p, std::size_t straight_to = 0) {
-  // Far outside any angle where there is no limit.
-  const auto rad = [](double deg) {
-    const double limit = deg <= -180 ? -1000 : deg >= 180 ? 1000 : deg - path_blend_deg;
-    return static_cast<float>(limit * std::numbers::pi / 180);
-  };
-  return {p.bone, to_float(p.at_m), straight_to, rad(p.from_deg), rad(p.to_deg)};
-}
-
-MuscleLines::Member member(const MemberMuscle& muscle, double weight) {
-  MuscleLines::Member m{};
-  m.weight = static_cast<float>(weight);
-  m.on_kneecap = muscle.kneecap != nullptr;
-  for (std::size_t i = 0; i < muscle.path.size(); ++i) {
-    const auto next =
-        std::find_if(muscle.path.begin() + static_cast<std::ptrdiff_t>(i) + 1, muscle.path.end(), bends_always);
-    const auto straight_to = static_cast<std::size_t>(next - muscle.path.begin());
-    m.path.push_back(point(muscle.path[i], bends_always(muscle.path[i]) ? 0 : straight_to));
-  }
-  if (!m.on_kneecap) return m;
-  const KneecapSpline spline = kneecap_spline(*muscle.kneecap);
-  m.kneecap_at_zero = to_float(spline.at_zero);
-  m.kneecap_slope = to_float(spline.slope);
-  for (std::size_t k = 0; k < kneecap_knots; ++k) m.kneecap_cubic[k] = to_float(spline.cubic[k]);
-  return m;
-}
 
 /// `word(i)` is the i-th of a pose's floats.
 template <class Word>
@@ -236,15 +129,6 @@ void gather(Word word, Side side, LegFrames<Lanes<float>>& legs, std::size_t lan
 }
 
 }  // namespace
-
-MuscleLines make_muscle_lines(Muscle muscle) {
-  const MuscleRow& row = muscle_row(muscle);
-  const DrawnLine& drawn = row.drawn;
-  MuscleLines lines{{},          point(drawn.anchor), drawn.towards,
-                    drawn.point, drawn.along,         static_cast<float>(drawn.start_m)};
-  for (const auto& m : row.members) lines.members.push_back(member(m, member_weight(row.members, m)));
-  return lines;
-}
 
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {
   gather([pose](std::size_t i) { return pose[i * lane_count]; }, side, legs, lane);

@@ -2,44 +2,13 @@
 // From a leg's pose to the length, force and place of its lines of action, sixteen legs a block.
 
 #include <cstddef>
-#include <vector>
 
-#include "assets/muscle_table.h"
 #include "components/leg_frames.h"
 #include "components/muscle.h"
 #include "components/pose.h"
+#include "systems/lines/muscle_lines.h"
 
 namespace mobil {
-
-/// The paths of a muscle's members as the kernel reads them: the table's rows in single precision, at the
-/// published leg's size. Immutable, the same for everybody.
-struct MuscleLines {
-  struct Point {
-    LegBone bone;
-    Vec3<float> at_m;
-    /// Of a point that bends the path at some knee angles only: which of the member's points (their number: the path's
-    /// end) closes the straight line that it bends. 0: it always bends it.
-    std::size_t straight_to = 0;
-    /// Knee flexions (rad) at which it begins to bend the path, and to let go of it.
-    float from_rad = 0, to_rad = 0;
-  };
-  struct Member {
-    std::vector<Point> path;
-    float weight;
-    bool on_kneecap;
-    Vec3<float> kneecap_at_zero, kneecap_slope, kneecap_cubic[kneecap_knots];  // a spline: assets/muscle_path.h
-  };
-  std::vector<Member> members;
-  // The drawn line: from the anchor towards a point of members[towards], or what its path ends on where it has no such
-  // point; the belly begins start_m from the anchor.
-  Point anchor;
-  std::size_t towards, point;
-  LegBone along;  // the bone that start_m scales with
-  float start_m;
-};
-
-/// A muscle's lines: its length is the volume-weighted mean of its members'.
-MuscleLines make_muscle_lines(Muscle muscle);
 
 /// Copies one leg of one human into a lane: joint centres and rotations of thigh, shank and foot, and the pelvis'
 /// rotation; a left leg as its mirror image. `pose`: the human's lane of a block of Pose, that is its first word, the

@@ -5,6 +5,10 @@
 //   [A] American Academy of Orthopaedic Surgeons: Joint Motion, Method of Measuring and Recording, 1965.
 //   [R] Roaas & Andersson: Normal range of motion of the hip, knee and ankle joints in male subjects, 30–40 years of
 //       age, Acta Orthop. Scand. 53, 1982 (means).
+//   [B] Baumbach et al.: The influence of knee position on ankle dorsiflexion, BMC Musculoskelet. Disord. 15, 2014:
+//   under
+//       the body's weight with the knee bent (25° with the knee straight, [A] has 20° without the weight, of which
+//       walkers want more). Plantarflexion: [A].
 //   [W] White & Panjabi: Clinical Biomechanics of the Spine, 2nd ed., 1990, representative values. The book gives the
 //       whole range from extension to flexion; its even division over both is ours.
 //   [O] ours, where nobody tabulates the joint as it is here.
@@ -32,7 +36,7 @@ inline constexpr std::array<JointLimit, 22> limb_limits = {{
     {Segment::thigh_right, "hip", "abduction-adduction", -30, 45, "A"},
     {Segment::thigh_right, "hip", "internal-external rotation", -45, 45, "A"},
     {Segment::shank_right, "knee", "flexion-extension", -1.6, 143.8, "R"},
-    {Segment::foot_right, "ankle", "dorsiflexion-plantarflexion", -50, 20, "A"},
+    {Segment::foot_right, "ankle", "dorsiflexion-plantarflexion", -50, 39, "B"},
     {Segment::foot_right, "hindfoot", "inversion-eversion", -15, 35, "A"},
     {Segment::toes_right, "metatarsophalangeal", "extension-flexion", -45, 70, "A"},
     {Segment::clavicle_right, "sternoclavicular", "elevation-depression", -5, 45, "O"},

@@ -9,6 +9,7 @@ class App;
 namespace mobil {
 
 void add_walk_command(CLI::App& app, int& exit_status);
+void add_body_command(CLI::App& app, int& exit_status);
 void add_muscle_command(CLI::App& app, int& exit_status);
 void add_bench_command(CLI::App& app, int& exit_status);
 void add_compare_command(CLI::App& app, int& exit_status);

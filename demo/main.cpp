@@ -34,6 +34,7 @@ int main(int argc, char** argv) {
 
   int status = 0;
   mobil::add_walk_command(app, status);
+  mobil::add_body_command(app, status);
   mobil::add_muscle_command(app, status);
   mobil::add_bench_command(app, status);
   mobil::add_compare_command(app, status);

@@ -7,11 +7,13 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "assets/joint_limits.h"
 #include "assets/segment_inertia.h"
 #include "components/gait_style.h"
+#include "systems/simulation.h"
 #include "tests/people.h"
 
 namespace mobil {
@@ -237,6 +239,42 @@ TEST(JointLimits, HoldEveryPostureThatAGaitMayAskFor) {
   holds("elbow", "flexion-extension", "elbow_forward_deg");
   holds("forearm", "pronation", "forearm_pronation_deg");
   holds("metacarpophalangeal", "flexion-extension", "finger_flexion_deg");
+}
+
+TEST(JointLimits, HoldAWalkAtEverySpeedOfEveryBody) {
+  struct Angle {
+    const JointLimit* limit;
+    float (JointAngles<float>::*angle)[2];
+    const char* name;
+  };
+  const Angle table[] = {
+      {find_joint_limit("hip", "flexion-extension"), &JointAngles<float>::hip_flexion, "hip"},
+      {find_joint_limit("knee", "flexion-extension"), &JointAngles<float>::knee_flexion, "knee"},
+      {find_joint_limit("ankle", "dorsiflexion-plantarflexion"), &JointAngles<float>::ankle_dorsiflexion, "ankle"},
+      {find_joint_limit("shoulder", "flexion-extension"), &JointAngles<float>::shoulder_flexion, "shoulder"},
+      {find_joint_limit("elbow", "flexion-extension"), &JointAngles<float>::elbow_flexion, "elbow"}};
+  Simulation simulation;
+  std::vector<Entity> people;
+  for (const float height : {1.2F, 1.75F, 2.2F}) {
+    for (const float speed : {0.8F, 1.1F, 1.4F, 1.8F}) {
+      const float froude = std::sqrt(height / 1.75F);
+      people.push_back(
+          *simulation.spawn({.height_m = height, .mass_kg = living_mass(height, 0.35)}, {.speed_m_s = speed * froude}));
+    }
+  }
+  for (int tick = 0; tick < 180; ++tick) {
+    simulation.tick();
+    for (const Entity person : people) {
+      const auto angles = *simulation.get<JointAngles>(person);
+      for (const Angle& joint : table) {
+        for (std::size_t side = 0; side < 2; ++side) {
+          const double deg = static_cast<double>((angles.*joint.angle)[side]) * 180 / std::numbers::pi;
+          ASSERT_GE(deg, joint.limit->low_deg) << joint.name << " at tick " << tick;
+          ASSERT_LE(deg, joint.limit->high_deg) << joint.name << " at tick " << tick;
+        }
+      }
+    }
+  }
 }
 
 TEST(JointLimits, TheColumnBendsAndTurnsAsMuchAsRegionsAreSaidTo) {

@@ -1,0 +1,14 @@
+#pragma once
+// What a body looks like at rest: bones and built-in muscles in the anatomical position.
+
+#include "components/body.h"
+#include "engine/error.h"
+#include "systems/capture/image.h"
+
+namespace mobil {
+
+/// From the front and from the body's right beside each other, to the same scale. Error: no graphics driver (with the
+/// packages to install), or one that gives up.
+Result<Image> body_picture(const Body& body);
+
+}  // namespace mobil

@@ -69,6 +69,15 @@ struct LineOfAction {
   Quat<F> rotation;
 };
 
+/// What a line of action does: how fast its length grew over the last tick, m/s; and its moment arms −∂L/∂θ, m, about
+/// the hip's and the knee's flexion and the ankle's dorsiflexion, positive where the muscle flexes. Of a group: the mean
+/// of its members', weighted as its length is. `length_m` is the length that the speed was taken at, 0 before the first.
+template <class F>
+struct LineMotion {
+  F length_m, speed_m_s;
+  F hip_flexion_arm_m, knee_flexion_arm_m, ankle_dorsiflexion_arm_m;
+};
+
 /// What drives the far end of the belly along z this tick: displacement at the tick's start and end, m.
 template <class F>
 struct EndDisplacement {

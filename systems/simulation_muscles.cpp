@@ -7,6 +7,7 @@
 #include "systems/deformation/deformation.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/frame_motion.h"
+#include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/simulation.h"
 #include "systems/simulation_rows.h"
@@ -31,6 +32,14 @@ FirstLine<End> first_line(const MuscleLines& lines, const LegScale<float>& scale
   End<Lanes<float>> end{};
   lines_of_action(lines, broadcast(scale), leg, line, end);
   return {first_lane(leg), first_lane(line), first_lane(end)};
+}
+
+/// Of a line that has just begun: it does not lengthen yet.
+LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& scale, const LegFrames<float>& leg,
+                               const LineOfAction<float>& line, float tick_s) {
+  LineMotion<Lanes<float>> motion{};
+  line_motion(lines, broadcast(scale), broadcast(leg), broadcast(line), motion, tick_s);
+  return first_lane(motion);
 }
 
 /// The motion of a muscle's frame up to now, as far as it is known, as the ticks before would have recorded it.
@@ -141,6 +150,8 @@ void make_muscle(World& world, Entity& muscle, const Human& human, Side side, co
   const MuscleTemplate* before = world.shared<MuscleTemplate>(muscle);
   const bool anew = before == nullptr || before->mesh.cells != cells;
 
+  const auto motion = world.get<LineMotion>(muscle);
+
   const auto by_method = [&](const auto&... more) {
     make_by_method(world, muscle, belly, choice.method,
                    MuscleOwner<float>{human.entity.index, human.entity.generation, side}, plan.leg_scale,
@@ -158,6 +169,9 @@ void make_muscle(World& world, Entity& muscle, const Human& human, Side side, co
     by_method(history, load);
   } else {
     by_method();
+  }
+  if (choice.line_motion) {
+    world.add(muscle, motion.value_or(first_motion(*shape.lines, plan.leg_scale, first.leg, line, tick_s)));
   }
   if (anew) {
     world.set_field<NodalDisplacement>(muscle, at_rest);

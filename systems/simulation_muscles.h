@@ -37,6 +37,7 @@ struct LegMuscles {
   double damping_per_s = 8;        // Rayleigh's α, 0–1000
   double stiffness_damping_s = 0;  // Rayleigh's β, 0–1
   bool inertia = false;            // gravity and the acceleration of the muscle's frame
+  bool line_motion = false;        // lengthening speed and moment arms: component LineMotion
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: 7 Hz with
   /// inertia, where a belly would sag by its own length without, and none otherwise.
   std::optional<double> foundation_hz{};

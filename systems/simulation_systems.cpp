@@ -4,6 +4,7 @@
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/frame_motion.h"
+#include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/simulation.h"
 
@@ -21,6 +22,11 @@ template <template <class> class End>
 void follow_lines(Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
                   LineOfAction<Lanes<float>>& line, End<Lanes<float>>& end) {
   lines_of_action(*lines, scale, leg, line, end);
+}
+
+void move_lines(Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
+                const LineOfAction<Lanes<float>>& line, LineMotion<Lanes<float>>& motion, float tick_s) {
+  line_motion(*lines, scale, leg, line, motion, tick_s);
 }
 
 /// ECD.
@@ -67,6 +73,7 @@ Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
       .add("lines of action", &follow_lines<EndDisplacement>)
       .add("lines of action, pulling", &follow_lines<EndForce>)
       .after("lines of action")
+      .add("line motion", &move_lines)
       .add("frame motion", &frame_motion)
       .add("deformation", &deform<EndDisplacement>)
       .add("deformation, pulled", &deform<EndForce>)

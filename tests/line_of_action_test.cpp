@@ -6,14 +6,8 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <random>
-#include <vector>
 
-#include "assets/anthropometry.h"
-#include "assets/muscle_path.h"
-#include "assets/muscle_plan.h"
-#include "tests/leg_pose.h"
-#include "tests/people.h"
+#include "tests/leg_block.h"
 
 namespace mobil {
 namespace {
@@ -24,40 +18,10 @@ using test::degree;
 using test::LegAngles;
 using test::posed;
 
-/// Groups and single muscles.
-std::vector<Muscle> every_muscle() {
-  std::vector<Muscle> all;
-  for (std::size_t i = 0; i < muscles().size(); ++i) all.push_back(static_cast<Muscle>(i));
-  return all;
-}
-
-struct Block {
-  LegScale<Lanes<float>> scale;
-  LegFrames<Lanes<float>> legs;
-  LineOfAction<Lanes<float>> line{};
-  EndDisplacement<Lanes<float>> end{};
-};
-
-void set(Vec3<Lanes<float>>& to, const Vec& v, std::size_t l) {
-  to.x[l] = static_cast<float>(v.x), to.y[l] = static_cast<float>(v.y), to.z[l] = static_cast<float>(v.z);
-}
-void set(Quat<Lanes<float>>& to, const Quat<double>& q, std::size_t l) {
-  to.x[l] = static_cast<float>(q.x), to.y[l] = static_cast<float>(q.y), to.z[l] = static_cast<float>(q.z);
-  to.w[l] = static_cast<float>(q.w);
-}
-void set(LegFrames<Lanes<float>>& to, const LegFrames<double>& leg, std::size_t l) {
-  set(to.hip_m, leg.hip_m, l), set(to.knee_m, leg.knee_m, l), set(to.ankle_m, leg.ankle_m, l);
-  set(to.pelvis, leg.pelvis, l), set(to.thigh, leg.thigh, l), set(to.shank, leg.shank, l), set(to.foot, leg.foot, l);
-}
-void set(Block& block, const Body& body, const LegFrames<double>& leg, Muscle muscle, std::size_t l) {
-  const MusclePlan plan = make_muscle_plan(body, muscle).value();
-  block.scale.thigh[l] = plan.leg_scale.thigh;
-  block.scale.shank[l] = plan.leg_scale.shank;
-  block.scale.across[l] = plan.leg_scale.across;
-  block.line.rest_length_m[l] = static_cast<float>(plan.rest_length_m);
-  block.line.stiffness_n_per_m[l] = static_cast<float>(bar_stiffness({}, plan.section_m2, plan.rest_length_m));
-  set(block.legs, leg, l);
-}
+using test::Block;
+using test::every_muscle;
+using test::Random;
+using test::set;
 
 Vec at(const Vec3<Lanes<float>>& v, std::size_t l) {
   return {static_cast<double>(v.x[l]), static_cast<double>(v.y[l]), static_cast<double>(v.z[l])};
@@ -66,27 +30,6 @@ Quat<double> at(const Quat<Lanes<float>>& q, std::size_t l) {
   return {static_cast<double>(q.x[l]), static_cast<double>(q.y[l]), static_cast<double>(q.z[l]),
           static_cast<double>(q.w[l])};
 }
-
-struct Random {
-  std::mt19937 engine{7};
-  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine); }
-  Body body() {
-    const auto height = static_cast<float>(between(1.2, 2.2));
-    return make_body({height, living_mass(height, between(0, 1))}).value();
-  }
-  LegAngles angles() { return {between(-30, 120), between(-5, 140), between(-45, 30)}; }
-  Quat<double> turn(double most_deg) {
-    return about({between(-1, 1), between(-1, 1), between(-1, 1)}, between(-most_deg, most_deg));
-  }
-  Vec place(double far) { return {between(-far, far), between(0, 2), between(-far, far)}; }
-  /// A leg whose thigh and foot also turn out of the sagittal plane.
-  LegFrames<double> leg(const Body& own) {
-    LegFrames<double> leg =
-        posed(own, angles(), test::product(about({0, 1, 0}, between(-180, 180)), turn(10)), place(3));
-    leg.foot = test::product(leg.foot, turn(10));
-    return leg;
-  }
-};
 
 TEST(LineOfAction, LanesAgreeWithDouble) {
   Random random;

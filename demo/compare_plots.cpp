@@ -9,40 +9,14 @@
 #include <string_view>
 #include <utility>
 
+#include "demo/cycle_plot.h"
 #include "demo/svg_plot.h"
 
 namespace mobil {
 namespace {
 
-constexpr const char *ours_colour = "#111", *first_colour = "#2f6db3", *second_colour = "#c1762c";
-constexpr const char* series_colour[] = {"#2a9d8f", "#2f6db3", "#a23b72", "#c1762c", "#555"};
-
 std::string set_colour(std::size_t set) {
   return set == 0 ? first_colour : second_colour;
-}
-
-std::vector<double> percents() {
-  std::vector<double> x(cycle_points);
-  for (std::size_t i = 0; i < cycle_points; ++i) x[i] = 100.0 * static_cast<double>(i) / (cycle_points - 1);
-  return x;
-}
-
-std::vector<double> values(const CycleCurve& curve, double scale = 1, double from = 0) {
-  std::vector<double> y;
-  for (const double v : curve) y.push_back(scale * (v - from));
-  return y;
-}
-
-/// A measured band with its mean; `faint` where it is there for comparison alone.
-void add_measured(PlotPanel& panel, const MeasuredCurve& curve, const std::string& name, const std::string& colour,
-                  bool faint) {
-  PlotBand band{percents(), {}, {}, colour, name + ", mean ± 1 SD", faint ? 0.10 : 0.28};
-  for (std::size_t i = 0; i < cycle_points; ++i) {
-    band.low.push_back(curve.mean[i] - curve.sd[i]);
-    band.high.push_back(curve.mean[i] + curve.sd[i]);
-  }
-  panel.bands.push_back(std::move(band));
-  panel.lines.push_back({percents(), values(curve.mean), colour, "", faint ? 0.7 : 1.0, faint});
 }
 
 struct Row {
@@ -92,7 +66,7 @@ PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::sp
                      set_colour(s), other);
       }
       if (const auto* curve = walk.stride.curve(row.quantity, own.hip_from_vertical)) {
-        panel.lines.push_back({percents(), values(*curve), ours_colour, "mobil", 1.8, false});
+        panel.lines.push_back({cycle_percents(), cycle_values(*curve), ours_colour, "mobil", 1.8, false});
       } else {
         figure.footnote = "Not simulated: what was measured alone.";
       }
@@ -176,9 +150,9 @@ PlotFigure step_figure(const Comparison& comparison) {
 PlotPanel height_panel(const char* title, const std::vector<VariedWalk>& walks, const char* unit) {
   PlotPanel panel{title, {"% of the gait cycle", 0, 100}, {"height over the ground (mm)"}, {}, {}, {}, true};
   for (std::size_t i = 0; i < walks.size(); ++i) {
-    const auto y = values(walks[i].stride.com_height, 1000);
+    const auto y = cycle_values(walks[i].stride.com_height, 1000);
     const char* colour = series_colour[i % std::size(series_colour)];
-    panel.lines.push_back({percents(), y, colour, fmt::format("{:.3g} {}", walks[i].value, unit), 1.6, false});
+    panel.lines.push_back({cycle_percents(), y, colour, fmt::format("{:.3g} {}", walks[i].value, unit), 1.6, false});
   }
   return panel;
 }
@@ -195,7 +169,7 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
   PlotPanel excursion{"rise", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}, true};
   for (const auto& walk : comparison.walks) {
     if (walk.set != 0) continue;
-    cycle.lines.push_back({percents(), values(walk.stride.com_height, 1000, walk.stride.com_mean_m),
+    cycle.lines.push_back({cycle_percents(), cycle_values(walk.stride.com_height, 1000, walk.stride.com_mean_m),
                            series_colour[walk.speed_class], fmt::format("{:.2f} m/s", walk.speed_m_s), 1.6, false});
   }
   PlotBand band{{}, {}, {}, first_colour, "Orendurff 2004 ± 1 SD", 0.28};

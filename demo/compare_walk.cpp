@@ -7,15 +7,14 @@
 
 #include "components/forces.h"
 #include "components/pose.h"
+#include "demo/steady_cycle.h"
 #include "systems/simulation.h"
 
 namespace mobil {
 namespace {
 
 constexpr double degrees = 180 / std::numbers::pi;
-constexpr int settling_cycles = 3;
 constexpr double tick_s = 1.0 / 240;
-constexpr double longest_s = 60;  // no gait within range takes as long for five strides
 
 /// What a tick leaves behind; forces belong to the tick before and are moved there.
 struct TickRows {
@@ -144,22 +143,16 @@ Result<WalkedStride> walk_stride(const BodyRequest& body, const GaitRequest& gai
 
   TickRows rows;
   bool with_forces = true;
-  double last = 0;
-  int cycles = -settling_cycles;
-  while (simulation.time_s() < longest_s) {
-    simulation.tick();
-    const double phase = static_cast<double>(simulation.get<Feet>(*entity)->phase[right]);
-    if (phase < last - 0.5) ++cycles;
-    last = phase;
-    const double total = cycles + phase;
-    if (total < -0.1) continue;
-    if (!rows.phase.empty())
+  const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
+    if (!rows.phase.empty()) {
       with_forces = with_forces && add_forces_before(simulation, *entity, static_cast<double>(body.mass_kg), rows);
-    if (total > 1.1) return sample_stride(*simulation.human(*entity), rows, with_forces);
-    rows.phase.push_back(total);
+    }
+    if (phase > 1.1) return;  // the last tick is there for the forces of the one before
+    rows.phase.push_back(phase);
     add_motion(simulation, *entity, rows);
-  }
-  return fail("the walk takes too long to get through five strides; ask for a quicker one");
+  });
+  if (!walked) return tl::unexpected(walked.error());
+  return sample_stride(*simulation.human(*entity), rows, with_forces);
 }
 
 }  // namespace mobil

@@ -1,0 +1,111 @@
+// Figures 16 and 17: the hamstrings in a walking skeleton, and as mesh and surface; and real meshes beside built-in
+// ones.
+
+#include <array>
+
+#include "demo/contact_sheet.h"
+#include "demo/paper.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t sequence = 8;
+constexpr Cells paper_mesh = {4, 4, 20};  // 525 nodes
+constexpr double still_at = 0.9;          // the thigh swung forward, the hamstrings stretched
+
+std::vector<double> evenly(std::size_t count) {
+  std::vector<double> at;
+  for (std::size_t i = 0; i < count; ++i) at.push_back(static_cast<double>(i) / static_cast<double>(count));
+  return at;
+}
+
+/// A person seen from the side at every moment, in a row of pictures.
+Result<std::vector<Image>> row_of(const ShownWalk& walk) {
+  std::vector<Image> row;
+  for (std::size_t frame = 0; frame < walk.recording.frames.size(); ++frame) {
+    const Actor actor{&walk, frame};
+    auto image = take_picture({camera_at({0, 0.93F, 0}, 2.0F, 20, 4), 176, 320}, {&actor, 1});
+    if (!image) return tl::unexpected(image.error());
+    row.push_back(std::move(*image));
+  }
+  return row;
+}
+
+Result<Image> figure16(const ShownWalk& still, const ShownWalk& walk) {
+  constexpr float apart_m = 0.98F;
+  const Actor actor{&still, 0};
+  auto left = take_picture({camera_at({0, 0.93F, 0}, 2.0F, 125, 6), 300, 420}, {&actor, 1});
+  if (!left) return left;
+  std::vector<Actor> actors;
+  for (std::size_t i = 0; i < sequence; ++i) {
+    actors.push_back({.walk = &walk,
+                      .frame = i,
+                      .at = {0, 0, apart_m * (static_cast<float>(i) - (static_cast<float>(sequence) - 1) / 2)}});
+  }
+  auto right = take_picture({camera_at({0, 0.93F, 0}, 2.0F, 8, 4), 1640, 420}, actors);
+  if (!right) return right;
+  const std::vector<Image> row = {std::move(*left), std::move(*right)};
+  return contact_sheet({&row, 1}, 4);
+}
+
+Result<Image> figure17(const ShownWalk& walk) {
+  std::vector<Image> row;
+  for (const auto& [surface, mesh] : {std::pair{false, true}, {true, false}, {true, true}}) {
+    const Actor actor{&walk, 0, {}, Actor::Bones::right_leg, surface ? Actor::Muscles::right : Actor::Muscles::none,
+                      mesh};
+    auto image = take_picture({camera_at({-0.09F, 0.66F, 0.06F}, 0.72F, -50, 3), 320, 560, false}, {&actor, 1});
+    if (!image) return image;
+    row.push_back(std::move(*image));
+  }
+  return contact_sheet({&row, 1}, 4);
+}
+
+CycleRequest hamstrings_alone(std::vector<double> shown_at) {
+  return {paper_body(), paper_gait(), only({Muscle::hamstrings}), std::move(shown_at), {}};
+}
+
+}  // namespace
+
+Result<void> paper_figure16(PaperRun& run) {
+  const auto still = walk_cycle(hamstrings_alone({still_at}));
+  if (!still) return tl::unexpected(still.error());
+  run.progress("walking", 0.5);
+  const auto walk = walk_cycle(hamstrings_alone(evenly(sequence)));
+  if (!walk) return tl::unexpected(walk.error());
+  run.text =
+      "From behind at 90 % of the cycle; from the side every eighth of it, beginning with the right heel strike.\n";
+  return run.write_picture([&] { return figure16(still->shown, walk->shown); });
+}
+
+Result<void> paper_figure17(PaperRun& run) {
+  CycleRequest request = hamstrings_alone({0.3});
+  request.muscles->cells = paper_mesh;
+  const auto walk = walk_cycle(request);
+  if (!walk) return tl::unexpected(walk.error());
+  run.text = "The right thigh from behind in mid-stance: the mesh of 525 nodes, the surface that follows it, both.\n";
+  return run.write_picture([&] { return figure17(walk->shown); });
+}
+
+Result<void> paper_anatomy(PaperRun& run) {
+  std::array<PaperCycle, 2> walks;  // real, built-in
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    run.progress(i == 0 ? "real meshes" : "built-in meshes", 0.4 * static_cast<double>(i));
+    CycleRequest request{paper_body(), paper_gait(), LegMuscles{}, evenly(sequence), {}};
+    if (i == 0) request.anatomy = run.anatomy;
+    auto walk = walk_cycle(request);
+    if (!walk) return tl::unexpected(walk.error());
+    walks[i] = std::move(*walk);
+  }
+  run.text = "Above real meshes, below built-in ones, every eighth of the cycle from the right heel strike on.\n";
+  return run.write_picture([&]() -> Result<Image> {
+    std::vector<std::vector<Image>> rows;
+    for (const PaperCycle& walk : walks) {
+      auto row = row_of(walk.shown);
+      if (!row) return tl::unexpected(row.error());
+      rows.push_back(std::move(*row));
+    }
+    return contact_sheet(rows, 3);
+  });
+}
+
+}  // namespace mobil

@@ -1,0 +1,136 @@
+// What is the difference if the person is taller or thinner?
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "demo/cycle_plot.h"
+#include "demo/paper.h"
+
+namespace mobil {
+namespace {
+
+constexpr double millimetres = 1000;
+
+struct Person {
+  const char* what;
+  float height_m, mass_kg;
+  Constitution constitution;
+};
+constexpr std::array people = {
+    Person{"the same", 1.80F, 80, Constitution::athletic}, Person{"taller", 1.95F, 80, Constitution::athletic},
+    Person{"shorter", 1.65F, 80, Constitution::athletic}, Person{"thinner", 1.80F, 65, Constitution::thin},
+    Person{"heavier", 1.80F, 100, Constitution::heavy}};
+
+std::string label(std::size_t person) {
+  return fmt::format("{}: {:.2f} m, {:.0f} kg", people[person].what, people[person].height_m, people[person].mass_kg);
+}
+
+void add_muscle_columns(const std::string& name, PaperTable& table) {
+  const auto add = [&](const char* column, const std::string& head) {
+    table.column.push_back({name + "_" + column, head, 1});
+  };
+  add("belly_mm", name + "\nbelly mm");
+  add("thickness_mm", "thickest\nmm");
+  add("elongation_least_mm", "longer by\nfrom mm");
+  add("elongation_most_mm", "to\nmm");
+  add("bulge_mm", "bulge\nmm");
+}
+
+/// Length and thickest section at rest, elongation, and by how much the thickest section grows beyond that at rest.
+void add_muscle_cells(const MuscleCycle& muscle, std::vector<double>& cells) {
+  const CycleRange elongation = range_of(muscle.elongation_m);
+  const double bulge = range_of(muscle.thickness_m).high - muscle.rest_thickness_m;
+  for (const double metres :
+       {muscle.plan.belly_length_m, muscle.rest_thickness_m, elongation.low, elongation.high, std::max(bulge, 0.0)}) {
+    cells.push_back(millimetres * metres);
+  }
+}
+
+PaperTable table_of(const std::vector<PaperCycle>& walks) {
+  PaperTable table{"person",
+                   {{"step_length_m", "step\nlength m", 3},
+                    {"step_frequency_hz", "frequency\nHz", 3},
+                    {"com_excursion_mm", "centre of mass\nrises by mm", 1}},
+                   {}};
+  add_muscle_columns("quadriceps", table);
+  add_muscle_columns("hamstrings", table);
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    const PaperCycle& walk = walks[i];
+    PaperTable::Row row{fmt::format("{} {:.2f} m {:.0f} kg", people[i].what, people[i].height_m, people[i].mass_kg),
+                        {static_cast<double>(walk.gait.step_length_m), static_cast<double>(walk.gait.step_frequency_hz),
+                         millimetres * range_of(walk.com_height_m).span()}};
+    add_muscle_cells(walk.muscle(Muscle::quadriceps), row.value);
+    add_muscle_cells(walk.muscle(Muscle::hamstrings), row.value);
+    table.row.push_back(std::move(row));
+  }
+  return table;
+}
+
+PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
+  PlotFigure figure{"Taller, shorter, thinner, heavier, all at 5 km/h",
+                    "Thickest section: diameter of a circle as large as the mesh's largest cross-section.",
+                    3,
+                    {},
+                    false,
+                    250,
+                    155};
+  figure.panels = {cycle_panel("centre of mass", "height over its mean (mm)"),
+                   cycle_panel("quadriceps", "elongation (mm)"),
+                   cycle_panel("quadriceps", "thickest section (mm)"),
+                   cycle_panel("right foot", "vertical force (N)"),
+                   cycle_panel("hamstrings", "elongation (mm)"),
+                   cycle_panel("hamstrings", "thickest section (mm)")};
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    const auto add = [&](std::size_t panel, const CycleCurve& curve, double scale, double from = 0) {
+      figure.panels[panel].lines.push_back(
+          {cycle_percents(), cycle_values(curve, scale, from), series_colour[i], label(i), 1.7, false});
+    };
+    const MuscleCycle& quadriceps = walks[i].muscle(Muscle::quadriceps);
+    const MuscleCycle& hamstrings = walks[i].muscle(Muscle::hamstrings);
+    add(0, walks[i].com_height_m, millimetres, mean_of(walks[i].com_height_m));
+    add(1, quadriceps.elongation_m, millimetres);
+    add(2, quadriceps.thickness_m, millimetres);
+    add(3, walks[i].ground_n, 1);
+    add(4, hamstrings.elongation_m, millimetres);
+    add(5, hamstrings.thickness_m, millimetres);
+  }
+  return figure;
+}
+
+std::string answer(const PaperTable& table) {
+  const auto& same = table.row[0].value;
+  std::string text;
+  for (const std::size_t other : {std::size_t{1}, std::size_t{3}}) {
+    const auto& v = table.row[other].value;
+    text += fmt::format(
+        "\n{}: steps {:+.0f} mm, centre of mass rises {:+.1f} mm; quadriceps belly {:+.0f} mm long, {:+.1f} mm thick, "
+        "stretched by {:+.1f} mm;\nhamstrings belly {:+.0f} mm long, {:+.1f} mm thick, stretched by {:+.1f} mm.",
+        table.row[other].label, millimetres * (v[0] - same[0]), v[2] - same[2], v[3] - same[3], v[4] - same[4],
+        v[6] - same[6], v[8] - same[8], v[9] - same[9], v[11] - same[11]);
+  }
+  return text + "\n";
+}
+
+}  // namespace
+
+Result<void> paper_stature(PaperRun& run) {
+  std::vector<PaperCycle> walks;
+  for (const Person& person : people) {
+    run.progress("walking", static_cast<double>(walks.size()) / people.size());
+    CycleRequest request{{}, paper_gait(), only({Muscle::quadriceps, Muscle::hamstrings}), {}, {}};
+    request.body.height_m = person.height_m;
+    request.body.mass_kg = person.mass_kg;
+    request.body.constitution = person.constitution;
+    auto walk = walk_cycle(request);
+    if (!walk) return tl::unexpected(walk.error());
+    walks.push_back(std::move(*walk));
+  }
+  const PaperTable table = table_of(walks);
+  run.text = table_text(table) + answer(table);
+  if (auto done = run.write_csv(table_csv(table)); !done) return done;
+  return run.write(figure_of(walks));
+}
+
+}  // namespace mobil

@@ -17,7 +17,7 @@ constexpr double least_lean_index = least_mass_index * (1 - least_fat);
 constexpr double most_mass_index = 92;
 static_assert(most_mass_index < most_lean_index / (1 - most_fat));
 
-constexpr double muscle_in_lean = 0.5, most_muscle_in_lean = 0.6, legs_in_muscle = 0.52, muscle_kg_per_cm3 = 1.06e-3;
+constexpr double muscle_in_lean = 0.5, most_muscle_in_lean = 0.65, legs_in_muscle = 0.52, muscle_kg_per_cm3 = 1.06e-3;
 /// Heath and Carter's ratings go by halves; two who rate the same body seldom differ by more than this.
 constexpr double rating_tolerance = 1.5;
 
@@ -106,7 +106,6 @@ BodyComposition body_composition(const BodyRequest& request) {
   const double fewest = std::max(least_lean_index * square, (1 - most_fat) * mass);
   const double most = std::min(most_lean_index * square, (1 - least_fat) * mass);
   if (lean > most && most == most_lean_index * square) note(BodyNote::fat_raised);
-  if (lean > most && most < most_lean_index * square && asked) note(BodyNote::fat_essential);
   if (lean < fewest && asked) note(BodyNote::fat_lowered);
   lean = std::clamp(lean, fewest, most);
 
@@ -142,11 +141,6 @@ std::vector<std::string> body_notes(const Body& body) {
   if (has_note(made, BodyNote::fat_lowered)) {
     notes.push_back(fmt::format("endomorphy {:.1f} would leave a body of {} too little else; fat is taken as {:.0f} %",
                                 asked.biotype.endo, who, fat));
-  }
-  if (has_note(made, BodyNote::fat_essential)) {
-    notes.push_back(
-        fmt::format("endomorphy {:.1f} would leave less fat than a body lives with; fat is taken as {:.0f} %",
-                    asked.biotype.endo, fat));
   }
   if (has_note(made, BodyNote::muscle)) {
     notes.push_back(

@@ -14,7 +14,7 @@
 //     Biol. 6, 1994, had 35.1 (121.3 kg at 1.86 m), which they hold to be near the limit.
 //   Least mass, 12 kg/m²: James, Ferro-Luzzi & Waterlow 1988; Henry 1990: men die at 13, women at 11.
 //   Skeletal muscle: Janssen, Heymsfield, Wang & Ross, J. Appl. Physiol. 89, 2000: 38.4 % of men's mass, half of what
-//     is lean; 52 % of it in the lower body. That it can be three fifths of what is lean, at most, is our choice.
+//     is lean; 52 % of it in the lower body. That it can be 65 % of what is lean, at most, is our choice.
 //   Leg muscles' volume: Handsfield et al. 2014, as in assets/muscle_table.h.
 
 #include <string>
@@ -45,7 +45,7 @@ double fat_share_of_mass_index(double body_mass_index);
 /// Fat, lean mass, biotype and muscle of a request within its ranges. Fat follows from the endomorphy asked for. Where
 /// endomorphy and ectomorphy are the usual 3, that is where nobody asked, the lean mass is Gallagher's; half of it, the
 /// muscle, is as much more or less as constitution and mesomorphy say. Then fat gives way until the lean mass is that
-/// of a living body. Muscle that comes near three fifths of the lean mass grows ever less with what is asked, and never
+/// of a living body. Muscle that comes near 65 % of the lean mass grows ever less with what is asked, and never
 /// beyond; it rises with height, mass and mesomorphy throughout.
 BodyComposition body_composition(const BodyRequest& request);
 

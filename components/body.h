@@ -30,11 +30,10 @@ struct BodyRequest {
 /// What a request had to give way in: bits of BodyComposition::notes, in words by `body_notes`
 /// (assets/body_composition.h).
 enum class BodyNote : std::uint8_t {
-  ectomorphy = 1,     // was asked otherwise than height and mass make it; what they make is taken
-  fat_raised = 2,     // the endomorphy asked would leave more lean mass than anybody has at that height
-  fat_lowered = 4,    // it would leave less than a living body has
-  fat_essential = 8,  // it would leave less fat than a living body has
-  muscle = 16,        // constitution and mesomorphy ask for more muscle than the lean mass holds
+  ectomorphy = 1,   // was asked otherwise than height and mass make it; what they make is taken
+  fat_raised = 2,   // the endomorphy asked would leave more lean mass than anybody has at that height
+  fat_lowered = 4,  // it would leave less than a living body has
+  muscle = 8,       // constitution and mesomorphy ask for more muscle than the lean mass holds
 };
 
 /// What a body is made of, from its request; assets/body_composition.h says how and after whom.

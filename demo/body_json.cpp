@@ -42,7 +42,7 @@ Json composition(const Body& body) {
        "ectomorphy and endomorphy: Carter 2002; density of skinfolds: Durnin & Womersley 1974; fat of density: Siri "
        "1961; fat of body mass index, where no biotype was asked for: Gallagher et al. 2000; most lean mass: Kondo "
        "et al. 1994; least mass: James et al. 1988; muscle in lean mass: Janssen et al. 2000; what constitution and "
-       "mesomorphy do to muscle, and its most in lean mass (three fifths): ours"},
+       "mesomorphy do to muscle, and its most in lean mass (65 %): ours"},
       {"body_mass_index_kg_m2", number(c.body_mass_index)},
       {"height_over_cube_root_mass_cm_kg13", number(c.height_over_cube_root_mass)},
       {"fat_mass_kg", number(c.fat_kg)},

@@ -30,8 +30,9 @@ inline constexpr double heel_back = 0.034, ball_forward = 0.078, toes_length = f
 inline constexpr double toe_joint_height = 0.008;
 inline constexpr double shoulder_height = 0.818, shoulder_half_spacing = 0.100;
 inline constexpr double upper_arm = 0.186, forearm = 0.146, hand = 0.108;
-/// Kneecap's centre from the knee's, knee straight: in front and above.
-inline constexpr double patella_forward = 0.027, patella_up = 0.012;
+/// Kneecap's centre from the knee's, knee straight: in front, and above (below, as measured on the
+/// leg that the bones are drawn after: its ligament then is as long as theirs).
+inline constexpr double patella_forward = 0.027, patella_up = -0.009;
 }  // namespace fraction
 
 /// The table of proportions, a constant of the programme.

@@ -44,7 +44,21 @@ std::vector<Attachment> attachments() {
       {"gastrocnemius_medial", "soleus", 14, {}, {}},
       {"gastrocnemius_lateral", "soleus", 14, {}, {}},
       {"soleus", "", 14, {}, {}},
-      {"plantaris", "soleus", 14, {}, {}},
+      // The measured man's is thicker than in life, its tendon above all.
+      {"plantaris",
+       "soleus",
+       4,
+       {{0.896F, 22.6F, 16.2F, 2.4F, 1.6F, 22}},
+       {{1.257F, 6.2F, -31.6F, 2.4F, 1.5F, 126},
+        {1.354F, -6.3F, -35.1F, 2.1F, 1.0F, 133},
+        {1.451F, -19.5F, -33.3F, 2, 0.9F, 124},
+        {1.549F, -27.1F, -27, 2, 0.9F, 138},
+        {1.646F, -23.5F, -24.5F, 2, 0.9F, 135},
+        {1.743F, -18.3F, -26.1F, 2, 0.9F, 144},
+        {1.841F, -18.1F, -28.6F, 2, 0.9F, 137},
+        {1.938F, -18.4F, -32.5F, 2, 0.9F, 109},
+        {2.035F, -20, -35.3F, 2.1F, 0.9F, 92},
+        {2.097F, -20, -35.9F, 2.4F, 1, 72}}},
       {"tibialis_anterior", "", 14, {}, {}},
   };
 }
@@ -72,7 +86,14 @@ std::vector<MuscleShape> muscle_shapes() {
   for (const Attachment& a : attachments()) {
     const std::size_t m = place(a.member);
     MuscleShape& shape = all[m];
-    shape = {members[m].name, members[m].group, members[m].origin, members[m].insertion, a.before, place(a.lies_on)};
+    const bool ends_in_tendon = a.member.starts_with("gastrocnemius") || a.member == "soleus";
+    shape = {members[m].name,
+             members[m].group,
+             members[m].origin,
+             members[m].insertion,
+             a.before,
+             place(a.lies_on),
+             ends_in_tendon ? members.size() : no_muscle};
     const auto measured = members[m].sections.first(a.keep);
     shape.sections.insert(shape.sections.end(), measured.begin(), measured.end());
     shape.sections.insert(shape.sections.end(), a.after.begin(), a.after.end());
@@ -82,6 +103,7 @@ std::vector<MuscleShape> muscle_shapes() {
                  Segment::shank_right,
                  Segment::foot_right,
                  {calcaneal_tendon.begin(), calcaneal_tendon.end()},
+                 no_muscle,
                  no_muscle});
   return all;
 }

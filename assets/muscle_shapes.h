@@ -15,13 +15,13 @@ inline constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
 /// One muscle of the right leg from its origin (first section) to its insertion (last); the quadriceps end at the upper
 /// edge of the kneecap, gastrocnemius and soleus in the calcaneal tendon. `lies_on`: the muscle of this list that it
-/// covers and is pushed out by.
+/// covers and is pushed out by. `ends_in`: the tendon of this list that it goes on in.
 struct MuscleShape {
   std::string_view name;
   Muscle group;
   Segment origin, insertion;
   std::vector<LegSection> sections;
-  std::size_t lies_on;
+  std::size_t lies_on, ends_in;
 };
 
 /// The members in the order of member_muscles(), with their sections (muscle_sections.h) led on to where they are

@@ -201,7 +201,7 @@ GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
                                            {at(0.3), 2.6 * unit, 13 * unit},
                                            {at(0.7), 2.6 * unit, 12 * unit},
                                            {at(1), 3 * unit, 9 * unit}};
-  GroupSurface s{Muscle::quadriceps, Muscle::quadriceps, {}, {}, true};
+  GroupSurface s{Muscle::quadriceps, Muscle::quadriceps, {}, {}, {to_float(top), to_float(bottom)}, true};
   s.surface.mesh =
       loft(line, {.reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = 10, .segments = 12, .cap = 0.6});
   s.surface.mesh.name = "patellar_ligament_right";
@@ -213,12 +213,26 @@ GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
 
 }  // namespace
 
+std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle) {
+  const auto has = [&](Muscle m) { return simulated[static_cast<std::size_t>(m)]; };
+  if (has(muscle)) return muscle;
+  if (has(group)) return group;
+  std::optional<Muscle> largest;
+  double most = 0;
+  for (const MemberMuscle& m : members_of(group)) {
+    const double volume = handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
+    const auto own = find_muscle(m.name);
+    if (!own || !has(*own) || volume <= most) continue;
+    largest = own;
+    most = volume;
+  }
+  return largest;
+}
+
 std::vector<double> member_volumes_m3(const Body& body) {
   std::vector<double> volume;
   for (const MemberMuscle& m : member_muscles()) {
-    volume.push_back(1e-6 * static_cast<double>(body.composition.muscle_factor) *
-                     handsfield_volume_cm3(m, static_cast<double>(body.request.height_m),
-                                           static_cast<double>(body.request.mass_kg)));
+    volume.push_back(member_volume_m3(body, m));
   }
   return volume;
 }
@@ -243,7 +257,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   for (const bool covering : {false, true}) {
     for (std::size_t m = 0; m < volumes.size(); ++m) {
       if ((shapes[m].lies_on != no_muscle) != covering) continue;
-      double low = 0.4, high = 2.5;
+      double low = 0.25, high = 2.5;
       for (int i = 0; i < 14; ++i) {
         const double middle = 0.5 * (low + high);
         (enclosed_volume(build(f, surface_of(m, middle))) < volumes[m] ? low : high) = middle;
@@ -254,14 +268,18 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   std::vector<GroupSurface> all;
   for (std::size_t m = 0; m < shapes.size(); ++m) {
     const auto sections = surface_of(m, girth[m]);
-    GroupSurface s{shapes[m].group, find_muscle(shapes[m].name).value_or(shapes[m].group), {}, {}, false};
+    GroupSurface s{shapes[m].group, find_muscle(shapes[m].name).value_or(shapes[m].group), {}, {}, {}, false};
     s.surface.mesh = build(f, sections);
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;
     s.tendon = tendon_shares(leg, sections, shapes[m].sections, s.surface.mesh);
     if (m >= volumes.size()) s.tendon.assign(s.tendon.size(), 1.0F);
+    s.attachments = {s.surface.mesh.position.front(), s.surface.mesh.position.back()};
     all.push_back(std::move(s));
+  }
+  for (std::size_t m = 0; m < shapes.size(); ++m) {
+    if (shapes[m].ends_in != no_muscle) all[m].attachments.insertion_m = all[shapes[m].ends_in].attachments.insertion_m;
   }
   all.push_back(patellar_ligament(body, f));
   return all;

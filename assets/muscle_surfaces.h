@@ -1,8 +1,10 @@
 #pragma once
 // The muscles of the right leg as lofted surfaces, from measured sections and the body's own volumes.
 
+#include <optional>
 #include <vector>
 
+#include "assets/surface_binding.h"
 #include "components/body.h"
 #include "components/muscle.h"
 #include "components/surface.h"
@@ -10,15 +12,20 @@
 namespace mobil {
 
 /// A muscle surface with the meshes that can drive it: its own muscle's where that is simulated, else its group's
-/// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in the tendon.
-/// A ligament follows its two bones alone: bind it with bind_ligament, a group's others together with bind_surfaces
+/// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in
+/// the tendon. A ligament follows its two bones alone: bind it with bind_ligament, the others with bind_muscle
 /// (surface_binding.h).
 struct GroupSurface {
   Muscle group, muscle;
   MuscleSurface surface;
   std::vector<float> tendon;
+  Attachments attachments{};
   bool ligament = false;
 };
+
+/// The one of the `simulated` muscles whose mesh a surface follows: its own, else its group's, else that of the group's
+/// largest member; nothing where none of them is simulated.
+std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle);
 
 /// The members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament; right side, world
 /// axes, the body standing in the anatomical position at x = z = 0, m; closed, wound outwards, not bound yet. Each

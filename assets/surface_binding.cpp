@@ -107,6 +107,20 @@ CagePlace CageSearch::place(const Vec& point) const {
   return {element_nodes(cells, p.element), weights(p.local)};
 }
 
+/// Farthest that points between two heights lie from their middle, across.
+double radius(const std::vector<Vec>& place, double from, double to) {
+  Vec middle{0, 0, 0};
+  double count = 0, farthest = 0;
+  const auto within = [&](const Vec& p) { return p.z >= from && p.z <= to; };
+  for (const Vec& p : place) {
+    if (within(p)) middle = middle + p, ++count;
+  }
+  for (const Vec& p : place) {
+    if (within(p)) farthest = std::max(farthest, std::hypot(p.x - middle.x / count, p.y - middle.y / count));
+  }
+  return farthest;
+}
+
 Vec in_frame(const RestFrame& frame, const Vec3<float>& position) {
   return rotated(conjugate(to_double(frame.rotation)), to_double(position) - to_double(frame.start_m));
 }
@@ -143,34 +157,27 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
   bind_surface(surface, cage, frame, Passages{low - blend_m, low, high, high + blend_m});
 }
 
-void bind_surfaces(std::span<MuscleSurface* const> surfaces, const HexahedralMesh& cage, const RestFrame& frame,
-                   double least_m) {
-  constexpr double on_bone = 0.55, attached = 0.95;
+void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
+                 const Attachments& attachments, double least_m) {
+  constexpr double attached = 0.95, lengths_of_thickness = 3;
   const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
-  struct Beyond {
-    double origin = 0, insertion = 0;
+  std::vector<Vec> place;
+  double first = in_frame(frame, attachments.origin_m).z, last = in_frame(frame, attachments.insertion_m).z;
+  for (const auto& position : surface.mesh.position) {
+    place.push_back(in_frame(frame, position));
+    first = std::min(first, place.back().z);
+    last = std::max(last, place.back().z);
+  }
+  const auto least = [&](double from, double to) {
+    return std::max(least_m, lengths_of_thickness * radius(place, from, to));
   };
-  std::vector<Beyond> beyond;
-  Beyond farthest;
-  for (const MuscleSurface* surface : surfaces) {
-    Beyond b;
-    for (const auto& position : surface->mesh.position) {
-      const double z = in_frame(frame, position).z;
-      b.origin = std::max(b.origin, low - z);
-      b.insertion = std::max(b.insertion, z - high);
-    }
-    beyond.push_back(b);
-    farthest = {std::max(farthest.origin, b.origin), std::max(farthest.insertion, b.insertion)};
-  }
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const auto own = [](double self, double group) { return attached * (self < on_bone * group ? group : self); };
-    Passages p{};
-    p.origin_to = low - own(beyond[s].origin, farthest.origin);
-    p.origin_from = std::max(low, p.origin_to + least_m);
-    p.insertion_to = high + own(beyond[s].insertion, farthest.insertion);
-    p.insertion_from = std::min(high, p.insertion_to - least_m);
-    bind_surface(*surfaces[s], cage, frame, p);
-  }
+  Passages p{};
+  p.origin_to = low - attached * std::max(0.0, low - first);
+  p.origin_from = std::max(low, p.origin_to + least(p.origin_to - least_m, p.origin_to + least_m));
+  p.insertion_to = high + attached * std::max(0.0, last - high);
+  p.insertion_from = std::min(high, p.insertion_to - least(p.insertion_to - least_m, p.insertion_to + least_m));
+  if (p.origin_from > p.insertion_from) p.origin_from = p.insertion_from = 0.5 * (p.origin_from + p.insertion_from);
+  bind_surface(surface, cage, frame, p);
 }
 
 void bind_ligament(MuscleSurface& surface, const Vec3<float>& origin_m, const Vec3<float>& insertion_m) {

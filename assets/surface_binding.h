@@ -2,7 +2,6 @@
 // How a surface's vertices come to follow a deforming cage and two bones.
 
 #include <array>
-#include <span>
 
 #include "assets/hexahedral_mesh.h"
 #include "components/surface.h"
@@ -40,12 +39,18 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
 /// The same with passages of `blend_m` right beyond the cage's end faces, for a surface on its own.
 void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame, double blend_m);
 
-/// Binds the surfaces that one cage drives. Between the cage's end faces they follow the cage alone; beyond them they
-/// pass to their bones, each to the end of its own tendon, so that a joint on the way bends it smoothly. A surface that
-/// ends less than 0.55 as far out as the farthest one ends in a tendon and not on the bone, and goes with the farthest.
-/// A passage is `least_m` long at least (0.04 m looks right for a body of 1.80 m): for it, it begins inside the cage.
-void bind_surfaces(std::span<MuscleSurface* const> surfaces, const HexahedralMesh& cage, const RestFrame& frame,
-                   double least_m);
+/// Where a muscle is attached to its bones (m, world, the body standing): where its surface ends, or farther out where
+/// it goes on in a tendon with a surface of its own.
+struct Attachments {
+  Vec3<float> origin_m, insertion_m;
+};
+
+/// Binds a surface to the cage that drives it and to its bones. Between the cage's end faces it follows the cage alone;
+/// beyond them it passes to its bones as far as its attachments, so that a joint on the way bends it smoothly. A
+/// passage is `least_m` long at least (0.04 m looks right for a body of 1.80 m), and the longer the thicker the surface
+/// is there, lest a joint fold it: for that, it begins inside the cage.
+void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
+                 const Attachments& attachments, double least_m);
 
 /// Binds a surface to its two bones alone: smoothly from the origin at `origin_m` to the insertion at `insertion_m` (m,
 /// world, the body standing; not the same point), by place along the line between them.

@@ -32,18 +32,15 @@ bool is_tendon(const std::string& name) {
   return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
 }
 
-/// Binds the surfaces of each muscle to its mesh in this person.
-void bind_muscles(const Simulation& simulation, const Human& human, Figure& figure, const std::vector<bool>& ligament) {
-  for (const auto& [plan, entity] : human.muscles) {
-    const auto* shape = simulation.world().shared<MuscleTemplate>(entity[right]);
-    const RestFrame frame{geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)};
-    std::vector<MuscleSurface*> together;
-    for (std::size_t i = 0; i < figure.muscles.size(); ++i) {
-      if (figure.muscles[i].muscle == plan.muscle && !ligament[i]) together.push_back(&figure.muscles[i].surface);
-    }
-    bind_surfaces(together, individual_cage(*shape, plan.scale), frame,
-                  blend_per_height * static_cast<double>(human.body.request.height_m));
-  }
+/// Binds a surface to the mesh of the muscle that drives it in this person.
+void bind(const Simulation& simulation, const Human& human, Muscle driver, const Attachments& attachments,
+          MuscleSurface& surface) {
+  const auto& [plan, entity] = *std::find_if(human.muscles.begin(), human.muscles.end(),
+                                             [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
+  const auto* shape = simulation.world().shared<MuscleTemplate>(entity[right]);
+  bind_muscle(surface, individual_cage(*shape, plan.scale),
+              {geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)}, attachments,
+              blend_per_height * static_cast<double>(human.body.request.height_m));
 }
 
 /// Centre of the highest or lowest hundredth of a surface: where a ligament begins or ends.
@@ -58,12 +55,6 @@ Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
   return (1.0F / static_cast<float>(count)) * sum;
 }
 
-/// Its own muscle where that is simulated, else its group.
-Muscle driver(const Human& human, Muscle group, Muscle muscle) {
-  const auto own = [muscle](const HumanMuscle& m) { return m.plan.muscle == muscle; };
-  return std::any_of(human.muscles.begin(), human.muscles.end(), own) ? muscle : group;
-}
-
 FigureMuscle figure_muscle(Muscle muscle, MuscleSurface surface) {
   const Vec3<float> colour = is_tendon(surface.mesh.name) ? tendon_colour : belly_colour;
   return {muscle, colour, std::move(surface)};
@@ -75,6 +66,14 @@ void end_on_shank_below_kneecap(const Body& body, MuscleSurface& surface) {
   if (surface.insertion == Segment::patella_right && extreme(surface.mesh, false).y < knee) {
     surface.insertion = Segment::shank_right;
   }
+}
+
+/// Where the folder says that it is attached, else where it ends. The kneecap is on the way to the shank.
+Attachments attachments(const FittedMuscle& muscle) {
+  Attachments at{extreme(muscle.surface.mesh, true), extreme(muscle.surface.mesh, false)};
+  if (muscle.origin_m) at.origin_m = *muscle.origin_m;
+  if (muscle.insertion_m && muscle.surface.insertion != Segment::shank_right) at.insertion_m = *muscle.insertion_m;
+  return at;
 }
 
 Result<Figure> real_figure(const Simulation& simulation, const Human& human, const std::filesystem::path& folder) {
@@ -91,10 +90,12 @@ Result<Figure> real_figure(const Simulation& simulation, const Human& human, con
     if (!real[index(bone.segment)]) figure.bones.push_back(std::move(bone));
   }
   for (auto& muscle : fitted->muscles) {
+    const auto driver = driving_muscle(human.leg_muscles.muscles, muscle.group, muscle.muscle);
+    if (!driver) continue;
     end_on_shank_below_kneecap(human.body, muscle.surface);
-    figure.muscles.push_back(figure_muscle(driver(human, muscle.group, muscle.muscle), std::move(muscle.surface)));
+    bind(simulation, human, *driver, attachments(muscle), muscle.surface);
+    figure.muscles.push_back(figure_muscle(*driver, std::move(muscle.surface)));
   }
-  bind_muscles(simulation, human, figure, std::vector<bool>(figure.muscles.size(), false));
   return figure;
 }
 
@@ -105,15 +106,16 @@ Result<Figure> make_figure(const Simulation& simulation, const Human& human,
   if (anatomy) return real_figure(simulation, human, *anatomy);
   Figure figure;
   figure.bones = make_bone_surfaces(human.body);
-  std::vector<bool> ligament;
   for (auto& muscle : make_muscle_surfaces(human.body)) {
-    ligament.push_back(muscle.ligament);
+    const auto driver = driving_muscle(human.leg_muscles.muscles, muscle.group, muscle.muscle);
+    if (!driver) continue;
     if (muscle.ligament) {
-      bind_ligament(muscle.surface, extreme(muscle.surface.mesh, true), extreme(muscle.surface.mesh, false));
+      bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);
+    } else {
+      bind(simulation, human, *driver, muscle.attachments, muscle.surface);
     }
-    figure.muscles.push_back(figure_muscle(driver(human, muscle.group, muscle.muscle), std::move(muscle.surface)));
+    figure.muscles.push_back(figure_muscle(*driver, std::move(muscle.surface)));
   }
-  bind_muscles(simulation, human, figure, ligament);
   return figure;
 }
 

@@ -44,7 +44,7 @@ class RealLeg : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     folder = anatomy_folder();
-    if (!folder.empty()) anatomy = load_anatomy(folder, {.tibialis_anterior = true});
+    if (!folder.empty()) anatomy = load_anatomy(folder);
   }
   void SetUp() override {
     if (folder.empty()) GTEST_SKIP() << "no shared/anatomy above the current directory, MOBIL_ANATOMY is not set";
@@ -174,8 +174,8 @@ TEST_F(RealLeg, MusclesKeepTheManifestsVolumeTimesTheBodysSize) {
   const Body body = body_of(1.7F);
   const auto fitted = fit_anatomy(*anatomy, body).value();
   const double size = bone_maps(*anatomy, body)->size;
-  EXPECT_EQ(fitted.muscles.size(), 13U);
-  EXPECT_EQ(fitted.others.size(), 1U);  // tibialis anterior, as asked
+  EXPECT_EQ(fitted.muscles.size(), 14U);
+  EXPECT_EQ(fitted.others.size(), 0U);
   for (const auto& muscle : fitted.muscles) {
     for (std::size_t row = 0; row < table->row.size(); ++row) {
       if (fs::path(cell(*table, row, "file")).stem() != muscle.surface.mesh.name) continue;

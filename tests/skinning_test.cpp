@@ -59,9 +59,10 @@ struct Bound {
   RestFrame frame = thigh_frame(b);
   MuscleSurface surface;
 
-  explicit Bound(std::size_t member = 0) : surface(make_muscle_surfaces(b)[member].surface) {
-    MuscleSurface* const all[] = {&surface};
-    bind_surfaces(all, mesh, frame, blend_m);
+  explicit Bound(std::size_t member = 0) {
+    const GroupSurface muscle = make_muscle_surfaces(b)[member];
+    surface = muscle.surface;
+    bind_muscle(surface, mesh, frame, muscle.attachments, blend_m);
   }
   Pose<float> rest_pose() const {
     Pose<float> pose{};
@@ -153,10 +154,11 @@ TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
   const RestFrame frame{to_float(knee + Vec{0, -0.01, -0.02}), rotation({1, 0, 0}, 1.5708)};
   std::vector<MuscleSurface*> group;
   for (auto& m : muscles) {
-    if (m.group == Muscle::triceps_surae) group.push_back(&m.surface);
+    if (m.group != Muscle::triceps_surae || m.surface.mesh.name.starts_with("plantaris")) continue;
+    group.push_back(&m.surface);
+    bind_muscle(m.surface, base.mesh, frame, m.attachments, blend_m);
   }
   ASSERT_EQ(group.size(), 4U);
-  bind_surfaces(group, base.mesh, frame, blend_m);
   const auto& tendon = *group.back();
   EXPECT_EQ(tendon.binding.back().insertion, 1.0F);
   for (const MuscleSurface* s : group) {

@@ -294,7 +294,8 @@ TEST(MuscleSurfaces, LookLikeALeg) {
   };
   for (const auto& m : make_muscle_surfaces(b)) {
     if (m.ligament || m.surface.mesh.name.starts_with("calcaneal")) continue;
-    const double y = m.group == Muscle::triceps_surae ? calf : thigh;
+    const bool below_knee = m.group == Muscle::triceps_surae || m.group == Muscle::tibialis_anterior;
+    const double y = below_knee ? calf : thigh;
     double z = 0;
     int count = 0;
     for (const auto& p : m.surface.mesh.position) {
@@ -304,11 +305,13 @@ TEST(MuscleSurfaces, LookLikeALeg) {
     }
     ASSERT_GT(count, 0) << m.surface.mesh.name;
     z /= count;
-    const double femur_z = m.group == Muscle::triceps_surae ? 0 : bone_z(femur_sections(), y);
+    const double femur_z = below_knee ? 0 : bone_z(femur_sections(), y);
     if (m.group == Muscle::quadriceps) {
       EXPECT_GT(z, femur_z - 0.01) << m.surface.mesh.name;
     } else if (m.group == Muscle::hamstrings) {
       EXPECT_LT(z, femur_z - 0.01) << m.surface.mesh.name;
+    } else if (m.group == Muscle::tibialis_anterior) {
+      EXPECT_GT(z, bone_z(tibia_sections(), y)) << m.surface.mesh.name;
     } else {
       EXPECT_LT(z, bone_z(tibia_sections(), y) - 0.02) << m.surface.mesh.name;
     }

@@ -26,7 +26,8 @@ enum class AnatomyKind : std::uint8_t { bone, muscle, tendon, skin };
 struct AnatomyPart {
   SurfaceMesh mesh;  // named by its file's stem
   AnatomyKind kind = AnatomyKind::bone;
-  std::optional<Muscle> group;  // of a muscle or tendon that a group's cage drives
+  std::optional<Muscle> group;                                         // of a muscle or tendon that a mesh drives
+  std::optional<Muscle> muscle;                                        // that muscle itself, where its name tells it
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;  // a bone's own segment in both
   std::optional<Vec3<float>> origin_m, insertion_m;                    // centroids of the attachments
   bool midline = false;  // the mesh spans both sides and has no mirror image
@@ -45,7 +46,6 @@ struct Anatomy {
 };
 
 struct AnatomyOptions {
-  bool tibialis_anterior = false;
   bool other_muscles = false;  // muscles of no group
   bool skin = false;
   double muscle_cell_m = 0.003;  // vertex clustering of everything but bones, see clustered(); 0 keeps every vertex
@@ -54,8 +54,10 @@ struct AnatomyOptions {
   unsigned threads = 2;
 };
 
-/// Reads the folder. Muscles of the table's groups are wanted, the tendon goes with triceps_surae, and
-/// the rest is as `options` says; left-hand rows are passed over. A closed mesh that is wound inwards is turned. Fails
+/// Reads the folder. Muscles of the table's groups are wanted, the tendon goes with triceps_surae, and the rest is as
+/// `options` says; left-hand rows are passed over. Which muscle of its group a mesh is follows from its name or its
+/// file's, which hold all words of the table's name in any order ("Long head of right biceps femoris"); that also makes
+/// up for an empty group. A closed mesh that is wound inwards is turned. Fails
 /// with one line naming file and row for: a missing folder, file, column or landmark; a number that is not one; a mesh
 /// that cannot be read (see read_mesh), has another count of triangles than the manifest says, is open where the
 /// manifest says watertight, has edges used by more than two triangles, or lies far from the landmarks; landmarks in

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <sstream>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <utility>
@@ -57,6 +60,44 @@ std::optional<Muscle> group_of(std::string_view name) {
   return found && muscle_groups()[static_cast<std::size_t>(*found)] ? found : std::nullopt;
 }
 
+/// Letters of a name, small; all else spaces.
+std::string plain_words(std::string_view name) {
+  std::string words = " ";
+  for (const char c : name) {
+    const auto u = static_cast<unsigned char>(c);
+    words += std::isalpha(u) != 0 ? static_cast<char>(std::tolower(u)) : ' ';
+  }
+  return words + " ";
+}
+
+/// The member of the table all of whose name's words are among these.
+const MemberMuscle* member_called(std::string_view name) {
+  const std::string words = plain_words(name);
+  for (const MemberMuscle& m : member_muscles()) {
+    std::istringstream wanted(plain_words(m.name));
+    std::string word;
+    bool all = true;
+    while (wanted >> word) all = all && words.find(" " + word + " ") != std::string::npos;
+    if (all) return &m;
+  }
+  return nullptr;
+}
+
+/// Group and muscle by the manifest's group and by the names; the group that is written there is the one that counts.
+void find_muscle_of(AnatomyPart& part, std::string_view group, std::string_view name, std::string_view file) {
+  if (part.kind == AnatomyKind::tendon) {
+    part.group = Muscle::triceps_surae;
+    return;
+  }
+  part.group = group_of(group);
+  if (!part.group && !group.empty()) return;
+  const MemberMuscle* member = member_called(name);
+  if (member == nullptr) member = member_called(file);
+  if (member == nullptr || (part.group && member->group != *part.group)) return;
+  part.group = member->group;
+  part.muscle = find_muscle(member->name);
+}
+
 /// Where a muscle of this group begins and ends when the manifest does not say.
 std::pair<Segment, Segment> usual_ends(AnatomyKind kind, std::optional<Muscle> group) {
   using enum Segment;
@@ -82,10 +123,10 @@ std::optional<AnatomyKind> kind_of(std::string_view name) {
   return std::nullopt;
 }
 
-bool wanted(const AnatomyPart& part, std::string_view group, const AnatomyOptions& options) {
+bool wanted(const AnatomyPart& part, const AnatomyOptions& options) {
   if (part.kind == AnatomyKind::bone || part.group) return true;
   if (part.kind == AnatomyKind::skin) return options.skin;
-  return group == "tibialis_anterior" ? options.tibialis_anterior : options.other_muscles;
+  return options.other_muscles;
 }
 
 /// A point of three columns PREFIX_x, _y, _z; nothing where the columns or all three cells are empty.
@@ -199,9 +240,10 @@ Result<std::vector<ManifestRow>> read_manifest(const std::string& folder, double
     if (side == "left") continue;
     const auto group = cell(*table, row, "group");
     read.part.kind = *kind;
-    if (*kind == AnatomyKind::muscle) read.part.group = group_of(group);
-    if (*kind == AnatomyKind::tendon) read.part.group = Muscle::triceps_surae;
-    if (!wanted(read.part, group, options)) continue;
+    if (*kind == AnatomyKind::muscle || *kind == AnatomyKind::tendon) {
+      find_muscle_of(read.part, group, cell(*table, row, "name"), std::filesystem::path(file).stem().string());
+    }
+    if (!wanted(read.part, options)) continue;
     read.part.midline = side == "mid";
     read.part.mesh.name = std::filesystem::path(file).stem().string();
     read.file = folder + "/" + std::string(file);

@@ -76,7 +76,7 @@ Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
       fitted.others.push_back(std::move(surface));
       continue;
     }
-    FittedMuscle muscle{*part.group, *part.group, std::move(surface), {}, {}};
+    FittedMuscle muscle{*part.group, part.muscle.value_or(*part.group), std::move(surface), {}, {}};
     if (part.origin_m) muscle.origin_m = place(*part.origin_m);
     if (part.insertion_m) muscle.insertion_m = place(*part.insertion_m);
     fitted.muscles.push_back(std::move(muscle));

@@ -269,13 +269,15 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
   const WideQuat tilted = turn_y(origin_heading + root.heading) * turn_z(aside);
   skeleton.hang(thigh, tilted * turn_x(-thigh_angle));
   skeleton.hang(shank, tilted * turn_x(-shank_angle));
-  // The kneecap slides round the knee at half its flexion.
-  const WideQuat half_way = tilted * turn_x(0.5F * flexion - thigh_angle);
+  // The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
+  // within a seventh.
+  constexpr float part = 0.9F;
+  const WideQuat on_the_way = tilted * turn_x(part * flexion - thigh_angle);
   const Vec3<float> knee = unit_skeleton.joint_offset[index(shank)], cap = unit_skeleton.joint_offset[index(patella)];
   skeleton.put(
       patella,
-      skeleton.position(shank) + rotate(half_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height)),
-      half_way);
+      skeleton.position(shank) + rotate(on_the_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height)),
+      on_the_way);
 
   const Wide yaw = origin_heading + at.heading + foot.toe_out * (side == left ? 1.0F : -1.0F);
   const WideQuat outward = turn_y(yaw);

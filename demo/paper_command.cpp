@@ -37,7 +37,7 @@ constexpr std::array entries = {
     Entry{"step-length", "How does the centre of mass's path change with step length? (svg, csv)", &paper_step_length},
     Entry{"quadriceps", "How does a walker's quadriceps deform, at other steps too? (svg, csv, png)",
           &paper_quadriceps},
-    Entry{"stature", "What if the person is taller or thinner? (svg, csv)", &paper_stature},
+    Entry{"stature", "What if the person is taller or thinner? (svg, csv, png)", &paper_stature},
     Entry{"anatomy", "real meshes beside built-in ones over a cycle; needs --anatomy (png)", &paper_anatomy, true},
 };
 

@@ -31,9 +31,9 @@ struct TickRows {
   std::vector<MuscleRows> muscle;
 };
 
-/// Diameter of a circle as large as the largest cross-section of a mesh, m; `moved` is at rest where its `first` is
-/// null. Sections are the mesh's planes of nodes, seen along z.
-double thickness(const HexahedralMesh& mesh, const BellyScale<float>& scale, const NodalView& moved) {
+/// Area of the largest section of a mesh, m²; `moved` is at rest where its `first` is null. Sections are the mesh's
+/// planes of nodes, seen along z.
+double largest_section(const HexahedralMesh& mesh, const BellyScale<float>& scale, const NodalView& moved) {
   const auto place = [&](std::uint32_t n) {
     const float* u = moved.first == nullptr ? nullptr : moved.first + std::size_t{3} * n * lane_count;
     const double across = value(scale.across);
@@ -52,7 +52,17 @@ double thickness(const HexahedralMesh& mesh, const BellyScale<float>& scale, con
     }
     largest = std::max(largest, std::abs(area));
   }
-  return 2 * std::sqrt(largest / std::numbers::pi);
+  return largest;
+}
+
+double rest_thickness(const MusclePlan& plan) {
+  return 2 * std::sqrt(plan.volume_m3 / plan.belly_length_m / std::numbers::pi);
+}
+
+double thickness(const Simulation& simulation, const MusclePlan& plan, Entity muscle) {
+  const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
+  const double now = largest_section(mesh, plan.scale, simulation.nodal_displacement(muscle));
+  return rest_thickness(plan) * std::sqrt(now / largest_section(mesh, plan.scale, {}));
 }
 
 void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) {
@@ -76,8 +86,7 @@ void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) 
     own.pull.push_back(-value(line.force_n));
     own.elongation.push_back(value(belly.elongation_m));
     own.volume.push_back(value(belly.volume_ratio));
-    own.thickness.push_back(thickness(simulation.world().shared<MuscleTemplate>(muscle[right])->mesh, plan.scale,
-                                      simulation.nodal_displacement(muscle[right])));
+    own.thickness.push_back(thickness(simulation, plan, muscle[right]));
   }
 }
 
@@ -96,9 +105,8 @@ PaperCycle sample(const Simulation& simulation, const Human& human, const TickRo
   for (std::size_t m = 0; m < human.muscles.size(); ++m) {
     const auto& [plan, muscle] = human.muscles[m];
     const MuscleRows& own = rows.muscle[m];
-    const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle[right])->mesh;
     cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle[right])->rest_length_m),
-                             thickness(mesh, plan.scale, {}), over(own.length), over(own.pull), over(own.elongation),
+                             rest_thickness(plan), over(own.length), over(own.pull), over(own.elongation),
                              over(own.volume), over(own.thickness)});
   }
   return cycle;

@@ -23,8 +23,8 @@ struct CycleRequest {
   std::optional<std::filesystem::path> anatomy{};
 };
 
-/// A muscle of the right leg. Thickness is that of the finite-element mesh: the diameter of a circle as large as its
-/// largest cross-section.
+/// A muscle of the right leg. Thickness: the diameter of a round bar of the muscle's volume and belly length, which
+/// grows and shrinks as the widest of its mesh's sections does.
 struct MuscleCycle {
   MusclePlan plan;
   double rest_length_m = 0, rest_thickness_m = 0;

@@ -21,7 +21,7 @@ constexpr Cells paper_mesh = {4, 4, 20};
 constexpr double step_s = 0.001, tick_s = 0.005;
 constexpr const char *input_colour = "#c1762c", *output_colour = "#2f6db3", *mesh_colour = "#8c2b22",
                      *back_colour = "#e3c9c5", *rest_colour = "#999";
-constexpr double panel_width = 290, panel_height = 120, panel_mm = 340;  // across a panel
+constexpr double panel_width = 290, panel_height = 120, panel_mm = 390;  // across a panel
 constexpr double millimetres = 1000;
 
 struct Row {
@@ -29,11 +29,35 @@ struct Row {
   std::vector<Vec3<double>> node;  // where they are, m, muscle frame
 };
 
+/// `rest`: its nodes, m; `far_outline`: those round the far face, the first again at the end.
+struct Mesh {
+  std::vector<Quad> boundary;
+  std::vector<Vec3<double>> rest;
+  std::vector<std::uint32_t> far_outline;
+};
+
 struct Moment {
   char name;
   const char* what;
   std::size_t row;
 };
+
+std::vector<Vec3<double>> places(const HexahedralMesh& mesh, const BellyScale<float>& scale) {
+  const double across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
+  std::vector<Vec3<double>> at;
+  for (const auto& node : mesh.node) at.push_back({across * node.x, across * node.y, along * node.z});
+  return at;
+}
+
+Mesh mesh_at_rest(const HexahedralMesh& mesh, const BellyScale<float>& scale) {
+  Mesh own{boundary_quads(mesh.cells), places(mesh, scale), {}};
+  const auto [nx, ny, nz] = mesh.cells;
+  for (std::uint32_t i = 0; i < nx; ++i) own.far_outline.push_back(node_index(mesh.cells, i, 0, nz));
+  for (std::uint32_t j = 0; j < ny; ++j) own.far_outline.push_back(node_index(mesh.cells, nx, j, nz));
+  for (std::uint32_t i = nx; i > 0; --i) own.far_outline.push_back(node_index(mesh.cells, i, ny, nz));
+  for (std::uint32_t j = ny + 1; j-- > 0;) own.far_outline.push_back(node_index(mesh.cells, 0, j, nz));
+  return own;
+}
 
 /// Of the node in the middle of the far face, and of the whole mesh.
 Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>& scale, double phase) {
@@ -47,10 +71,9 @@ Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>
           -static_cast<double>(simulation.get<LineOfAction>(muscle)->force_n),
           millimetres * u(insertion_centre(mesh.cells).front(), 2),
           {}};
-  const double across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
+  row.node = places(mesh, scale);
   for (std::uint32_t n = 0; n < node_count(mesh.cells); ++n) {
-    const Vec3<double>& rest = mesh.node[n];
-    row.node.push_back({across * rest.x + u(n, 0), across * rest.y + u(n, 1), along * rest.z + u(n, 2)});
+    row.node[n] = row.node[n] + Vec3<double>{u(n, 0), u(n, 1), u(n, 2)};
   }
   return row;
 }
@@ -70,25 +93,48 @@ std::vector<Moment> moments_of(const std::vector<Row>& rows) {
   return moments;
 }
 
-/// Adds the edges of the boundary, seen from the side of the leg and somewhat from above and before: those of faces
-/// turned to the viewer over the others.
-void draw_mesh(const std::vector<Quad>& quads, const std::vector<Vec3<double>>& node, PlotPanel& panel) {
-  const Vec3<double> viewer = normalised(Vec3<double>{-1, 0.35, -0.30});
-  const Vec3<double> along = normalised(cross(Vec3<double>{0, 1, 0}, viewer)), up = cross(viewer, along);
-  constexpr double gap = std::numeric_limits<double>::quiet_NaN();
-  PlotLine front{{}, {}, mesh_colour, "", 0.8, false}, back{{}, {}, back_colour, "", 0.5, false};
-  for (const Quad& quad : quads) {
-    const Vec3<double> normal = cross(node[quad[2]] - node[quad[0]], node[quad[3]] - node[quad[1]]);
-    PlotLine& line = dot(normal, viewer) > 0 ? front : back;
-    for (std::size_t i = 0; i <= 4; ++i) {
-      line.x.push_back(millimetres * dot(node[quad[i % 4]], along));
-      line.y.push_back(millimetres * dot(node[quad[i % 4]], up));
-    }
-    line.x.push_back(gap);
-    line.y.push_back(gap);
+/// Seen from the side of the leg and somewhat from before and above; right and up in mm.
+struct View {
+  Vec3<double> viewer = normalised(Vec3<double>{-1, 0.35, -0.30});
+  Vec3<double> along = normalised(cross(Vec3<double>{0, 1, 0}, viewer)), up = cross(viewer, along);
+
+  void add(const Vec3<double>& p, PlotLine& line) const {
+    line.x.push_back(millimetres * dot(p, along));
+    line.y.push_back(millimetres * dot(p, up));
+  }
+  bool faced(const Quad& quad, const std::vector<Vec3<double>>& node) const {
+    return dot(cross(node[quad[2]] - node[quad[0]], node[quad[3]] - node[quad[1]]), viewer) > 0;
+  }
+};
+
+void break_line(PlotLine& line) {
+  line.x.push_back(std::numeric_limits<double>::quiet_NaN());
+  line.y.push_back(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// Adds the far face's outline at rest and the edges of the boundary: those of faces turned to the viewer over the
+/// others.
+void draw_mesh(const Mesh& mesh, const std::vector<Vec3<double>>& node, PlotPanel& panel) {
+  const View view;
+  PlotLine rest{{}, {}, rest_colour, "far end at rest", 1.2, true}, front{{}, {}, mesh_colour, "", 0.8, false},
+      back{{}, {}, back_colour, "", 0.5, false};
+  for (const std::uint32_t n : mesh.far_outline) view.add(mesh.rest[n], rest);
+  for (const Quad& quad : mesh.boundary) {
+    PlotLine& line = view.faced(quad, node) ? front : back;
+    for (std::size_t i = 0; i <= 4; ++i) view.add(node[quad[i % 4]], line);
+    break_line(line);
   }
   panel.lines.push_back(std::move(back));
   panel.lines.push_back(std::move(front));
+  panel.lines.push_back(std::move(rest));
+}
+
+/// Between the lowest and the highest node at rest, mm.
+double middle_height(const Mesh& mesh) {
+  PlotLine all;
+  for (const auto& p : mesh.rest) View{}.add(p, all);
+  const auto [low, high] = std::ranges::minmax(all.y);
+  return (low + high) / 2;
 }
 
 PlotPanel curve_panel(const std::vector<Row>& rows, double Row::*quantity, const Moment& moment, const char* colour,
@@ -111,7 +157,7 @@ PlotPanel curve_panel(const std::vector<Row>& rows, double Row::*quantity, const
   return panel;
 }
 
-PlotFigure figure_of(const std::vector<Row>& rows, const std::vector<Quad>& quads, const std::vector<Moment>& moments) {
+PlotFigure figure_of(const std::vector<Row>& rows, const Mesh& mesh, const std::vector<Moment>& moments) {
   PlotFigure figure{"Hamstrings at three moments of the gait cycle: 525 nodes, 320 hexahedra, CAA, steps of 1 ms",
                     "1.80 m, 80 kg, 5 km/h. The far end is pulled by the spring force of the line of action.",
                     3,
@@ -126,17 +172,15 @@ PlotFigure figure_of(const std::vector<Row>& rows, const std::vector<Quad>& quad
                                   top ? "Input: force of the line of action" : "", "pull (N)");
     PlotPanel output = curve_panel(rows, &Row::displacement_mm, moment, output_colour,
                                    top ? "Output: displacement of the far end" : "", "along the line (mm)");
-    PlotPanel mesh;
-    mesh.title = fmt::format("{}: {:.0f} % of the cycle, {}", moment.name, now.percent, moment.what);
-    draw_mesh(quads, now.node, mesh);
-    mesh.x = {bottom ? "mm" : "", -0.06 * panel_mm, 0.94 * panel_mm};
-    const auto [low, high] = std::ranges::minmax(mesh.lines.front().y);
-    const double middle = std::isfinite(low + high) ? (low + high) / 2 : 0;
-    const double half = panel_mm * panel_height / panel_width / 2;
-    mesh.y = {"mm", middle - half, middle + half};
+    PlotPanel shape;
+    shape.title = fmt::format("{}: {:.0f} % of the cycle, {}", moment.name, now.percent, moment.what);
+    draw_mesh(mesh, now.node, shape);
+    const double middle = middle_height(mesh), half = panel_mm * panel_height / panel_width / 2;
+    shape.x = {bottom ? "mm" : "", -0.05 * panel_mm, 0.95 * panel_mm};
+    shape.y = {"mm", middle - half, middle + half};
     if (bottom) input.x.label = output.x.label = "% of the gait cycle";
     figure.panels.push_back(std::move(input));
-    figure.panels.push_back(std::move(mesh));
+    figure.panels.push_back(std::move(shape));
     figure.panels.push_back(std::move(output));
   }
   return figure;
@@ -187,8 +231,8 @@ Result<void> paper_figure14(PaperRun& run) {
                               low->pull_n, high->pull_n,
                               std::abs(rows[moments[0].row].displacement_mm - rows[moments[2].row].displacement_mm));
   if (auto done = run.write_csv(csv_of(rows)); !done) return done;
-  const auto quads = boundary_quads(simulation.world().shared<MuscleTemplate>(muscle)->mesh.cells);
-  return run.write(figure_of(rows, quads, moments));
+  return run.write(
+      figure_of(rows, mesh_at_rest(simulation.world().shared<MuscleTemplate>(muscle)->mesh, scale), moments));
 }
 
 }  // namespace mobil

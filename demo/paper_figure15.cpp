@@ -84,7 +84,7 @@ Agreement agreement(const Walk& walk, std::size_t muscle) {
 }
 
 PlotPanel panel_of(const Agreement& pair) {
-  PlotPanel panel = cycle_panel(fmt::format("{}: {}", pair.muscle, pair.walk), "length over anatomical");
+  PlotPanel panel = cycle_panel(fmt::format("{}: {}", pair.muscle, pair.walk), "length / anatomical");
   const std::string name = "gait2392 on measured angles";
   if (pair.has_band) {
     add_measured(panel, *pair.theirs, name, first_colour, false);
@@ -142,7 +142,7 @@ Result<void> paper_figure15(PaperRun& run) {
     if (!walk) return tl::unexpected(walk.error());
     walks.push_back(std::move(*walk));
   }
-  auto normal = walk_at(static_cast<double>(paper_speed_m_s), "opensim_normal_gait", "OpenSim");
+  auto normal = walk_at(static_cast<double>(paper_speed_m_s), "opensim_normal_gait", "OpenSim's gait");
   if (!normal) return tl::unexpected(normal.error());
   walks.push_back(std::move(*normal));
 

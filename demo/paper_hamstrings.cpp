@@ -5,9 +5,12 @@
 
 #include "demo/contact_sheet.h"
 #include "demo/paper.h"
+#include "engine/geometry.h"
 
 namespace mobil {
 namespace {
+
+using namespace geometry;
 
 constexpr std::size_t sequence = 8;
 constexpr Cells paper_mesh = {4, 4, 20};  // 525 nodes
@@ -32,17 +35,17 @@ Result<std::vector<Image>> row_of(const ShownWalk& walk) {
 }
 
 Result<Image> figure16(const ShownWalk& still, const ShownWalk& walk) {
-  constexpr float apart_m = 0.98F;
+  constexpr float apart_m = 0.92F;
   const Actor actor{&still, 0};
-  auto left = take_picture({camera_at({0, 0.93F, 0}, 2.0F, 125, 6), 300, 420}, {&actor, 1});
+  auto left = take_picture({camera_at({0, 0.93F, 0}, 1.98F, -48, 4), 190, 300}, {&actor, 1});
   if (!left) return left;
+  const Camera camera = camera_at({0, 0.93F, 0}, 1.98F, 6, 3);
   std::vector<Actor> actors;
   for (std::size_t i = 0; i < sequence; ++i) {
-    actors.push_back({.walk = &walk,
-                      .frame = i,
-                      .at = {0, 0, apart_m * (static_cast<float>(i) - (static_cast<float>(sequence) - 1) / 2)}});
+    const float place = apart_m * (static_cast<float>(i) - (static_cast<float>(sequence) - 1) / 2);
+    actors.push_back({.walk = &walk, .frame = i, .at = place * across(camera)});
   }
-  auto right = take_picture({camera_at({0, 0.93F, 0}, 2.0F, 8, 4), 1640, 420}, actors);
+  auto right = take_picture({camera, 1150, 300}, actors);
   if (!right) return right;
   const std::vector<Image> row = {std::move(*left), std::move(*right)};
   return contact_sheet({&row, 1}, 4);
@@ -53,7 +56,7 @@ Result<Image> figure17(const ShownWalk& walk) {
   for (const auto& [surface, mesh] : {std::pair{false, true}, {true, false}, {true, true}}) {
     const Actor actor{&walk, 0, {}, Actor::Bones::right_leg, surface ? Actor::Muscles::right : Actor::Muscles::none,
                       mesh};
-    auto image = take_picture({camera_at({-0.09F, 0.66F, 0.06F}, 0.72F, -50, 3), 320, 560, false}, {&actor, 1});
+    auto image = take_picture({camera_at({-0.09F, 0.68F, 0.03F}, 0.66F, -50, 3), 300, 540, false}, {&actor, 1});
     if (!image) return image;
     row.push_back(std::move(*image));
   }

@@ -44,21 +44,21 @@ Result<std::vector<Variant>> walk_variants(PaperRun& run) {
 }
 
 PaperTable table_of(const std::vector<Variant>& variants) {
-  PaperTable table{"walk",
-                   {{"step_length_m", "step\nlength m", 3},
-                    {"step_frequency_hz", "frequency\nHz", 3},
-                    {"line_rest_mm", "line at\nrest mm", 1},
-                    {"line_shortest_mm", "shortest\nmm", 1},
-                    {"line_longest_mm", "longest\nmm", 1},
-                    {"longest_at_percent", "at %\nof cycle", 0},
-                    {"elongation_mm", "belly longer\nby up to mm", 1},
-                    {"pull_least_n", "force\nfrom N", 2},
-                    {"pull_most_n", "to N", 2},
-                    {"volume_ratio_least", "volume\nfrom", 3},
-                    {"volume_ratio_most", "to", 3},
-                    {"thickness_rest_mm", "thickest section\nat rest mm", 1},
-                    {"thickness_least_mm", "from\nmm", 1},
-                    {"thickness_most_mm", "to\nmm", 1}},
+  PaperTable table{"over the cycle",
+                   {{"step_length_m", "step length, m", 3},
+                    {"step_frequency_hz", "step frequency, Hz", 3},
+                    {"line_rest_mm", "line of action at rest, mm", 1},
+                    {"line_shortest_mm", "  shortest, mm", 1},
+                    {"line_longest_mm", "  longest, mm", 1},
+                    {"longest_at_percent", "  longest at, % of the cycle", 0},
+                    {"elongation_mm", "belly longer than at rest by up to, mm", 1},
+                    {"pull_least_n", "force on its end from, N", 2},
+                    {"pull_most_n", "  to, N", 2},
+                    {"volume_ratio_least", "volume over that at rest from", 3},
+                    {"volume_ratio_most", "  to", 3},
+                    {"thickness_rest_mm", "thickness at rest, mm", 1},
+                    {"thickness_least_mm", "  from, mm", 1},
+                    {"thickness_most_mm", "  to, mm", 1}},
                    {}};
   for (const Variant& variant : variants) {
     const MuscleCycle& muscle = variant.quadriceps();
@@ -77,8 +77,8 @@ PaperTable table_of(const std::vector<Variant>& variants) {
 
 PlotFigure figure_of(const std::vector<Variant>& variants) {
   PlotFigure figure{"The quadriceps of an athletic man of 1.80 m and 80 kg at 5 km/h",
-                    "Force: the paper's visual one, k (L - L0). Thickest section: diameter of a circle as large as the "
-                    "mesh's largest cross-section; dashed at rest.",
+                    "Force: the paper's visual one, k (L - L0). Thickness: diameter of a round bar of its volume and "
+                    "length, as the mesh's widest section changes. Dashed: at rest.",
                     3,
                     {},
                     false,
@@ -86,7 +86,7 @@ PlotFigure figure_of(const std::vector<Variant>& variants) {
                     150};
   figure.panels = {cycle_panel("knee", "flexion (deg)"),       cycle_panel("line of action", "length (mm)"),
                    cycle_panel("belly", "elongation (mm)"),    cycle_panel("force", "pull on its end (N)"),
-                   cycle_panel("volume", "over that at rest"), cycle_panel("thickest section", "diameter (mm)")};
+                   cycle_panel("volume", "over that at rest"), cycle_panel("thickness", "diameter (mm)")};
   for (std::size_t i = 0; i < variants.size(); ++i) {
     const MuscleCycle& muscle = variants[i].quadriceps();
     const auto add = [&](std::size_t panel, const CycleCurve& curve, double scale) {
@@ -114,7 +114,7 @@ Result<Image> picture_of(const PaperCycle& walk) {
   std::vector<Image> strip;
   for (std::size_t frame = 0; frame < shown_at.size(); ++frame) {
     const Actor actor{&walk.shown, frame, {}, Actor::Bones::right_leg, Actor::Muscles::right, false};
-    auto image = take_picture({camera_at({-0.1F, 0.52F, 0.03F}, 1.22F, 25, 3), 300, 440}, {&actor, 1});
+    auto image = take_picture({camera_at({-0.1F, 0.53F, 0.03F}, 1.18F, 25, 3), 350, 400}, {&actor, 1});
     if (!image) return image;
     strip.push_back(std::move(*image));
   }
@@ -128,12 +128,13 @@ Result<void> paper_quadriceps(PaperRun& run) {
   if (!variants) return tl::unexpected(variants.error());
   const PaperTable table = table_of(*variants);
   const auto& v = table.row[0].value;
-  run.text = table_text(table) +
+  run.text = turned_table_text(table) +
              fmt::format(
-                 "\nIts line of action is longest at {:.0f} % of the cycle, {:.1f} mm beyond rest, where the thickest "
-                 "section is {:.1f} mm\nthinner than at rest; the forces are {:.1f} to {:.1f} N. {} the belly gets "
-                 "longer by up to {:.1f} mm, with {} by {:.1f}.\n",
-                 v[5], v[4] - v[2], v[11] - v[12], v[7], v[8], "With " + table.row[1].label, table.row[1].value[6],
+                 "\nIts line of action is longest at {:.0f} % of the cycle, {:.1f} mm beyond rest, and the belly\nup "
+                 "to {:.1f} mm thinner "
+                 "than at rest; forces are {:.1f} to {:.1f} N. With {} it stretches by up to {:.1f} mm, with\n{} by "
+                 "{:.1f}.\n",
+                 v[5], v[4] - v[2], v[11] - v[12], v[7], v[8], table.row[1].label, table.row[1].value[6],
                  table.row[2].label, table.row[2].value[6]);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
   if (auto done = run.write(figure_of(*variants)); !done) return done;

@@ -57,6 +57,20 @@ Camera camera_at(const Vec3<float>& target, float tall_m, float turn_deg, float 
   return camera;
 }
 
+Vec3<float> across(const Camera& camera) {
+  return camera_axes(camera).right;
+}
+
+std::vector<Actor> side_by_side(std::span<const PaperCycle> walks, const Camera& camera, float apart_m) {
+  std::vector<Actor> actors;
+  const float middle = (static_cast<float>(walks.size()) - 1) / 2;
+  for (std::size_t i = 0; i < walks.size(); ++i) {
+    const float place = apart_m * (static_cast<float>(i) - middle);
+    actors.push_back({.walk = &walks[i].shown, .frame = 0, .at = place * across(camera)});
+  }
+  return actors;
+}
+
 Result<Image> take_picture(const Stage& stage, std::span<const Actor> actors) {
   auto renderer = Renderer::create(stage.width, stage.height);
   if (!renderer) return tl::unexpected(renderer.error());

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "demo/paper_cycle.h"
 #include "systems/capture/camera.h"
@@ -29,6 +30,12 @@ struct Stage {
 /// From the right of people who walk toward +z (which is to the right in the picture) and somewhat in front of them:
 /// `turn_deg` from the side, `rise_deg` above. Holds about `tall_m` of height at the target, hardly any perspective.
 Camera camera_at(const Vec3<float>& target, float tall_m, float turn_deg, float rise_deg);
+
+/// The direction to the right in pictures of that camera, of unit length.
+Vec3<float> across(const Camera& camera);
+
+/// People `apart_m` from one another, each in their own first frame, from left to right before the camera.
+std::vector<Actor> side_by_side(std::span<const PaperCycle> walks, const Camera& camera, float apart_m);
 
 /// Errors: no graphics device or driver.
 Result<Image> take_picture(const Stage& stage, std::span<const Actor> actors);

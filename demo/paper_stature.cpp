@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "demo/cycle_plot.h"
 #include "demo/paper.h"
@@ -19,7 +20,7 @@ struct Person {
   Constitution constitution;
 };
 constexpr std::array people = {
-    Person{"the same", 1.80F, 80, Constitution::athletic}, Person{"taller", 1.95F, 80, Constitution::athletic},
+    Person{"athletic", 1.80F, 80, Constitution::athletic}, Person{"taller", 1.95F, 80, Constitution::athletic},
     Person{"shorter", 1.65F, 80, Constitution::athletic}, Person{"thinner", 1.80F, 65, Constitution::thin},
     Person{"heavier", 1.80F, 100, Constitution::heavy}};
 
@@ -31,14 +32,14 @@ void add_muscle_columns(const std::string& name, PaperTable& table) {
   const auto add = [&](const char* column, const std::string& head) {
     table.column.push_back({name + "_" + column, head, 1});
   };
-  add("belly_mm", name + "\nbelly mm");
-  add("thickness_mm", "thickest\nmm");
-  add("elongation_least_mm", "longer by\nfrom mm");
-  add("elongation_most_mm", "to\nmm");
-  add("bulge_mm", "bulge\nmm");
+  add("belly_mm", name + ": belly at rest, mm");
+  add("thickness_mm", "  thickness at rest, mm");
+  add("elongation_least_mm", "  longer by from, mm");
+  add("elongation_most_mm", "  to, mm");
+  add("bulge_mm", "  thicker by up to, mm");
 }
 
-/// Length and thickest section at rest, elongation, and by how much the thickest section grows beyond that at rest.
+/// Length and thickness at rest, elongation, and by how much it gets thicker than at rest.
 void add_muscle_cells(const MuscleCycle& muscle, std::vector<double>& cells) {
   const CycleRange elongation = range_of(muscle.elongation_m);
   const double bulge = range_of(muscle.thickness_m).high - muscle.rest_thickness_m;
@@ -50,9 +51,9 @@ void add_muscle_cells(const MuscleCycle& muscle, std::vector<double>& cells) {
 
 PaperTable table_of(const std::vector<PaperCycle>& walks) {
   PaperTable table{"person",
-                   {{"step_length_m", "step\nlength m", 3},
-                    {"step_frequency_hz", "frequency\nHz", 3},
-                    {"com_excursion_mm", "centre of mass\nrises by mm", 1}},
+                   {{"step_length_m", "step length, m", 3},
+                    {"step_frequency_hz", "step frequency, Hz", 3},
+                    {"com_excursion_mm", "centre of mass rises by, mm", 1}},
                    {}};
   add_muscle_columns("quadriceps", table);
   add_muscle_columns("hamstrings", table);
@@ -69,19 +70,20 @@ PaperTable table_of(const std::vector<PaperCycle>& walks) {
 }
 
 PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
-  PlotFigure figure{"Taller, shorter, thinner, heavier, all at 5 km/h",
-                    "Thickest section: diameter of a circle as large as the mesh's largest cross-section.",
-                    3,
-                    {},
-                    false,
-                    250,
-                    155};
+  PlotFigure figure{
+      "Taller, shorter, thinner, heavier, all at 5 km/h",
+      "Thickness: diameter of a round bar of the muscle's volume and length, as its mesh's widest section changes.",
+      3,
+      {},
+      false,
+      250,
+      155};
   figure.panels = {cycle_panel("centre of mass", "height over its mean (mm)"),
                    cycle_panel("quadriceps", "elongation (mm)"),
-                   cycle_panel("quadriceps", "thickest section (mm)"),
+                   cycle_panel("quadriceps", "thickness (mm)"),
                    cycle_panel("right foot", "vertical force (N)"),
                    cycle_panel("hamstrings", "elongation (mm)"),
-                   cycle_panel("hamstrings", "thickest section (mm)")};
+                   cycle_panel("hamstrings", "thickness (mm)")};
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const auto add = [&](std::size_t panel, const CycleCurve& curve, double scale, double from = 0) {
       figure.panels[panel].lines.push_back(
@@ -99,18 +101,32 @@ PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
   return figure;
 }
 
+/// "12.3 mm longer", "no longer".
+std::string by(double difference_mm, const char* more, const char* less) {
+  if (std::abs(difference_mm) < 0.05) return fmt::format("no {}", more);
+  return fmt::format("{:.1f} mm {}", std::abs(difference_mm), difference_mm > 0 ? more : less);
+}
+
 std::string answer(const PaperTable& table) {
-  const auto& same = table.row[0].value;
+  const auto& first = table.row[0].value;
   std::string text;
   for (const std::size_t other : {std::size_t{1}, std::size_t{3}}) {
     const auto& v = table.row[other].value;
-    text += fmt::format(
-        "\n{}: steps {:+.0f} mm, centre of mass rises {:+.1f} mm; quadriceps belly {:+.0f} mm long, {:+.1f} mm thick, "
-        "stretched by {:+.1f} mm;\nhamstrings belly {:+.0f} mm long, {:+.1f} mm thick, stretched by {:+.1f} mm.",
-        table.row[other].label, millimetres * (v[0] - same[0]), v[2] - same[2], v[3] - same[3], v[4] - same[4],
-        v[6] - same[6], v[8] - same[8], v[9] - same[9], v[11] - same[11]);
+    const auto muscle = [&](const char* name, std::size_t at) {
+      return fmt::format("the {} {} and {} and stretches {}", name, by(v[at] - first[at], "longer", "shorter"),
+                         by(v[at + 1] - first[at + 1], "thicker", "thinner"),
+                         by(v[at + 3] - first[at + 3], "more", "less"));
+    };
+    text += fmt::format("\nWho is {}: steps are {}, the centre of mass rises {};\n{};\n{}.\n", people[other].what,
+                        by(millimetres * (v[0] - first[0]), "longer", "shorter"), by(v[2] - first[2], "more", "less"),
+                        muscle("quadriceps is", 3), muscle("hamstrings are", 8));
   }
-  return text + "\n";
+  return text;
+}
+
+Result<Image> picture_of(const std::vector<PaperCycle>& walks) {
+  const Camera camera = camera_at({0, 1.0F, 0}, 2.12F, 32, 3);
+  return take_picture({camera, 1000, 420}, side_by_side(walks, camera, 0.98F));
 }
 
 }  // namespace
@@ -119,7 +135,7 @@ Result<void> paper_stature(PaperRun& run) {
   std::vector<PaperCycle> walks;
   for (const Person& person : people) {
     run.progress("walking", static_cast<double>(walks.size()) / people.size());
-    CycleRequest request{{}, paper_gait(), only({Muscle::quadriceps, Muscle::hamstrings}), {}, {}};
+    CycleRequest request{{}, paper_gait(), only({Muscle::quadriceps, Muscle::hamstrings}), {0.0}, {}};
     request.body.height_m = person.height_m;
     request.body.mass_kg = person.mass_kg;
     request.body.constitution = person.constitution;
@@ -128,9 +144,10 @@ Result<void> paper_stature(PaperRun& run) {
     walks.push_back(std::move(*walk));
   }
   const PaperTable table = table_of(walks);
-  run.text = table_text(table) + answer(table);
+  run.text = turned_table_text(table) + answer(table);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  return run.write(figure_of(walks));
+  if (auto done = run.write(figure_of(walks)); !done) return done;
+  return run.write_picture([&] { return picture_of(walks); });
 }
 
 }  // namespace mobil

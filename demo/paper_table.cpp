@@ -38,6 +38,32 @@ void trim_end(std::string& text) {
   while (text.ends_with(' ')) text.pop_back();
 }
 
+/// As people read it; empty where it is none.
+std::string cell_text(const PaperTable& table, const PaperTable::Row& row, std::size_t column) {
+  const double v = column < row.value.size() ? row.value[column] : NAN;
+  return std::isfinite(v) ? fmt::format("{:.{}f}", v, table.column[column].decimals) : "";
+}
+
+using Cells = std::vector<std::vector<std::string>>;
+
+/// All lines as long as the first; the first column to the left, the others to the right.
+std::string aligned(const Cells& cells) {
+  std::string text;
+  std::vector<std::size_t> width(cells.front().size(), 0);
+  for (const auto& line : cells) {
+    for (std::size_t c = 0; c < width.size(); ++c) width[c] = std::max(width[c], letters(line[c]));
+  }
+  for (const auto& line : cells) {
+    for (std::size_t c = 0; c < width.size(); ++c) {
+      text += padded(line[c], width[c], c > 0);
+      text += between_columns;
+    }
+    trim_end(text);
+    text += '\n';
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string table_text(const PaperTable& table) {
@@ -48,33 +74,28 @@ std::string table_text(const PaperTable& table) {
     head.push_back(lines_of(column.head));
     head_lines = std::max(head_lines, head.back().size());
   }
-  // Row 0 … head_lines − 1 are the heads, which stand on the table.
-  std::vector<std::vector<std::string>> cells(head_lines, std::vector<std::string>(columns + 1));
+  Cells cells(head_lines, std::vector<std::string>(columns + 1));  // the heads stand on the table
   cells.back()[0] = table.label_name;
   for (std::size_t c = 0; c < columns; ++c) {
     for (std::size_t i = 0; i < head[c].size(); ++i) cells[head_lines - head[c].size() + i][c + 1] = head[c][i];
   }
   for (const auto& row : table.row) {
     auto& line = cells.emplace_back(1, row.label);
-    for (std::size_t c = 0; c < columns; ++c) {
-      const double v = c < row.value.size() ? row.value[c] : NAN;
-      line.push_back(std::isfinite(v) ? fmt::format("{:.{}f}", v, table.column[c].decimals) : "");
-    }
+    for (std::size_t c = 0; c < columns; ++c) line.push_back(cell_text(table, row, c));
   }
-  std::string text;
-  std::vector<std::size_t> width(columns + 1, 0);
-  for (const auto& line : cells) {
-    for (std::size_t c = 0; c <= columns; ++c) width[c] = std::max(width[c], letters(line[c]));
+  return aligned(cells);
+}
+
+std::string turned_table_text(const PaperTable& table) {
+  Cells cells{{table.label_name}};
+  for (const auto& row : table.row) cells[0].push_back(row.label);
+  for (std::size_t c = 0; c < table.column.size(); ++c) {
+    std::string head = table.column[c].head;
+    std::ranges::replace(head, '\n', ' ');
+    auto& line = cells.emplace_back(1, std::move(head));
+    for (const auto& row : table.row) line.push_back(cell_text(table, row, c));
   }
-  for (const auto& line : cells) {
-    for (std::size_t c = 0; c <= columns; ++c) {
-      text += padded(line[c], width[c], c > 0);
-      text += between_columns;
-    }
-    trim_end(text);
-    text += '\n';
-  }
-  return text;
+  return aligned(cells);
 }
 
 std::string table_csv(const PaperTable& table) {

@@ -24,6 +24,9 @@ struct PaperTable {
 /// Aligned, for a terminal; heads may have several lines.
 std::string table_text(const PaperTable& table);
 
+/// The same with a line for each column: for tables of few rows.
+std::string turned_table_text(const PaperTable& table);
+
 std::string table_csv(const PaperTable& table);
 
 }  // namespace mobil

@@ -66,12 +66,8 @@ PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
 }
 
 Result<Image> picture_of(const std::vector<PaperCycle>& walks) {
-  constexpr float apart_m = 1.05F;
-  std::vector<Actor> actors;
-  for (std::size_t i = 0; i < walks.size(); ++i) {
-    actors.push_back({.walk = &walks[i].shown, .frame = 0, .at = {0, 0, apart_m * (static_cast<float>(i) - 1)}});
-  }
-  return take_picture({camera_at({0, 0.92F, 0}, 2.1F, 20, 4), 960, 600}, actors);
+  const Camera camera = camera_at({0, 0.93F, 0}, 1.98F, 32, 3);
+  return take_picture({camera, 780, 480}, side_by_side(walks, camera, 1.0F));
 }
 
 }  // namespace
@@ -89,13 +85,16 @@ Result<void> paper_weight(PaperRun& run) {
   const PaperTable table = table_of(walks);
   const auto& lightest = table.row.front().value;
   const auto& heaviest = table.row.back().value;
+  const std::string stance = std::abs(heaviest[6] - lightest[6]) < 0.0005
+                                 ? fmt::format("stays {:.3f} s", heaviest[6])
+                                 : fmt::format("lasts {:.3f} s instead of {:.3f}", heaviest[6], lightest[6]);
   run.text = table_text(table) +
              fmt::format(
-                 "\nFrom {} to {} at the same speed the centre of mass is {:.0f} mm {} on the mean and rises by {:.1f} "
-                 "mm\ninstead of {:.1f}; stance lasts {:.3f} s instead of {:.3f}, and the peak force under a foot "
-                 "grows {:.2f} times, weight {:.2f} times.\n",
+                 "\nFrom {} to {} at the same speed the centre of mass is {:.0f} mm {} in the mean and rises by {:.1f} "
+                 "mm\ninstead of {:.1f}; stance {}, and the peak force under a foot grows {:.2f} times, "
+                 "weight {:.2f} times.\n",
                  table.row.front().label, table.row.back().label, std::abs(heaviest[2] - lightest[2]),
-                 heaviest[2] < lightest[2] ? "lower" : "higher", heaviest[3], lightest[3], heaviest[6], lightest[6],
+                 heaviest[2] < lightest[2] ? "lower" : "higher", heaviest[3], lightest[3], stance,
                  heaviest[7] / lightest[7], weight_n(walks.back()) / weight_n(walks.front()));
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
   if (auto done = run.write(figure_of(walks)); !done) return done;

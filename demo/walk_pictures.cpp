@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "demo/recorded_scene.h"
 #include "engine/geometry.h"
 #include "systems/capture/png.h"
 #include "systems/capture/renderer.h"
@@ -49,12 +50,6 @@ Camera follow(const Vec3<float>& at, const Body& body) {
   return camera;
 }
 
-/// sRGB as the renderer takes it, from the recording's linear colour.
-Colour display_colour(const Vec3<float>& linear) {
-  const auto encode = [](float x) { return x <= 0.0031308F ? 12.92F * x : 1.055F * std::pow(x, 1 / 2.4F) - 0.055F; };
-  return {encode(linear.x), encode(linear.y), encode(linear.z)};
-}
-
 /// The sticks of one frame: every segment from its joint to its parent's, and the ends of the limbs.
 std::vector<Vec3<float>> sticks(const Pose<float>& pose, const Body& body) {
   const auto place = [&](Segment s, const Vec3<float>& p) {
@@ -92,8 +87,7 @@ void set_beside(const Image& half, Image& whole, int column) {
 
 /// Everything that is drawn in one frame; the scene looks into it.
 struct FrameScene {
-  std::vector<DrawMesh> meshes;
-  std::vector<Placement> placement;
+  RecordedScene drawn;
   std::vector<Vec3<float>> stick, joint;
   std::vector<DrawLines> lines;
   std::vector<DrawPoints> points;
@@ -102,7 +96,7 @@ struct FrameScene {
 void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameScene& scene) {
   const WalkRecording& recording = *drawing.recording;
   const Pose<float>& pose = recording.frames[frame];
-  scene.meshes.clear();
+  scene.drawn = {};
   scene.lines.clear();
   scene.points.clear();
   if (view == View::stick) {
@@ -114,27 +108,12 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
         {.position = drawing.action_line[frame], .colour = line_red, .width = 0.016F, .unit = LineUnit::metre});
     return;
   }
-  scene.placement.resize(recording.bones.size());
-  for (std::size_t i = 0; i < recording.bones.size(); ++i) {
-    const BoneSurface& bone = recording.bones[i];
-    const std::size_t s = index(bone.segment);
-    scene.placement[i] = {.position = pose.position_m[s], .rotation = pose.rotation[s]};
-    scene.meshes.push_back({.position = bone.mesh.position,
-                            .triangle = bone.mesh.triangle,
-                            .colour = bone_ivory,
-                            .placement = {&scene.placement[i], 1},
-                            .key = i + 1});
-  }
+  add_bones(recording, frame, {0, 0, 0}, 1, scene.drawn);
   if (view == View::wireframe) {
     scene.lines.push_back({.position = drawing.mesh_edge[frame], .colour = line_red, .width = 1.6F});
     return;
   }
-  for (const RecordedMuscle& muscle : recording.muscles) {
-    scene.meshes.push_back({.position = muscle.position_m[frame],
-                            .triangle = muscle.triangle,
-                            .colour = display_colour(muscle.colour),
-                            .wetness = 0.5F});
-  }
+  add_muscles(recording, frame, {0, 0, 0}, scene.drawn);
 }
 
 }  // namespace
@@ -161,7 +140,7 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
     const Camera camera = follow(path[frame], *drawing.body);
     const StereoPair pair = stereo_pair(camera, eye_separation_m);
     Scene scene;
-    scene.meshes = contents.meshes;
+    scene.meshes = contents.drawn.meshes;
     scene.lines = contents.lines;
     scene.points = contents.points;
     scene.light = {-0.55F, 0.80F, 0.45F};

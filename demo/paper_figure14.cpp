@@ -20,7 +20,7 @@ using namespace geometry;
 constexpr Cells paper_mesh = {4, 4, 20};
 constexpr double step_s = 0.001, tick_s = 0.005;
 constexpr const char *input_colour = "#c1762c", *output_colour = "#2f6db3", *mesh_colour = "#8c2b22",
-                     *back_colour = "#e3c9c5", *rest_colour = "#999";
+                     *back_colour = "#e3c9c5", *rest_colour = "#222";
 constexpr double panel_width = 290, panel_height = 120, panel_mm = 390;  // across a panel
 constexpr double millimetres = 1000;
 
@@ -116,7 +116,7 @@ void break_line(PlotLine& line) {
 /// others.
 void draw_mesh(const Mesh& mesh, const std::vector<Vec3<double>>& node, PlotPanel& panel) {
   const View view;
-  PlotLine rest{{}, {}, rest_colour, "far end at rest", 1.2, true}, front{{}, {}, mesh_colour, "", 0.8, false},
+  PlotLine rest{{}, {}, rest_colour, "far end at rest", 1.5, true}, front{{}, {}, mesh_colour, "", 0.8, false},
       back{{}, {}, back_colour, "", 0.5, false};
   for (const std::uint32_t n : mesh.far_outline) view.add(mesh.rest[n], rest);
   for (const Quad& quad : mesh.boundary) {
@@ -151,6 +151,9 @@ PlotPanel curve_panel(const std::vector<Row>& rows, double Row::*quantity, const
     until.x.push_back(rows[i].percent);
     until.y.push_back(rows[i].*quantity);
   }
+  const auto [low, high] = std::ranges::minmax(all.y);
+  panel.y.low = low - 0.1 * (high - low);
+  panel.y.high = high + 0.25 * (high - low);  // there the points' names stand
   panel.lines = {std::move(all), std::move(until)};
   const Row& now = rows[moment.row];
   panel.points.push_back({{now.percent}, {now.*quantity}, {}, {std::string(1, moment.name)}, "#111", ""});

@@ -22,22 +22,23 @@ std::vector<double> evenly(std::size_t count) {
   return at;
 }
 
-/// A person seen from the side at every moment, in a row of pictures.
+/// The legs of a person seen from the side at every moment, in a row of pictures.
 Result<std::vector<Image>> row_of(const ShownWalk& walk) {
   std::vector<Image> row;
   for (std::size_t frame = 0; frame < walk.recording.frames.size(); ++frame) {
     const Actor actor{&walk, frame};
-    auto image = take_picture({camera_at({0, 0.93F, 0}, 2.0F, 20, 4), 176, 320}, {&actor, 1});
+    auto image = take_picture({camera_at({0, 0.55F, 0}, 1.22F, 20, 4), 168, 208}, {&actor, 1});
     if (!image) return tl::unexpected(image.error());
     row.push_back(std::move(*image));
   }
   return row;
 }
 
-Result<Image> figure16(const ShownWalk& still, const ShownWalk& walk) {
+/// Of the frames of a sequence, and of the still as the last.
+Result<Image> figure16(const ShownWalk& walk) {
   constexpr float apart_m = 0.92F;
-  const Actor actor{&still, 0};
-  auto left = take_picture({camera_at({0, 0.93F, 0}, 1.98F, -48, 4), 190, 300}, {&actor, 1});
+  const Actor actor{&walk, sequence};
+  auto left = take_picture({camera_at({0, 0.93F, 0}, 1.98F, -48, 4), 205, 310}, {&actor, 1});
   if (!left) return left;
   const Camera camera = camera_at({0, 0.93F, 0}, 1.98F, 6, 3);
   std::vector<Actor> actors;
@@ -45,7 +46,7 @@ Result<Image> figure16(const ShownWalk& still, const ShownWalk& walk) {
     const float place = apart_m * (static_cast<float>(i) - (static_cast<float>(sequence) - 1) / 2);
     actors.push_back({.walk = &walk, .frame = i, .at = place * across(camera)});
   }
-  auto right = take_picture({camera, 1150, 300}, actors);
+  auto right = take_picture({camera, 1185, 310}, actors);
   if (!right) return right;
   const std::vector<Image> row = {std::move(*left), std::move(*right)};
   return contact_sheet({&row, 1}, 4);
@@ -70,14 +71,13 @@ CycleRequest hamstrings_alone(std::vector<double> shown_at) {
 }  // namespace
 
 Result<void> paper_figure16(PaperRun& run) {
-  const auto still = walk_cycle(hamstrings_alone({still_at}));
-  if (!still) return tl::unexpected(still.error());
-  run.progress("walking", 0.5);
-  const auto walk = walk_cycle(hamstrings_alone(evenly(sequence)));
+  std::vector<double> shown_at = evenly(sequence);
+  shown_at.push_back(still_at);
+  const auto walk = walk_cycle(hamstrings_alone(std::move(shown_at)));
   if (!walk) return tl::unexpected(walk.error());
   run.text =
       "From behind at 90 % of the cycle; from the side every eighth of it, beginning with the right heel strike.\n";
-  return run.write_picture([&] { return figure16(still->shown, walk->shown); });
+  return run.write_picture([&] { return figure16(walk->shown); });
 }
 
 Result<void> paper_figure17(PaperRun& run) {

@@ -114,7 +114,7 @@ Result<Image> picture_of(const PaperCycle& walk) {
   std::vector<Image> strip;
   for (std::size_t frame = 0; frame < shown_at.size(); ++frame) {
     const Actor actor{&walk.shown, frame, {}, Actor::Bones::right_leg, Actor::Muscles::right, false};
-    auto image = take_picture({camera_at({-0.1F, 0.53F, 0.03F}, 1.18F, 25, 3), 350, 400}, {&actor, 1});
+    auto image = take_picture({camera_at({-0.1F, 0.69F, 0.06F}, 0.86F, 25, 3), 300, 400}, {&actor, 1});
     if (!image) return image;
     strip.push_back(std::move(*image));
   }

@@ -41,7 +41,7 @@ Result<void> PaperRun::write_picture(const std::function<Result<Image>()>& make)
     text += fmt::format("No pictures: {}\n", image.error().message);
     return {};
   }
-  return wrote(write_png((out_ / (entry + ".png")).string(), *image), entry + ".png");
+  return wrote(write_png((out_ / (entry + ".png")).string(), *image, PngEffort::small), entry + ".png");
 }
 
 BodyRequest paper_body() {

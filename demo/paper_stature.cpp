@@ -59,7 +59,7 @@ PaperTable table_of(const std::vector<PaperCycle>& walks) {
   add_muscle_columns("hamstrings", table);
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const PaperCycle& walk = walks[i];
-    PaperTable::Row row{fmt::format("{} {:.2f} m {:.0f} kg", people[i].what, people[i].height_m, people[i].mass_kg),
+    PaperTable::Row row{fmt::format("{}\n{:.2f} m {:.0f} kg", people[i].what, people[i].height_m, people[i].mass_kg),
                         {static_cast<double>(walk.gait.step_length_m), static_cast<double>(walk.gait.step_frequency_hz),
                          millimetres * range_of(walk.com_height_m).span()}};
     add_muscle_cells(walk.muscle(Muscle::quadriceps), row.value);
@@ -101,9 +101,9 @@ PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
   return figure;
 }
 
-/// "12.3 mm longer", "no longer".
-std::string by(double difference_mm, const char* more, const char* less) {
-  if (std::abs(difference_mm) < 0.05) return fmt::format("no {}", more);
+/// "12.3 mm longer", "as long".
+std::string by(double difference_mm, const char* more, const char* less, const char* alike) {
+  if (std::abs(difference_mm) < 0.05) return alike;
   return fmt::format("{:.1f} mm {}", std::abs(difference_mm), difference_mm > 0 ? more : less);
 }
 
@@ -112,21 +112,23 @@ std::string answer(const PaperTable& table) {
   std::string text;
   for (const std::size_t other : {std::size_t{1}, std::size_t{3}}) {
     const auto& v = table.row[other].value;
-    const auto muscle = [&](const char* name, std::size_t at) {
-      return fmt::format("the {} {} and {} and stretches {}", name, by(v[at] - first[at], "longer", "shorter"),
-                         by(v[at + 1] - first[at + 1], "thicker", "thinner"),
-                         by(v[at + 3] - first[at + 3], "more", "less"));
+    const auto muscle = [&](const char* is, const char* stretches, std::size_t at) {
+      return fmt::format("the {} {} and {} at rest and {} {}", is,
+                         by(v[at] - first[at], "longer", "shorter", "as long"),
+                         by(v[at + 1] - first[at + 1], "thicker", "thinner", "as thick"), stretches,
+                         by(v[at + 3] - first[at + 3], "more", "less", "as far"));
     };
     text += fmt::format("\nWho is {}: steps are {}, the centre of mass rises {};\n{};\n{}.\n", people[other].what,
-                        by(millimetres * (v[0] - first[0]), "longer", "shorter"), by(v[2] - first[2], "more", "less"),
-                        muscle("quadriceps is", 3), muscle("hamstrings are", 8));
+                        by(millimetres * (v[0] - first[0]), "longer", "shorter", "as long"),
+                        by(v[2] - first[2], "more", "less", "as far"), muscle("quadriceps is", "stretches", 3),
+                        muscle("hamstrings are", "stretch", 8));
   }
   return text;
 }
 
 Result<Image> picture_of(const std::vector<PaperCycle>& walks) {
   const Camera camera = camera_at({0, 1.0F, 0}, 2.12F, 32, 3);
-  return take_picture({camera, 1000, 420}, side_by_side(walks, camera, 0.98F));
+  return take_picture({camera, 940, 395}, side_by_side(walks, camera, 0.98F));
 }
 
 }  // namespace

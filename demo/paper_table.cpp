@@ -44,10 +44,10 @@ std::string cell_text(const PaperTable& table, const PaperTable::Row& row, std::
   return std::isfinite(v) ? fmt::format("{:.{}f}", v, table.column[column].decimals) : "";
 }
 
-using Cells = std::vector<std::vector<std::string>>;
+using Lines = std::vector<std::vector<std::string>>;
 
 /// All lines as long as the first; the first column to the left, the others to the right.
-std::string aligned(const Cells& cells) {
+std::string aligned(const Lines& cells) {
   std::string text;
   std::vector<std::size_t> width(cells.front().size(), 0);
   for (const auto& line : cells) {
@@ -64,38 +64,46 @@ std::string aligned(const Cells& cells) {
   return text;
 }
 
+/// A line of cells for each line of the heads, which stand on what follows; the first column's is `label`.
+Lines head_lines(const std::string& label, const std::vector<std::string>& heads) {
+  std::size_t most = 1;
+  for (const auto& head : heads) most = std::max(most, lines_of(head).size());
+  Lines lines(most, std::vector<std::string>(heads.size() + 1));
+  lines.back()[0] = label;
+  for (std::size_t c = 0; c < heads.size(); ++c) {
+    const auto head = lines_of(heads[c]);
+    for (std::size_t i = 0; i < head.size(); ++i) lines[most - head.size() + i][c + 1] = head[i];
+  }
+  return lines;
+}
+
+std::string in_one_line(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  return text;
+}
+
 }  // namespace
 
 std::string table_text(const PaperTable& table) {
-  const std::size_t columns = table.column.size();
-  std::vector<std::vector<std::string>> head;
-  std::size_t head_lines = 1;
-  for (const auto& column : table.column) {
-    head.push_back(lines_of(column.head));
-    head_lines = std::max(head_lines, head.back().size());
-  }
-  Cells cells(head_lines, std::vector<std::string>(columns + 1));  // the heads stand on the table
-  cells.back()[0] = table.label_name;
-  for (std::size_t c = 0; c < columns; ++c) {
-    for (std::size_t i = 0; i < head[c].size(); ++i) cells[head_lines - head[c].size() + i][c + 1] = head[c][i];
-  }
+  std::vector<std::string> heads;
+  for (const auto& column : table.column) heads.push_back(column.head);
+  Lines lines = head_lines(table.label_name, heads);
   for (const auto& row : table.row) {
-    auto& line = cells.emplace_back(1, row.label);
-    for (std::size_t c = 0; c < columns; ++c) line.push_back(cell_text(table, row, c));
+    auto& line = lines.emplace_back(1, in_one_line(row.label));
+    for (std::size_t c = 0; c < table.column.size(); ++c) line.push_back(cell_text(table, row, c));
   }
-  return aligned(cells);
+  return aligned(lines);
 }
 
 std::string turned_table_text(const PaperTable& table) {
-  Cells cells{{table.label_name}};
-  for (const auto& row : table.row) cells[0].push_back(row.label);
+  std::vector<std::string> heads;
+  for (const auto& row : table.row) heads.push_back(row.label);
+  Lines lines = head_lines(table.label_name, heads);
   for (std::size_t c = 0; c < table.column.size(); ++c) {
-    std::string head = table.column[c].head;
-    std::ranges::replace(head, '\n', ' ');
-    auto& line = cells.emplace_back(1, std::move(head));
+    auto& line = lines.emplace_back(1, in_one_line(table.column[c].head));
     for (const auto& row : table.row) line.push_back(cell_text(table, row, c));
   }
-  return aligned(cells);
+  return aligned(lines);
 }
 
 std::string table_csv(const PaperTable& table) {
@@ -103,7 +111,7 @@ std::string table_csv(const PaperTable& table) {
   for (const auto& column : table.column) text += "," + column.name;
   text += '\n';
   for (const auto& row : table.row) {
-    text += row.label;
+    text += in_one_line(row.label);
     for (std::size_t c = 0; c < table.column.size(); ++c) {
       const double v = c < row.value.size() ? row.value[c] : NAN;
       text += std::isfinite(v) ? fmt::format(",{:.6g}", v) : ",";

@@ -21,7 +21,7 @@ struct PaperTable {
   std::vector<Row> row;
 };
 
-/// Aligned, for a terminal; heads may have several lines.
+/// Aligned, for a terminal; heads may have several lines, and so may labels where they become heads.
 std::string table_text(const PaperTable& table);
 
 /// The same with a line for each column: for tables of few rows.

@@ -19,7 +19,7 @@ bool opaque(const Image& image) {
 }
 
 /// libpng leaves by longjmp when it fails, so nothing here has a destructor.
-bool encode(std::FILE* file, const Image& image, bool with_opacity) {
+bool encode(std::FILE* file, const Image& image, bool with_opacity, PngEffort effort) {
   png_structp png =
       png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, [](png_structp, png_const_charp) {});
   if (png == nullptr) return false;
@@ -29,8 +29,8 @@ bool encode(std::FILE* file, const Image& image, bool with_opacity) {
     return false;
   }
   png_init_io(png, file);
-  png_set_compression_level(png, 2);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+  png_set_compression_level(png, effort == PngEffort::quick ? 2 : 9);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, effort == PngEffort::quick ? PNG_FILTER_UP : PNG_ALL_FILTERS);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
                with_opacity ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
@@ -45,7 +45,7 @@ bool encode(std::FILE* file, const Image& image, bool with_opacity) {
 
 }  // namespace
 
-Result<void> write_png(const std::string& path, const Image& image) {
+Result<void> write_png(const std::string& path, const Image& image, PngEffort effort) {
   if (image.width < 1 || image.height < 1 ||
       image.rgba.size() != 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
     return fail(fmt::format("{}: a picture of {} x {} pixels with {} bytes cannot be written; it needs 4 bytes a pixel",
@@ -61,7 +61,7 @@ Result<void> write_png(const std::string& path, const Image& image) {
   errno = 0;
   std::FILE* file = std::fopen(partial.c_str(), "wb");
   if (file == nullptr) return refused("create");
-  bool written = encode(file, image, !opaque(image));
+  bool written = encode(file, image, !opaque(image), effort);
   written = std::fflush(file) == 0 && written;
   const int reason = errno;
   if (std::fclose(file) == 0 && written && std::rename(partial.c_str(), path.c_str()) == 0) return {};

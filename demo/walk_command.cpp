@@ -73,7 +73,7 @@ void add_muscle_rows(const Simulation& simulation, const Human& human, std::stri
     for (const HumanMuscle& own : human.muscles) {
       const Entity muscle = own.entity[side];
       table.add(simulation.time_s(), side, own.plan.muscle, *simulation.get<LineOfAction>(muscle),
-                *simulation.get<BellyReport>(muscle), method);
+                *simulation.get<LineMotion>(muscle), *simulation.get<BellyReport>(muscle), method);
     }
   }
 }

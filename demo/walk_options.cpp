@@ -175,6 +175,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto muscles = read_muscles(text.muscles);
   if (!muscles) return tl::unexpected(muscles.error());
   options.muscles.muscles = *muscles;
+  options.muscles.line_motion = true;
   if (text.members) options.muscles.muscles |= muscle_members();
   const auto drive = choose("--drive", text.drive, drives);
   if (!drive) return tl::unexpected(drive.error());

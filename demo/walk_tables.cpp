@@ -65,16 +65,18 @@ std::string method_label(const LegMuscles& muscles) {
 MuscleTable::MuscleTable()
     : text(
           "time_s,side,group,line_length_m,rest_length_m,line_ratio,stiffness_n_per_m,force_n,belly_elongation_m,"
-          "volume_ratio,kinetic_energy_j,strain_energy_j,method,end_residual_m\n") {}
+          "volume_ratio,kinetic_energy_j,strain_energy_j,method,end_residual_m,line_speed_m_s,"
+          "hip_flexion_arm_m,knee_flexion_arm_m,ankle_dorsiflexion_arm_m\n") {}
 
 void MuscleTable::add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line,
-                      const BellyReport<float>& belly, std::string_view method) {
-  fmt::format_to(std::back_inserter(text),
-                 "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6e},{:.6e},{},{:.6f}\n", time_s,
-                 side_name[side], muscle_name(muscle), line.length_m, line.rest_length_m,
-                 line.length_m / line.rest_length_m, line.stiffness_n_per_m, line.force_n, belly.elongation_m,
-                 belly.volume_ratio, belly.kinetic_energy_j, belly.strain_energy_j, method,
-                 belly.elongation_m - (line.length_m - line.rest_length_m));
+                      const LineMotion<float>& motion, const BellyReport<float>& belly, std::string_view method) {
+  fmt::format_to(
+      std::back_inserter(text), "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6e},{:.6e},{},{:.6f}",
+      time_s, side_name[side], muscle_name(muscle), line.length_m, line.rest_length_m,
+      line.length_m / line.rest_length_m, line.stiffness_n_per_m, line.force_n, belly.elongation_m, belly.volume_ratio,
+      belly.kinetic_energy_j, belly.strain_energy_j, method, belly.elongation_m - (line.length_m - line.rest_length_m));
+  fmt::format_to(std::back_inserter(text), ",{:.6f},{:.6f},{:.6f},{:.6f}\n", motion.speed_m_s, motion.hip_flexion_arm_m,
+                 motion.knee_flexion_arm_m, motion.ankle_dorsiflexion_arm_m);
 }
 
 }  // namespace mobil

@@ -40,8 +40,8 @@ std::string method_label(const LegMuscles& muscles);
 /// muscles.csv under way.
 struct MuscleTable {
   MuscleTable();
-  void add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line, const BellyReport<float>& belly,
-           std::string_view method);
+  void add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line, const LineMotion<float>& motion,
+           const BellyReport<float>& belly, std::string_view method);
   std::string text;
 };
 

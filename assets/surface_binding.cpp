@@ -107,16 +107,25 @@ CagePlace CageSearch::place(const Vec& point) const {
   return {element_nodes(cells, p.element), weights(p.local)};
 }
 
-/// Farthest that points between two heights lie from their middle, across.
+/// Half the thickness of a surface between two heights: the farthest that its points lie from the middle of their
+/// slice.
 double radius(const std::vector<Vec>& place, double from, double to) {
-  Vec middle{0, 0, 0};
-  double count = 0, farthest = 0;
-  const auto within = [&](const Vec& p) { return p.z >= from && p.z <= to; };
+  constexpr int slices = 8;
+  struct Slice {
+    double x = 0, y = 0, count = 0;
+  };
+  std::array<Slice, slices> all{};
+  const auto slice = [&](const Vec& p) -> Slice* {
+    const double at = slices * (p.z - from) / (to - from);
+    return at < 0 || at >= slices ? nullptr : &all[static_cast<std::size_t>(at)];
+  };
   for (const Vec& p : place) {
-    if (within(p)) middle = middle + p, ++count;
+    if (Slice* s = slice(p)) s->x += p.x, s->y += p.y, ++s->count;
   }
+  double farthest = 0;
   for (const Vec& p : place) {
-    if (within(p)) farthest = std::max(farthest, std::hypot(p.x - middle.x / count, p.y - middle.y / count));
+    if (const Slice* s = slice(p))
+      farthest = std::max(farthest, std::hypot(p.x - s->x / s->count, p.y - s->y / s->count));
   }
   return farthest;
 }
@@ -136,6 +145,8 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
   const CageSearch search(cage);
   surface.binding.clear();
   surface.rest_in_cage.clear();
+  surface.rest_rotation = frame.rotation;
+  surface.end_turn = 0;
   for (const auto& position : surface.mesh.position) {
     const Vec q = in_frame(frame, position);
     const CagePlace place = search.place(q);
@@ -159,7 +170,8 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
 
 void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
                  const Attachments& attachments, double least_m) {
-  constexpr double attached = 0.95, lengths_of_thickness = 3;
+  constexpr double attached = 0.95, lengths_of_thickness = 4.5;
+  constexpr float end_turn = 0.8F;
   const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
   std::vector<Vec> place;
   double first = in_frame(frame, attachments.origin_m).z, last = in_frame(frame, attachments.insertion_m).z;
@@ -178,12 +190,16 @@ void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestF
   p.insertion_from = std::min(high, p.insertion_to - least(p.insertion_to - least_m, p.insertion_to + least_m));
   if (p.origin_from > p.insertion_from) p.origin_from = p.insertion_from = 0.5 * (p.origin_from + p.insertion_from);
   bind_surface(surface, cage, frame, p);
+  surface.origin_m = attachments.origin_m;
+  surface.insertion_m = attachments.insertion_m;
+  surface.end_turn = end_turn;
 }
 
 void bind_ligament(MuscleSurface& surface, const Vec3<float>& origin_m, const Vec3<float>& insertion_m) {
   const Vec from = to_double(origin_m), along = to_double(insertion_m) - from;
   surface.binding.clear();
   surface.rest_in_cage.assign(surface.mesh.position.size(), {0, 0, 0});
+  surface.end_turn = 0;
   for (const auto& position : surface.mesh.position) {
     const double t = dot(to_double(position) - from, along) / dot(along, along);
     VertexBinding b{};

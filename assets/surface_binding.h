@@ -48,7 +48,8 @@ struct Attachments {
 /// Binds a surface to the cage that drives it and to its bones. Between the cage's end faces it follows the cage alone;
 /// beyond them it passes to its bones as far as its attachments, so that a joint on the way bends it smoothly. A
 /// passage is `least_m` long at least (0.04 m looks right for a body of 1.80 m), and the longer the thicker the surface
-/// is there, lest a joint fold it: for that, it begins inside the cage.
+/// is there, lest a joint fold it: for that, it begins inside the cage. At the attachments themselves it turns half as
+/// its bone and half as the belly, as a tendon comes off a bone.
 void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
                  const Attachments& attachments, double least_m);
 

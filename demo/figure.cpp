@@ -43,37 +43,9 @@ void bind(const Simulation& simulation, const Human& human, Muscle driver, const
               blend_per_height * static_cast<double>(human.body.request.height_m));
 }
 
-/// Centre of the highest or lowest hundredth of a surface: where a ligament begins or ends.
-Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
-  auto by_height = mesh.position;
-  std::sort(by_height.begin(), by_height.end(),
-            [top](const Vec3<float>& a, const Vec3<float>& b) { return top ? a.y > b.y : a.y < b.y; });
-  const std::size_t count = std::max<std::size_t>(1, by_height.size() / 100);
-  using namespace geometry;
-  Vec3<float> sum{0, 0, 0};
-  for (std::size_t i = 0; i < count; ++i) sum = sum + by_height[i];
-  return (1.0F / static_cast<float>(count)) * sum;
-}
-
 FigureMuscle figure_muscle(Muscle muscle, MuscleSurface surface) {
   const Vec3<float> colour = is_tendon(surface.mesh.name) ? tendon_colour : belly_colour;
   return {muscle, colour, std::move(surface)};
-}
-
-/// Real quadriceps meshes run past the kneecap down to the tibia; those end there.
-void end_on_shank_below_kneecap(const Body& body, MuscleSurface& surface) {
-  const float knee = body.hip_height_m - body.thigh_length_m;
-  if (surface.insertion == Segment::patella_right && extreme(surface.mesh, false).y < knee) {
-    surface.insertion = Segment::shank_right;
-  }
-}
-
-/// Where the folder says that it is attached, else where it ends. The kneecap is on the way to the shank.
-Attachments attachments(const FittedMuscle& muscle) {
-  Attachments at{extreme(muscle.surface.mesh, true), extreme(muscle.surface.mesh, false)};
-  if (muscle.origin_m) at.origin_m = *muscle.origin_m;
-  if (muscle.insertion_m && muscle.surface.insertion != Segment::shank_right) at.insertion_m = *muscle.insertion_m;
-  return at;
 }
 
 Result<Figure> real_figure(const Simulation& simulation, const Human& human, const std::filesystem::path& folder) {
@@ -92,8 +64,7 @@ Result<Figure> real_figure(const Simulation& simulation, const Human& human, con
   for (auto& muscle : fitted->muscles) {
     const auto driver = driving_muscle(human.leg_muscles.muscles, muscle.group, muscle.muscle);
     if (!driver) continue;
-    end_on_shank_below_kneecap(human.body, muscle.surface);
-    bind(simulation, human, *driver, attachments(muscle), muscle.surface);
+    bind(simulation, human, *driver, muscle.attachments, muscle.surface);
     figure.muscles.push_back(figure_muscle(*driver, std::move(muscle.surface)));
   }
   return figure;

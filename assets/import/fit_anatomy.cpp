@@ -1,6 +1,7 @@
 #include "assets/import/fit_anatomy.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -12,6 +13,9 @@ namespace mobil {
 namespace {
 
 using Eigen::Vector3d;
+
+/// So far below the knee a quadriceps has its ligament with it.
+constexpr double past_kneecap_m = 0.035;
 
 Vec3<float> single(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
@@ -52,6 +56,27 @@ void add_bone(const AnatomyPart& part, const BoneMaps& maps, const LegJoints& jo
   bones.push_back(std::move(image));
 }
 
+/// Centre of the highest or lowest hundredth of a surface.
+Vec3<float> extreme(const SurfaceMesh& mesh, bool top) {
+  auto by_height = mesh.position;
+  std::sort(by_height.begin(), by_height.end(),
+            [top](const auto& a, const auto& b) { return top ? a.y > b.y : a.y < b.y; });
+  const std::size_t count = std::max<std::size_t>(1, by_height.size() / 100);
+  Vector3d sum = Vector3d::Zero();
+  for (std::size_t i = 0; i < count; ++i) sum += eigen(by_height[i]);
+  return single(sum / static_cast<double>(count));
+}
+
+void hold(double knee_height, FittedMuscle& muscle) {
+  MuscleSurface& surface = muscle.surface;
+  const Vec3<float> bottom = extreme(surface.mesh, false);
+  const bool past_kneecap =
+      surface.insertion == Segment::patella_right && static_cast<double>(bottom.y) < knee_height - past_kneecap_m;
+  if (past_kneecap) surface.insertion = Segment::shank_right;
+  muscle.attachments = {muscle.origin_m.value_or(extreme(surface.mesh, true)),
+                        past_kneecap ? bottom : muscle.insertion_m.value_or(bottom)};
+}
+
 }  // namespace
 
 Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
@@ -79,6 +104,7 @@ Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
     FittedMuscle muscle{*part.group, part.muscle.value_or(*part.group), std::move(surface), {}, {}};
     if (part.origin_m) muscle.origin_m = place(*part.origin_m);
     if (part.insertion_m) muscle.insertion_m = place(*part.insertion_m);
+    hold(joints.knee.y(), muscle);
     fitted.muscles.push_back(std::move(muscle));
   }
   return fitted;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "assets/import/anatomy_folder.h"
+#include "assets/surface_binding.h"
 #include "components/body.h"
 #include "components/muscle.h"
 #include "components/surface.h"
@@ -12,12 +13,14 @@
 
 namespace mobil {
 
-/// A right-hand muscle (or the tendon) with the meshes that can drive it, its own muscle's or its group's, and its
-/// attachments where they are known, m, in the frame of the surface.
+/// A right-hand muscle (or the tendon) with the meshes that can drive it, its own muscle's or its group's; what the
+/// folder says about its attachments, m, in the frame of the surface, and where it is held: there, or else where it
+/// ends. One that runs past the kneecap ends on the shank.
 struct FittedMuscle {
   Muscle group, muscle;
   MuscleSurface surface;
   std::optional<Vec3<float>> origin_m, insertion_m;
+  Attachments attachments{};
 };
 
 /// `bones`: both sides, the left the mirror image of the right, each in its segment's frame (names end in _right,

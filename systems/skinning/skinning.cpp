@@ -120,6 +120,8 @@ void skin(const MuscleSurface& surface, const Affine (&maps)[3], const NodalLane
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
+#include <cmath>
+
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -135,6 +137,15 @@ Affine affine(const RigidPose& p) {
   const auto [x, y, z] = geometry::columns(p.rotation);
   const Vec3<float>& at = p.position_m;
   return {{{x.x, x.y, x.z, 0}, {y.x, y.y, y.z, 0}, {z.x, z.y, z.z, 0}, {at.x, at.y, at.z, 0}}};
+}
+
+/// The rotation a part of the shorter way from `a` (0) to `b` (1).
+Quat<float> between(const Quat<float>& a, const Quat<float>& b, float part) {
+  const float same = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+  const float wa = 1 - part, wb = same < 0 ? -part : part;
+  const Quat<float> q{wa * a.x + wb * b.x, wa * a.y + wb * b.y, wa * a.z + wb * b.z, wa * a.w + wb * b.w};
+  const float n = 1 / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  return {n * q.x, n * q.y, n * q.z, n * q.w};
 }
 
 /// now ∘ rest⁻¹.
@@ -159,17 +170,29 @@ SkinPose skin_pose(const MuscleSurface& surface, Side side, const Body& body, co
                    const LineOfAction<float>& line) {
   using namespace geometry;
   const auto of_side = [side](Segment s) { return s < Segment::thigh_right ? s : on_side(s, side); };
-  const auto now = [&](Segment s) { return RigidPose{pose.position_m[index(s)], pose.rotation[index(s)]}; };
-  const auto rest = [&](Segment s) {
-    RigidPose p{body.joint_offset_m[index(s)], {0, 0, 0, 1}};
+  const auto rest_of = [&](Segment s) {
+    Vec3<float> p = body.joint_offset_m[index(s)];
     while (s != segment_parent[index(s)]) {
       s = segment_parent[index(s)];
-      p.position_m = p.position_m + body.joint_offset_m[index(s)];
+      p = p + body.joint_offset_m[index(s)];
     }
     return p;
   };
-  const Segment origin = of_side(surface.origin), insertion = of_side(surface.insertion);
-  return {{line.start_m, line.rotation}, now(origin), rest(origin), now(insertion), rest(insertion)};
+  const Quat<float> in_image = product(line.rotation, conjugate(surface.rest_rotation));
+  const Quat<float> muscle_turn = side == left ? mirrored(in_image) : in_image;
+  struct End {
+    RigidPose now, rest;
+  };
+  const auto end = [&](Segment right_segment, const Vec3<float>& attachment) {
+    const Segment s = of_side(right_segment);
+    const RigidPose now{pose.position_m[index(s)], pose.rotation[index(s)]}, rest{rest_of(s), {0, 0, 0, 1}};
+    if (surface.end_turn == 0) return End{now, rest};
+    const Vec3<float> at = side == left ? mirrored(attachment) : attachment;
+    const Vec3<float> carried = now.position_m + rotated(now.rotation, at - rest.position_m);
+    return End{{carried, between(now.rotation, muscle_turn, surface.end_turn)}, {at, rest.rotation}};
+  };
+  const End origin = end(surface.origin, surface.origin_m), insertion = end(surface.insertion, surface.insertion_m);
+  return {{line.start_m, line.rotation}, origin.now, origin.rest, insertion.now, insertion.rest};
 }
 
 void skin_surface(const MuscleSurface& surface, const SkinPose& pose, const NodalLane& displacement, bool is_left,

@@ -18,7 +18,8 @@ struct RigidPose {
 };
 
 /// Everything rigid that one surface follows. `frame`: the muscle's, as LineOfAction carries it (for a left muscle in
-/// the mirror image). The bones: world transforms now and in the standing body, as they are (not mirrored).
+/// the mirror image). Its ends: world transforms now and in the standing body, as they are (not mirrored), of the bones
+/// or, where the surface's ends turn otherwise than they do, of its attachments.
 struct SkinPose {
   RigidPose frame;
   RigidPose origin_now, origin_rest, insertion_now, insertion_rest;

@@ -1,4 +1,5 @@
-// Lines of action: a leg gathered from its human's pose, and the line's length, force and frame from it.
+// Lines of action: a leg gathered from its human's pose, the line's length, force and frame from it, and its speed and
+// moment arms.
 
 #include <fmt/format.h>
 
@@ -10,6 +11,7 @@
 #include "demo/bench.h"
 #include "demo/bench_crowd.h"
 #include "engine/access.h"
+#include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 
 namespace mobil {
@@ -25,6 +27,7 @@ struct LineBlock {
   LegFrames<Lanes<float>> leg;
   LineOfAction<Lanes<float>> line;
   EndDisplacement<Lanes<float>> end;
+  LineMotion<Lanes<float>> motion;
 };
 
 constexpr Side side_of(std::size_t lane) {
@@ -83,11 +86,17 @@ Result<void> bench_lines(BenchRun& run) {
     follow(block);
   });
   const Measured following = time(follow);
+  const auto tick_s = static_cast<float>(crowd.simulation().tick_s());
+  const Measured moving = time([&](LineBlock& block) {
+    line_motion(lines[block.group], block.scale, block.leg, block.line, block.motion, tick_s);
+  });
   const double muscles = static_cast<double>(blocks->size() * lane_count);
   run.add_time("lines.us_per_muscle_tick", both, muscles, 1e-6, "us").bound =
       fmt::format("{:.0f} % is the kernel, the rest gathers the legs", 100 * following.best_s / both.best_s);
   run.add_time("lines.kernel.us_per_muscle_tick", following, muscles, 1e-6, "us").bound =
       at_peak(run.machine, following.best_s / muscles);
+  run.add_time("lines.motion.us_per_muscle_tick", moving, muscles, 1e-6, "us").bound = fmt::format(
+      "speed and moment arms, as an effect: {:.1f} of the line's own kernel", moving.best_s / following.best_s);
   return {};
 }
 

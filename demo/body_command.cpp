@@ -31,11 +31,12 @@ Result<void> write_body(const Body& body, const std::filesystem::path& out) {
   const auto picture = body_picture(body);
   auto done = picture ? write_png((out / "body.png").string(), *picture) : Result<void>{};
   if (done) done = write_file(out / "body.json", body_json(body));
+  std::error_code ignored;
   if (!done) {
-    std::error_code ignored;
     if (!folder_was_there) std::filesystem::remove(out, ignored);  // if it is empty
     return done;
   }
+  if (!picture) std::filesystem::remove(out / "body.png", ignored);  // another body's
   fmt::print("{}\nlook at {}: body.json{}\n", body_table(body), out.string(), picture ? " body.png" : "");
   if (!picture) fmt::print(stderr, "mobil body: no picture: {}\n", picture.error().message);
   return {};

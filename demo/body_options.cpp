@@ -28,7 +28,9 @@ Result<Biotype> read_biotype(const std::string& text) {
 
 void add_body_options(CLI::App& command, BodyText& text) {
   command.add_option("--height", text.height, "Stature, 1.2m to 2.2m")->capture_default_str()->group("Body");
-  command.add_option("--mass", text.mass, "Body mass, 30kg to 200kg")->capture_default_str()->group("Body");
+  command.add_option("--mass", text.mass, "Body mass, 30kg to 200kg and what a living body of that height has")
+      ->capture_default_str()
+      ->group("Body");
   command.add_option("--biotype", text.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3")->group("Body");
   command.add_option("--constitution", text.constitution, "thin, average, athletic or heavy")
       ->capture_default_str()

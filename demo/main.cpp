@@ -34,8 +34,8 @@ int main(int argc, char** argv) {
 
   int status = 0;
   mobil::add_walk_command(app, status);
-  mobil::add_body_command(app, status);
   mobil::add_muscle_command(app, status);
+  mobil::add_body_command(app, status);
   mobil::add_bench_command(app, status);
   mobil::add_compare_command(app, status);
   mobil::add_stress_command(app, status);

@@ -14,6 +14,10 @@ using enum Muscle;
 using enum Segment;
 
 // Name, group, path, kneecap, share of the limb's volume and its offset, bones it is attached to, sections.
+// Plantaris is not among the published regressions. Its belly is 9.6 cm long and 1.8 cm wide (means of 146 legs: Lee,
+// Heo, Kim, Hwang: Morphological classification of the plantaris muscle origin, a cadaveric study, 2025); as a spheroid
+// 0.53 as thick as wide, as its sections there are in the mean, it has 8.6 cm³. That this is 0.0015 of the limb's volume
+// takes their owners to be of 1.65 m and 60 kg, which is a guess.
 constexpr std::array<MemberMuscle, member_muscle_count> members = {{
     {"semimembranosus", hamstrings, paths::semimembranosus, nullptr, 0.0319, 18.2, pelvis, shank_right,
      sections::semimembranosus},
@@ -36,7 +40,7 @@ constexpr std::array<MemberMuscle, member_muscle_count> members = {{
     {"gastrocnemius_lateral", triceps_surae, paths::gastrocnemius_lateral, nullptr, 0.0199, 8.21, thigh_right,
      foot_right, sections::gastrocnemius_lateral},
     {"soleus", triceps_surae, paths::soleus, nullptr, 0.0507, 78.2, shank_right, foot_right, sections::soleus},
-    {"plantaris", triceps_surae, paths::plantaris, nullptr, 0.001, 0, thigh_right, foot_right, sections::plantaris},
+    {"plantaris", triceps_surae, paths::plantaris, nullptr, 0.0015, 0, thigh_right, foot_right, sections::plantaris},
     {"tibialis_anterior", tibialis_anterior, paths::tibialis_anterior, nullptr, 0.0161, 20.3, shank_right, foot_right,
      sections::tibialis_anterior},
 }};

@@ -16,8 +16,8 @@ using enum Segment;
 // Name, group, path, kneecap, share of the limb's volume and its offset, bones it is attached to, sections.
 // Plantaris is not among the published regressions. Its belly is 9.6 cm long and 1.8 cm wide (means of 146 legs: Lee,
 // Heo, Kim, Hwang: Morphological classification of the plantaris muscle origin, a cadaveric study, 2025); as a spheroid
-// 0.53 as thick as wide, as its sections there are in the mean, it has 8.6 cm³. That this is 0.0015 of the limb's volume
-// takes their owners to be of 1.65 m and 60 kg, which is a guess.
+// 0.53 as thick as wide, as its sections there are in the mean, it has 8.6 cm³. That this is 0.0015 of the limb's
+// volume takes their owners to be of 1.65 m and 60 kg, which is a guess.
 constexpr std::array<MemberMuscle, member_muscle_count> members = {{
     {"semimembranosus", hamstrings, paths::semimembranosus, nullptr, 0.0319, 18.2, pelvis, shank_right,
      sections::semimembranosus},

@@ -58,7 +58,8 @@ struct Random {
     const auto height = static_cast<float>(between(1.2, 2.2));
     return make_body({height, living_mass(height, between(0, 1))}).value();
   }
-  LegAngles angles() { return {between(-30, 120), between(-5, 140), between(-45, 30)}; }
+  /// All that joints can do, in any combination (assets/joint_limits.h), and the knee a little overstretched.
+  LegAngles angles() { return {between(-30, 120), between(-5, 144), between(-50, 30)}; }
   Quat<double> turn(double most_deg) {
     return about({between(-1, 1), between(-1, 1), between(-1, 1)}, between(-most_deg, most_deg));
   }

@@ -138,8 +138,8 @@ LineMotion<Lanes<float>> motion_of(const MuscleLines& lines, Block& block) {
   return motion;
 }
 
-// Hip from −30° to 110°, knee to 110°, ankle from −45° to 30°, all combinations. Beyond 115° of knee flexion the
-// published lines of the hamstrings pass the knee's axis.
+// Hip from −30° to 120°, knee to 115°, ankle from −50° to 30°, all combinations. Beyond 115° of knee flexion published
+// lines of the hamstrings pass in front of the knee's axis.
 TEST(MomentArms, FlexorsFlexAndExtensorsExtend) {
   const auto sign = [](std::string_view name, Joint joint) {
     const bool ham =
@@ -163,7 +163,7 @@ TEST(MomentArms, FlexorsFlexAndExtensorsExtend) {
       Block block;
       std::array<LegAngles, lane_count> angles;
       for (std::size_t l = 0; l < lane_count; ++l) {
-        angles[l] = {random.between(-30, 110), random.between(-5, 110), random.between(-45, 30)};
+        angles[l] = {random.between(-30, 120), random.between(-5, 115), random.between(-50, 30)};
         const Body body = random.body();
         set(block, body, posed(body, angles[l]), muscle, l);
       }
@@ -236,8 +236,8 @@ TEST(MomentArms, NoJumpAnywhereInTheRangeOfAnyJoint) {
       const LegScale<double> scale = leg_scale(body);
       const LegAngles at = random.angles();
       for (const Joint joint : {Joint::hip, Joint::knee, Joint::ankle}) {
-        const double from = joint == Joint::hip ? -30 : joint == Joint::knee ? -5 : -45;
-        const double to = joint == Joint::hip ? 120 : joint == Joint::knee ? 140 : 30;
+        const double from = joint == Joint::hip ? -30 : joint == Joint::knee ? -5 : -50;
+        const double to = joint == Joint::hip ? 120 : joint == Joint::knee ? 144 : 30;
         double worst = 0, last = 0, before = 0;
         for (int k = 0; from + k * step_deg <= to; ++k) {
           const double now = member_length(member, scale, posed(body, with(at, joint, from + k * step_deg)));

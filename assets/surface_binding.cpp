@@ -146,7 +146,7 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
   surface.binding.clear();
   surface.rest_in_cage.clear();
   surface.rest_rotation = frame.rotation;
-  surface.end_turn = 0;
+  surface.origin_turn = surface.insertion_turn = 0;
   for (const auto& position : surface.mesh.position) {
     const Vec q = in_frame(frame, position);
     const CagePlace place = search.place(q);
@@ -168,10 +168,10 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
   bind_surface(surface, cage, frame, Passages{low - blend_m, low, high, high + blend_m});
 }
 
-void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
-                 const Attachments& attachments, double least_m) {
+Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
+                     const Attachments& attachments, double least_m) {
   constexpr double attached = 0.95, lengths_of_thickness = 4.5;
-  constexpr float end_turn = 0.8F;
+  constexpr float end_turn = 0.8F, kneecap_turn = 0.35F;
   const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
   std::vector<Vec> place;
   double first = in_frame(frame, attachments.origin_m).z, last = in_frame(frame, attachments.insertion_m).z;
@@ -192,14 +192,33 @@ void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestF
   bind_surface(surface, cage, frame, p);
   surface.origin_m = attachments.origin_m;
   surface.insertion_m = attachments.insertion_m;
-  surface.end_turn = end_turn;
+  surface.origin_turn = end_turn;
+  surface.insertion_turn = surface.insertion == Segment::patella_right ? kneecap_turn : end_turn;
+  return p;
+}
+
+void bind_beyond(MuscleSurface& beyond, const MuscleSurface& surface, const HexahedralMesh& cage,
+                 const RestFrame& frame, const Passages& passages, const Attachments& ligament) {
+  bind_surface(beyond, cage, frame, passages);
+  beyond.origin = surface.insertion;
+  beyond.origin_m = surface.insertion_m;
+  beyond.origin_turn = surface.insertion_turn;
+  beyond.insertion_m = ligament.insertion_m;
+  const Vec from = to_double(ligament.origin_m), along = to_double(ligament.insertion_m) - from;
+  for (std::size_t v = 0; v < beyond.binding.size(); ++v) {
+    VertexBinding& b = beyond.binding[v];
+    const float past = 1 - b.cage;
+    const double t = dot(to_double(beyond.mesh.position[v]) - from, along) / dot(along, along);
+    b.insertion = past * static_cast<float>(smoothstep(0, 1, t));
+    b.origin = past - b.insertion;
+  }
 }
 
 void bind_ligament(MuscleSurface& surface, const Vec3<float>& origin_m, const Vec3<float>& insertion_m) {
   const Vec from = to_double(origin_m), along = to_double(insertion_m) - from;
   surface.binding.clear();
   surface.rest_in_cage.assign(surface.mesh.position.size(), {0, 0, 0});
-  surface.end_turn = 0;
+  surface.origin_turn = surface.insertion_turn = 0;
   for (const auto& position : surface.mesh.position) {
     const double t = dot(to_double(position) - from, along) / dot(along, along);
     VertexBinding b{};

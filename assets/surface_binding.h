@@ -48,10 +48,17 @@ struct Attachments {
 /// Binds a surface to the cage that drives it and to its bones. Between the cage's end faces it follows the cage alone;
 /// beyond them it passes to its bones as far as its attachments, so that a joint on the way bends it smoothly. A
 /// passage is `least_m` long at least (0.04 m looks right for a body of 1.80 m), and the longer the thicker the surface
-/// is there, lest a joint fold it: for that, it begins inside the cage. At the attachments themselves it turns half as
-/// its bone and half as the belly, as a tendon comes off a bone.
-void bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
-                 const Attachments& attachments, double least_m);
+/// is there, lest a joint fold it: for that, it begins inside the cage. At the attachments it turns more as the
+/// belly does than as its bone, for a tendon bends where it comes off a bone; less so at the kneecap, which lies in the
+/// tendon. Returns where it passes.
+Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
+                     const Attachments& attachments, double least_m);
+
+/// Binds what goes on beyond the insertion of a bound surface to another bone, as quadriceps over the kneecap to the
+/// tibia: up to `ligament.origin_m` exactly as the surface itself, from there smoothly to that bone at
+/// `ligament.insertion_m`. `passages`: the surface's own.
+void bind_beyond(MuscleSurface& beyond, const MuscleSurface& surface, const HexahedralMesh& cage,
+                 const RestFrame& frame, const Passages& passages, const Attachments& ligament);
 
 /// Binds a surface to its two bones alone: smoothly from the origin at `origin_m` to the insertion at `insertion_m` (m,
 /// world, the body standing; not the same point), by place along the line between them.

@@ -33,7 +33,7 @@ struct VertexBinding {
 
 /// A muscle surface in the anatomical position, world axes, the body standing at x = z = 0 (m), right side.
 /// Each vertex: p = cage · frame(rest_in_cage + Σ wᵢ uᵢ) + origin · T_origin(p₀) + insertion · T_insertion(p₀).
-/// T carries the attachment as the bone does; it turns from as the bone does (`end_turn` 0) to as the muscle does (1).
+/// T carries the attachment as the bone does; it turns from as the bone does (`…_turn` 0) to as the muscle does (1).
 struct MuscleSurface {
   SurfaceMesh mesh;
   Segment origin = Segment::pelvis, insertion = Segment::shank_right;
@@ -41,7 +41,7 @@ struct MuscleSurface {
   std::vector<Vec3<float>> rest_in_cage;  // the vertex in the muscle's rest frame, m
   Vec3<float> origin_m{}, insertion_m{};  // where it is attached
   Quat<float> rest_rotation{0, 0, 0, 1};  // of the muscle's frame
-  float end_turn = 0;
+  float origin_turn = 0, insertion_turn = 0;
 };
 
 }  // namespace mobil

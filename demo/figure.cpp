@@ -32,15 +32,17 @@ bool is_tendon(const std::string& name) {
   return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
 }
 
-/// Binds a surface to the mesh of the muscle that drives it in this person.
+/// Binds a surface, and what there is of it beyond the kneecap, to the mesh of the muscle that drives it.
 void bind(const Simulation& simulation, const Human& human, Muscle driver, const Attachments& attachments,
-          MuscleSurface& surface) {
+          MuscleSurface& surface, Ligament* beyond = nullptr) {
   const auto& [plan, entity] = *std::find_if(human.muscles.begin(), human.muscles.end(),
                                              [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
   const auto* shape = simulation.world().shared<MuscleTemplate>(entity[right]);
-  bind_muscle(surface, individual_cage(*shape, plan.scale),
-              {geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)}, attachments,
-              blend_per_height * static_cast<double>(human.body.request.height_m));
+  const HexahedralMesh cage = individual_cage(*shape, plan.scale);
+  const RestFrame frame{geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)};
+  const Passages passages = bind_muscle(surface, cage, frame, attachments,
+                                        blend_per_height * static_cast<double>(human.body.request.height_m));
+  if (beyond != nullptr) bind_beyond(beyond->surface, surface, cage, frame, passages, beyond->ends);
 }
 
 FigureMuscle figure_muscle(Muscle muscle, MuscleSurface surface) {
@@ -64,8 +66,10 @@ Result<Figure> real_figure(const Simulation& simulation, const Human& human, con
   for (auto& muscle : fitted->muscles) {
     const auto driver = driving_muscle(human.leg_muscles.muscles, muscle.group, muscle.muscle);
     if (!driver) continue;
-    bind(simulation, human, *driver, muscle.attachments, muscle.surface);
+    auto ligament = cut_at_kneecap(muscle, human.body);
+    bind(simulation, human, *driver, muscle.attachments, muscle.surface, ligament ? &*ligament : nullptr);
     figure.muscles.push_back(figure_muscle(*driver, std::move(muscle.surface)));
+    if (ligament) figure.muscles.push_back(figure_muscle(*driver, std::move(ligament->surface)));
   }
   return figure;
 }

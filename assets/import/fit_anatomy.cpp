@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -108,6 +110,41 @@ Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
     fitted.muscles.push_back(std::move(muscle));
   }
   return fitted;
+}
+
+std::optional<Ligament> cut_at_kneecap(FittedMuscle& muscle, const Body& body) {
+  MuscleSurface& surface = muscle.surface;
+  if (muscle.group != Muscle::quadriceps || surface.insertion != Segment::shank_right) return std::nullopt;
+  const LegJoints joints = leg_joints(body);
+  const SurfaceMesh whole = std::move(surface.mesh);
+  const std::string name = whole.name.substr(0, whole.name.rfind("_right"));
+  Ligament ligament;
+  ligament.surface.origin = Segment::patella_right;
+  ligament.surface.insertion = Segment::shank_right;
+  surface.mesh = {whole.name, {}, {}};
+  ligament.surface.mesh = {name + "_ligament_right", {}, {}};
+  constexpr std::uint32_t absent = ~0U;
+  std::array<std::vector<std::uint32_t>, 2> number;
+  for (auto& n : number) n.assign(whole.position.size(), absent);
+  for (std::size_t t = 0; t < whole.triangle.size(); t += 3) {
+    double middle = 0;
+    for (std::size_t k = 0; k < 3; ++k) middle += static_cast<double>(whole.position[whole.triangle[t + k]].y) / 3;
+    const std::size_t below = middle < joints.patella.y() ? 1 : 0;
+    SurfaceMesh& mesh = below == 1 ? ligament.surface.mesh : surface.mesh;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& n = number[below][whole.triangle[t + k]];
+      if (n == absent) {
+        n = static_cast<std::uint32_t>(mesh.position.size());
+        mesh.position.push_back(whole.position[whole.triangle[t + k]]);
+      }
+      mesh.triangle.push_back(n);
+    }
+  }
+  const Vec3<float> bottom = muscle.attachments.insertion_m;
+  ligament.ends = {single({bottom.x, joints.patella.y(), bottom.z}), bottom};
+  surface.insertion = Segment::patella_right;
+  muscle.attachments.insertion_m = muscle.insertion_m.value_or(single(joints.patella));
+  return ligament;
 }
 
 }  // namespace mobil

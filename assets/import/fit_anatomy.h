@@ -32,6 +32,16 @@ struct FittedAnatomy {
   std::vector<MuscleSurface> others;
 };
 
+/// What a muscle's surface is beyond the kneecap, and from where to where it is the ligament.
+struct Ligament {
+  MuscleSurface surface;
+  Attachments ends;
+};
+
+/// Cuts a surface that runs on past the kneecap in two there: what stays of it ends on the kneecap, what is returned
+/// goes on to the shank; both have the vertices of the cut. Others stay as they are. Bind the second with bind_beyond.
+std::optional<Ligament> cut_at_kneecap(FittedMuscle& muscle, const Body& body);
+
 /// Joint centres land on the body's, the lowest point of the foot's bones on the ground; see bone_maps for how each
 /// bone is stretched. Fails with one line for a body without positive lengths.
 Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body);

@@ -183,15 +183,16 @@ SkinPose skin_pose(const MuscleSurface& surface, Side side, const Body& body, co
   struct End {
     RigidPose now, rest;
   };
-  const auto end = [&](Segment right_segment, const Vec3<float>& attachment) {
+  const auto end = [&](Segment right_segment, const Vec3<float>& attachment, float turn) {
     const Segment s = of_side(right_segment);
     const RigidPose now{pose.position_m[index(s)], pose.rotation[index(s)]}, rest{rest_of(s), {0, 0, 0, 1}};
-    if (surface.end_turn == 0) return End{now, rest};
+    if (turn == 0) return End{now, rest};
     const Vec3<float> at = side == left ? mirrored(attachment) : attachment;
     const Vec3<float> carried = now.position_m + rotated(now.rotation, at - rest.position_m);
-    return End{{carried, between(now.rotation, muscle_turn, surface.end_turn)}, {at, rest.rotation}};
+    return End{{carried, between(now.rotation, muscle_turn, turn)}, {at, rest.rotation}};
   };
-  const End origin = end(surface.origin, surface.origin_m), insertion = end(surface.insertion, surface.insertion_m);
+  const End origin = end(surface.origin, surface.origin_m, surface.origin_turn),
+            insertion = end(surface.insertion, surface.insertion_m, surface.insertion_turn);
   return {{line.start_m, line.rotation}, origin.now, origin.rest, insertion.now, insertion.rest};
 }
 

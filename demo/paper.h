@@ -28,8 +28,9 @@ class PaperRun {
   Result<void> write(const PlotFigure& figure);
   Result<void> write_svg(const std::string& text);
   Result<void> write_csv(const std::string& text);
-  /// Writes ENTRY.png; without a graphics device says so, once, and goes on. `make` is the way to the picture.
-  Result<void> write_picture(const std::function<Result<Image>()>& make);
+  /// Writes ENTRY.png and tells `caption`; without a graphics device says so, once, and goes on. `make` is the way to
+  /// the picture.
+  Result<void> write_picture(std::string_view caption, const std::function<Result<Image>()>& make);
 
   std::string entry;  // the one that is being made
   std::optional<std::filesystem::path> anatomy;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,7 +39,7 @@ constexpr std::array entries = {
     Entry{"quadriceps", "How does a walker's quadriceps deform, at other steps too? (svg, csv, png)",
           &paper_quadriceps},
     Entry{"stature", "What if the person is taller or thinner? (svg, csv, png)", &paper_stature},
-    Entry{"anatomy", "real meshes beside built-in ones over a cycle; needs --anatomy (png)", &paper_anatomy, true},
+    Entry{"anatomy", "real meshes beside built-in ones over a cycle (png; needs --anatomy)", &paper_anatomy, true},
 };
 
 struct PaperText {
@@ -93,9 +94,9 @@ Result<void> run_paper(const PaperText& text) {
   if (!chosen) return tl::unexpected(chosen.error());
   std::optional<std::filesystem::path> anatomy;
   if (!text.anatomy.empty()) anatomy = text.anatomy;
-  if (anatomy && !std::filesystem::is_directory(*anatomy)) {
-    return fail(
-        fmt::format("--anatomy {} is not a folder; name one with manifest.csv and landmarks.csv", anatomy->string()));
+  if (anatomy && !std::filesystem::exists(*anatomy / "manifest.csv")) {
+    return fail(fmt::format("--anatomy {}: there is no manifest.csv; name a folder with manifest.csv and landmarks.csv",
+                            anatomy->string()));
   }
   if (auto made = make_output_folder(text.out); !made) return made;
   PaperRun run(text.out, anatomy);

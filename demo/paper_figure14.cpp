@@ -80,12 +80,12 @@ Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>
 
 /// Longest, shortest, and between them on the way to the shortest; in order of time.
 std::vector<Moment> moments_of(const std::vector<Row>& rows) {
-  const auto [low, high] = std::ranges::minmax_element(rows, {}, &Row::displacement_mm);
-  const auto first = std::min(low, high), last = std::max(low, high);
-  const double middle = (low->displacement_mm + high->displacement_mm) / 2;
+  const auto ends = std::ranges::minmax_element(rows, {}, &Row::displacement_mm);
+  const auto first = std::min(ends.min, ends.max), last = std::max(ends.min, ends.max);
+  const double middle = (ends.min->displacement_mm + ends.max->displacement_mm) / 2;
   const auto between = std::ranges::min_element(
       first, last, {}, [middle](const Row& row) { return std::abs(row.displacement_mm - middle); });
-  const auto what = [&](auto at) { return at == low ? "shortest" : at == high ? "longest" : "half-way"; };
+  const auto what = [&](auto at) { return at == ends.min ? "shortest" : at == ends.max ? "longest" : "half-way"; };
   std::vector<Moment> moments;
   for (const auto at : {first, between, last}) {
     moments.push_back({"ABC"[moments.size()], what(at), static_cast<std::size_t>(at - rows.begin())});
@@ -215,7 +215,7 @@ Result<void> paper_figure14(PaperRun& run) {
   const Entity muscle = simulation.muscle(*entity, Muscle::hamstrings, right);
   const BellyScale<float> scale = simulation.human(*entity)->muscles.front().plan.scale;
   std::vector<Row> rows;
-  const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
+  auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
     if (phase >= 0 && phase <= 1) rows.push_back(row_now(simulation, muscle, scale, phase));
   });
   if (!walked) return walked;

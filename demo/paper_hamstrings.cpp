@@ -27,7 +27,7 @@ Result<std::vector<Image>> row_of(const ShownWalk& walk) {
   std::vector<Image> row;
   for (std::size_t frame = 0; frame < walk.recording.frames.size(); ++frame) {
     const Actor actor{&walk, frame};
-    auto image = take_picture({camera_at({0, 0.55F, 0}, 1.22F, 20, 4), 168, 208}, {&actor, 1});
+    auto image = take_picture({camera_at({0, 0.55F, 0}, 1.22F, 20, 4), 145, 180}, {&actor, 1});
     if (!image) return tl::unexpected(image.error());
     row.push_back(std::move(*image));
   }
@@ -38,7 +38,7 @@ Result<std::vector<Image>> row_of(const ShownWalk& walk) {
 Result<Image> figure16(const ShownWalk& walk) {
   constexpr float apart_m = 0.92F;
   const Actor actor{&walk, sequence};
-  auto left = take_picture({camera_at({0, 0.93F, 0}, 1.98F, -48, 4), 205, 310}, {&actor, 1});
+  auto left = take_picture({camera_at({0, 0.66F, 0}, 1.42F, -42, 4), 200, 305}, {&actor, 1});
   if (!left) return left;
   const Camera camera = camera_at({0, 0.93F, 0}, 1.98F, 6, 3);
   std::vector<Actor> actors;
@@ -46,7 +46,7 @@ Result<Image> figure16(const ShownWalk& walk) {
     const float place = apart_m * (static_cast<float>(i) - (static_cast<float>(sequence) - 1) / 2);
     actors.push_back({.walk = &walk, .frame = i, .at = place * across(camera)});
   }
-  auto right = take_picture({camera, 1185, 310}, actors);
+  auto right = take_picture({camera, 1165, 305}, actors);
   if (!right) return right;
   const std::vector<Image> row = {std::move(*left), std::move(*right)};
   return contact_sheet({&row, 1}, 4);
@@ -75,9 +75,10 @@ Result<void> paper_figure16(PaperRun& run) {
   shown_at.push_back(still_at);
   const auto walk = walk_cycle(hamstrings_alone(std::move(shown_at)));
   if (!walk) return tl::unexpected(walk.error());
-  run.text =
-      "From behind at 90 % of the cycle; from the side every eighth of it, beginning with the right heel strike.\n";
-  return run.write_picture([&] { return figure16(walk->shown); });
+  return run.write_picture(
+      "The legs from behind at 90 % of the cycle; from the side every eighth of it, beginning with the right heel "
+      "strike.",
+      [&] { return figure16(walk->shown); });
 }
 
 Result<void> paper_figure17(PaperRun& run) {
@@ -85,8 +86,9 @@ Result<void> paper_figure17(PaperRun& run) {
   request.muscles->cells = paper_mesh;
   const auto walk = walk_cycle(request);
   if (!walk) return tl::unexpected(walk.error());
-  run.text = "The right thigh from behind in mid-stance: the mesh of 525 nodes, the surface that follows it, both.\n";
-  return run.write_picture([&] { return figure17(walk->shown); });
+  return run.write_picture(
+      "The right thigh from behind in mid-stance: the mesh of 525 nodes, the surface that follows it, both.",
+      [&] { return figure17(walk->shown); });
 }
 
 Result<void> paper_anatomy(PaperRun& run) {
@@ -99,16 +101,17 @@ Result<void> paper_anatomy(PaperRun& run) {
     if (!walk) return tl::unexpected(walk.error());
     walks[i] = std::move(*walk);
   }
-  run.text = "Above real meshes, below built-in ones, every eighth of the cycle from the right heel strike on.\n";
-  return run.write_picture([&]() -> Result<Image> {
-    std::vector<std::vector<Image>> rows;
-    for (const PaperCycle& walk : walks) {
-      auto row = row_of(walk.shown);
-      if (!row) return tl::unexpected(row.error());
-      rows.push_back(std::move(*row));
-    }
-    return contact_sheet(rows, 3);
-  });
+  return run.write_picture(
+      "Above real meshes, below built-in ones, every eighth of the cycle from the right heel strike on.",
+      [&]() -> Result<Image> {
+        std::vector<std::vector<Image>> rows;
+        for (const PaperCycle& walk : walks) {
+          auto row = row_of(walk.shown);
+          if (!row) return tl::unexpected(row.error());
+          rows.push_back(std::move(*row));
+        }
+        return contact_sheet(rows, 3);
+      });
 }
 
 }  // namespace mobil

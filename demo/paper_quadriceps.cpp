@@ -2,6 +2,7 @@
 // with a specific step length or step frequency?
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <array>
 
@@ -109,6 +110,13 @@ PlotFigure figure_of(const std::vector<Variant>& variants) {
   return figure;
 }
 
+std::vector<double> percents(const std::vector<double>& cycles) {
+  std::vector<double> all;
+  all.reserve(cycles.size());
+  for (const double c : cycles) all.push_back(100 * c);
+  return all;
+}
+
 /// The right leg at each of the phases.
 Result<Image> picture_of(const PaperCycle& walk) {
   std::vector<Image> strip;
@@ -138,7 +146,9 @@ Result<void> paper_quadriceps(PaperRun& run) {
                  table.row[2].label, table.row[2].value[6]);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
   if (auto done = run.write(figure_of(*variants)); !done) return done;
-  return run.write_picture([&] { return picture_of((*variants)[0].walk); });
+  const std::string caption =
+      fmt::format("The picture: natural steps, {:.0f} % of the cycle.", fmt::join(percents(shown_at), ", "));
+  return run.write_picture(caption, [&] { return picture_of((*variants)[0].walk); });
 }
 
 }  // namespace mobil

@@ -32,7 +32,7 @@ Result<void> PaperRun::write_csv(const std::string& csv_text) {
   return wrote(write_file(out_ / (entry + ".csv"), csv_text), entry + ".csv");
 }
 
-Result<void> PaperRun::write_picture(const std::function<Result<Image>()>& make) {
+Result<void> PaperRun::write_picture(std::string_view caption, const std::function<Result<Image>()>& make) {
   if (blind_) return {};
   progress("pictures", 0.9);
   const auto image = make();
@@ -41,6 +41,7 @@ Result<void> PaperRun::write_picture(const std::function<Result<Image>()>& make)
     text += fmt::format("No pictures: {}\n", image.error().message);
     return {};
   }
+  text += fmt::format("{}{}\n", text.empty() ? "" : "\n", caption);
   return wrote(write_png((out_ / (entry + ".png")).string(), *image, PngEffort::small), entry + ".png");
 }
 

@@ -87,7 +87,7 @@ Result<Image> take_picture(const Stage& stage, std::span<const Actor> actors) {
     for (const auto& p : actor.walk->mesh_edge[actor.frame]) edges.push_back(p + shift);
   }
   std::vector<DrawLines> lines;
-  if (!edges.empty()) lines.push_back({.position = edges, .colour = mesh_ink, .width = 1.5F});
+  if (!edges.empty()) lines.push_back({.position = edges, .colour = mesh_ink, .width = 1.3F});
   Scene scene;
   scene.camera = stage.camera;
   scene.meshes = drawn.meshes;

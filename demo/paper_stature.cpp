@@ -149,7 +149,8 @@ Result<void> paper_stature(PaperRun& run) {
   run.text = turned_table_text(table) + answer(table);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
   if (auto done = run.write(figure_of(walks)); !done) return done;
-  return run.write_picture([&] { return picture_of(walks); });
+  return run.write_picture("The picture: as in the table, all at the right heel strike.",
+                           [&] { return picture_of(walks); });
 }
 
 }  // namespace mobil

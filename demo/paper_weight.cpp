@@ -98,7 +98,8 @@ Result<void> paper_weight(PaperRun& run) {
                  heaviest[7] / lightest[7], weight_n(walks.back()) / weight_n(walks.front()));
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
   if (auto done = run.write(figure_of(walks)); !done) return done;
-  return run.write_picture([&] { return picture_of(walks); });
+  return run.write_picture("The picture: from left to right, all at the right heel strike.",
+                           [&] { return picture_of(walks); });
 }
 
 }  // namespace mobil

@@ -19,6 +19,7 @@
 #include "assets/import/fit_anatomy.h"
 #include "assets/import/mesh_file.h"
 #include "assets/import/simplify_surface.h"
+#include "assets/muscle_table.h"
 #include "assets/surface_mesh.h"
 
 namespace mobil {
@@ -191,6 +192,29 @@ TEST(AnatomyFolder, LoadsCubesClosedAndOutwards) {
     EXPECT_NEAR(enclosed_volume(part.mesh), 8 * half * half * half, 1e-9) << part.mesh.name;
     EXPECT_EQ(part.group.has_value(), !bone);
   }
+}
+
+TEST(AnatomyFolder, WhichMuscleAMeshIsFollowsFromItsNameOrItsFiles) {
+  const Folder folder;
+  const auto muscle = [&](const std::string& name, const std::string& file, const std::string& group) {
+    folder.write("muscles/" + file + ".obj", obj(leg.at("muscles/soleus_right")));
+    folder.write("manifest.csv", "file,name,side,kind,group\nbones/femur_right.obj,Femur,right,bone,\nmuscles/" + file +
+                                     ".obj," + name + ",right,muscle," + group + "\n");
+    const auto anatomy = folder.load();
+    EXPECT_TRUE(anatomy.has_value()) << anatomy.error().message;
+    const AnatomyPart* part = anatomy.has_value() && anatomy->part.size() == 2 ? &anatomy->part[1] : nullptr;
+    if (part == nullptr || !part->group) return std::string("none");
+    return std::string(muscle_name(*part->group)) + "/" +
+           (part->muscle ? std::string(muscle_name(*part->muscle)) : "?");
+  };
+  EXPECT_EQ(muscle("Right rectus femoris", "a", "quadriceps"), "quadriceps/rectus_femoris");
+  EXPECT_EQ(muscle("Long head of right biceps femoris", "b", "hamstrings"), "hamstrings/biceps_femoris_long_head");
+  EXPECT_EQ(muscle("m. 12", "Gastrocnemius-Lateral_head_right", "triceps_surae"),
+            "triceps_surae/gastrocnemius_lateral");
+  EXPECT_EQ(muscle("Right tibialis anterior", "c", ""), "tibialis_anterior/tibialis_anterior");
+  EXPECT_EQ(muscle("Right quadriceps", "d", "quadriceps"), "quadriceps/?");
+  EXPECT_EQ(muscle("Right soleus", "e", "hamstrings"), "hamstrings/?");  // the group that is written counts
+  EXPECT_EQ(muscle("Right sartorius", "f", ""), "none");
 }
 
 TEST(AnatomyFolder, MetresAreToldFromMillimetres) {

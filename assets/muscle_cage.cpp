@@ -96,6 +96,15 @@ std::vector<Vec> outline(const Body& body, const MusclePlan& plan) {
 
 using Stations = std::array<Station, cage_station_count>;
 
+/// Each a quarter of its neighbours'.
+Stations softened(const Stations& s) {
+  Stations out;
+  for (std::size_t i = 0; i <= last; ++i) {
+    out[i] = mix(s[i], mix(s[i > 0 ? i - 1 : 0], s[std::min(i + 1, last)], 0.5), 0.5);
+  }
+  return out;
+}
+
 /// Ellipses round the outline near each station, smoothed, and no thinner than they may be.
 Stations follow(const std::vector<Vec>& points, double spacing) {
   Stations tight, smooth;
@@ -110,18 +119,10 @@ Stations follow(const std::vector<Vec>& points, double spacing) {
     }
     tight[i] = enclose(near);
   }
-  for (std::size_t i = 0; i <= last; ++i) {
-    smooth[i] = mix(tight[i], mix(tight[i > 0 ? i - 1 : 0], tight[std::min(i + 1, last)], 0.5), 0.5);
-  }
+  smooth = softened(softened(tight));
   // Centres further: elements shear where they bend.
-  for (int pass = 0; pass < 3; ++pass) {
-    const Stations once = smooth;
-    for (std::size_t i = 0; i <= last; ++i) {
-      const Station &before = once[i > 0 ? i - 1 : 0], &after = once[std::min(i + 1, last)];
-      smooth[i].x = (before.x + 2 * once[i].x + after.x) / 4;
-      smooth[i].y = (before.y + 2 * once[i].y + after.y) / 4;
-    }
-  }
+  const Stations centres = softened(softened(smooth));
+  for (std::size_t i = 0; i <= last; ++i) smooth[i].x = centres[i].x, smooth[i].y = centres[i].y;
   for (const Station& s : smooth) {
     middle = std::max(middle, (s.xx + s.yy) / 2 - std::hypot((s.xx - s.yy) / 2, s.xy));
   }

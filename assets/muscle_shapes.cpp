@@ -43,7 +43,7 @@ std::vector<Attachment> attachments() {
       {"vastus_lateralis", "", 13, {}, {{0.990F, 25, 41, 8, 3, 110}}},
       {"gastrocnemius_medial", "soleus", 14, {}, {}},
       {"gastrocnemius_lateral", "soleus", 14, {}, {}},
-      {"soleus", "", 14, {}, {}},
+      {"soleus", "", 12, {}, {{1.806F, -4, -29.5F, 12, 3, 89}, {1.845F, -6, -31.5F, 7, 1.9F, 88}}},
       // The measured man's is thicker than in life, its tendon above all.
       {"plantaris",
        "soleus",
@@ -64,10 +64,10 @@ std::vector<Attachment> attachments() {
 }
 
 /// Drawn: under the calf's muscles down to the heel.
-constexpr std::array<LegSection, 7> calcaneal_tendon = {{{1.580F, 3, -43, 20, 2, 95},
-                                                         {1.660F, 0, -42, 16, 3, 95},
-                                                         {1.760F, -3, -38, 11, 3.5F, 95},
-                                                         {1.860F, -5, -36, 8, 4.5F, 95},
+constexpr std::array<LegSection, 7> calcaneal_tendon = {{{1.580F, 3, -39.5F, 20, 1.8F, 95},
+                                                         {1.660F, 0, -37, 16, 2.5F, 95},
+                                                         {1.760F, -3, -33.5F, 11, 3.2F, 95},
+                                                         {1.860F, -5, -33.5F, 8, 4.2F, 95},
                                                          {1.960F, -5, -37, 7, 5, 95},
                                                          {2.030F, -4, -42, 8, 4.5F, 95},
                                                          {2.090F, -1, -48, 10, 3.5F, 95}}};

@@ -22,17 +22,18 @@ constexpr int rings = 36, segments = 18;
 constexpr TubeShape muscle_shape{
     .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = rings, .segments = segments, .cap = 0.5};
 
-/// What a muscle must stay out of: the femur with its condyles, and the tibia.
+/// What a muscle must stay out of: the femur with its condyles, the tibia and the fibula.
 struct Bone {
   std::vector<LegSection> sections;
 };
 
-std::array<Bone, 2> hard_bones() {
-  std::array<Bone, 2> bones;
+std::array<Bone, 3> hard_bones() {
+  std::array<Bone, 3> bones;
   bones[0].sections.assign(femur_sections().begin(), femur_sections().end());
   bones[0].sections.push_back({1.020F, 0.5F, 4, 41, 26, 86});
   bones[0].sections.push_back({1.050F, 0, 0, 38, 21, 86});
   bones[1].sections.assign(tibia_sections().begin(), tibia_sections().end());
+  bones[2].sections.assign(fibula_sections().begin(), fibula_sections().end());
   return bones;
 }
 
@@ -58,7 +59,7 @@ double belly(const LegSection& s, double largest_area) {
 }
 
 /// The bone that a muscle grows away from at a level.
-Point bone_centre(const std::array<Bone, 2>& bones, double level) {
+Point bone_centre(const std::array<Bone, 3>& bones, double level) {
   const auto& sections = bones[level < 1.06 ? 0 : 1].sections;
   const double low = static_cast<double>(sections.front().level), high = static_cast<double>(sections.back().level);
   const LegEllipse e = *leg_ellipse(sections, std::clamp(level, low, high));
@@ -69,7 +70,7 @@ Point bone_centre(const std::array<Bone, 2>& bones, double level) {
 /// of the muscle beneath, the quadriceps led to where this body's kneecap is.
 struct Fitting {
   const LegFrame& leg;
-  const std::array<Bone, 2>& bones;
+  const std::array<Bone, 3>& bones;
   Point patella;         // where the kneecap's centre is, mm
   double patella_shift;  // of its upper edge's level against the measured man's
 };

@@ -248,7 +248,7 @@ TEST(MuscleSurfaces, LieOutsideTheBones) {
   for (const auto& m : make_muscle_surfaces(b)) {
     for (const auto& p : m.surface.mesh.position) {
       const double level = leg_level(leg, static_cast<double>(p.y));
-      for (const auto sections : {femur_sections(), tibia_sections()}) {
+      for (const auto sections : {femur_sections(), tibia_sections(), fibula_sections()}) {
         const auto e = leg_ellipse(sections, level);
         if (!e) continue;
         const Vec axis = leg_point(leg, level, 0, 0);

@@ -171,7 +171,7 @@ void bind_surface(MuscleSurface& surface, const HexahedralMesh& cage, const Rest
 Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
                      const Attachments& attachments, double least_m) {
   constexpr double attached = 0.95, lengths_of_thickness = 4.5;
-  constexpr float end_turn = 0.8F, kneecap_turn = 0.35F;
+  constexpr float origin_turn = 0.8F, insertion_turn = 0.4F;
   const double low = plane_height(cage, 0), high = plane_height(cage, cage.cells[2]);
   std::vector<Vec> place;
   double first = in_frame(frame, attachments.origin_m).z, last = in_frame(frame, attachments.insertion_m).z;
@@ -192,8 +192,8 @@ Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const R
   bind_surface(surface, cage, frame, p);
   surface.origin_m = attachments.origin_m;
   surface.insertion_m = attachments.insertion_m;
-  surface.origin_turn = end_turn;
-  surface.insertion_turn = surface.insertion == Segment::patella_right ? kneecap_turn : end_turn;
+  surface.origin_turn = origin_turn;
+  surface.insertion_turn = insertion_turn;
   return p;
 }
 

@@ -48,9 +48,8 @@ struct Attachments {
 /// Binds a surface to the cage that drives it and to its bones. Between the cage's end faces it follows the cage alone;
 /// beyond them it passes to its bones as far as its attachments, so that a joint on the way bends it smoothly. A
 /// passage is `least_m` long at least (0.04 m looks right for a body of 1.80 m), and the longer the thicker the surface
-/// is there, lest a joint fold it: for that, it begins inside the cage. At the attachments it turns more as the
-/// belly does than as its bone, for a tendon bends where it comes off a bone; less so at the kneecap, which lies in the
-/// tendon. Returns where it passes.
+/// is there, lest a joint fold it: for that, it begins inside the cage. Its ends turn in part as the belly does and in
+/// part as their bones, for a tendon bends where it comes off a bone. Returns where it passes.
 Passages bind_muscle(MuscleSurface& surface, const HexahedralMesh& cage, const RestFrame& frame,
                      const Attachments& attachments, double least_m);
 

@@ -26,7 +26,6 @@ class PaperRun {
 
   /// Writes ENTRY.svg, ENTRY.csv.
   Result<void> write(const PlotFigure& figure);
-  Result<void> write_svg(const std::string& text);
   Result<void> write_csv(const std::string& text);
   /// Writes ENTRY.png and tells `caption`; without a graphics device says so, once, and goes on. `make` is the way to
   /// the picture.

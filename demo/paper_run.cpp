@@ -21,11 +21,7 @@ Result<void> PaperRun::wrote(const Result<void>& done, const std::string& file) 
 }
 
 Result<void> PaperRun::write(const PlotFigure& figure) {
-  return write_svg(svg(figure));
-}
-
-Result<void> PaperRun::write_svg(const std::string& svg_text) {
-  return wrote(write_file(out_ / (entry + ".svg"), svg_text), entry + ".svg");
+  return wrote(write_file(out_ / (entry + ".svg"), svg(figure)), entry + ".svg");
 }
 
 Result<void> PaperRun::write_csv(const std::string& csv_text) {

@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "assets/muscle_table.h"
 #include "tests/counting_heap.h"
 #include "tests/engine_counting_memory.h"
 #include "tests/leg_muscles.h"
@@ -79,7 +80,7 @@ TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
       EXPECT_EQ(simulation.human(human)->leg_muscles.method, method);
       EXPECT_EQ(muscles_of(simulation, human), muscles);
       EXPECT_EQ(displacement(simulation, muscles[3]), before);
-      EXPECT_EQ(rows(world), 7U);
+      EXPECT_EQ(rows(world), 1 + 2 * muscle_group_count);
       for (const Entity muscle : muscles) {
         EXPECT_EQ(world.has<Substeps>(muscle), method == Method::ecd);
         EXPECT_EQ(world.has<SolvedSteps>(muscle), method == Method::icd || method == Method::caa);
@@ -205,6 +206,39 @@ TEST(Memory, ASteadyTickTakesNoneWithAnyMethod) {
     }
   }
   EXPECT_EQ(memory.lent(), 0U);
+}
+
+TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(3), {});
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  const Entity stays = simulation.muscle(human, Muscle::hamstrings, left),
+               goes = simulation.muscle(human, Muscle::quadriceps, right);
+  const auto before = displacement(simulation, stays);
+
+  const Muscle soleus = find_muscle("soleus").value();
+  LegMuscles choice;
+  choice.muscles = 0;
+  choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings)).set(static_cast<std::size_t>(soleus));
+  ASSERT_TRUE(simulation.change_leg_muscles(human, choice));
+  EXPECT_EQ(simulation.muscle(human, Muscle::hamstrings, left), stays);
+  EXPECT_EQ(displacement(simulation, stays), before);
+  EXPECT_FALSE(simulation.world().alive(goes));
+  EXPECT_EQ(simulation.human(human)->muscles.size(), 2U);
+  EXPECT_EQ(rows(simulation.world()), 5U);
+  simulation.tick();
+  const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, soleus, right));
+  const auto belly = *simulation.get<BellyReport>(simulation.muscle(human, soleus, right));
+  EXPECT_NEAR(belly.elongation_m, line.length_m - line.rest_length_m, 1e-6F);
+
+  const auto hash = hash_world(simulation);
+  for (const unsigned long none_or_beyond : {0UL, 1UL << 31}) {
+    choice.muscles = none_or_beyond;
+    const auto refused = simulation.change_leg_muscles(human, choice);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("muscle_groups()"), std::string::npos) << refused.error().message;
+    EXPECT_EQ(hash_world(simulation), hash);
+  }
 }
 
 }  // namespace

@@ -87,7 +87,7 @@ Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
   plan.rest_length_m = muscle_length(muscle, scale, leg);
   plan.belly_length_m = line.belly_m * along_scale(line, scale);
   const double start = line.start_m * along_scale(line, scale);
-  plan.tendon_length_m = length(end - anchor) - start - plan.belly_length_m;
+  plan.tendon_length_m = std::max(0.0, length(end - anchor) - start - plan.belly_length_m);
   for (const auto& member : row.members) plan.volume_m3 += member_volume_m3(body, member);
   plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
   plan.start_m = anchor + start * z;

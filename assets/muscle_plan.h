@@ -16,7 +16,8 @@ struct MusclePlan {
   Muscle muscle = Muscle::hamstrings;
   /// L₀: the volume-weighted mean of the members' lengths in the anatomical position.
   double rest_length_m = 0;
-  /// The belly's span at rest, the length of its mesh; and the drawn line's tendon from there to the insertion.
+  /// The belly's span at rest, the length of its mesh; and the drawn line's tendon from there to the insertion
+  /// (0 where the belly goes on beside it).
   double belly_length_m = 0, tendon_length_m = 0;
   /// Its volume, and the section of a bar of that volume and of the belly's length.
   double volume_m3 = 0, section_m2 = 0;

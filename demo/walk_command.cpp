@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/body_composition.h"
 #include "assets/output_file.h"
 #include "demo/commands.h"
 #include "demo/figure.h"
@@ -156,6 +157,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
   if (auto done = write_file(options.out / "summary.json", summary); !done) return done;
 
+  for (const std::string& note : body_notes(human.body)) fmt::print("note: {}\n", note);
   fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
   fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",

@@ -5,6 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "assets/body_composition.h"
+
 namespace mobil {
 namespace {
 
@@ -58,7 +60,8 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                      {"mass_kg", decimal(body.mass_kg)},
                      {"biotype", {decimal(body.biotype.endo), decimal(body.biotype.meso), decimal(body.biotype.ecto)}},
                      {"constitution", constitution_name[static_cast<std::size_t>(body.constitution)]},
-                     {"hip_height_m", decimal(human.body.hip_height_m)}};
+                     {"hip_height_m", decimal(human.body.hip_height_m)},
+                     {"notes", body_notes(human.body)}};
   Json parameters = Json::object();
   for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(options.gait.style.*p.value);
   summary["gait"] = {{"speed_m_s", decimal(outcome.gait.speed_m_s)},

@@ -307,12 +307,13 @@ void expect_whole(const std::vector<Moving>& all, double fold_deg, double smalle
 }
 
 /// Where a group's mesh spans fewer joints than one of its members does, the shortening of that member over the joint
-/// has to go somewhere. `thick_plantaris`: the measured one is thrice the size of a living one.
-void expect_volumes(const std::vector<Moving>& all, bool thick_plantaris) {
+/// has to go somewhere. `plantaris` gets that much more: its short belly takes what the calf's length does, a quarter
+/// of its own, and the measured one is thrice the size of a living one.
+void expect_volumes(const std::vector<Moving>& all, double plantaris) {
   for (const Moving& m : all) {
     if (is_tendon(m) || m.cut) continue;
-    const bool thick = thick_plantaris && m.surface.mesh.name.starts_with("plantaris");
-    EXPECT_LT(worst(m).volume, (m.crosses ? 0.10 : 0.03) + (thick ? 0.05 : 0)) << m.label;
+    const double more = m.surface.mesh.name.starts_with("plantaris") ? plantaris : 0;
+    EXPECT_LT(worst(m).volume, (m.crosses ? 0.10 : 0.03) + more) << m.label;
   }
 }
 
@@ -321,7 +322,7 @@ TEST(SurfaceMotion, NoTriangleFoldsOrVanishes) {
 }
 
 TEST(SurfaceMotion, VolumesAreWhatTheMeshesSay) {
-  expect_volumes(generated(), false);
+  expect_volumes(generated(), 0.02);
 }
 
 TEST(SurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {
@@ -367,7 +368,7 @@ TEST_F(RealSurfaceMotion, NoTriangleFoldsOrVanishes) {
 }
 
 TEST_F(RealSurfaceMotion, VolumesAreWhatTheMeshesSay) {
-  expect_volumes(of_real_anatomy(), true);
+  expect_volumes(of_real_anatomy(), 0.05);
 }
 
 TEST_F(RealSurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {

@@ -74,12 +74,7 @@ void add_body_command(CLI::App& app, int& exit_status) {
   command->add_flag("--json", text->json, "Print the JSON, and write and draw nothing");
   command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
   refuse_empty_values(*command);
-  command->callback([text, &exit_status] {
-    const auto done = run_body(*text);
-    if (done) return;
-    fmt::print(stderr, "mobil body: {}\n", done.error().message);
-    exit_status = 2;
-  });
+  command->callback([text, &exit_status] { exit_status = exit_status_of("body", run_body(*text)); });
 }
 
 }  // namespace mobil

@@ -2,11 +2,18 @@
 // The subcommands of `mobil`. Each adds itself to the program and, when chosen, runs and sets the exit status: 0 done,
 // 1 ran but did not hold, 2 bad usage or input.
 
+#include <string_view>
+
+#include "engine/error.h"
+
 namespace CLI {
 class App;
 }
 
 namespace mobil {
+
+/// 0; or 2, and the error told in one line on stderr: "mobil command: …".
+int exit_status_of(std::string_view command, const Result<void>& done);
 
 void add_walk_command(CLI::App& app, int& exit_status);
 void add_body_command(CLI::App& app, int& exit_status);

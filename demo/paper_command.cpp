@@ -121,12 +121,7 @@ void add_paper_command(CLI::App& app, int& exit_status) {
   command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
   command->add_option("--anatomy", text->anatomy, "Folder of real meshes with manifest.csv and landmarks.csv");
   refuse_empty_values(*command);
-  command->callback([text, &exit_status] {
-    const auto done = run_paper(*text);
-    if (done) return;
-    fmt::print(stderr, "mobil paper: {}\n", done.error().message);
-    exit_status = 2;
-  });
+  command->callback([text, &exit_status] { exit_status = exit_status_of("paper", run_paper(*text)); });
 }
 
 }  // namespace mobil

@@ -218,10 +218,7 @@ void add_walk_command(CLI::App& app, int& exit_status) {
       return;
     }
     const auto options = read_walk_options(*text);
-    const auto done = options ? run_walk(*options) : Result<void>(tl::unexpected(options.error()));
-    if (done) return;
-    fmt::print(stderr, "mobil walk: {}\n", done.error().message);
-    exit_status = 2;
+    exit_status = exit_status_of("walk", options ? run_walk(*options) : tl::unexpected(options.error()));
   });
 }
 

@@ -66,13 +66,15 @@ Result<void> check_grading(const Grading& grading) {
 }
 
 /// Where the planes between `count` elements lie, in mean element lengths from the first: a function of i / count
-/// alone, so that meshes nest.
+/// alone, so that meshes nest, and rounded, so that machines whose logarithms differ make the same mesh.
 std::vector<double> graded_planes(std::uint32_t count, double ratio) {
   std::vector<double> planes(count + 1);
   const double steepness = std::log(ratio);
   for (std::uint32_t i = 0; i <= count / 2; ++i) {
     const double part = 2.0 * i / count;  // of the way to the middle
-    planes[i] = 0.5 * count * (ratio == 1 ? part : std::expm1(part * steepness) / (ratio - 1));
+    const double share =
+        ratio == 1 ? part : std::ldexp(std::round(std::ldexp(std::expm1(part * steepness) / (ratio - 1), 40)), -40);
+    planes[i] = 0.5 * count * share;
     planes[count - i] = count - planes[i];
   }
   return planes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <vector>
 
 #include "assets/anthropometry.h"
@@ -82,11 +83,19 @@ void widen(Station& s, double least) {
   s.xy *= stretch;
 }
 
+const Body& reference_body() {
+  static const Body body = make_body({.height_m = static_cast<float>(reference_body_height_m),
+                                      .mass_kg = static_cast<float>(reference_body_mass_kg)})
+                               .value();
+  return body;
+}
+
 /// The surfaces' vertices, in the muscle's frame.
-std::vector<Vec> outline(const Body& body, const MusclePlan& plan) {
+std::vector<Vec> outline(const MusclePlan& plan) {
+  static const std::vector<GroupSurface> surfaces = make_muscle_surfaces(reference_body());
   std::vector<Vec> points;
   const Quat<double> into_frame = conjugate(plan.rotation);
-  for (const GroupSurface& s : make_muscle_surfaces(body)) {
+  for (const GroupSurface& s : surfaces) {
     const bool own = s.muscle == plan.muscle || s.group == plan.muscle;
     if (!own || members_of(s.muscle).size() > 1) continue;  // tendons and ligaments have no mesh of their own
     for (const auto& p : s.surface.mesh.position) points.push_back(rotated(into_frame, to_double(p) - plan.start_m));
@@ -160,8 +169,9 @@ CageStations stations_of(const Stations& ellipses) {
   CageStations cage{};
   for (std::size_t i = 0; i <= last; ++i) {
     const Station& s = ellipses[i];
-    const auto f = [](double value) { return static_cast<float>(value); };
-    cage[i] = {f(static_cast<double>(i) / last),
+    // To 1/128 mm: what two machines' sines differ by is gone, and all have the same mesh.
+    const auto f = [](double metres) { return static_cast<float>(std::round(metres * 128e3) / 128e3); };
+    cage[i] = {static_cast<float>(i) / static_cast<float>(last),
                f(s.x),
                f(s.y),
                f(s.xx * c + s.xy * n),
@@ -180,11 +190,8 @@ void fill(double volume_m3, double length_m, Stations& stations) {
 }
 
 CageStations make_cage(Muscle muscle) {
-  const Body body = make_body({.height_m = static_cast<float>(reference_body_height_m),
-                               .mass_kg = static_cast<float>(reference_body_mass_kg)})
-                        .value();
-  const MusclePlan plan = make_muscle_plan(body, muscle).value();
-  const std::vector<Vec> points = outline(body, plan);
+  const MusclePlan plan = make_muscle_plan(reference_body(), muscle).value();
+  const std::vector<Vec> points = outline(plan);
   const double spacing = plan.belly_length_m / last;
   Stations stations = follow(points, spacing);
   if (members_of(muscle).size() > 1) {
@@ -198,12 +205,11 @@ CageStations make_cage(Muscle muscle) {
 }  // namespace
 
 const CageStations& muscle_cage(Muscle muscle) {
-  static const std::vector<CageStations> cages = [] {
-    std::vector<CageStations> all;
-    for (std::size_t i = 0; i < muscles().size(); ++i) all.push_back(make_cage(static_cast<Muscle>(i)));
-    return all;
-  }();
-  return cages[static_cast<std::size_t>(muscle)];
+  static std::array<std::once_flag, most_muscles> made;
+  static std::array<CageStations, most_muscles> cages;
+  const auto row = static_cast<std::size_t>(muscle);
+  std::call_once(made[row], [&] { cages[row] = make_cage(muscle); });
+  return cages[row];
 }
 
 }  // namespace mobil

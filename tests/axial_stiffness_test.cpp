@@ -48,7 +48,7 @@ StaticStretch dense_stretch(const HexahedralMesh& mesh, const Material& material
   u = pull;
   const Vector load = -model.stiffness * pull;
   const Matrix inner = model.stiffness(moving, moving);
-  const Vector inside = inner.ldlt().solve(load(moving));
+  const Vector inside = oracle::solve(inner, load(moving));
   for (std::size_t i = 0; i < moving.size(); ++i) u(moving[i]) = inside(static_cast<Eigen::Index>(i));
   return {{u.begin(), u.end()}, pull.dot(model.stiffness * u)};
 }
@@ -130,7 +130,7 @@ RC_GTEST_PROP(AxialStiffness, UnderAUniformPullIsThatOfADenseStaticSolve, ()) {
   for (Eigen::Index n = 0; n < share.size(); ++n) load(3 * n + 2) = share(n);
   const Matrix inner = model.stiffness(moving, moving);
   const Vector at = load(moving);
-  RC_ASSERT(std::abs(at.dot(inner.ldlt().solve(at)) * k - 1) < 1e-6);
+  RC_ASSERT(std::abs(at.dot(oracle::solve(inner, at)) * k - 1) < 1e-6);
   // By Castigliano a face that may warp gives way at least as far as a stiff one.
   RC_ASSERT(k <= static_stretch(*assemble(mesh, material), across, along).stiffness_n_per_m * (1 + 1e-6));
 }

@@ -48,8 +48,7 @@ Pencil dense_pencil(const oracle::Model& model, const Cells& cells, const StepCa
 
 double exact_limit(const oracle::Model& model, const Cells& cells, const StepCase& step_case) {
   const Pencil p = dense_pencil(model, cells, step_case);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(p.stiffness, p.mass, Eigen::EigenvaluesOnly);
-  const double omega = std::sqrt(solver.eigenvalues().maxCoeff());
+  const double omega = std::sqrt(oracle::eigenvalues(p.stiffness, p.mass).maxCoeff());
   const double xi = step_case.stiffness_damping_s * omega / 2;
   return 2 / omega * (std::sqrt(1 + xi * xi) - xi);
 }

@@ -25,8 +25,7 @@ std::uint32_t icd_substeps(const Block& block) {
     const Dense dense(block, l, 1e-3);
     const Matrix k = (dense.elastic + dense.foundation)(dense.moving, dense.moving),
                  m = dense.mass(dense.moving, dense.moving);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> solver(k, m, Eigen::EigenvaluesOnly);
-    top = std::max(top, solver.eigenvalues().maxCoeff());
+    top = std::max(top, oracle::eigenvalues(k, m).maxCoeff());
   }
   const double xi = block.muscle.options.stiffness_damping_s * std::sqrt(top) / 2;
   return substeps_within(2 / std::sqrt(top) * (std::sqrt(1 + xi * xi) - xi), static_cast<double>(tick_s));

@@ -66,8 +66,7 @@ RC_GTEST_PROP(StiffnessTerms, SymmetricWithSixRigidModesAndNoOther, ()) {
   const auto terms = assemble(mesh, any_material(), any_element());
   const Matrix k = dense(*terms, any_between(0.5, 2), any_between(0.5, 2));
   RC_ASSERT((k - k.transpose()).norm() < 1e-13 * k.norm());
-  const Eigen::SelfAdjointEigenSolver<Matrix> solver(k, Eigen::EigenvaluesOnly);
-  const auto& w = solver.eigenvalues();
+  const Vector w = oracle::eigenvalues(k);
   RC_ASSERT(w.head(6).cwiseAbs().maxCoeff() < 1e-11 * w(w.size() - 1));
   RC_ASSERT(w(6) > 1e-7 * w(w.size() - 1));
 }

@@ -104,7 +104,7 @@ BodyComposition body_composition(const BodyRequest& request) {
     lean = (1 - fat_share_of_mass_index(mass_index)) * mass * (1 + muscle_in_lean * (wanted - 1));
   }
   const double fewest = std::max(least_lean_index * square, (1 - most_fat) * mass);
-  const double most = std::min(most_lean_index * square, (1 - least_fat) * mass);
+  const double most = std::max(fewest, std::min(most_lean_index * square, (1 - least_fat) * mass));
   if (lean > most && most == most_lean_index * square) note(BodyNote::fat_raised);
   if (lean < fewest && asked) note(BodyNote::fat_lowered);
   lean = std::clamp(lean, fewest, most);

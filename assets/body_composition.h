@@ -4,9 +4,8 @@
 // Sources, all for men of 25 years, whose segments the other tables describe.
 //   Ectomorphy from height and mass, endomorphy from three skinfolds: Carter & Heath: Somatotyping, 1990; Carter: The
 //     Heath-Carter Anthropometric Somatotype, Instruction Manual, 2002.
-//   Density from skinfolds, 20–29 years: Durnin & Womersley, Br. J. Nutr. 32, 1974. They add a fourth fold, the
-//   biceps';
-//     we take the four as 4/3 of the three. Their fattest person had 61 % fat.
+//   Density from skinfolds, 20–29 years: Durnin & Womersley, Br. J. Nutr. 32, 1974. They add a fourth fold,
+//     the biceps'; we take the four as 4/3 of the three. Their fattest person had 61 % fat.
 //   Fat from density: Siri, in Techniques for Measuring Body Composition, 1961.
 //   Fat from body mass index, where no biotype was asked for: Gallagher et al., Am. J. Clin. Nutr. 72, 2000.
 //   Fat that none lives without, 3 %: Behnke & Wilmore, Evaluation and Regulation of Body Build and Composition, 1974.

@@ -7,12 +7,10 @@
 //     architecture accurate? Clin. Orthop. Relat. Res. 467, 2009; 21 cadavers of 1.684 m. Fibre lengths are at a
 //     sarcomere length of 2.7 µm; the belly goes from its first fibre to its last.
 //   Tendon and the fibre length that belongs to it: the gait2392 model of OpenSim (Delp et al. 1990), with the length
-//   of
-//     the muscle's path there in the anatomical position. The tendon includes what of it lies within the belly. The
+//     of the muscle's path there in the anatomical position. The tendon includes what of it lies within the belly. The
 //     model's quadriceps end on the kneecap.
-//   Plantaris is in neither: fibres, pennation and belly of Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop. Relat.
-//   Res.
-//     179, 1983; its tendon is what the path leaves beside the fibres.
+//   Plantaris is in neither: fibres, pennation and belly of Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop.
+//     Relat. Res. 179, 1983; its tendon is what the path leaves beside the fibres.
 //   Density 1060 kg/m³: Mendez & Keys, Metabolism 9, 1960. Volumes: assets/muscle_table.h.
 
 #include <string_view>
@@ -20,7 +18,6 @@
 
 #include "assets/muscle_table.h"
 #include "components/body.h"
-#include "engine/error.h"
 
 namespace mobil {
 

@@ -48,7 +48,7 @@ double reference_belly_m(Muscle muscle) {
 double physique_factor(const BodyRequest& request) {
   constexpr std::array<double, 4> constitution = {0.85, 1.0, 1.20, 1.08};
   const double meso = 1 + 0.06 * (static_cast<double>(request.biotype.meso) - 4);
-  return constitution[static_cast<std::size_t>(request.constitution)] * std::clamp(meso, 0.7, 1.6);
+  return constitution[static_cast<std::size_t>(request.constitution)] * meso;
 }
 
 double member_volume_m3(const Body& body, const MemberMuscle& member) {

@@ -1,5 +1,5 @@
 #pragma once
-// One muscle group of one body: its size, its line at rest, its belly in the anatomical position.
+// One muscle of one body: its size, its line at rest, its belly in the anatomical position.
 
 #include "assets/muscle_path.h"
 #include "assets/muscle_table.h"
@@ -43,7 +43,7 @@ double bar_stiffness(const Material& material, double section_m2, double rest_le
 double reference_belly_m(Muscle muscle);
 
 /// What physique does to the volume of all the leg's muscles together: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 %
-/// more for each point of mesomorphy above 4 (or less, below), within 0.7–1.6. Our choice: the published volumes do not
+/// more for each point of mesomorphy above 4 (or less, below). Our choice: the published volumes do not
 /// tell them apart. A body takes of it what its lean mass holds (BodyComposition::muscle_factor).
 double physique_factor(const BodyRequest& request);
 

@@ -218,6 +218,7 @@ std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, M
   const auto has = [&](Muscle m) { return simulated[static_cast<std::size_t>(m)]; };
   if (has(muscle)) return muscle;
   if (has(group)) return group;
+  if (muscle != group) return std::nullopt;
   std::optional<Muscle> largest;
   double most = 0;
   for (const MemberMuscle& m : members_of(group)) {

@@ -23,8 +23,8 @@ struct GroupSurface {
   bool ligament = false;
 };
 
-/// The one of the `simulated` muscles whose mesh a surface follows: its own, else its group's, else that of the group's
-/// largest member; nothing where none of them is simulated.
+/// The one of the `simulated` muscles whose mesh a surface follows: its own, else its group's, or of a tendon, which
+/// has none of its own, that of the group's largest member; nothing where none of them is simulated.
 std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle);
 
 /// The members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament; right side, world

@@ -56,7 +56,7 @@ inline constexpr double thigh_y = 0.149, shank_y = 0.102, upper_arm_y = 0.158, f
 /// Radii of gyration about the centre across the limb, in parts of the segment's length.
 namespace winter {
 inline constexpr double thigh = 0.323, shank = 0.302, foot = 0.475, upper_arm = 0.322, forearm = 0.303;
-inline constexpr double total_leg = 0.326, foot_and_leg = 0.416, total_arm = 0.368, head_arms_trunk = 0.496;
+inline constexpr double foot_and_leg = 0.416, total_arm = 0.368, head_arms_trunk = 0.496;
 }  // namespace winter
 
 constexpr UnitInertia make_unit_inertia() {

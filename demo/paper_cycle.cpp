@@ -124,16 +124,6 @@ std::vector<Vec3<float>> right_mesh_edges(const Simulation& simulation, const Hu
   return own;
 }
 
-/// Without the surfaces of muscles that are not simulated.
-Result<Figure> figure_of(const Simulation& simulation, const Human& human, const CycleRequest& request) {
-  auto figure = make_figure(simulation, human, request.anatomy);
-  if (!figure) return figure;
-  std::erase_if(figure->muscles, [&](const FigureMuscle& drawn) {
-    return std::ranges::none_of(human.muscles, [&](const HumanMuscle& m) { return m.plan.muscle == drawn.muscle; });
-  });
-  return figure;
-}
-
 }  // namespace
 
 const MuscleCycle& PaperCycle::muscle(Muscle wanted) const {
@@ -155,7 +145,7 @@ Result<PaperCycle> walk_cycle(const CycleRequest& request) {
   const Human& human = *simulation.human(*entity);
   Figure figure;
   if (!request.shown_at.empty()) {
-    auto made = figure_of(simulation, human, request);
+    auto made = make_figure(simulation, human, request.anatomy);
     if (!made) return tl::unexpected(made.error());
     figure = std::move(*made);
   }

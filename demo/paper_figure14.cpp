@@ -78,7 +78,7 @@ Row row_now(const Simulation& simulation, Entity muscle, const BellyScale<float>
   return row;
 }
 
-/// Longest, shortest, and between them on the way to the shortest; in order of time.
+/// Longest, shortest, and half-way between them in time; in order of time.
 std::vector<Moment> moments_of(const std::vector<Row>& rows) {
   const auto ends = std::ranges::minmax_element(rows, {}, &Row::displacement_mm);
   const auto first = std::min(ends.min, ends.max), last = std::max(ends.min, ends.max);

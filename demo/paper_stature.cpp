@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "demo/body_options.h"
 #include "demo/cycle_plot.h"
 #include "demo/paper.h"
 
@@ -25,7 +26,9 @@ constexpr std::array people = {
     Person{"heavier", 1.80F, 100, Constitution::heavy}};
 
 std::string label(std::size_t person) {
-  return fmt::format("{}: {:.2f} m, {:.0f} kg", people[person].what, people[person].height_m, people[person].mass_kg);
+  const Person& p = people[person];
+  return fmt::format("{}: {:.2f} m, {:.0f} kg, {}", p.what, p.height_m, p.mass_kg,
+                     constitution_name[static_cast<std::size_t>(p.constitution)]);
 }
 
 void add_muscle_columns(const std::string& name, PaperTable& table) {
@@ -59,7 +62,8 @@ PaperTable table_of(const std::vector<PaperCycle>& walks) {
   add_muscle_columns("hamstrings", table);
   for (std::size_t i = 0; i < walks.size(); ++i) {
     const PaperCycle& walk = walks[i];
-    PaperTable::Row row{fmt::format("{}\n{:.2f} m {:.0f} kg", people[i].what, people[i].height_m, people[i].mass_kg),
+    PaperTable::Row row{fmt::format("{}\n{:.2f} m {:.0f} kg\n{}", people[i].what, people[i].height_m, people[i].mass_kg,
+                                    constitution_name[static_cast<std::size_t>(people[i].constitution)]),
                         {static_cast<double>(walk.gait.step_length_m), static_cast<double>(walk.gait.step_frequency_hz),
                          millimetres * range_of(walk.com_height_m).span()}};
     add_muscle_cells(walk.muscle(Muscle::quadriceps), row.value);

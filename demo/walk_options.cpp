@@ -65,7 +65,7 @@ const char* const walk_muscles_help =
     "Muscles: a belly is a block of elements in the frame of its line of action.\n"
     "  --muscles: hamstrings, quadriceps, triceps_surae and tibialis_anterior are groups of muscles that act alike, "
     "and\n"
-    "    cheap; members are the thirteen muscles on their own, for close views; only those named are simulated.\n"
+    "    cheap; members are the thirteen muscles on their own, for close views; what is not chosen is not simulated.\n"
     "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
     "    caa: implicit, one step a tick; static: no vibration at all. summary.json tells the steps taken.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "

@@ -121,7 +121,8 @@ Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles
   auto made = std::make_unique<BellyTemplate>();
   made->choice = choice;
   made->muscle = muscle;
-  made->axial = alike ? alike->axial : tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
+  made->axial = alike ? alike->axial
+                      : tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
   made->stretch = alike ? alike->stretch : static_stretch(shape->terms, 1, 1);
   made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
   made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));

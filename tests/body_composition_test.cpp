@@ -129,5 +129,18 @@ TEST(BodyComposition, EveryContradictionIsSaidAndMended) {
   }
 }
 
+// There both bounds of the lean mass are one number, but for rounding.
+TEST(BodyComposition, OfTheLightestThatLiveHasAllTheLeanMassThereIs) {
+  for (const float height : {1.625F, 1.7F, 1.9F, 2.2F}) {
+    const auto [least, most] = living_mass_kg(static_cast<double>(height));
+    ASSERT_LT(least, most);
+    for (const auto constitution : {Constitution::thin, Constitution::athletic}) {
+      const auto body = make_body({height, static_cast<float>(least), {}, constitution});
+      ASSERT_TRUE(body) << body.error().message;
+      EXPECT_NEAR(body->composition.fat_kg / body->request.mass_kg, 0.03, 1e-4) << height;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace mobil

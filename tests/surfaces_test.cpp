@@ -12,6 +12,7 @@
 #include "assets/bone_surfaces.h"
 #include "assets/leg_sections.h"
 #include "assets/muscle_surfaces.h"
+#include "assets/muscle_table.h"
 #include "assets/surface_mesh.h"
 #include "assets/tube.h"
 #include "engine/geometry.h"
@@ -325,6 +326,21 @@ TEST(MuscleSurfaces, TendonsAreAtTheEndsAndTheBellyIsBetween) {
     const bool belly = std::count(m.tendon.begin(), m.tendon.end(), 0.0F) > 0;
     EXPECT_EQ(belly, !m.ligament && !m.surface.mesh.name.starts_with("calcaneal")) << m.surface.mesh.name;
   }
+}
+
+TEST(Surfaces, FollowTheirOwnMuscleOrItsGroupAndTendonsWhatIsThere) {
+  const auto set = [](std::initializer_list<Muscle> muscles) {
+    MuscleSet s;
+    for (const Muscle m : muscles) s.set(static_cast<std::size_t>(m));
+    return s;
+  };
+  const Muscle group = Muscle::triceps_surae, soleus = find_muscle("soleus").value(),
+               medial = find_muscle("gastrocnemius_medial").value();
+  EXPECT_EQ(driving_muscle(set({group, soleus}), group, soleus), soleus);
+  EXPECT_EQ(driving_muscle(set({group, soleus}), group, medial), group);
+  EXPECT_EQ(driving_muscle(set({soleus}), group, medial), std::nullopt);
+  EXPECT_EQ(driving_muscle(set({soleus, medial}), group, group), soleus);  // the tendon
+  EXPECT_EQ(driving_muscle(set({Muscle::hamstrings}), group, group), std::nullopt);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ struct Person {
   Constitution constitution;
 };
 constexpr std::array people = {
-    Person{"athletic", 1.80F, 80, Constitution::athletic}, Person{"taller", 1.95F, 80, Constitution::athletic},
+    Person{"reference", 1.80F, 80, Constitution::athletic}, Person{"taller", 1.95F, 80, Constitution::athletic},
     Person{"shorter", 1.65F, 80, Constitution::athletic}, Person{"thinner", 1.80F, 65, Constitution::thin},
     Person{"heavier", 1.80F, 100, Constitution::heavy}};
 

@@ -71,9 +71,6 @@ MuscleParameters muscle_parameters(const Body& body, Muscle muscle) {
     sum.mass_kg += one.mass_kg;
     sum.section_m2 += one.section_m2;
     sum.physiological_section_m2 += one.physiological_section_m2;
-  }
-  for (const MemberMuscle& member : members_of(muscle)) {
-    const MuscleParameters one = member_parameters(body, member);
     const double share = member_weight(members_of(muscle), member);
     for (auto part :
          {&MuscleParameters::muscle_tendon_m, &MuscleParameters::belly_m, &MuscleParameters::fibre_m,

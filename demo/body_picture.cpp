@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "assets/bone_surfaces.h"
 #include "assets/muscle_surfaces.h"
 #include "assets/segment_inertia.h"
 #include "assets/surface_mesh.h"
+#include "demo/contact_sheet.h"
 #include "engine/geometry.h"
 #include "systems/capture/renderer.h"
 
@@ -57,26 +59,22 @@ Result<Image> body_picture(const Body& body) {
     }
   }
 
-  Image whole{2 * view_width, view_height, {}};
-  whole.rgba.resize(std::size_t{4} * 2 * view_width * view_height);
+  std::vector<Image> pair;
   struct View {
     Vec3<float> from, light;  // steep and from the left, so that no shadow reaches into the other view
   };
   constexpr std::array<View, 2> views = {
       {{{0, 0.05F, 1}, {-0.20F, 1.1F, 0.50F}}, {{-1, 0.05F, 0}, {-0.50F, 1.1F, -0.20F}}}};
-  for (std::size_t v = 0; v < views.size(); ++v) {
+  for (const View& view : views) {
     Scene scene;
-    scene.camera = looking(body, views[v].from);
+    scene.camera = looking(body, view.from);
     scene.meshes = meshes;
-    scene.light = views[v].light;
-    const auto view = renderer->render(scene);
-    if (!view) return tl::unexpected(view.error());
-    for (int y = 0; y < view_height; ++y) {
-      const auto to = static_cast<std::ptrdiff_t>(4 * view_width * (2 * y + static_cast<int>(v)));
-      std::copy_n(view->pixel(0, y), std::size_t{4} * view_width, whole.rgba.begin() + to);
-    }
+    scene.light = view.light;
+    auto image = renderer->render(scene);
+    if (!image) return image;
+    pair.push_back(std::move(*image));
   }
-  return whole;
+  return contact_sheet({&pair, 1}, 0);
 }
 
 }  // namespace mobil

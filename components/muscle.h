@@ -37,9 +37,10 @@ inline constexpr std::array<std::string_view, 3> element_name = {"full", "bbar",
 
 /// How a belly's motion follows from its loads (section 6.3 of the paper): K·u = f; explicit central differences with
 /// the lumped mass (ECD); implicit central differences, that is with the consistent mass (ICD); constant average
-/// acceleration (CAA).
-enum class Method : std::uint8_t { statics, ecd, icd, caa };
-inline constexpr std::array<std::string_view, 4> method_name = {"static", "ecd", "icd", "caa"};
+/// acceleration (CAA); a few vectors of a finer mesh, each of whose motions is integrated exactly (reduced); or not at
+/// all (none: the line of action alone).
+enum class Method : std::uint8_t { statics, ecd, icd, caa, reduced, none };
+inline constexpr std::array<std::string_view, 6> method_name = {"static", "ecd", "icd", "caa", "reduced", "none"};
 
 enum class Mass : std::uint8_t { lumped, consistent };
 inline constexpr std::array<std::string_view, 2> mass_name = {"lumped", "consistent"};
@@ -70,8 +71,9 @@ struct LineOfAction {
 };
 
 /// What a line of action does: how fast its length grew over the last tick, m/s; and its moment arms −∂L/∂θ, m, about
-/// the hip's and the knee's flexion and the ankle's dorsiflexion, positive where the muscle flexes. Of a group: the mean
-/// of its members', weighted as its length is. `length_m` is the length that the speed was taken at, 0 before the first.
+/// the hip's and the knee's flexion and the ankle's dorsiflexion, positive where the muscle flexes. Of a group: the
+/// mean of its members', weighted as its length is. `length_m` is the length that the speed was taken at, 0 before the
+/// first.
 template <class F>
 struct LineMotion {
   F length_m, speed_m_s;
@@ -135,5 +137,11 @@ struct BellyReport {
 /// frame.
 struct NodalDisplacement {};
 struct NodalVelocity {};
+
+/// Run-time sized columns of reduced bellies (systems/deformation/reduced.h says what is in them): how their vectors
+/// move; what one individual's motions are like; and, only where someone looks, how its control points follow.
+struct ReducedState {};
+struct ReducedMotion {};
+struct ReducedShape {};
 
 }  // namespace mobil

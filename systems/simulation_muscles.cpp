@@ -130,6 +130,9 @@ void make_by_method(World& world, Entity& muscle, const Belly& belly, Method met
       return make_of(world, muscle, parts..., velocity, TagValue<SolvedSteps>{belly.steps}, world.share(belly.solver));
     case Method::statics:
       return make_of(world, muscle, parts..., TagValue<StaticSteps>{belly.steps}, world.share(belly.solver));
+    case Method::reduced:
+    case Method::none:
+      break;
   }
 }
 

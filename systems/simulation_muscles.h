@@ -25,12 +25,30 @@ struct MuscleLines;  // systems/lines/muscle_lines.h
 /// with the spring force of the paper's equations 2 and 3.
 enum class Drive : std::uint8_t { displacement, force };
 
+/// Bellies that move along a few vectors of a finer mesh (Method::reduced).
+struct ReducedChoice {
+  std::uint32_t vectors = 12;  // 1–32
+  bool moving = true;          // false: the static answer alone, which has no state
+  bool corrected = true;       // the mesh's own error extrapolated away (assets/reduced_basis.h)
+  Cells cells = {4, 4, 16};    // of the mesh that the vectors are of; has all nodes of LegMuscles::cells
+  /// Whether someone looks: control points are placed (NodalDisplacement), and what they did reported. Without, the
+  /// state alone goes on.
+  bool control_points = true;
+};
+
+/// How one muscle is simulated, at its person's other choices.
+struct MuscleMethod {
+  Method method = Method::ecd;
+  ReducedChoice reduced{};  // of Method::reduced
+};
+
 /// How leg muscles deform. Every choice is a matter of which components a muscle has: see the tags below.
 struct LegMuscles {
   /// Which ones: the groups unless a scene comes close (muscle_members()) or calls for few.
   MuscleSet muscles = muscle_groups();
   Drive drive = Drive::displacement;
   Method method = Method::ecd;
+  ReducedChoice reduced{};  // of Method::reduced
   Material material{};
   Element element = Element::full;
   Mass mass = Mass::lumped;        // of CAA; ECD's is lumped, ICD's consistent, static has none

@@ -141,6 +141,7 @@ Result<void> check(const ReferenceOptions& o, const Cells& cells) {
     return fail(fmt::format("damping {} 1/s and {} s and foundation {} 1/s must be finite, 0 or more", o.damping_per_s,
                             o.stiffness_damping_s, o.foundation_1_s));
   }
+  if (o.method > Method::caa) return fail("the reference steps by static, ecd, icd or caa; take one of those");
   if (cells[2] < 2 && o.end == FarEnd::held) return fail("a held belly of one layer of elements has no node to move");
   return {};
 }
@@ -192,6 +193,9 @@ ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& term
     case Method::caa:
       operator_.compute(of_moving(
           Matrix((2 / dt + o.damping_per_s) * mass + dt / 2 * stiffness + o.stiffness_damping_s * elastic), moving));
+      break;
+    case Method::reduced:
+    case Method::none:
       break;
   }
   u = v = before = Vector::Zero(mass.rows());
@@ -291,6 +295,8 @@ void ReferenceBelly::start(const ReferenceLoad& load) {
       s.v(s.moving) = -s.o.dt_s / 2 * s.solve(s.force(load));
       break;
     case Method::caa:
+    case Method::reduced:
+    case Method::none:
       break;
   }
 }
@@ -306,6 +312,9 @@ void ReferenceBelly::step(const ReferenceLoad& now, const ReferenceLoad& next) {
       return s.step_explicitly(now, next);
     case Method::caa:
       return s.step_by_mean_acceleration(now, next);
+    case Method::reduced:
+    case Method::none:
+      break;
   }
 }
 

@@ -15,6 +15,7 @@
 #include <memory>
 #include <memory_resource>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include "assets/muscle_plan.h"
@@ -44,6 +45,7 @@ struct SimulationOptions {
 struct HumanMuscle {
   MusclePlan plan;
   std::array<Entity, 2> entity;
+  MuscleMethod method;  // as it is
 };
 
 /// One walking person as set up at spawn; what changes is in the world.
@@ -53,6 +55,23 @@ struct Human {
   Gait<float> gait;
   std::vector<HumanMuscle> muscles;  // in the table's order; empty without muscles
   LegMuscles leg_muscles;            // as asked for; means nothing without muscles
+  bool posed = false;                // its host animates the skeleton: no gait
+};
+
+/// What one system cost: wall time, and entities that it worked on.
+struct SystemReport {
+  std::string_view name;  // good as long as the simulation
+  double seconds = 0;     // in the last tick
+  std::uint64_t entities = 0;
+  double total_seconds = 0;  // in all ticks since the schedule's timings were last reset
+  std::uint64_t total_entities = 0;
+};
+
+/// What simulating cost, system by system in the order of running. Who asked for nothing of a system has no part in it:
+/// its entities are 0, and so is its time.
+struct StepReport {
+  std::uint32_t ticks = 0;  // run so far
+  std::vector<SystemReport> systems;
 };
 
 /// One individual's nodal displacement within its block: component c of node n (m) at first[(3·n + c)·16].
@@ -69,6 +88,12 @@ class Simulation {
   /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
   /// unreachable, one line each; the simulation is as it was.
   Result<Entity> spawn(const BodyRequest& body, const GaitRequest& gait = {});
+  /// A person whose host animates the skeleton, in the anatomical position at the origin: no gait, nothing of
+  /// kinematics. Errors: a body out of range, in one line; the simulation is as it was.
+  Result<Entity> spawn_posed(const BodyRequest& body);
+  /// Where a posed person's skeleton is at the end of the next tick, taken as it is: finite, unit quaternions. Leg
+  /// muscles follow. Stale handles answer Status::stale_entity, walkers Status::missing.
+  Status set_pose(Entity human, const Pose<float>& pose);
   /// Stale handles answer Status::stale_entity.
   Status despawn(Entity human);
 
@@ -98,6 +123,14 @@ class Simulation {
   Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
   Status remove_leg_muscles(Entity human);
 
+  /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. What is shown
+  /// of control points goes on without a jump in displacement or velocity: what the new method cannot begin with is
+  /// added to what it computes and fades within `fade_s`. Errors: a stale handle, a muscle that is not there, a choice
+  /// out of range; all is as it was.
+  Result<void> set_method(Entity human, Muscle muscle, const MuscleMethod& method);
+  /// As it is; Method::none where there is no such muscle.
+  MuscleMethod method(Entity human, Muscle muscle) const;
+
   /// Runs as many whole ticks as fit into the accumulated time.
   Ticks advance(double seconds);
   /// Runs one tick.
@@ -105,6 +138,8 @@ class Simulation {
   std::uint32_t ticks() const { return tick_; }
   double tick_s() const { return clock_.tick_s(); }
   double time_s() const { return tick_ * clock_.tick_s(); }
+  /// Of the last tick and of all.
+  StepReport report() const;
 
   /// An entity's row of a component, or why there is none.
   template <template <class> class C>
@@ -116,7 +151,9 @@ class Simulation {
   /// A person's muscle; a stale handle where there is none.
   Entity muscle(Entity human, Muscle muscle, Side side) const;
 
-  /// A muscle's nodes where they are now, in its frame; `first` is null for a stale handle. Until the next spawn.
+  /// A muscle's control points where they are now, in its frame, as they are to be shown (what fades after a change of
+  /// method included); `first` is null for a stale handle and where there are none: with Method::none, and where nobody
+  /// asked for them. Until the next change of structure.
   NodalView nodal_displacement(Entity muscle) const;
 
   World& world() { return world_; }

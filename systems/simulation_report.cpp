@@ -1,0 +1,18 @@
+// What simulating cost.
+#include "systems/simulation.h"
+
+namespace mobil {
+
+StepReport Simulation::report() const {
+  StepReport report{tick_, {}};
+  const auto systems = schedule_->systems();
+  const auto timings = schedule_->timings();
+  report.systems.reserve(systems.size());
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const Timing& all = timings[s];
+    report.systems.push_back({systems[s].name, 0, 0, all.seconds, all.rows});
+  }
+  return report;
+}
+
+}  // namespace mobil

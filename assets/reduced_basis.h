@@ -66,8 +66,9 @@ struct ReducedBasis {
   double lift_energy_a = 0, lift_energy_b = 0, lift_energy_c = 0, lift_energy_foundation = 0, lift_kinetic = 0;
   // Else: Vᵀ·(unit traction), N×1 (z) or N×3.
   std::vector<double> traction;
-  // VᵀM₁·(field of each of the twelve inputs over the template's rest positions), N×12; empty without frame loads.
-  std::vector<double> frame;
+  // VᵀM₁·(field of each of the twelve inputs over the template's rest positions), N×12; empty without frame loads. And
+  // ψᵀM₁·field, 12, where the far face is held too.
+  std::vector<double> frame, lift_frame;
 
   // Displacement of the control points: (1 + N) numbers for each of their 3·nodes components, node-major: ψ (0 where
   // there is no lift), then V. And what finds q from displacements of the control points less ψ·w, N × 3·nodes: least
@@ -90,6 +91,8 @@ struct ReducedBelly {
   double eigenvector[most_vectors][most_vectors];        // [vector of V][motion]
   double participation[most_vectors][3 + frame_inputs];  // [motion][input]
   double lift_share[most_vectors];                       // [motion]: Eᵀ·VᵀM₁ψ; q = E·(z − lift_share·w)
+  double reaction[3 + frame_inputs];  // held far face: force on it in rest under each input, N per unit; else 0
+  double lift_mass_kg;                // S²·l·(ψᵀM₁ψ − |VᵀM₁ψ|²); 0 without a lift
 };
 
 /// The reduced problem of a body scaled by `across` and `along`, solved. Fails outside the basis's range of ratios (up
@@ -102,10 +105,11 @@ constexpr std::size_t reduced_motion_width(std::uint32_t vectors, std::uint32_t 
   return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + inputs);
 }
 constexpr std::size_t reduced_state_width(std::uint32_t vectors, std::uint32_t inputs) {
-  return 2 * std::size_t{vectors} + inputs;
+  static_cast<void>(inputs);
+  return 2 * std::size_t{vectors};
 }
 constexpr std::size_t reduced_shape_width(std::uint32_t vectors, std::uint32_t inputs) {
-  return std::size_t{vectors} * (vectors + inputs);
+  return std::size_t{vectors} * (vectors + inputs) + 2 * std::size_t{vectors} + inputs + 1;
 }
 void write_motion(const ReducedBelly& belly, double damping_per_s, double tick_s, std::span<float> motion);
 void write_shape(const ReducedBelly& belly, double damping_per_s, std::span<float> shape);

@@ -1,16 +1,13 @@
 #pragma once
 // Bellies that move along a few vectors (assets/reduced_basis.h), sixteen individuals a block. Motion j of an
 // individual, z̈ + α·ż + ω²·z = ω²·s(t) with s = Σ P·input linear over the tick, is integrated exactly, at any tick.
-// With z = s − (α/ω²)·ṡ + Y/ω, and V = d(Y/ω)/dt, a tick is: where the inputs' rates changed by Δ, V −= P·Δ and Y +=
-// g·P·Δ, then
+// Kept are X = ω·(z − s) and W = ż, both continuous. With ṡ over the tick, Y = X + g·ṡ and V = W − ṡ swing freely,
 //   Y ← a·Y + b·V,   V ← −b·Y + (a − g·b)·V,   g = α/ω,
 //   b = e^(−αh/2)·ω·sin(ω_d·h)/ω_d,   a = e^(−αh/2)·(cos(ω_d·h) + (α/2)·sin(ω_d·h)/ω_d),   ω_d² = ω² − α²/4
 // (hyperbolic where ω_d² < 0). Three numbers a motion are all that a tick reads besides its state. Unconditionally
 // stable, without period error.
 
-#include <cstddef>
-#include <cstdint>
-
+#include "assets/muscle_template.h"
 #include "assets/reduced_basis.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
@@ -20,9 +17,10 @@ namespace mobil {
 
 /// Sixteen bellies of one basis; every field holds that many floats × 16, sixteen lanes at each, aligned to 64 bytes.
 ///
-/// `state` (reduced_state_width): Y and V of each motion, then the inputs' rates of the last tick, per s. All zero is a
-/// belly at rest under whatever loads it, about to be moved. `motion` (reduced_motion_width): a, b, g of each motion;
-/// with several inputs, P of each after them (with one, P is left to `shape`).
+/// `state` (reduced_state_width): X and W of each motion (X₀ W₀ X₁ W₁ …); with one input both over P. All zero is a
+/// belly at rest under whatever loads it, about to be moved.
+/// `motion` (reduced_motion_width): of each motion a, b, g and, with several inputs, its P (a₀ b₀ g₀ P₀₀ P₀₁ … a₁ …).
+/// With one input P is left to `shape`.
 struct ReducedBlock {
   const ReducedBasis& basis;
   const BellyScale<Lanes<float>>& scale;
@@ -35,16 +33,28 @@ struct ReducedBlock {
 void deform_reduced(const ReducedBlock& block, const EndDrive& end, float tick_s);
 
 /// Where the control points are at the tick's end: `displacement`, three a node in m, muscle's frame, as in BellyBlock
-/// (the origin face's are zero). `shape` (reduced_shape_width): for each vector N numbers of Y − g·ṡ, then one of each
-/// input. With `report`, energies, elongation, reaction and volume (of the control points' mesh `muscle`) too.
+/// (the origin face's are written too: zero).
+///
+/// `shape` (reduced_shape_width): for each vector k N numbers of X, E_kj·(P_j)/ω_j (P with one input alone), then one
+/// of each input, Σ_j E_kj·P_ji (less Σ_j E_kj·lift_share_j for a held end's displacement): q_k. Then, for the report
+/// alone, ω_j of each motion (N), P_j of the first input of each motion (N), the reaction in rest to each input per
+/// unit (of a held face; N per unit), and S²·l·α·(ψᵀM₁ψ − |VᵀM₁ψ|²) (kg/s).
 struct ControlPoints {
   const float* shape;
   float* displacement;
 };
-void place_control_points(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, float tick_s);
+void place_control_points(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end);
 
 /// Where a belly without motion of its own is: the static answer to what drives and loads it, with the same shapes
 /// (`state` and `motion` are not touched and may be null).
 void place_static(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end);
+
+/// What the block did, after its tick and its placing. Volume is that of the mesh of `control`, whose nodes the control
+/// points are. Reaction: of a held face the force that moves it, by virtual work of the lift (at the far face alone,
+/// less what the frame and the other parts' inertia take); else what pulls. Strain energy includes the foundation's, so
+/// that both energies' sum is constant in free undamped motion. A null state is that of a static belly; with several
+/// inputs `motion` is read all the same.
+void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
+                    const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
 
 }  // namespace mobil

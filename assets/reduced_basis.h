@@ -74,6 +74,7 @@ struct ReducedBasis {
   // there is no lift), then V. And what finds q from displacements of the control points less ψ·w, N × 3·nodes: least
   // squares weighted by mass.
   std::vector<float> shape;
+  std::vector<double> control_weight;  // kg, one a node
   std::vector<double> fit;
 };
 
@@ -83,8 +84,11 @@ struct ReducedBasis {
 Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Material& material, Element element,
                                         const ReducedOptions& options);
 
-/// One body's own motions: the eigenvectors E of its reduced stiffness, VᵀM₁V = 1 (so EᵀE = 1), fastest last.
-/// z = Eᵀ(q + lift_mass·w)·… see reduced_belly.cpp; P are participations: what z is in rest under each input, per unit.
+/// The basis of its first `vectors` (1 to all of them), bit for bit as if made with so few.
+ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors);
+
+/// One body's own motions z = Eᵀ·(q + VᵀM₁ψ·w), E the eigenvectors of its reduced stiffness over its mass (EᵀE = 1),
+/// fastest last: z̈ + α·ż + ω²·z = ω²·Σ P·input. Participations P are what z is at rest under each input, per unit.
 struct ReducedBelly {
   std::uint32_t vectors = 0, inputs = 0;
   double omega_1_s[most_vectors];                        // ascending
@@ -99,8 +103,10 @@ struct ReducedBelly {
 /// to rounding) or where the operator is not positive definite. No heap; a few µs.
 Result<ReducedBelly> make_reduced_belly(const ReducedBasis& basis, double across, double along);
 
-/// Numbers that the kernels take (systems/deformation/reduced.h): `motion` of reduced_motion_width(), `shape` of
-/// reduced_shape_width() floats.
+/// Numbers that the kernels take (systems/deformation/reduced.h says what they mean):
+/// - `motion`, motion after motion: a, b, g and, with several inputs, the P of each;
+/// - `state`: Y₀, V₀, Y₁, V₁ … and then each input's rate (with one input, Y and V are per P);
+/// - `shape`, vector after vector: N numbers of Y − g·ṡ (with one input times P), then one of each input.
 constexpr std::size_t reduced_motion_width(std::uint32_t vectors, std::uint32_t inputs) {
   return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + inputs);
 }
@@ -112,7 +118,8 @@ constexpr std::size_t reduced_shape_width(std::uint32_t vectors, std::uint32_t i
   return std::size_t{vectors} * (vectors + inputs) + 2 * std::size_t{vectors} + inputs + 1;
 }
 void write_motion(const ReducedBelly& belly, double damping_per_s, double tick_s, std::span<float> motion);
-void write_shape(const ReducedBelly& belly, double damping_per_s, std::span<float> shape);
+void write_shape(const ReducedBelly& belly, std::span<float> shape);
+inline void write_shape(const ReducedBelly& belly, double, std::span<float> shape) { write_shape(belly, shape); }
 
 /// A belly's state from the displacement and velocity of its control points (3·nodes floats each, this body's m and
 /// m/s) under `input` and its rates of change (per s), and back. To and fro, displacement and velocity are kept up to

@@ -103,10 +103,8 @@ struct ReducedBelly {
 /// to rounding) or where the operator is not positive definite. No heap; a few µs.
 Result<ReducedBelly> make_reduced_belly(const ReducedBasis& basis, double across, double along);
 
-/// Numbers that the kernels take (systems/deformation/reduced.h says what they mean):
-/// - `motion`, motion after motion: a, b, g and, with several inputs, the P of each;
-/// - `state`: Y₀, V₀, Y₁, V₁ … and then each input's rate (with one input, Y and V are per P);
-/// - `shape`, vector after vector: N numbers of Y − g·ṡ (with one input times P), then one of each input.
+/// Numbers that the kernels take, laid out as systems/deformation/reduced.h says: `motion` of reduced_motion_width(),
+/// `shape` of reduced_shape_width() floats.
 constexpr std::size_t reduced_motion_width(std::uint32_t vectors, std::uint32_t inputs) {
   return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + inputs);
 }
@@ -118,8 +116,7 @@ constexpr std::size_t reduced_shape_width(std::uint32_t vectors, std::uint32_t i
   return std::size_t{vectors} * (vectors + inputs) + 2 * std::size_t{vectors} + inputs + 1;
 }
 void write_motion(const ReducedBelly& belly, double damping_per_s, double tick_s, std::span<float> motion);
-void write_shape(const ReducedBelly& belly, std::span<float> shape);
-inline void write_shape(const ReducedBelly& belly, double, std::span<float> shape) { write_shape(belly, shape); }
+void write_shape(const ReducedBelly& belly, double damping_per_s, std::span<float> shape);
 
 /// A belly's state from the displacement and velocity of its control points (3·nodes floats each, this body's m and
 /// m/s) under `input` and its rates of change (per s), and back. To and fro, displacement and velocity are kept up to

@@ -1,0 +1,65 @@
+// What the reduced kernels share: a block's inputs, and the amounts of the vectors. For inclusion inside Highway's
+// targets only.
+
+#if defined(MOBIL_SYSTEMS_DEFORMATION_REDUCED_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_SYSTEMS_DEFORMATION_REDUCED_INL_H_
+#undef MOBIL_SYSTEMS_DEFORMATION_REDUCED_INL_H_
+#else
+#define MOBIL_SYSTEMS_DEFORMATION_REDUCED_INL_H_
+#endif
+
+#include <array>
+
+#include "engine/wide-inl.h"
+#include "systems/deformation/reduced.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+inline constexpr std::size_t most_inputs = 3 + frame_inputs;
+
+/// What drives and loads a block, in the order of a basis's inputs.
+struct ReducedInputs {
+  std::size_t count = 0;
+  std::array<const Lanes<float>*, most_inputs> from{}, to{};
+
+  HWY_INLINE void add(const Lanes<float>* start, const Lanes<float>* finish) {
+    from[count] = start;
+    to[count] = finish;
+    ++count;
+  }
+  HWY_INLINE void add(const Vec3<Lanes<float>>& start, const Vec3<Lanes<float>>& finish) {
+    add(&start.x, &finish.x);
+    add(&start.y, &finish.y);
+    add(&start.z, &finish.z);
+  }
+};
+
+HWY_INLINE ReducedInputs reduced_inputs(const EndDrive& end, const FrameLoad<Lanes<float>>* frame) {
+  ReducedInputs inputs;
+  for (std::size_t axis = end.way == FarEnd::free ? 0 : 2; axis < 3; ++axis) inputs.add(end.from[axis], end.to[axis]);
+  if (frame != nullptr) {
+    inputs.add(frame->constant_from, frame->constant_to);
+    inputs.add(frame->gradient_from.x, frame->gradient_to.x);
+    inputs.add(frame->gradient_from.y, frame->gradient_to.y);
+    inputs.add(frame->gradient_from.z, frame->gradient_to.z);
+  }
+  return inputs;
+}
+
+/// Places in `shape` of what follows the rows.
+struct ReducedTail {
+  const float *omega, *participation, *reaction, *drag;
+};
+
+HWY_INLINE ReducedTail reduced_tail(const float* shape, std::size_t vectors, std::size_t inputs) {
+  const float* const omega = shape + vectors * (vectors + inputs) * lane_count;
+  const float* const participation = omega + vectors * lane_count;
+  const float* const reaction = participation + vectors * lane_count;
+  return {omega, participation, reaction, reaction + inputs * lane_count};
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

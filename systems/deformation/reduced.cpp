@@ -1,0 +1,147 @@
+#include "systems/deformation/reduced.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/deformation/reduced.cpp"
+#include <hwy/foreach_target.h>
+
+#include <array>
+
+#include "engine/wide-inl.h"
+#include "systems/deformation/reduced-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+namespace {
+
+/// One motion over a tick in which its s grows at `rate`.
+HWY_INLINE void swing(float* state, const float* motion, const Wide& rate) {
+  const Wide a = load(motion), b = load(motion + lane_count), g = load(motion + 2 * lane_count);
+  const Wide y = fma(g, rate, load(state)), v = load(state + lane_count) - rate;
+  const Wide next_y = fma(a, y, b * v), next_v = fnma(b, y, fnma(g, b, a) * v);
+  store(fnma(g, rate, next_y), state);
+  store(next_v + rate, state + lane_count);
+}
+
+void deform_tick(const ReducedBlock& block, const EndDrive& end, float tick_s) {
+  const ReducedInputs inputs = reduced_inputs(end, block.frame);
+  const std::size_t vectors = block.basis.vectors;
+  const float per_s = 1.0F / tick_s;
+  std::array<Wide, most_inputs> rate;
+  for (std::size_t i = 0; i < inputs.count; ++i) rate[i] = (load(*inputs.to[i]) - load(*inputs.from[i])) * per_s;
+  float* state = block.state;
+  const float* motion = block.motion;
+  if (inputs.count == 1) {
+    for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count) {
+      swing(state, motion, rate[0]);
+    }
+    return;
+  }
+  for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count) {
+    const float* participation = motion + 3 * lane_count;
+    Wide sum = load(participation) * rate[0];
+    for (std::size_t i = 1; i < inputs.count; ++i) {
+      sum = fma(load(participation += lane_count), rate[i], sum);
+    }
+    swing(state, motion, sum);
+    motion = participation + lane_count;
+  }
+}
+
+/// Displacements of the `nodes` nodes whose coefficients begin at `row`: how much of each vector, `amount`, begins with
+/// the lift's where there is one. A register's worth of coefficients at a time would do no better: all multiply-adds
+/// take theirs from memory, spread over the lanes.
+template <std::size_t nodes>
+HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t count, const Wide* amount, float* u) {
+  std::array<Wide, 3 * nodes> sum;
+  const Wide first = amount[0];
+  for (std::size_t c = 0; c < 3 * nodes; ++c) sum[c] = wide(row[c * stride]) * first;
+  for (std::size_t k = 1; k < count; ++k) {
+    const Wide now = amount[k];
+    for (std::size_t c = 0; c < 3 * nodes; ++c) sum[c] = fma(wide(row[c * stride + k]), now, sum[c]);
+  }
+  for (std::size_t c = 0; c < 3 * nodes; ++c) store(sum[c], u + c * lane_count);
+}
+
+/// Sums that the registers hold beside what they are made of.
+inline constexpr std::size_t nodes_at_once = vector_count == 1 ? 3 : vector_count == 2 ? 2 : 1;
+
+/// `x` is the motions' X; null: static.
+void place(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, const float* x) {
+  const ReducedInputs inputs = reduced_inputs(end, block.frame);
+  const std::size_t vectors = block.basis.vectors;
+  const bool held = end.way == FarEnd::held;
+  std::array<Wide, most_inputs> input;
+  for (std::size_t i = 0; i < inputs.count; ++i) input[i] = load(*inputs.to[i]);
+  std::array<Wide, most_vectors + 1> amount;
+  amount[0] = input[0];
+  const float* shape = points.shape;
+  for (std::size_t k = 1; k <= vectors; ++k) {
+    const float* share = shape + vectors * lane_count;
+    Wide sum = load(share) * input[0];
+    for (std::size_t i = 1; i < inputs.count; ++i) sum = fma(load(share + i * lane_count), input[i], sum);
+    for (std::size_t j = 0; x != nullptr && j < vectors; ++j) {
+      sum = fma(load(shape + j * lane_count), load(x + 2 * j * lane_count), sum);
+    }
+    amount[k] = sum;
+    shape = share + inputs.count * lane_count;
+  }
+
+  const Cells& cells = block.basis.options.control_cells;
+  const std::size_t stride = vectors + 1, node_stride = 3 * lane_count;
+  const std::size_t far = first_insertion_node(cells), all = node_count(cells), past = held ? far : all;
+  const std::size_t skipped = held ? 0 : 1, count = stride - skipped;
+  const Wide none = wide(0.0F);
+  float* u = points.displacement;
+  std::size_t n = 0;
+  for (; n < plane_nodes(cells); ++n, u += node_stride) {
+    for (std::size_t c = 0; c < node_stride; c += lane_count) store(none, u + c);
+  }
+  const float* row = block.basis.shape.data() + 3 * n * stride + skipped;
+  const auto place_some = [&]<std::size_t nodes>() HWY_ATTR {
+    for (; n + nodes <= past; n += nodes, u += nodes * node_stride, row += 3 * nodes * stride) {
+      place_nodes<nodes>(row, stride, count, amount.data() + skipped, u);
+    }
+  };
+  place_some.template operator()<nodes_at_once>();
+  place_some.template operator()<1>();
+  for (; n < all; ++n, u += node_stride) {
+    store(none, u);
+    store(none, u + lane_count);
+    store(input[0], u + 2 * lane_count);
+  }
+}
+
+void place_moving(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+  place(block, points, end, block.state);
+}
+
+void place_at_rest(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+  place(block, points, end, nullptr);
+}
+
+}  // namespace
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+namespace {
+HWY_EXPORT(deform_tick);
+HWY_EXPORT(place_moving);
+HWY_EXPORT(place_at_rest);
+}  // namespace
+
+void deform_reduced(const ReducedBlock& block, const EndDrive& end, float tick_s) {
+  HWY_DYNAMIC_DISPATCH(deform_tick)(block, end, tick_s);
+}
+
+void place_control_points(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+  HWY_DYNAMIC_DISPATCH(place_moving)(block, points, end);
+}
+
+void place_static(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+  HWY_DYNAMIC_DISPATCH(place_at_rest)(block, points, end);
+}
+
+}  // namespace mobil
+#endif

@@ -1,0 +1,114 @@
+#include "systems/deformation/reduced.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/deformation/reduced_report.cpp"
+#include <hwy/foreach_target.h>
+
+#include "engine/wide-inl.h"
+#include "systems/deformation/reduced-inl.h"
+#include "systems/deformation/report-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+namespace {
+
+/// Elongation of a far face that is not held.
+HWY_INLINE V mean_of_far_face(const MuscleTemplate& control, const float* u) {
+  const std::size_t far = first_insertion_node(control.mesh.cells);
+  const std::vector<float>& share = control.kernel.far_share;
+  V sum = hn::Zero(d);
+  for (std::size_t n = 0; n < share.size(); ++n) {
+    sum = hn::MulAdd(hn::Set(d, share[n]), hn::Load(d, u + node_stride * (far + n) + 2 * lane_count), sum);
+  }
+  return sum;
+}
+
+/// With every X, W and s as the equations have them (of one input, times P), in half sums over S²·l: kinetic energy is
+/// ½·Σ W² + ½·m·ẇ² and strain energy ½·Σ (X + ω·s)² of what no lift answers to, plus half the static reaction to w, by
+/// w. Virtual work of the lift gives the reaction in rest less S²·l·Σ ω·P·X, plus its drag.
+void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
+                     const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass,
+                     std::size_t lane) {
+  const ReducedInputs inputs = reduced_inputs(end, block.frame);
+  const std::size_t vectors = block.basis.vectors;
+  const ReducedTail tail = reduced_tail(points.shape, vectors, inputs.count);
+  const bool held = end.way == FarEnd::held, moving = block.state != nullptr, one = inputs.count == 1;
+  const auto at = [lane](const float* p, std::size_t i) HWY_ATTR { return hn::Load(d, p + i * lane_count + lane); };
+  const auto input = [&](std::size_t i) HWY_ATTR { return hn::Load(d, inputs.to[i]->lane + lane); };
+  const V none = hn::Zero(d), end_z = hn::Load(d, end.to[2]->lane + lane);
+  const V across = hn::Load(d, block.scale.across.lane + lane), along = hn::Load(d, block.scale.along.lane + lane);
+  const V mass = hn::Mul(hn::Mul(across, across), along);
+
+  V kinetic = none, strain = none, pull = none;
+  const float* motion = block.motion;
+  for (std::size_t j = 0; j < vectors; ++j) {
+    const V omega = at(tail.omega, j), first = at(tail.participation, j);
+    const V unit = one ? first : hn::Set(d, 1.0F);
+    const V x = moving ? hn::Mul(unit, at(block.state, 2 * j)) : none;
+    const V w = moving ? hn::Mul(unit, at(block.state, 2 * j + 1)) : none;
+    V s = none;
+    if (one) {
+      if (!held) s = hn::Mul(first, input(0));
+    } else {
+      const float* const participation = motion + (j * (3 + inputs.count) + 3) * lane_count;
+      for (std::size_t i = held ? 1 : 0; i < inputs.count; ++i) s = hn::MulAdd(at(participation, i), input(i), s);
+    }
+    const V strained = hn::MulAdd(omega, s, x);
+    kinetic = hn::MulAdd(w, w, kinetic);
+    strain = hn::MulAdd(strained, strained, strain);
+    pull = hn::MulAdd(hn::Mul(omega, first), x, pull);
+  }
+  kinetic = hn::Mul(kinetic, mass);
+  strain = hn::Mul(strain, mass);
+
+  V elongation = end_z, reaction = end_z;
+  if (held) {
+    strain = hn::MulAdd(hn::Mul(at(tail.reaction, 0), end_z), end_z, strain);
+    reaction = none;
+    for (std::size_t i = 0; i < inputs.count; ++i) reaction = hn::MulAdd(at(tail.reaction, i), input(i), reaction);
+    reaction = hn::NegMulAdd(mass, pull, reaction);
+    if (moving) {
+      const V speed = hn::Div(hn::Sub(end_z, hn::Load(d, end.from[2]->lane + lane)), hn::Set(d, tick_s));
+      reaction = hn::MulAdd(at(tail.drag, 0), speed, reaction);
+      kinetic = hn::MulAdd(hn::Mul(hn::Mul(mass, hn::Set(d, lift_mass)), speed), speed, kinetic);
+    }
+  } else {
+    elongation = mean_of_far_face(control, points.displacement + lane);
+  }
+  const V volume = enclosed_volume(control.kernel, across, along, points.displacement + lane);
+  const V half = hn::Set(d, 0.5F);
+  hn::Store(elongation, d, report.elongation_m.lane + lane);
+  hn::Store(reaction, d, report.reaction_n.lane + lane);
+  hn::Store(hn::Div(volume, hn::Mul(mass, hn::Set(d, control.kernel.volume_m3))), d, report.volume_ratio.lane + lane);
+  hn::Store(hn::Mul(half, kinetic), d, report.kinetic_energy_j.lane + lane);
+  hn::Store(hn::Mul(half, strain), d, report.strain_energy_j.lane + lane);
+}
+
+void report_block(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
+                  const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass) {
+  for (std::size_t lane = 0; lane < lane_count; lane += vector_lanes) {
+    report_of_lanes(block, control, points, end, tick_s, report, lift_mass, lane);
+  }
+}
+
+}  // namespace
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+namespace {
+HWY_EXPORT(report_block);
+}  // namespace
+
+void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
+                    const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report) {
+  // What of the lift's mass no vector has, in the template's size.
+  double lift_mass = block.basis.lift_kinetic;
+  for (const double along : block.basis.lift_mass) lift_mass -= along * along;
+  HWY_DYNAMIC_DISPATCH(report_block)
+  (block, control, points, end, tick_s, report, static_cast<float>(lift_mass));
+}
+
+}  // namespace mobil
+#endif

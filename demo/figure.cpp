@@ -41,7 +41,7 @@ MuscleSet simulated(const Human& human) {
 /// Binds a surface, and what there is of it beyond the kneecap, to the mesh of the muscle that drives it.
 void bind(const Simulation& simulation, const Human& human, Muscle driver, const Attachments& attachments,
           MuscleSurface& surface, Ligament* beyond = nullptr) {
-  const auto& [plan, entity] = *std::find_if(human.muscles.begin(), human.muscles.end(),
+  const auto& [plan, entity, method] = *std::find_if(human.muscles.begin(), human.muscles.end(),
                                              [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
   const auto* shape = simulation.world().shared<MuscleTemplate>(entity[right]);
   const HexahedralMesh cage = individual_cage(*shape, plan.scale);

@@ -128,6 +128,32 @@ constexpr KeyPart key_part(const Shared<T>& shared) {
 template <class P>
 inline constexpr std::uint64_t part_id = key_part(P{}).id;
 
+/// A part with its first value, for lists put together at run time. `row`: a component's words, in the caller's memory;
+/// null for fields and tags.
+struct PartValue {
+  KeyPart part;
+  const void* row = nullptr;
+};
+
+template <template <class> class C>
+constexpr PartValue part_value(const C<float>& row) {
+  return {component_part<C>(), &row};
+}
+template <class P>
+constexpr PartValue part_value(const P& part) {
+  return {key_part(part), nullptr};
+}
+
+/// One number for a key, to find tables by.
+inline std::uint64_t key_hash(const TableKey& key) {
+  std::uint64_t hash = 0xcbf29ce484222325;
+  for (const KeyPart& part : key) {
+    hash = (hash ^ part.id) * 0x9e3779b97f4a7c15;
+    hash = (hash ^ (hash >> 32) ^ part.value) * 0x100000001b3;
+  }
+  return hash;
+}
+
 constexpr bool distinct(std::initializer_list<std::uint64_t> ids) {
   for (auto a = ids.begin(); a != ids.end(); ++a) {
     if (std::find(a + 1, ids.end(), *a) != ids.end()) return false;

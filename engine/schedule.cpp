@@ -91,23 +91,30 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     scratch_->prepare(*most, jobs.threads);
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    const auto start = std::chrono::steady_clock::now();
+    Timing& timing = timings_[s];
+    ++timing.calls;
+    timing.last_rows = 0;
+    timing.last_seconds = 0;
     std::size_t blocks = 0;
     for (Match& m : matches_[s]) {
       m.first_block = blocks;
       blocks += m.table->block_count();
+      timing.last_rows += m.table->row_count();
     }
+    if (blocks == 0) continue;
+    const auto start = std::chrono::steady_clock::now();
     Pass pass{systems_[s], matches_[s], world, tick, chosen_, scratch_floats_[s] > 0 ? scratch_.get() : nullptr};
     if (systems_[s].choose) {
       choose_rows(systems_[s], matches_[s], world, tick);
-      timings_[s].rows += chosen_.size();
+      timing.last_rows = chosen_.size();
       blocks = (chosen_.size() + lane_count - 1) / lane_count;
       if (blocks > 0) jobs.parallel_for(jobs.user, blocks, &run_chosen, &pass);
-    } else if (blocks > 0) {
+    } else {
       jobs.parallel_for(jobs.user, blocks, &run_blocks, &pass);
     }
-    timings_[s].seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    ++timings_[s].calls;
+    timing.last_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    timing.seconds += timing.last_seconds;
+    timing.rows += timing.last_rows;
   }
 }
 

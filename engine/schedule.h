@@ -45,11 +45,14 @@ struct System {
   std::size_t chooser_parameters = 0;  // what is bound begins with them
 };
 
-/// How often a system ran, for how long (wall) in all, and, of a packed system, on how many rows.
+/// Ticks, rows worked on and wall time of a system in all, and the last tick's. Rows are entities: of a packed system
+/// those chosen. Where no table is a system's, its code does not run and no time is taken.
 struct Timing {
   std::uint64_t calls = 0;
   std::uint64_t rows = 0;
   double seconds = 0;
+  std::uint64_t last_rows = 0;
+  double last_seconds = 0;
 };
 
 class Schedule {

@@ -8,6 +8,7 @@ World::World(std::pmr::memory_resource* memory)
     : memory_(memory),
       entities_(memory),
       tables_(memory),
+      table_hash_(memory),
       resources_(memory),
       scratch_(memory),
       identity_(std::make_shared<const char>()) {}
@@ -23,13 +24,41 @@ Place<const Table> World::find(Entity entity) const {
 }
 
 std::uint32_t World::table_of(const TableKey& key) {
-  std::uint32_t index = 0;
-  for (const Table& table : tables_) {
-    if (table.key() == key) return index;
-    ++index;
+  const std::uint64_t hash = key_hash(key);
+  for (std::uint32_t index = 0; index < table_hash_.size(); ++index) {
+    if (table_hash_[index] == hash && tables_[index].key() == key) return index;
   }
+  if (table_hash_.size() == table_hash_.capacity()) table_hash_.reserve(2 * table_hash_.size() + 1);
   tables_.emplace_back(key, memory_);
-  return index;
+  table_hash_.push_back(hash);
+  return static_cast<std::uint32_t>(table_hash_.size() - 1);
+}
+
+void World::key_from(std::span<const PartValue> parts) {
+  scratch_.clear();
+  for (const PartValue& value : parts) insert_part(scratch_, value.part);
+}
+
+void World::write_from(Place<Table> place, std::span<const PartValue> parts) {
+  for (const auto& [part, row] : parts) {
+    if (row == nullptr) continue;
+    place.table->write(place.row, place.table->column(part.id), static_cast<std::uint32_t>(part.value), row);
+  }
+}
+
+Entity World::create_from(std::span<const PartValue> parts) {
+  key_from(parts);
+  Entity entity;
+  write_from(create_row(scratch_, entity), parts);
+  return entity;
+}
+
+Status World::remake_from(Entity entity, std::span<const PartValue> parts) {
+  if (!alive(entity)) return Status::stale_entity;
+  key_from(parts);
+  if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
+  write_from(find(entity), parts);
+  return Status::ok;
 }
 
 Place<Table> World::create_row(const TableKey& key, Entity& entity) {

@@ -54,6 +54,9 @@ class World {
   /// values, other ones begin with zeros.
   template <class... P>
   Status remake(Entity entity, const P&... parts);
+  /// The same from lists put together at run time; each type once.
+  Entity create_from(std::span<const PartValue> parts);
+  Status remake_from(Entity entity, std::span<const PartValue> parts);
   bool alive(Entity entity) const { return entities_.alive(entity); }
 
   /// One more part. Values of the others are kept.
@@ -143,6 +146,8 @@ class World {
   Status read_field(Entity entity, std::uint64_t id, std::span<float> out) const;
   Status write_field(Entity entity, std::uint64_t id, std::span<const float> in);
   std::uint64_t own(std::shared_ptr<const void> resource);
+  void key_from(std::span<const PartValue> parts);
+  void write_from(Place<Table> place, std::span<const PartValue> parts);
 
   template <template <class> class C>
   static void write_part(Place<Table> place, const C<float>& row) {
@@ -158,6 +163,7 @@ class World {
   std::pmr::memory_resource* memory_;
   EntityRegister entities_;
   std::pmr::deque<Table> tables_;
+  std::pmr::vector<std::uint64_t> table_hash_;  // of their keys
   std::pmr::vector<std::shared_ptr<const void>> resources_;
   TableKey scratch_;  // the key being put together, kept for its memory
   std::shared_ptr<const char> identity_;

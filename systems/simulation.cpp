@@ -100,9 +100,14 @@ Result<Entity> Simulation::spawn(const BodyRequest& request, const GaitRequest& 
   const Standing standing = first_instant(sizes, plan);
   const Entity entity = world_.create(size, *gait, first_lane(plan), GaitState<float>{}, standing.pose, standing.angles,
                                       standing.feet, standing.centre);
-  if (humans_.size() <= entity.index) humans_.resize(entity.index + std::size_t{1});
-  humans_[entity.index] = std::make_unique<Human>(Human{entity, *body, *gait, {}, {}});
+  keep({entity, *body, *gait, {}, {}});
   return entity;
+}
+
+void Simulation::keep(Human human) {
+  const std::size_t at = human.entity.index;
+  if (humans_.size() <= at) humans_.resize(at + 1);
+  humans_[at] = std::make_unique<Human>(std::move(human));
 }
 
 Status Simulation::despawn(Entity entity) {
@@ -115,6 +120,7 @@ Status Simulation::despawn(Entity entity) {
 Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) {
   Human* human = find(entity);
   if (human == nullptr) return fail("change_gait: that person is not there (a stale handle); spawn one first");
+  if (human->posed) return fail("change_gait: this person's host animates the skeleton; spawn a walker instead");
   auto gait = resolve_gait(human->body, request);
   if (!gait) return tl::unexpected(gait.error());
   gait->heading_rad = human->gait.heading_rad;
@@ -127,6 +133,7 @@ Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) 
 Result<void> Simulation::turn_to(Entity entity, float heading_rad) {
   Human* human = find(entity);
   if (human == nullptr) return fail("turn_to: that person is not there (a stale handle); spawn one first");
+  if (human->posed) return fail("turn_to: this person's host animates the skeleton; turn the pose instead");
   if (!(std::fabs(heading_rad) < 1e4F))
     return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
   human->gait.heading_rad = heading_rad;
@@ -135,7 +142,9 @@ Result<void> Simulation::turn_to(Entity entity, float heading_rad) {
 }
 
 Status Simulation::add_forces(Entity entity) {
-  if (find(entity) == nullptr) return Status::stale_entity;
+  const Human* human = find(entity);
+  if (human == nullptr) return Status::stale_entity;
+  if (human->posed) return Status::missing;
   if (world_.has<MotionHistory>(entity)) return Status::ok;
   const auto tick_s = static_cast<float>(clock_.tick_s());
   world_.add(entity, recent_motion(*world_.get<BodySize>(entity), *world_.get<StepPlan>(entity),

@@ -106,7 +106,8 @@ class Simulation {
   /// all is as it was.
   Result<void> turn_to(Entity human, float heading_rad);
 
-  /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one.
+  /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one. Posed
+  /// people have no gait that it could follow from: Status::missing.
   Status add_forces(Entity human);
   Status remove_forces(Entity human);
 
@@ -165,6 +166,7 @@ class Simulation {
   void set_muscle(Entity& muscle, const Human& human, Side side, const Belly& belly, const LegMuscles& choice);
   void set_muscles(Human& human, std::vector<Belly>& bellies, const LegMuscles& choice);
   Human* find(Entity entity);
+  void keep(Human human);
 
   World world_;
   Clock clock_;

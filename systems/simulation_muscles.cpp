@@ -198,7 +198,7 @@ void Simulation::set_muscle(Entity& muscle, const Human& human, Side side, const
 void Simulation::set_muscles(Human& human, std::vector<Belly>& bellies, const LegMuscles& choice) {
   std::vector<HumanMuscle> all;
   for (Belly& belly : bellies) {
-    HumanMuscle own{{}, {}};
+    HumanMuscle own{};
     for (HumanMuscle& before : human.muscles) {
       if (before.plan.muscle == belly.plan.muscle) std::swap(own.entity, before.entity);
     }

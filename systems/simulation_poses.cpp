@@ -1,14 +1,29 @@
 // People whose host animates them.
+#include "assets/anthropometry.h"
+#include "systems/kinematics/kinematics.h"
 #include "systems/simulation.h"
+#include "systems/simulation_rows.h"
 
 namespace mobil {
 
-Result<Entity> Simulation::spawn_posed(const BodyRequest&) {
-  return fail("spawn_posed: not there yet");
+Result<Entity> Simulation::spawn_posed(const BodyRequest& request) {
+  const auto body = make_body(request);
+  if (!body) return tl::unexpected(body.error());
+  const BodySize<float> size{request.height_m, request.mass_kg};
+  Pose<Lanes<float>> standing;
+  pose_anatomical(broadcast(size), standing);
+  const Entity entity = world_.create(size, first_lane(standing));
+  Human human{entity, *body, {}, {}, {}};
+  human.posed = true;
+  keep(std::move(human));
+  return entity;
 }
 
-Status Simulation::set_pose(Entity, const Pose<float>&) {
-  return Status::stale_entity;
+Status Simulation::set_pose(Entity entity, const Pose<float>& pose) {
+  const Human* human = find(entity);
+  if (human == nullptr) return Status::stale_entity;
+  if (!human->posed) return Status::missing;
+  return world_.set(entity, pose);
 }
 
 }  // namespace mobil

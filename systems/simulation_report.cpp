@@ -9,8 +9,8 @@ StepReport Simulation::report() const {
   const auto timings = schedule_->timings();
   report.systems.reserve(systems.size());
   for (std::size_t s = 0; s < systems.size(); ++s) {
-    const Timing& all = timings[s];
-    report.systems.push_back({systems[s].name, 0, 0, all.seconds, all.rows});
+    const Timing& t = timings[s];
+    report.systems.push_back({systems[s].name, t.last_seconds, t.last_rows, t.seconds, t.rows});
   }
   return report;
 }

@@ -1,0 +1,237 @@
+#pragma once
+// Sixteen reduced bellies made of random numbers, and what is expected of them.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <cstddef>
+#include <random>
+#include <vector>
+
+#include "systems/deformation/reduced.h"
+
+namespace mobil {
+
+/// z̈ + α·ż + ω²·z = ω²·s, s linear over a step, by the roots of its characteristic polynomial.
+struct ClosedForm {
+  double omega, damping;
+  double z = 0, speed = 0;
+
+  void step(double from, double to, double time_s) {
+    const double rate = (to - from) / time_s, lag = damping / (omega * omega) * rate;
+    const std::complex<double> split = std::sqrt(std::complex<double>(damping * damping / 4 - omega * omega));
+    const std::complex<double> root[2] = {-damping / 2 + split, -damping / 2 - split};
+    const double y = z - from + lag, v = speed - rate;
+    const std::complex<double> first = (v - root[1] * y) / (root[0] - root[1]), second = y - first;
+    const std::complex<double> grown[2] = {first * std::exp(root[0] * time_s), second * std::exp(root[1] * time_s)};
+    z = to - lag + (grown[0] + grown[1]).real();
+    speed = rate + (root[0] * grown[0] + root[1] * grown[1]).real();
+  }
+};
+
+using Columns = std::vector<Lanes<float>>;
+
+struct ReducedDrive;
+
+struct ReducedBodies {
+  struct Sum {
+    double value = 0, terms = 0;  // the latter: of all magnitudes
+  };
+
+  ReducedBasis basis;
+  BellyScale<Lanes<float>> scale{};
+  double damping;
+  std::array<std::array<double, lane_count>, most_vectors> omega{};
+  std::array<std::array<std::array<double, lane_count>, 3 + frame_inputs>, most_vectors> participation{};
+  Columns state, motion, shape, displacement;
+
+  ReducedBodies(std::uint32_t vectors, FarEnd end, bool frame, double damping_per_s, const Cells& cells = {2, 2, 8})
+      : damping(damping_per_s) {
+    basis.options.far_end = end;
+    basis.options.frame_loads = frame;
+    basis.options.control_cells = cells;
+    basis.options.vectors = basis.vectors = vectors;
+    basis.inputs = input_count(end, frame);
+    state.resize(reduced_state_width(vectors, basis.inputs));
+    motion.resize(reduced_motion_width(vectors, basis.inputs));
+    shape.resize(reduced_shape_width(vectors, basis.inputs));
+    displacement.resize(std::size_t{3} * node_count(cells));
+    fill(shape, 101, 1);
+    std::mt19937 random(103);
+    std::uniform_real_distribution<double> even(-1, 1);
+    basis.shape.resize(displacement.size() * (vectors + 1));
+    for (float& x : basis.shape) x = static_cast<float>(even(random));
+    if (end != FarEnd::held) {
+      for (std::size_t i = 0; i < basis.shape.size(); i += vectors + 1) basis.shape[i] = 0;
+    }
+    for (std::size_t j = 0; j < vectors; ++j) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        omega[j][l] = 20 * std::pow(60.0, (static_cast<double>(j) + 0.5 + 0.4 * even(random)) / vectors);
+        for (std::size_t i = 0; i < basis.inputs; ++i) participation[j][i][l] = even(random);
+      }
+    }
+    for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = scale.along[l] = 1;
+  }
+
+  static void fill(Columns& columns, unsigned seed, double size) {
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> even(static_cast<float>(-size), static_cast<float>(size));
+    for (auto& lanes : columns) {
+      for (float& x : lanes.lane) x = even(random);
+    }
+  }
+
+  void be_all_alike() {
+    for (auto& lanes : shape) lanes.lane[0] = lanes.lane[1];
+    for (auto& lanes : shape) std::ranges::fill(lanes.lane, lanes.lane[0]);
+    for (auto& lanes : omega) lanes.fill(lanes[0]);
+    for (auto& inputs : participation) {
+      for (auto& lanes : inputs) lanes.fill(lanes[0]);
+    }
+  }
+
+  void write_motion(double tick_s) {
+    std::size_t at = 0;
+    for (std::size_t j = 0; j < basis.vectors; ++j) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const double w = omega[j][l], decay = std::exp(-damping / 2 * tick_s), square = w * w - damping * damping / 4;
+        const double turn = std::sqrt(std::abs(square));
+        const double cosine = square > 0 ? std::cos(turn * tick_s) : std::cosh(turn * tick_s);
+        const double sine = (square > 0 ? std::sin(turn * tick_s) : std::sinh(turn * tick_s)) / turn;
+        motion[at][l] = static_cast<float>(decay * (cosine + damping / 2 * sine));
+        motion[at + 1][l] = static_cast<float>(decay * w * sine);
+        motion[at + 2][l] = static_cast<float>(damping / w);
+        for (std::size_t i = 0; basis.inputs > 1 && i < basis.inputs; ++i) {
+          motion[at + 3 + i][l] = static_cast<float>(participation[j][i][l]);
+        }
+      }
+      at += basis.inputs > 1 ? 3 + basis.inputs : 3;
+    }
+  }
+
+  /// s of a motion under such inputs; of one input, over its P.
+  double rest(const Columns& inputs, std::size_t j, std::size_t l) const {
+    if (basis.inputs == 1) return static_cast<double>(inputs[0][l]);
+    double s = 0;
+    for (std::size_t i = 0; i < basis.inputs; ++i) s += participation[j][i][l] * static_cast<double>(inputs[i][l]);
+    return s;
+  }
+
+  std::array<double, 2> kept(std::size_t j, std::size_t l) const {
+    return {static_cast<double>(state[2 * j][l]), static_cast<double>(state[2 * j + 1][l])};
+  }
+
+  ReducedBlock block(const FrameLoad<Lanes<float>>& frame) {
+    return {basis, scale, state.data()->lane, motion.data()->lane, basis.options.frame_loads ? &frame : nullptr};
+  }
+
+  void tick(const ReducedDrive& drive, double tick_s);
+  void place(const ReducedDrive& drive, bool at_rest);
+  std::vector<Sum> expected_displacement(const ReducedDrive& drive, std::size_t l, bool at_rest) const;
+};
+
+/// Inputs of a tick, each from where the last tick left it to somewhere else.
+struct ReducedDrive {
+  const ReducedBodies& bodies;
+  std::mt19937 random;
+  Columns from, to;
+
+  ReducedDrive(const ReducedBodies& of, unsigned seed) : bodies(of), random(seed), from(of.basis.inputs), to(from) {}
+  ReducedDrive(const ReducedDrive&) = default;
+
+  void advance() {
+    std::uniform_real_distribution<float> even(-0.1F, 0.1F);
+    from = to;
+    for (auto& lanes : to) {
+      for (float& x : lanes.lane) x = 0.9F * x + even(random);
+    }
+  }
+  ReducedDrive part(int number, int of) const {
+    ReducedDrive part = *this;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const float step = (to[i][l] - from[i][l]) / static_cast<float>(of);
+        part.from[i][l] = from[i][l] + static_cast<float>(number) * step;
+        part.to[i][l] = from[i][l] + static_cast<float>(number + 1) * step;
+      }
+    }
+    return part;
+  }
+  void be_all_alike() {
+    for (auto* columns : {&from, &to}) {
+      for (auto& lanes : *columns) std::ranges::fill(lanes.lane, lanes.lane[0]);
+    }
+  }
+
+  /// Calls f(end, frame).
+  template <class F>
+  void give(F&& f) const {
+    const auto vector = [](const Columns& columns, std::size_t at) {
+      return Vec3<Lanes<float>>{columns[at], columns[at + 1], columns[at + 2]};
+    };
+    const FarEnd way = bodies.basis.options.far_end;
+    const std::size_t ends = way == FarEnd::free ? 3 : 1;
+    FrameLoad<Lanes<float>> frame{};
+    if (bodies.basis.options.frame_loads) {
+      frame.constant_from = vector(from, ends);
+      frame.constant_to = vector(to, ends);
+      frame.gradient_from = {vector(from, ends + 3), vector(from, ends + 6), vector(from, ends + 9)};
+      frame.gradient_to = {vector(to, ends + 3), vector(to, ends + 6), vector(to, ends + 9)};
+    }
+    if (way == FarEnd::held) f(EndDrive(EndDisplacement<Lanes<float>>{from[0], to[0]}), frame);
+    if (way == FarEnd::sliding) f(EndDrive(EndForce<Lanes<float>>{from[0], to[0]}), frame);
+    if (way == FarEnd::free) f(EndDrive(EndTraction<Lanes<float>>{vector(from, 0), vector(to, 0)}), frame);
+  }
+};
+
+inline void ReducedBodies::tick(const ReducedDrive& drive, double tick_s) {
+  drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
+    deform_reduced(block(frame), end, static_cast<float>(tick_s));
+  });
+}
+
+inline void ReducedBodies::place(const ReducedDrive& drive, bool at_rest) {
+  drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
+    ReducedBlock given = block(frame);
+    const ControlPoints points{shape.data()->lane, displacement.data()->lane};
+    if (!at_rest) return place_control_points(given, points, end);
+    given.state = nullptr;
+    given.motion = nullptr;
+    place_static(given, points, end);
+  });
+}
+
+inline std::vector<ReducedBodies::Sum> ReducedBodies::expected_displacement(const ReducedDrive& drive, std::size_t l,
+                                                                            bool at_rest) const {
+  const std::size_t count = basis.vectors, inputs = basis.inputs;
+  const bool held = basis.options.far_end == FarEnd::held;
+  std::vector<Sum> amount(count + 1);
+  const auto add = [](Sum& sum, double factor, const Sum& part) {
+    sum.value += factor * part.value;
+    sum.terms += std::abs(factor) * part.terms;
+  };
+  const auto number = [](float x) { return Sum{static_cast<double>(x), std::abs(static_cast<double>(x))}; };
+  if (held) amount[0] = number(drive.to[0][l]);
+  for (std::size_t k = 0; k < count; ++k) {
+    const Lanes<float>* row = shape.data() + k * (count + inputs);
+    for (std::size_t j = 0; !at_rest && j < count; ++j) {
+      add(amount[k + 1], static_cast<double>(row[j][l]), number(state[2 * j][l]));
+    }
+    for (std::size_t i = 0; i < inputs; ++i) {
+      add(amount[k + 1], static_cast<double>(row[count + i][l]), number(drive.to[i][l]));
+    }
+  }
+  const Cells& cells = basis.options.control_cells;
+  std::vector<Sum> u(displacement.size());
+  const std::size_t far = std::size_t{3} * first_insertion_node(cells);
+  for (std::size_t i = std::size_t{3} * plane_nodes(cells); i < (held ? far : u.size()); ++i) {
+    for (std::size_t k = 0; k <= count; ++k) {
+      add(u[i], static_cast<double>(basis.shape[i * (count + 1) + k]), amount[k]);
+    }
+  }
+  for (std::size_t i = far + 2; held && i < u.size(); i += 3) u[i] = amount[0];
+  return u;
+}
+
+}  // namespace mobil

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -70,8 +71,8 @@ Result<Grading> parse_grading(const std::string& text) {
 }
 
 /// The place of `text` among the names of an enumeration.
-template <class E, std::size_t N>
-Result<E> choose(std::string_view option, const std::string& text, const std::array<std::string_view, N>& names) {
+template <class E, class Names>
+Result<E> choose(std::string_view option, const std::string& text, const Names& names) {
   const auto found = std::find(names.begin(), names.end(), text);
   if (found != names.end()) return static_cast<E>(found - names.begin());
   return fail(
@@ -80,7 +81,7 @@ Result<E> choose(std::string_view option, const std::string& text, const std::ar
 
 /// The mass that a method takes, where nothing or the right thing was asked for.
 Result<Mass> choose_mass(Method method, const std::string& text) {
-  const Mass own = method == Method::ecd || method == Method::statics ? Mass::lumped : Mass::consistent;
+  const Mass own = method == Method::icd || method == Method::caa ? Mass::consistent : Mass::lumped;
   if (text.empty()) return own;
   const auto mass = choose<Mass>("--mass", text, mass_name);
   if (!mass) return mass;
@@ -105,7 +106,8 @@ struct Choices {
 };
 
 Result<Choices> read_choices(const MuscleText& text) {
-  const auto method = choose<Method>("--method", text.method, method_name);
+  const auto moving = std::span(method_name).first(static_cast<std::size_t>(Method::none));
+  const auto method = choose<Method>("--method", text.method, moving);
   if (!method) return tl::unexpected(method.error());
   const auto mass = choose_mass(*method, text.mass);
   if (!mass) return tl::unexpected(mass.error());
@@ -114,13 +116,24 @@ Result<Choices> read_choices(const MuscleText& text) {
   static constexpr std::array<std::string_view, 2> precisions = {"single", "double"};
   const auto precision = choose<std::size_t>("--precision", text.precision, precisions);
   if (!precision) return tl::unexpected(precision.error());
+  if (*method == Method::reduced && *precision == 1) {
+    return fail("--precision double has no reduced method; its steps are exact, leave the option out");
+  }
+  if (*method != Method::reduced && !text.glb.empty()) {
+    return fail("--glb writes the vectors of --method reduced; add that, or leave --glb out");
+  }
   return Choices{*method, *mass, *element, *precision == 1};
+}
+
+/// Whether a factorised operator is needed.
+bool solves(const Choices& choices) {
+  return !choices.in_double && choices.method != Method::ecd && choices.method != Method::reduced;
 }
 
 Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choices) {
   const auto cells = parse_cells(text.cells);
   if (!cells) return tl::unexpected(cells.error());
-  if (!choices.in_double && choices.method != Method::ecd) {
+  if (solves(choices)) {
     if (auto ok = check_belly_solver(*cells, choices.method); !ok) {
       return fail(ok.error().message + "; --precision double has no such limit");
     }
@@ -186,7 +199,7 @@ Result<Stepping> choose_step(const MuscleText& text, const MuscleTemplate& muscl
     dt = *given;
   }
   std::optional<double> limit;
-  double longest = method == Method::caa ? caa_step_s : static_step_s;
+  double longest = method == Method::statics ? static_step_s : caa_step_s;
   if (method == Method::ecd || method == Method::icd) {
     limit = limit_of(muscle);
     longest = 0.9 * *limit;
@@ -228,12 +241,13 @@ void add_muscle_options(CLI::App& command, MuscleText& text) {
   add(block, "--grading", text.grading,
       "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each");
   const char* time = "Time";
-  add(time, "--method", text.method, "static, ecd, icd or caa, see below");
+  add(time, "--method", text.method, "static, ecd, icd, caa or reduced, see below");
+  add(time, "--vectors", text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32");
   add(time, "--mass", text.mass,
       "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)");
   add(time, "--dt", text.dt,
-      "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa 1/480, static "
-      "1/60)");
+      "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa and reduced "
+      "1/480, static 1/60)");
   add(time, "--seconds", text.seconds, "How long, up to 3600 s");
   add(time, "--damping", text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most");
   add(time, "--stiffness-damping", text.stiffness_damping,
@@ -246,6 +260,30 @@ void add_muscle_options(CLI::App& command, MuscleText& text) {
       "first, held after the last (default: 1 N along +z from 0.1 s, let go at 0.5 s)");
   add(load, "--gravity", text.gravity, "Acceleration of every mass in the block's frame, X,Y,Z, m/s2");
   add(load, "--out", text.out, "CSV time_s,u_x_m,u_y_m,u_z_m of the far face's centre, one row a step from t = 0");
+  add(load, "--glb", text.glb,
+      "Of reduced: the block as GLB, its vectors as morph targets whose weights are the reduced coordinates; with up "
+      "to 8 vectors every viewer shows it");
+}
+
+/// Vectors of the block itself, so that 32 of them come close to its full model.
+Result<ReducedBasis> make_block_basis(const MuscleText& text, const MuscleTemplate& muscle, bool weighed) {
+  const auto vectors = read_value("--vectors", text.vectors, Quantity::ratio, 1, most_vectors);
+  if (!vectors) return tl::unexpected(vectors.error());
+  if (*vectors != std::floor(*vectors)) return fail(fmt::format("--vectors {} must be a whole number", text.vectors));
+  const MuscleOptions& o = muscle.options;
+  if (o.stiffness_damping_s > 0) {
+    return fail("--method reduced is damped by --damping alone; leave --stiffness-damping out, or take --method caa");
+  }
+  ReducedOptions options;
+  options.vectors = static_cast<std::uint32_t>(*vectors);
+  options.far_end = o.far_end;
+  options.frame_loads = weighed;
+  options.corrected = false;
+  options.foundation_hz = o.foundation_hz;
+  options.damping_per_s = o.damping_per_s;
+  options.middle_product = options.ratio_width = 1;
+  options.control_cells = muscle.mesh.cells;
+  return make_reduced_basis(muscle.mesh, muscle.material, o.element, options);
 }
 
 Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
@@ -260,28 +298,45 @@ Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
   const auto stepping = choose_step(text, *muscle, choices->method);
   if (!stepping) return tl::unexpected(stepping.error());
   std::optional<BellySolver> solver;
-  if (!choices->in_double && choices->method != Method::ecd) {
+  if (solves(*choices)) {
     auto made = make_belly_solver(*muscle, choices->method, choices->mass, stepping->dt_s);
     if (!made) return tl::unexpected(made.error());
     solver = std::move(*made);
   }
+  std::optional<ReducedBasis> basis;
+  if (choices->method == Method::reduced) {
+    auto made = make_block_basis(text, *muscle, gravity->x != 0 || gravity->y != 0 || gravity->z != 0);
+    if (!made) return tl::unexpected(made.error());
+    basis = std::move(*made);
+  }
   std::string warning = warn_of_coarse_elements(*muscle);
-  return MuscleRequest{std::move(*muscle), choices->method,           choices->in_double,
-                       std::move(solver),  stepping->critical_step_s, stepping->dt_s,
-                       stepping->steps,    std::move(*load),          *gravity,
-                       text.out,           std::move(warning)};
+  return MuscleRequest{.muscle = std::move(*muscle),
+                       .method = choices->method,
+                       .in_double = choices->in_double,
+                       .solver = std::move(solver),
+                       .basis = std::move(basis),
+                       .critical_step_s = stepping->critical_step_s,
+                       .dt_s = stepping->dt_s,
+                       .steps = stepping->steps,
+                       .load = std::move(*load),
+                       .gravity_m_s2 = *gravity,
+                       .out = text.out,
+                       .glb = text.glb,
+                       .warning = std::move(warning)};
 }
 
 std::string describe_method(const MuscleRequest& request) {
-  static constexpr std::array<std::string_view, 4> long_name = {"static solution", "explicit central differences",
-                                                                "implicit central differences",
-                                                                "constant average acceleration"};
+  static constexpr std::array<std::string_view, 5> long_name = {
+      "static solution", "explicit central differences", "implicit central differences",
+      "constant average acceleration", "a few vectors, each integrated exactly"};
   const auto at = static_cast<std::size_t>(request.method);
   const MuscleOptions& o = request.muscle.options;
-  return fmt::format(
-      "{}: {}{}, {} elements, {} precision", method_name[at], long_name[at],
-      request.method == Method::statics ? "" : fmt::format(", {} mass", mass_name[static_cast<std::size_t>(o.mass)]),
-      element_name[static_cast<std::size_t>(o.element)], request.in_double ? "double" : "single");
+  return fmt::format("{}: {}{}, {} elements, {} precision", method_name[at], long_name[at],
+                     request.basis ? fmt::format(", {} vectors", request.basis->vectors)
+                     : request.method == Method::statics
+                         ? ""
+                         : fmt::format(", {} mass", mass_name[static_cast<std::size_t>(o.mass)]),
+                     element_name[static_cast<std::size_t>(o.element)], request.in_double ? "double" : "single");
 }
 
 }  // namespace mobil

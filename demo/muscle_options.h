@@ -10,6 +10,7 @@
 #include "assets/belly_solver.h"
 #include "assets/force_history.h"
 #include "assets/muscle_template.h"
+#include "assets/reduced_basis.h"
 
 namespace mobil {
 
@@ -18,8 +19,8 @@ struct MuscleText {
   std::string cells = "2x2x8", cell_size = "0.015", grading = "1,1", element = "full", young = "10666.7",
               poisson = "0.3333", density = "1000";
   std::string method = "ecd", mass, dt, seconds = "1", precision = "single", damping = "0", stiffness_damping = "0",
-              foundation = "0";
-  std::string load, gravity = "0,0,0", out = "disp.csv";
+              foundation = "0", vectors = "16";
+  std::string load, gravity = "0,0,0", out = "disp.csv", glb;
 };
 
 struct MuscleRequest {
@@ -27,13 +28,15 @@ struct MuscleRequest {
   Method method;
   bool in_double;
   std::optional<BellySolver> solver;      // of ICD, CAA and static in single precision
+  std::optional<ReducedBasis> basis;      // of the reduced method
   std::optional<double> critical_step_s;  // of ECD and ICD
   double dt_s;
   std::size_t steps;
   ForceHistory load;
   Vec3<double> gravity_m_s2;
   std::filesystem::path out;
-  std::string warning;  // one line, or empty
+  std::filesystem::path glb;  // of the reduced method, or empty
+  std::string warning;        // one line, or empty
 };
 
 void add_muscle_options(CLI::App& command, MuscleText& text);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -13,6 +14,7 @@
 #include <vector>
 
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/reduced.h"
 #include "systems/deformation/reference.h"
 
 namespace mobil {
@@ -136,6 +138,92 @@ class SingleBelly : public Belly {
   BellyReport<Lanes<float>> report_{};
 };
 
+/// Sixteen times the same belly along the block's own vectors.
+class ReducedOne : public Belly {
+ public:
+  static Result<std::unique_ptr<ReducedOne>> make(const MuscleRequest& request) {
+    auto own = make_reduced_belly(*request.basis, 1, 1);
+    if (!own) return tl::unexpected(own.error());
+    return std::unique_ptr<ReducedOne>(new ReducedOne(request, *own));
+  }
+
+  void step(const Vec3<double>& now, const Vec3<double>& next) override {
+    EndTraction<Lanes<float>> traction{};
+    spread(now, traction.from_n);
+    spread(next, traction.to_n);
+    deform_reduced(block_, traction, static_cast<float>(dt_s_));
+    place_control_points(block_, {shape_.data()->lane, displacement_.data()->lane}, traction);
+  }
+  double displacement(std::uint32_t node, std::size_t axis) override {
+    return static_cast<double>(displacement_[3 * node + axis][0]);
+  }
+
+  /// The reduced coordinates of the displacement.
+  std::vector<float> coordinates() const {
+    const std::size_t n = basis_.vectors, width = displacement_.size();
+    std::vector<float> q(n);
+    for (std::size_t v = 0; v < n; ++v) {
+      double sum = 0;
+      for (std::size_t i = 0; i < width; ++i) {
+        sum += basis_.fit[v * width + i] * static_cast<double>(displacement_[i][0]);
+      }
+      q[v] = static_cast<float>(sum);
+    }
+    return q;
+  }
+
+ private:
+  ReducedOne(const MuscleRequest& request, const ReducedBelly& own)
+      : basis_(*request.basis),
+        dt_s_(request.dt_s),
+        state_(reduced_state_width(basis_.vectors, basis_.inputs)),
+        motion_(reduced_motion_width(basis_.vectors, basis_.inputs)),
+        shape_(reduced_shape_width(basis_.vectors, basis_.inputs)),
+        displacement_(nodal_width(request.muscle.mesh.cells)) {
+    for (std::size_t l = 0; l < lane_count; ++l) scale_.across[l] = scale_.along[l] = 1;
+    spread(request.gravity_m_s2, frame_.constant_from);
+    spread(request.gravity_m_s2, frame_.constant_to);
+    const double damping = request.muscle.options.damping_per_s;
+    std::vector<float> row(motion_.size());
+    write_motion(own, damping, dt_s_, row);
+    fill(row, motion_);
+    row.resize(shape_.size());
+    write_shape(own, damping, row);
+    fill(row, shape_);
+    // at rest at t = 0, whatever loads it then
+    const Vec3<double> f = force_at(request.load, 0), &g = request.gravity_m_s2;
+    std::vector<double> input = {f.x, f.y, f.z, g.x, g.y, g.z};
+    input.resize(basis_.inputs);
+    const std::vector<float> still(displacement_.size());
+    row.resize(state_.size());
+    fit_state(basis_, own, damping, input, std::vector<double>(basis_.inputs), still, still, row);
+    fill(row, state_);
+  }
+
+  static void fill(const std::vector<float>& row, std::vector<Lanes<float>>& block) {
+    for (std::size_t i = 0; i < block.size(); ++i) std::fill_n(block[i].lane, lane_count, row[i]);
+  }
+
+  const ReducedBasis& basis_;
+  double dt_s_;
+  std::vector<Lanes<float>> state_, motion_, shape_, displacement_;
+  BellyScale<Lanes<float>> scale_{};
+  FrameLoad<Lanes<float>> frame_{};
+  ReducedBlock block_{basis_, scale_, state_.data()->lane, motion_.data()->lane, basis_.inputs > 3 ? &frame_ : nullptr};
+};
+
+/// What a GLB of a reduced run shows, frames to come.
+BasisRecording begin_recording(const MuscleRequest& request) {
+  const ReducedBasis& basis = *request.basis;
+  const std::size_t width = nodal_width(request.muscle.mesh.cells), row = basis.vectors + std::size_t{1};
+  BasisRecording recording{
+      request.muscle.mesh, std::vector<std::vector<float>>(basis.vectors), {}, static_cast<float>(request.dt_s)};
+  for (std::size_t v = 0; v < basis.vectors; ++v) {
+    for (std::size_t i = 0; i < width; ++i) recording.target[v].push_back(basis.shape[i * row + 1 + v]);
+  }
+  return recording;
+}
+
 bool loaded_at_start(const MuscleRequest& request) {
   const auto any = [](const Vec3<double>& v) { return v.x != 0 || v.y != 0 || v.z != 0; };
   return any(force_at(request.load, 0)) || any(request.gravity_m_s2);
@@ -161,6 +249,7 @@ Result<std::unique_ptr<Belly>> make_belly(const MuscleRequest& request) {
     if (!belly) return tl::unexpected(belly.error());
     return std::make_unique<DoubleBelly>(request, std::move(*belly));
   }
+  if (request.basis) return ReducedOne::make(request);
   auto belly = std::make_unique<SingleBelly>(request);
   if (auto ok = start_at_rest(request, *belly); !ok) return tl::unexpected(ok.error());
   return belly;
@@ -179,6 +268,8 @@ Result<MuscleRun> run_muscle(const MuscleRequest& request) {
   };
   MuscleRun result;
   result.csv = "time_s,u_x_m,u_y_m,u_z_m\n";
+  auto* const reduced = request.glb.empty() ? nullptr : dynamic_cast<ReducedOne*>(belly->get());
+  if (reduced != nullptr) result.recording = begin_recording(request);
   Progress progress(request.steps);
   for (std::size_t step = 0;; ++step) {
     const double time = static_cast<double>(step) * request.dt_s;
@@ -193,6 +284,7 @@ Result<MuscleRun> run_muscle(const MuscleRequest& request) {
       result.peak_time_s = time;
     }
     fmt::format_to(std::back_inserter(result.csv), "{:.9g},{:.9g},{:.9g},{:.9g}\n", time, u[0], u[1], u[2]);
+    if (reduced != nullptr) result.recording.weight.push_back(reduced->coordinates());
     if (step == request.steps) return result;
     const double next = static_cast<double>(step + 1) * request.dt_s;
     (*belly)->step(force_at(request.load, time), force_at(request.load, next));

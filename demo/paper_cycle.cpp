@@ -78,7 +78,8 @@ void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) 
   rows.knee.push_back(degrees * value(simulation.get<JointAngles>(entity)->knee_flexion[right]));
   rows.muscle.resize(human.muscles.size());
   for (std::size_t m = 0; m < human.muscles.size(); ++m) {
-    const auto& [plan, muscle] = human.muscles[m];
+    const MusclePlan& plan = human.muscles[m].plan;
+    const auto& muscle = human.muscles[m].entity;
     const auto line = *simulation.get<LineOfAction>(muscle[right]);
     const auto belly = *simulation.get<BellyReport>(muscle[right]);
     MuscleRows& own = rows.muscle[m];
@@ -103,9 +104,10 @@ PaperCycle sample(const Simulation& simulation, const Human& human, const TickRo
   cycle.knee_flexion_deg = over(rows.knee);
   cycle.ground_n = sample_cycle(rows.force_phase, rows.force);
   for (std::size_t m = 0; m < human.muscles.size(); ++m) {
-    const auto& [plan, muscle] = human.muscles[m];
+    const MusclePlan& plan = human.muscles[m].plan;
+    const Entity muscle = human.muscles[m].entity[right];
     const MuscleRows& own = rows.muscle[m];
-    cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle[right])->rest_length_m),
+    cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle)->rest_length_m),
                              rest_thickness(plan), over(own.length), over(own.pull), over(own.elongation),
                              over(own.volume), over(own.thickness)});
   }

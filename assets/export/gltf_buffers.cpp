@@ -1,10 +1,14 @@
 #include "assets/export/gltf_buffers.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cstring>
+#include <exception>
 #include <limits>
+#include <sstream>
 
 namespace mobil {
 namespace {
@@ -44,6 +48,38 @@ void set_bounds(tinygltf::Accessor& accessor, const float* value, std::size_t wi
   }
 }
 
+/// Joins the arrays.
+Result<void> pack_buffers(GltfDraft& draft) {
+  const std::array<std::vector<unsigned char>*, 3> arrays = {&draft.vertices, &draft.indices, &draft.keys};
+  const std::array<int, 3> target = {TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, 0};
+  std::array<int, 3> view_of{-1, -1, -1};
+  const std::size_t total = draft.vertices.size() + draft.indices.size() + draft.keys.size();
+  if (total == 0) return {};
+  if (total > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
+    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames or coarser surfaces");
+  }
+  tinygltf::Buffer buffer;
+  buffer.data.reserve(total);
+  for (std::size_t a = 0; a < arrays.size(); ++a) {
+    if (arrays[a]->empty()) continue;
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = buffer.data.size();
+    view.byteLength = arrays[a]->size();
+    view.target = target[a];
+    if (a == vertex_array) view.byteStride = 3 * sizeof(float);
+    view_of[a] = static_cast<int>(draft.model.bufferViews.size());
+    draft.model.bufferViews.push_back(std::move(view));
+    buffer.data.insert(buffer.data.end(), arrays[a]->begin(), arrays[a]->end());
+    std::vector<unsigned char>().swap(*arrays[a]);
+  }
+  draft.model.buffers.push_back(std::move(buffer));
+  for (auto& accessor : draft.model.accessors) {
+    accessor.bufferView = view_of[static_cast<std::size_t>(accessor.bufferView)];
+  }
+  return {};
+}
+
 }  // namespace
 
 int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds) {
@@ -78,35 +114,38 @@ int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool w
   return accessor;
 }
 
-Result<void> pack_buffers(GltfDraft& draft) {
-  const std::array<std::vector<unsigned char>*, 3> arrays = {&draft.vertices, &draft.indices, &draft.keys};
-  const std::array<int, 3> target = {TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, 0};
-  std::array<int, 3> view_of{-1, -1, -1};
-  const std::size_t total = draft.vertices.size() + draft.indices.size() + draft.keys.size();
-  if (total == 0) return {};
-  if (total > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames or coarser surfaces");
+void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,
+                 const std::vector<float>& value, int type) {
+  if (animation.time_accessor < 0) {
+    std::vector<float> time_s;
+    for (std::size_t f = 0; f < animation.frames; ++f) {
+      time_s.push_back(static_cast<float>(static_cast<double>(f) * static_cast<double>(animation.frame_s)));
+    }
+    animation.time_accessor = add_keys(draft, time_s, TINYGLTF_TYPE_SCALAR, true);
   }
-  tinygltf::Buffer buffer;
-  buffer.data.reserve(total);
-  for (std::size_t a = 0; a < arrays.size(); ++a) {
-    if (arrays[a]->empty()) continue;
-    tinygltf::BufferView view;
-    view.buffer = 0;
-    view.byteOffset = buffer.data.size();
-    view.byteLength = arrays[a]->size();
-    view.target = target[a];
-    if (a == vertex_array) view.byteStride = 3 * sizeof(float);
-    view_of[a] = static_cast<int>(draft.model.bufferViews.size());
-    draft.model.bufferViews.push_back(std::move(view));
-    buffer.data.insert(buffer.data.end(), arrays[a]->begin(), arrays[a]->end());
-    std::vector<unsigned char>().swap(*arrays[a]);
+  tinygltf::AnimationSampler sampler;
+  sampler.input = animation.time_accessor;
+  sampler.output = add_keys(draft, value, type, false);
+  sampler.interpolation = "LINEAR";
+  tinygltf::AnimationChannel channel;
+  channel.sampler = static_cast<int>(animation.animation.samplers.size());
+  channel.target_node = node;
+  channel.target_path = path;
+  animation.animation.samplers.push_back(std::move(sampler));
+  animation.animation.channels.push_back(std::move(channel));
+}
+
+Result<std::string> glb_bytes(GltfDraft& draft) {
+  if (auto ok = pack_buffers(draft); !ok) return tl::unexpected(ok.error());
+  std::ostringstream bytes(std::ios::binary);
+  try {
+    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&draft.model, bytes, false, true)) {
+      return fail("the glTF library could not encode the recording");
+    }
+  } catch (const std::exception& e) {  // its JSON library refuses names that are not UTF-8
+    return fail(fmt::format("a name cannot be written, it must be UTF-8 text ({})", e.what()));
   }
-  draft.model.buffers.push_back(std::move(buffer));
-  for (auto& accessor : draft.model.accessors) {
-    accessor.bufferView = view_of[static_cast<std::size_t>(accessor.bufferView)];
-  }
-  return {};
+  return std::move(bytes).str();
 }
 
 }  // namespace mobil

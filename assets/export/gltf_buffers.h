@@ -6,13 +6,14 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "engine/error.h"
 
 namespace mobil {
 
-/// A model whose accessors' `bufferView` is one of the three arrays until pack_buffers has run.
+/// A model whose accessors' `bufferView` is one of the three arrays until glb_bytes has run.
 struct GltfDraft {
   tinygltf::Model model;
   std::vector<unsigned char> vertices, indices, keys;
@@ -25,7 +26,20 @@ int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, st
 /// `type` is TINYGLTF_TYPE_SCALAR, _VEC3 or _VEC4.
 int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool with_bounds);
 
-/// Joins the three arrays into the one buffer of a GLB, a view for each that is not empty. Error: more than 2 GiB.
-Result<void> pack_buffers(GltfDraft& draft);
+/// An animation of so many frames, evenly in time; all its channels share one list of key times, made with the first.
+struct GltfAnimation {
+  tinygltf::Animation animation;
+  std::size_t frames = 0;
+  float frame_s = 0;
+  int time_accessor = -1;
+};
+
+/// A channel of a node's `path` ("translation", "rotation", "weights"), linear between frames. `type` as add_keys.
+void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,
+                 const std::vector<float>& value, int type);
+
+/// Joins the three arrays into the one buffer of a GLB, a view for each that is not empty, and encodes it. Errors: more
+/// than 2 GiB, names that are not UTF-8.
+Result<std::string> glb_bytes(GltfDraft& draft);
 
 }  // namespace mobil

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <exception>
-#include <sstream>
-
 #include "assets/export/gltf_buffers.h"
 #include "assets/export/mesh_shading.h"
 #include "assets/export/morph_targets.h"
@@ -158,46 +155,18 @@ Result<WeightKeys> add_muscle(GltfDraft& draft, const RecordedMuscle& muscle, co
   return keys;
 }
 
-/// One animation; all its channels share one list of key times, made with the first of them.
-struct AnimationDraft {
-  tinygltf::Animation animation;
-  int time_accessor = -1;
-};
-
-void add_channel(GltfDraft& draft, AnimationDraft& walk, const WalkRecording& recording, int node,
-                 const std::string& path, const std::vector<float>& value, int type) {
-  if (walk.time_accessor < 0) {
-    std::vector<float> time_s;
-    for (std::size_t f = 0; f < recording.frames.size(); ++f) {
-      time_s.push_back(static_cast<float>(static_cast<double>(f) * static_cast<double>(recording.frame_s)));
-    }
-    walk.time_accessor = add_keys(draft, time_s, TINYGLTF_TYPE_SCALAR, true);
-  }
-  tinygltf::AnimationSampler sampler;
-  sampler.input = walk.time_accessor;
-  sampler.output = add_keys(draft, value, type, false);
-  sampler.interpolation = "LINEAR";
-  tinygltf::AnimationChannel channel;
-  channel.sampler = number_of(walk.animation.samplers.size());
-  channel.target_node = node;
-  channel.target_path = path;
-  walk.animation.samplers.push_back(std::move(sampler));
-  walk.animation.channels.push_back(std::move(channel));
-}
-
-void animate_segments(GltfDraft& draft, AnimationDraft& walk, const WalkRecording& recording,
-                      const SkeletonKeys& skeleton) {
+void animate_segments(GltfDraft& draft, GltfAnimation& walk, const SkeletonKeys& skeleton) {
   for (std::size_t s = 0; s < segment_count; ++s) {
     const SegmentKeys& keys = skeleton.segment[s];
     if (keys.translation_m.size() > 1) {
       std::vector<float> value;
       for (const auto& t : keys.translation_m) value.insert(value.end(), {t.x, t.y, t.z});
-      add_channel(draft, walk, recording, number_of(s), "translation", value, TINYGLTF_TYPE_VEC3);
+      add_channel(draft, walk, number_of(s), "translation", value, TINYGLTF_TYPE_VEC3);
     }
     if (keys.rotation.size() > 1) {
       std::vector<float> value;
       for (const auto& q : keys.rotation) value.insert(value.end(), {q.x, q.y, q.z, q.w});
-      add_channel(draft, walk, recording, number_of(s), "rotation", value, TINYGLTF_TYPE_VEC4);
+      add_channel(draft, walk, number_of(s), "rotation", value, TINYGLTF_TYPE_VEC4);
     }
   }
 }
@@ -222,9 +191,11 @@ Result<std::string> encode(const WalkRecording& recording, const ExportOptions& 
   draft.model.asset.generator = "mobil";
   const SkeletonKeys skeleton = skeleton_keys(recording.frames);
   add_segments(draft.model, skeleton);
-  AnimationDraft walk;
+  GltfAnimation walk;
   walk.animation.name = "walk";
-  animate_segments(draft, walk, recording, skeleton);
+  walk.frames = recording.frames.size();
+  walk.frame_s = recording.frame_s;
+  animate_segments(draft, walk, skeleton);
   for (const auto& bone : recording.bones) {
     if (auto ok = add_bone(draft, bone); !ok) return tl::unexpected(ok.error());
   }
@@ -232,20 +203,10 @@ Result<std::string> encode(const WalkRecording& recording, const ExportOptions& 
     const auto keys = add_muscle(draft, muscle, skeleton, options, report.muscles.emplace_back());
     if (!keys) return tl::unexpected(keys.error());
     if (keys->value.empty()) continue;
-    add_channel(draft, walk, recording, keys->node, "weights", keys->value, TINYGLTF_TYPE_SCALAR);
+    add_channel(draft, walk, keys->node, "weights", keys->value, TINYGLTF_TYPE_SCALAR);
   }
   if (!walk.animation.channels.empty()) draft.model.animations.push_back(std::move(walk.animation));
-  if (auto ok = pack_buffers(draft); !ok) return tl::unexpected(ok.error());
-
-  std::ostringstream bytes(std::ios::binary);
-  try {
-    if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&draft.model, bytes, false, true)) {
-      return fail("the glTF library could not encode the recording");
-    }
-  } catch (const std::exception& e) {  // its JSON library refuses names that are not UTF-8
-    return fail(fmt::format("a surface's name cannot be written, it must be UTF-8 text ({})", e.what()));
-  }
-  return std::move(bytes).str();
+  return glb_bytes(draft);
 }
 
 }  // namespace

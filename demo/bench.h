@@ -60,6 +60,7 @@ Result<void> bench_lines(BenchRun& run);
 Result<void> bench_skinning(BenchRun& run);
 Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);
+Result<void> bench_reduced(BenchRun& run);
 Result<void> bench_paper_figures(BenchRun& run);
 
 }  // namespace mobil

@@ -37,6 +37,7 @@ constexpr std::array benches = {Bench{"machine", &bench_machine},
                                 Bench{"skinning", &bench_skinning},
                                 Bench{"table1", &bench_table1},
                                 Bench{"fem", &bench_fem},
+                                Bench{"reduced", &bench_reduced},
                                 Bench{"paper_figures", &bench_paper_figures}};
 
 struct BenchText {

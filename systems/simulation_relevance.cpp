@@ -26,7 +26,7 @@ struct Sight {
   float tolerance_m;  // by distance; 0 without a camera
 };
 
-Sight sight(const Camera& camera, float tolerance_px, const Vec3<float>& at, View before) {
+Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, View before) {
   const Vec3<float> v = {at.x - camera.position_m.x, at.y - camera.position_m.y, at.z - camera.position_m.z};
   const Vec3<float>& f = camera.forward;
   const float distance = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);

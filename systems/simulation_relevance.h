@@ -6,7 +6,7 @@
 //   Simulation simulation;
 //   Relevance relevance(simulation);
 //   relevance.manage(human);                                 // with leg muscles of its own, or as options say
-//   relevance.set_scene({.camera = Camera{.position_m = eye, .forward = gaze}, .tolerance_px = 1});
+//   relevance.set_scene({.camera = Viewpoint{.position_m = eye, .forward = gaze}, .tolerance_px = 1});
 //   relevance.update();                                      // before a tick: chooses and switches
 //   simulation.tick();
 //   relevance.why(human, Muscle::hamstrings)->text;          // "reduced-8: 0.9 mm of 1.2 mm allowed; …"
@@ -35,7 +35,7 @@ namespace mobil {
 /// Who looks. Who is in the cone and no further than `reach_m` is seen; who is not in it but within `near_m` of the
 /// camera moves on unseen, without control points; everybody else is out of sight or reach, and their muscles are not
 /// simulated. People count as balls of 1 m round the pelvis.
-struct Camera {
+struct Viewpoint {
   Vec3<float> position_m{};
   Vec3<float> forward{0, 0, 1};  // any length
   float half_angle_rad = 0.7F;   // of the cone round the picture's corners
@@ -49,7 +49,7 @@ struct SceneNeeds {
   MuscleSet muscles = muscle_groups();
   /// How far a control point may be from where it belongs, m. Of a camera: pixels, from which distance makes metres.
   std::optional<float> tolerance_m{};
-  std::optional<Camera> camera{};
+  std::optional<Viewpoint> camera{};
   float tolerance_px = 1;
   bool looked_at = true;  // control points are placed; with a camera those seen are
   /// Processor time a tick for everybody's deformation, s. Where tolerances cost more, all are missed by one factor,

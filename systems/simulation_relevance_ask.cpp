@@ -78,7 +78,7 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
   if (needs.budget_s && !positive(*needs.budget_s))
     return fail(fmt::format("set_scene: a budget of {} s a tick is not finite and positive", *needs.budget_s));
   if (needs.camera) {
-    const Camera& c = *needs.camera;
+    const Viewpoint& c = *needs.camera;
     const Vec3<float>&f = c.forward, &p = c.position_m;
     const bool sound = positive(static_cast<double>(f.x * f.x + f.y * f.y + f.z * f.z)) &&
                        std::isfinite(p.x + p.y + p.z) && positive(static_cast<double>(c.radians_per_pixel)) &&

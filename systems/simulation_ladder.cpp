@@ -131,7 +131,8 @@ void MachineFactor::observe(double measured_s, double predicted_s) {
 }
 
 double MachineFactor::pessimistic() const {
-  constexpr double deviations = 2.9;  // 2.33 standard ones of a bell, each 1.25 mean absolute ones
+  constexpr double deviations =
+      3.3;  // 2.33 standard ones of a bell, each 1.25 mean absolute ones; and they are estimates
   return std::max(mean_, (mean_ + deviations * deviation_) / 1.1);
 }
 

@@ -3,7 +3,7 @@
 //
 //   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
 //   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
-//   Maybe<C>                 reads this block's component where the table has it
+//   Maybe<C>                 reads this block's component where the table has it; MaybeField<Tag> a field
 //   Previous<C>              reads what the component was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
@@ -11,7 +11,7 @@
 //   Tick, float              the tick; a plain float is its length in s
 //   Rows                     who the lanes are
 //
-// It runs on every block of every table that has all components, fields and tags named (Maybe and Scratch aside).
+// It runs on every block of every table that has all components, fields and tags named (Maybes and Scratch aside).
 
 #include <cstddef>
 #include <cstdint>
@@ -55,6 +55,12 @@ struct Previous {
 template <template <class> class C>
 struct Maybe {
   const C<Lanes<float>>* block;
+};
+
+/// A field that not every table has: null where it is missing.
+template <class Tag>
+struct MaybeField {
+  const float* data;
 };
 
 /// Memory of this block's own until the system returns, 64-byte aligned, with anything in it: as many floats as the
@@ -190,6 +196,17 @@ struct Parameter<Field<Tag>>
     : ColumnParameter<std::is_const_v<Tag> ? Access::Mode::read : Access::Mode::write, std::remove_const_t<Tag>> {
   static Field<Tag> make(const BlockView& view, const Bound& bound) {
     return {Parameter::data(view, bound), bound.words};
+  }
+};
+
+template <class Tag>
+struct Parameter<MaybeField<Tag>> : ColumnParameter<Access::Mode::read, Tag> {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    if (!Parameter<Field<const Tag>>::bind(world, table, bound)) bound.words = 0;
+    return true;
+  }
+  static MaybeField<Tag> make(const BlockView& view, const Bound& bound) {
+    return {bound.words == 0 ? nullptr : Parameter::data(view, bound)};
   }
 };
 

@@ -1,5 +1,6 @@
 #include "engine/world.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace mobil {
@@ -92,6 +93,14 @@ void World::move(Entity entity, const TableKey& key) {
   const Entity moved = source.remove_row(old_row);
   if (auto* theirs = entities_.find(moved)) theirs->row = old_row;
   *location = {to, row};
+}
+
+Status World::remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids) {
+  if (!alive(entity)) return Status::stale_entity;
+  scratch_ = find(entity).table->key();
+  std::erase_if(scratch_, [&](const KeyPart& part) { return std::find(ids.begin(), ids.end(), part.id) != ids.end(); });
+  if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
+  return Status::ok;
 }
 
 tl::expected<KeyPart, Status> World::part_of(Entity entity, std::uint64_t id) const {

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <initializer_list>
 #include <memory>
 #include <memory_resource>
 #include <span>
@@ -57,6 +58,8 @@ class World {
   /// The same from lists put together at run time; each type once.
   Entity create_from(std::span<const PartValue> parts);
   Status remake_from(Entity entity, std::span<const PartValue> parts);
+  /// Several parts less at once, those of them that are there.
+  Status remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids);
   bool alive(Entity entity) const { return entities_.alive(entity); }
 
   /// One more part. Values of the others are kept.

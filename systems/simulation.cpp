@@ -6,9 +6,11 @@
 #include <stdexcept>
 
 #include "assets/anthropometry.h"
+#include "components/fade.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/simulation_change.h"
 #include "systems/simulation_rows.h"
 
 namespace mobil {
@@ -76,7 +78,8 @@ std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<f
   return state;
 }
 
-Simulation::Simulation(const SimulationOptions& options) : world_(options.memory), clock_(make_clock(options)) {
+Simulation::Simulation(const SimulationOptions& options)
+    : world_(options.memory), clock_(make_clock(options)), work_(std::make_unique<MuscleWork>()) {
   if (options.jobs) {
     jobs_ = *options.jobs;
   } else {
@@ -87,6 +90,8 @@ Simulation::Simulation(const SimulationOptions& options) : world_(options.memory
   if (!schedule) throw std::logic_error(schedule.error().message);
   schedule_ = std::move(*schedule);
 }
+
+Simulation::~Simulation() = default;
 
 Result<Entity> Simulation::spawn(const BodyRequest& request, const GaitRequest& gait_request) {
   const auto body = make_body(request);
@@ -170,6 +175,7 @@ Ticks Simulation::advance(double seconds) {
 void Simulation::tick() {
   schedule_->run(world_, {static_cast<float>(clock_.tick_s()), tick_}, jobs_);
   ++tick_;
+  end_fades();
 }
 
 const Human* Simulation::human(Entity entity) const {
@@ -194,7 +200,8 @@ Entity Simulation::muscle(Entity entity, Muscle muscle, Side side) const {
 NodalView Simulation::nodal_displacement(Entity muscle) const {
   const auto place = world_.find(muscle);
   if (!place) return {};
-  const KeyPart* part = find_part(place.table->key(), type_id<NodalDisplacement>());
+  const KeyPart* part = find_part(place.table->key(), type_id<ShownDisplacement>());
+  if (part == nullptr) part = find_part(place.table->key(), type_id<NodalDisplacement>());
   if (part == nullptr) return {};
   const float* block = place.table->block(place.row / lane_count);
   return {block + place.table->column(part->id) * lane_count + place.row % lane_count,

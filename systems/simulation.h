@@ -80,10 +80,13 @@ struct NodalView {
   std::uint32_t nodes = 0;
 };
 
+struct MuscleWork;  // systems/simulation_change.h
+
 class Simulation {
  public:
   /// Throws std::invalid_argument when tick_s or max_frame_s is out of range (engine/clock.h).
   explicit Simulation(const SimulationOptions& options = {});
+  ~Simulation();
 
   /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
   /// unreachable, one line each; the simulation is as it was.
@@ -163,8 +166,8 @@ class Simulation {
   const Schedule& schedule() const { return *schedule_; }
 
  private:
-  void set_muscle(Entity& muscle, const Human& human, Side side, const Belly& belly, const LegMuscles& choice);
-  void set_muscles(Human& human, std::vector<Belly>& bellies, const LegMuscles& choice);
+  void set_muscles(Human& human, const std::vector<Belly>& bellies, const LegMuscles& choice);
+  void end_fades();
   Human* find(Entity entity);
   void keep(Human human);
 
@@ -175,6 +178,7 @@ class Simulation {
   std::optional<Schedule> schedule_;
   std::vector<std::unique_ptr<Human>> humans_;  // by entity index
   BellyLibrary bellies_;
+  std::unique_ptr<MuscleWork> work_;
   std::uint32_t tick_ = 0;
 };
 

@@ -20,17 +20,9 @@ bool same(const Material& a, const Material& b) {
   return a.density_kg_m3 == b.density_kg_m3 && a.young_pa == b.young_pa && a.poisson == b.poisson;
 }
 
-double foundation_of(const LegMuscles& choice) {
-  return choice.foundation_hz.value_or(choice.inertia ? braced_hz : 0);
-}
-
 /// Of the critical step: the consistent mass is lighter where it matters.
 Mass stepped_mass(const LegMuscles& choice) {
   return choice.method == Method::icd ? Mass::consistent : Mass::lumped;
-}
-
-bool same_tissue(const LegMuscles& a, const LegMuscles& b) {
-  return same(a.material, b.material) && a.element == b.element && a.cells == b.cells;
 }
 
 bool same_template(const LegMuscles& a, const LegMuscles& b) {
@@ -41,7 +33,7 @@ bool same_template(const LegMuscles& a, const LegMuscles& b) {
 
 /// What make_muscle_template does not look at.
 Result<void> check(const LegMuscles& choice, double tick_s) {
-  if (choice.drive > Drive::force || choice.method > Method::caa || choice.element > Element::one_point ||
+  if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
       choice.mass > Mass::consistent) {
     return fail("a drive, method, element or mass is none of those named; take one of the enumerations' values");
   }
@@ -82,9 +74,21 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
   return steps_of(tick_s, *choice.dt_s);
 }
 
-/// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
-/// multiplication alone: the same on every machine.
-double middle(double value, double width) {
+Error of_muscle(Muscle muscle, const Error& error) {
+  return {fmt::format("{}: {}", muscle_name(muscle), error.message)};
+}
+
+}  // namespace
+
+double foundation_of(const LegMuscles& choice) {
+  return choice.foundation_hz.value_or(choice.inertia ? braced_hz : 0);
+}
+
+bool same_tissue(const LegMuscles& a, const LegMuscles& b) {
+  return same(a.material, b.material) && a.element == b.element && a.cells == b.cells;
+}
+
+double middle_of_range(double value, double width) {
   const double step = width * width;
   double at = 1;
   while (at * width < value) at *= step;
@@ -92,11 +96,14 @@ double middle(double value, double width) {
   return at;
 }
 
-Error of_muscle(Muscle muscle, const Error& error) {
-  return {fmt::format("{}: {}", muscle_name(muscle), error.message)};
+bool has_control_points(const LegMuscles& choice) {
+  return choice.method != Method::none && (choice.method != Method::reduced || choice.reduced.control_points);
 }
 
-}  // namespace
+bool feels_frame(const LegMuscles& choice) {
+  const bool moves = choice.method == Method::reduced && choice.reduced.moving;
+  return choice.inertia && (moves || has_control_points(choice));
+}
 
 Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles& choice) {
   const BellyTemplate* alike = nullptr;  // but for what the tissue itself does not depend on
@@ -136,8 +143,8 @@ Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTempl
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
   const bool massive = method == Method::caa || shape.shape->options.foundation_hz > 0;
   const double ratio =
-      method == Method::icd ? 1 : std::clamp(middle(across / along, 1.06), lowest_ratio, highest_ratio);
-  const double product = method == Method::icd || !massive ? 1 : middle(across * along, 1.12);
+      method == Method::icd ? 1 : std::clamp(middle_of_range(across / along, 1.06), lowest_ratio, highest_ratio);
+  const double product = method == Method::icd || !massive ? 1 : middle_of_range(across * along, 1.12);
   const double middle_across = std::sqrt(product * ratio), middle_along = std::sqrt(product / ratio);
   const double step_s = method == Method::statics ? 0 : dt_s;
   for (const Solver& made : solvers_) {
@@ -160,31 +167,49 @@ Result<std::vector<Belly>> BellyLibrary::bellies(const Body& body, const LegMusc
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (!choice.muscles[m]) continue;
     const auto muscle = static_cast<Muscle>(m);
-    Belly belly;
-    auto plan = make_muscle_plan(body, muscle);
+    const auto plan = make_muscle_plan(body, muscle);
     if (!plan) return tl::unexpected(of_muscle(muscle, plan.error()));
-    belly.plan = std::move(*plan);
-    const auto made = shape(muscle, choice);
+    auto made = belly(*plan, choice, tick_s);
     if (!made) return tl::unexpected(of_muscle(muscle, made.error()));
-    belly.shape = *made;
-    const auto count = steps(*belly.shape->shape, choice, belly.plan.scale, tick_s);
-    if (!count) return tl::unexpected(of_muscle(muscle, count.error()));
-    belly.steps = *count;
-    const auto solve_with = [&](Method method, std::shared_ptr<const BellySolver>& to) -> Result<void> {
-      auto found = solver(*belly.shape, method, choice.mass, tick_s / belly.steps, belly.plan.scale);
-      if (!found) return tl::unexpected(of_muscle(muscle, found.error()));
-      to = std::move(*found);
-      return {};
-    };
-    if (choice.method != Method::ecd) {
-      if (auto ok = solve_with(choice.method, belly.solver); !ok) return tl::unexpected(ok.error());
-    }
-    if (choice.inertia) {
-      if (auto ok = solve_with(Method::statics, belly.resting); !ok) return tl::unexpected(ok.error());
-    }
-    all.push_back(std::move(belly));
+    all.push_back(std::move(*made));
   }
   return all;
+}
+
+Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s) {
+  if (auto ok = check(choice, tick_s); !ok) return tl::unexpected(ok.error());
+  Belly belly;
+  belly.plan = plan;
+  const auto made = shape(plan.muscle, choice);
+  if (!made) return tl::unexpected(made.error());
+  belly.shape = *made;
+  if (choice.method == Method::none) return belly;
+  if (choice.method == Method::reduced) {
+    auto along = basis(plan.muscle, choice, plan.scale);
+    if (!along) return tl::unexpected(along.error());
+    auto motions =
+        make_reduced_belly(**along, static_cast<double>(plan.scale.across), static_cast<double>(plan.scale.along));
+    if (!motions) return tl::unexpected(motions.error());
+    belly.basis = std::move(*along);
+    belly.motions = std::make_shared<const ReducedBelly>(*motions);
+    return belly;
+  }
+  const auto count = steps(*belly.shape->shape, choice, plan.scale, tick_s);
+  if (!count) return tl::unexpected(count.error());
+  belly.steps = *count;
+  const auto solve_with = [&](Method method, std::shared_ptr<const BellySolver>& to) -> Result<void> {
+    auto found = solver(*belly.shape, method, choice.mass, tick_s / belly.steps, plan.scale);
+    if (!found) return tl::unexpected(found.error());
+    to = std::move(*found);
+    return {};
+  };
+  if (choice.method != Method::ecd) {
+    if (auto ok = solve_with(choice.method, belly.solver); !ok) return tl::unexpected(ok.error());
+  }
+  if (choice.inertia) {
+    if (auto ok = solve_with(Method::statics, belly.resting); !ok) return tl::unexpected(ok.error());
+  }
+  return belly;
 }
 
 }  // namespace mobil

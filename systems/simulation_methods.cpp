@@ -1,19 +1,64 @@
-// Muscles that change their method under way.
+// Muscles that change their method under way, one by one.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "components/fade.h"
 #include "systems/simulation.h"
+#include "systems/simulation_change.h"
 
 namespace mobil {
+namespace {
 
-Result<void> Simulation::set_method(Entity, Muscle, const MuscleMethod&) {
-  return fail("set_method: not there yet");
+template <class Muscles>
+auto find_muscle_of(Muscles& muscles, Muscle muscle) {
+  return std::find_if(muscles.begin(), muscles.end(), [&](const HumanMuscle& m) { return m.plan.muscle == muscle; });
+}
+
+bool same(const MuscleMethod& a, const MuscleMethod& b) {
+  if (a.method != b.method) return false;
+  const ReducedChoice &x = a.reduced, &y = b.reduced;
+  return a.method != Method::reduced || (x.vectors == y.vectors && x.moving == y.moving && x.corrected == y.corrected &&
+                                         x.cells == y.cells && x.control_points == y.control_points);
+}
+
+}  // namespace
+
+Result<void> Simulation::set_method(Entity entity, Muscle muscle, const MuscleMethod& method) {
+  Human* human = find(entity);
+  if (human == nullptr) return fail("set_method: that person is not there (a stale handle); spawn one first");
+  const auto own = find_muscle_of(human->muscles, muscle);
+  if (own == human->muscles.end())
+    return fail("set_method: this person has no such muscle; choose one of those in add_leg_muscles");
+  if (same(own->method, method)) return {};
+  LegMuscles choice = human->leg_muscles;
+  choice.method = method.method;
+  choice.reduced = method.reduced;
+  const auto belly = bellies_.belly(own->plan, choice, clock_.tick_s());
+  if (!belly) return fail(fmt::format("set_method: {}: {}", muscle_name(muscle), belly.error().message));
+  for (const Side side : {right, left}) {
+    make_muscle(world_, *work_, {*human, side, *belly, choice, true, tick_, static_cast<float>(clock_.tick_s())},
+                own->entity[side]);
+  }
+  own->method = method;
+  return {};
 }
 
 MuscleMethod Simulation::method(Entity entity, Muscle muscle) const {
   const Human* owner = human(entity);
   if (owner == nullptr) return {Method::none};
-  for (const HumanMuscle& own : owner->muscles) {
-    if (own.plan.muscle == muscle) return own.method;
+  const auto own = find_muscle_of(owner->muscles, muscle);
+  return own == owner->muscles.end() ? MuscleMethod{Method::none} : own->method;
+}
+
+/// Of those whose time is up; who changed again since has a later entry.
+void Simulation::end_fades() {
+  for (; !work_->fading.empty() && work_->fading.front().ends <= tick_; work_->fading.pop_front()) {
+    const Entity muscle = work_->fading.front().muscle;
+    const auto fade = world_.get<Fade>(muscle);
+    if (!fade || fade->elapsed_s < 0.999F * fade_s) continue;
+    world_.remove_parts(muscle, {type_id<Fade<float>>(), type_id<FadeStart>(), type_id<ShownDisplacement>()});
   }
-  return {Method::none};
 }
 
 }  // namespace mobil

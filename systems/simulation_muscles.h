@@ -13,6 +13,7 @@
 #include "assets/muscle_plan.h"
 #include "assets/muscle_table.h"
 #include "assets/muscle_template.h"
+#include "assets/reduced_basis.h"
 #include "components/body.h"
 #include "components/muscle.h"
 #include "engine/error.h"
@@ -67,13 +68,18 @@ struct LegMuscles {
 };
 
 // Tags of muscle tables. Who steps explicitly (ECD) has Substeps and NodalVelocity; who solves (ICD, CAA) SolvedSteps,
-// NodalVelocity and a Shared<BellySolver>; who stands still (static) StaticSteps and a Shared<BellySolver>. Those with
-// inertia have FrameHistory and FrameLoad besides.
+// NodalVelocity and a Shared<BellySolver>; who stands still (static) StaticSteps and a Shared<BellySolver>. Who moves
+// along vectors (reduced) has a Shared<ReducedBasis>, ReducedState and ReducedMotion, or ReducedStatic where it has no
+// motion of its own; and only where someone looks ReducedShape and what all the others have, NodalDisplacement and
+// BellyReport. Those that feel inertia have FrameHistory and FrameLoad besides. Who has nothing but a line (none) has
+// none of these. For a while after a change of method: Fade, FadeStart and ShownDisplacement (components/fade.h).
 
 /// The number of equal steps a tick is cut into.
 struct Substeps {};
 struct SolvedSteps {};
 struct StaticSteps {};
+/// Of reduced bellies that show the static answer alone.
+struct ReducedStatic {};
 /// Floats that one block is worked on with.
 struct ScratchFloats {};
 
@@ -91,31 +97,56 @@ struct BellyTemplate {
 struct Belly {
   MusclePlan plan;
   const BellyTemplate* shape = nullptr;
-  std::uint32_t steps = 1;                     // a tick
-  std::shared_ptr<const BellySolver> solver;   // null with ECD
-  std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; null without
+  std::uint32_t steps = 1;                      // a tick
+  std::shared_ptr<const BellySolver> solver;    // of ICD, CAA and static
+  std::shared_ptr<const BellySolver> resting;   // of the shape that a belly with inertia begins with; else null
+  std::shared_ptr<const ReducedBasis> basis;    // of reduced
+  std::shared_ptr<const ReducedBelly> motions;  // of reduced: this body's own
 };
 
-/// Templates and solvers, made when they are first asked for and kept. Solvers are those of bodies in the middle of a
-/// range of sizes: what one gets depends on one's own size alone.
+/// Templates, solvers and bases, made when they are first asked for and kept. Solvers and bases are those of bodies in
+/// the middle of a range of sizes: what one gets depends on one's own size alone.
 class BellyLibrary {
  public:
   /// A person's chosen muscles in the table's order. Errors: a choice out of range; a `dt_s` above a belly's critical
   /// step, which names the muscle and the limit.
   Result<std::vector<Belly>> bellies(const Body& body, const LegMuscles& choice, double tick_s);
+  /// The one muscle of that plan. Errors name no muscle.
+  Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
 
  private:
   struct Solver {
     const BellyTemplate* shape;
     std::shared_ptr<const BellySolver> solver;
   };
+  /// Made with most_vectors; the others are the first ones of those.
+  struct Basis {
+    Muscle muscle;
+    LegMuscles choice;
+    double middle_ratio, middle_product;
+    std::shared_ptr<const ReducedBasis> whole;
+    std::vector<std::shared_ptr<const ReducedBasis>> cut;
+  };
 
   Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
   Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                     const BellyScale<float>& scale);
+  Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,
+                                                    const BellyScale<float>& scale);
 
   std::vector<std::unique_ptr<BellyTemplate>> templates_;
   std::vector<Solver> solvers_;
+  std::vector<Basis> bases_;
 };
+
+/// Of a choice in range: the sideways foundation, Hz.
+double foundation_of(const LegMuscles& choice);
+bool same_tissue(const LegMuscles& a, const LegMuscles& b);
+/// Whether a muscle of this choice has control points; and whether it feels its frame's motion.
+bool has_control_points(const LegMuscles& choice);
+bool feels_frame(const LegMuscles& choice);
+/// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
+/// multiplication alone: the same on every machine.
+double middle_of_range(double value, double width);
 
 }  // namespace mobil

@@ -1,5 +1,8 @@
 // The systems of a simulation, and what joins them to tables.
+#include "components/fade.h"
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/fade.h"
+#include "systems/deformation/reduced.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
@@ -57,6 +60,44 @@ void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<S
                   *solver, end, 1, tick_s, scratch.data);
 }
 
+/// Who moves along vectors.
+template <template <class> class End>
+void move_reduced(Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
+                  const End<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedMotion> motion,
+                  Field<ReducedState> state) {
+  deform_reduced({*basis, scale, state.data, motion.data, frame.block}, end, tick_s);
+}
+
+/// Where somebody looks at them.
+template <template <class> class End>
+void place(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
+           const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Maybe<FrameLoad> frame,
+           Field<const ReducedMotion> motion, Field<const ReducedState> state, Field<const ReducedShape> shape,
+           Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+  const ReducedBlock block{*basis, scale, const_cast<float*>(state.data), motion.data, frame.block};  // it is but read
+  const ControlPoints points{shape.data, displacement.data};
+  place_control_points(block, points, end);
+  report_reduced(block, *control, points, end, tick_s, report);
+}
+
+/// Static answers. The report reads motions where there is more than one input.
+template <template <class> class End>
+void place_still(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, TagValue<ReducedStatic>, float tick_s,
+                 const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Maybe<FrameLoad> frame,
+                 MaybeField<ReducedMotion> motion, Field<const ReducedShape> shape,
+                 Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+  const ReducedBlock block{*basis, scale, nullptr, motion.data, frame.block};
+  const ControlPoints points{shape.data, displacement.data};
+  place_static(block, points, end);
+  report_reduced(block, *control, points, end, tick_s, report);
+}
+
+/// What a change of method left over.
+void fade(float tick_s, Field<const NodalDisplacement> displacement, Field<const FadeStart> start,
+          Fade<Lanes<float>>& since, Field<ShownDisplacement> shown) {
+  fade_out(displacement.data, start.data, displacement.words, since, shown.data, tick_s);
+}
+
 }  // namespace
 
 Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
@@ -85,7 +126,19 @@ Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
       .add("deformation, static", &settle<EndDisplacement>)
       .after("deformation, solved, pulled")
       .add("deformation, static, pulled", &settle<EndForce>)
-      .after("deformation, static");
+      .after("deformation, static")
+      .add("deformation, reduced", &move_reduced<EndDisplacement>)
+      .add("deformation, reduced, pulled", &move_reduced<EndForce>)
+      .after("deformation, reduced")
+      .add("control points", &place<EndDisplacement>)
+      .after("deformation, static, pulled")
+      .add("control points, pulled", &place<EndForce>)
+      .after("control points")
+      .add("control points, static", &place_still<EndDisplacement>)
+      .after("control points, pulled")
+      .add("control points, static, pulled", &place_still<EndForce>)
+      .after("control points, static")
+      .add("fade", &fade);
   return systems.build(memory);
 }
 

@@ -1,0 +1,22 @@
+#pragma once
+// What a change of method could not hand over, which is shown on top of what the new method computes and fades.
+
+#include "components/lanes.h"
+
+namespace mobil {
+
+/// Time from a change of method to when nothing is left of what was before, s.
+inline constexpr float fade_s = 0.25F;
+
+/// How long ago the change was.
+template <class F>
+struct Fade {
+  F elapsed_s;
+};
+
+/// Run-time sized columns: by how much displacement (m, three a node) and then velocity (m/s, three a node) of what was
+/// shown differed at the change from what is computed since; and what is shown now (m, three a node).
+struct FadeStart {};
+struct ShownDisplacement {};
+
+}  // namespace mobil

@@ -1,0 +1,237 @@
+#include "systems/simulation_change.h"
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "components/fade.h"
+#include "systems/deformation/deformation.h"
+
+namespace mobil {
+namespace {
+
+/// The parts that a muscle is to consist of. Values stay with the caller.
+class PartList {
+ public:
+  template <class... P>
+  void add(const P&... part) {
+    ((value_[count_++] = part_value(part)), ...);
+  }
+  /// Without values a field keeps what it has, or begins with zeros.
+  template <class Tag>
+  void add_field(std::size_t words, const std::vector<float>& values) {
+    value_[count_++] = {key_part(FieldWidth<Tag>{static_cast<std::uint32_t>(words)}),
+                        values.empty() ? nullptr : values.data()};
+  }
+  std::span<const PartValue> parts() const { return {value_.data(), count_}; }
+
+ private:
+  std::array<PartValue, 32> value_{};
+  std::size_t count_ = 0;
+};
+
+/// The control points' mesh; nothing where a muscle has no belly.
+std::optional<Cells> cells_of(const World& world, Entity muscle) {
+  if (const auto* basis = world.shared<ReducedBasis>(muscle)) return basis->options.control_cells;
+  if (const auto* shape = world.shared<MuscleTemplate>(muscle)) return shape->mesh.cells;
+  return std::nullopt;
+}
+
+/// Whether displacements of nodes are the state itself.
+bool is_full(Method method) {
+  return method != Method::reduced && method != Method::none;
+}
+bool was_full(const World& world, Entity muscle) {
+  return world.has<MuscleTemplate>(muscle) && !world.has<ReducedBasis>(muscle);
+}
+
+/// A muscle's line as it is, or as a first tick would write it.
+template <template <class> class End>
+FirstLine<End> present_line(const World& world, const MuscleChange& change, Entity muscle) {
+  const auto& [plan, shape, steps, solver, resting, basis, motions] = change.belly;
+  LineOfAction<float> rest{};
+  rest.rest_length_m = static_cast<float>(plan.rest_length_m);
+  rest.stiffness_n_per_m = static_cast<float>(
+      axial_stiffness(shape->axial, static_cast<double>(plan.scale.across), static_cast<double>(plan.scale.along)));
+  const auto leg = world.get<LegFrames>(muscle);
+  const auto line = world.get<LineOfAction>(muscle);
+  const auto end = world.get<End>(muscle);
+  if (leg && line && end) {
+    FirstLine<End> present{*leg, *line, *end};
+    present.line.stiffness_n_per_m = rest.stiffness_n_per_m;
+    return present;
+  }
+  const Pose<float> pose = *world.get<Pose>(change.human.entity);
+  FirstLine<End> first = first_line<End>(*shape->lines, plan.leg_scale, rest, pose, change.side);
+  if (line) first.line = *line;
+  first.line.stiffness_n_per_m = rest.stiffness_n_per_m;
+  return first;
+}
+
+template <template <class> class End>
+void drive(const End<float>& end, BellyLoad& load);
+template <>
+void drive(const EndDisplacement<float>& end, BellyLoad& load) {
+  load.drive = Drive::displacement;
+  load.from = end.from_m;
+  load.to = end.to_m;
+}
+template <>
+void drive(const EndForce<float>& end, BellyLoad& load) {
+  load.drive = Drive::force;
+  load.from = end.from_n;
+  load.to = end.to_n;
+}
+
+/// What the belly begins with. Empty throughout where all goes on as it is.
+Beginning beginning(const World& world, MuscleWork& work, const MuscleChange& change, Entity muscle,
+                    const NextBelly& next) {
+  if (next.choice.method == Method::none) return {};
+  const bool was = world.alive(muscle);
+  const auto cells = cells_of(world, muscle);
+  if (!cells || *cells != next.choice.cells) return begin(next, change.goes_on && was);
+  const bool fades = world.has<Fade>(muscle);
+  if (!change.goes_on && !fades && is_full(next.choice.method) && was_full(world, muscle)) return {};
+  PastBelly past;
+  auto computed = computed_motion(world, muscle, change.tick_s, work.last);
+  if (!computed) return begin(next, was);
+  past.shown = past.computed = std::move(*computed);
+  past.seen = world.has<NodalDisplacement>(muscle);
+  if (fades) add_fade(world, muscle, past.shown);
+  const bool keeps = world.shared<ReducedBasis>(muscle) == next.belly.basis.get() && world.has<ReducedState>(muscle);
+  return go_on(next, past, keeps);
+}
+
+/// Parts that the method calls for; keeps their values.
+class MethodParts {
+ public:
+  MethodParts(World& world_of, const MuscleChange& what, const Beginning& beginning, PartList& to)
+      : world(world_of), change(what), from(beginning), list(to) {
+    const LegMuscles& choice = change.choice;
+    const Belly& belly = change.belly;
+    if (choice.method == Method::none) return;
+    list.add(belly.plan.scale);
+    const std::size_t width = nodal_width(choice.cells);
+    if (choice.method == Method::reduced) {
+      add_reduced();
+    } else {
+      add_full(width);
+    }
+    if (!has_control_points(choice)) return;
+    list.add(world.share(belly.shape->shape));
+    list.add_field<NodalDisplacement>(width, from.displacement);
+    if (from.fade.empty()) return;
+    list.add(since);
+    list.add_field<FadeStart>(2 * width, from.fade);
+    shown.resize(width);
+    for (std::size_t i = 0; i < width; ++i) shown[i] = from.displacement[i] + from.fade[i];
+    list.add_field<ShownDisplacement>(width, shown);
+  }
+
+ private:
+  void add_full(std::size_t width) {
+    const Method method = change.choice.method;
+    const Belly& belly = change.belly;
+    list.add(TagValue<ScratchFloats>{scratch_floats(*belly.shape->shape, method)});
+    if (method != Method::statics) list.add_field<NodalVelocity>(width, from.velocity);
+    if (method == Method::ecd) {
+      list.add(TagValue<Substeps>{belly.steps});
+      return;
+    }
+    if (method == Method::statics) {
+      list.add(TagValue<StaticSteps>{belly.steps});
+    } else {
+      list.add(TagValue<SolvedSteps>{belly.steps});
+    }
+    list.add(world.share(belly.solver));
+  }
+
+  void add_reduced() {
+    const ReducedChoice& reduced = change.choice.reduced;
+    const ReducedBasis& basis = *change.belly.basis;
+    const ReducedBelly& own = *change.belly.motions;
+    list.add(world.share(change.belly.basis));
+    if (reduced.moving) {
+      list.add_field<ReducedState>(reduced_state_width(basis.vectors, basis.inputs), from.state);
+    } else {
+      list.add(TagValue<ReducedStatic>{1});
+    }
+    if (reduced.moving || (reduced.control_points && basis.inputs > 1)) {  // there the report reads participations
+      motion.resize(reduced_motion_width(basis.vectors, basis.inputs));
+      write_motion(own, basis.options.damping_per_s, static_cast<double>(change.tick_s), motion);
+      list.add_field<ReducedMotion>(motion.size(), motion);
+    }
+    if (reduced.control_points) {
+      shape.resize(reduced_shape_width(basis.vectors, basis.inputs));
+      write_shape(own, basis.options.damping_per_s, shape);
+      list.add_field<ReducedShape>(shape.size(), shape);
+    }
+  }
+
+  World& world;
+  const MuscleChange& change;
+  const Beginning& from;
+  PartList& list;
+  std::vector<float> motion, shape, shown;
+  Fade<float> since{0};
+};
+
+template <template <class> class End>
+void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle) {
+  const LegMuscles& choice = change.choice;
+  const Belly& belly = change.belly;
+  const MusclePlan& plan = belly.plan;
+  const auto at = present_line<End>(world, change, muscle);
+  BellyLoad load;
+  drive(at.end, load);
+  load.tick_s = change.tick_s;
+  std::optional<Inertia> inertia;
+  if (feels_frame(choice)) {
+    const auto history = world.get<FrameHistory>(muscle);
+    const auto felt = world.get<FrameLoad>(muscle);
+    if (history && felt) {
+      inertia = {*history, *felt};
+    } else {
+      look_back(world, change.human, change.tick, change.tick_s, work.recent);
+      inertia = recent_inertia(work.recent, *belly.shape->lines, plan.leg_scale, change.side, change.tick_s);
+    }
+    load.frame = inertia->load;
+  }
+  const Beginning from = beginning(world, work, change, muscle, {belly, choice, at.line, load});
+
+  PartList list;
+  const MuscleOwner<float> owner{change.human.entity.index, change.human.entity.generation, change.side};
+  list.add(owner, plan.leg_scale, at.leg, at.line, at.end, world.share(belly.shape->lines));
+  const MethodParts method(world, change, from, list);
+  const BellyReport<float> report = world.get<BellyReport>(muscle).value_or(BellyReport<float>{});
+  if (has_control_points(choice)) list.add(report);
+  if (inertia) list.add(inertia->history, inertia->load);
+  LineMotion<float> motion{};
+  if (choice.line_motion) {
+    const auto before = world.get<LineMotion>(muscle);
+    motion = before ? *before : first_motion(*belly.shape->lines, plan.leg_scale, at.leg, at.line, change.tick_s);
+    list.add(motion);
+  }
+  if (world.alive(muscle)) {
+    world.remake_from(muscle, list.parts());
+  } else {
+    muscle = world.create_from(list.parts());
+  }
+  if (from.fade.empty()) return;
+  const auto ticks = static_cast<std::uint32_t>(std::ceil(fade_s / change.tick_s * (1 - 1e-5F)));
+  work.fading.push_back({muscle, change.tick + ticks});
+}
+
+}  // namespace
+
+void make_muscle(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle) {
+  if (change.choice.drive == Drive::displacement) {
+    make<EndDisplacement>(world, work, change, muscle);
+  } else {
+    make<EndForce>(world, work, change, muscle);
+  }
+}
+
+}  // namespace mobil

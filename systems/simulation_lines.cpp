@@ -1,0 +1,72 @@
+#include "systems/simulation_lines.h"
+
+#include <cstddef>
+
+#include "engine/world.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/lines/frame_motion.h"
+#include "systems/lines/line_motion.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/simulation.h"
+#include "systems/simulation_rows.h"
+
+namespace mobil {
+
+template <template <class> class End>
+FirstLine<End> first_line(const MuscleLines& lines, const LegScale<float>& scale, const LineOfAction<float>& rest,
+                          const Pose<float>& pose, Side side) {
+  LegFrames<Lanes<float>> leg;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) gather_leg(pose, side, leg, lane);
+  auto line = broadcast(rest);
+  End<Lanes<float>> end{};
+  lines_of_action(lines, broadcast(scale), leg, line, end);
+  return {first_lane(leg), first_lane(line), first_lane(end)};
+}
+
+template FirstLine<EndDisplacement> first_line(const MuscleLines&, const LegScale<float>&, const LineOfAction<float>&,
+                                               const Pose<float>&, Side);
+template FirstLine<EndForce> first_line(const MuscleLines&, const LegScale<float>&, const LineOfAction<float>&,
+                                        const Pose<float>&, Side);
+
+LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& scale, const LegFrames<float>& leg,
+                               const LineOfAction<float>& line, float tick_s) {
+  LineMotion<Lanes<float>> motion{};
+  line_motion(lines, broadcast(scale), broadcast(leg), broadcast(line), motion, tick_s);
+  return first_lane(motion);
+}
+
+void look_back(const World& world, const Human& human, std::uint32_t tick, float tick_s, RecentPoses& recent) {
+  if (recent.human == human.entity && recent.tick == tick) return;
+  recent.human = human.entity;
+  recent.tick = tick;
+  recent.poses.clear();
+  if (human.posed) {
+    recent.poses.push_back(*world.get<Pose>(human.entity));
+    return;
+  }
+  const auto sizes = broadcast(*world.get<BodySize>(human.entity));
+  const auto plan = *world.get<StepPlan>(human.entity);
+  const auto state = *world.get<GaitState>(human.entity);
+  for (const float ticks : {3.0F, 2.0F, 1.0F, 0.0F}) {
+    const auto then = earlier(state, plan, ticks * tick_s);
+    if (!then) continue;
+    Pose<Lanes<float>> pose;
+    JointAngles<Lanes<float>> angles;
+    Feet<Lanes<float>> feet;
+    pose_skeleton(sizes, broadcast(plan), broadcast(*then), pose, angles, feet);
+    recent.poses.push_back(first_lane(pose));
+  }
+}
+
+Inertia recent_inertia(const RecentPoses& recent, const MuscleLines& lines, const LegScale<float>& scale, Side side,
+                       float tick_s) {
+  FrameHistory<Lanes<float>> history{};
+  FrameLoad<Lanes<float>> load{};
+  for (const Pose<float>& pose : recent.poses) {
+    const auto line = first_line<EndDisplacement>(lines, scale, {}, pose, side).line;
+    frame_motion(broadcast(line), history, load, tick_s);
+  }
+  return {first_lane(history), first_lane(load)};
+}
+
+}  // namespace mobil

@@ -63,10 +63,15 @@ struct Projected {
 Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, const ReducedOptions& o,
                   const Columns& fields) {
   const auto squared = [&](const OperatorMix& mix) { return inner(fields, applied(terms, mix, fields)); };
-  Projected p{
-      squared(whole_mass), squared({1, 0, 0, 0, 0}), squared({0, 1, 0, 0, 0}), squared({0, 0, 1, 0, 0}), {}, {}, {}};
+  Projected p{inner(fields, mass_times(terms, fields)),
+              squared({1, 0, 0, 0, 0}),
+              squared({0, 1, 0, 0, 0}),
+              squared({0, 0, 1, 0, 0}),
+              {},
+              {},
+              {}};
   if (o.foundation_hz > 0) p.foundation = squared({0, 0, 0, 1, 0});
-  if (o.frame_loads) p.frame = inner(fields, applied(terms, whole_mass, frame_fields(mesh, 1, 1)));
+  if (o.frame_loads) p.frame = inner(fields, mass_times(terms, frame_fields(mesh, 1, 1)));
   if (o.far_end != FarEnd::held) p.traction = inner(fields, far_traction(mesh, o.far_end == FarEnd::free));
   return p;
 }
@@ -206,7 +211,7 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
     add(body->kicks, 1);
   }
   const auto columns = all.leftCols(size);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner(columns, applied(given.terms, whole_mass, columns)));
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner(columns, mass_times(given.terms, columns)));
   // smaller ones are rounding's
   const Index real = (solver.eigenvalues().array() > 1e-14 * solver.eigenvalues()(size - 1)).count();
   const Index count = std::min(Index{most_vectors}, real);
@@ -220,7 +225,7 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
 }  // namespace
 
 Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Material& material, Element element,
-                                        const ReducedOptions& options) {
+                                        const ReducedOptions& options, std::vector<double>* kept_fields) {
   if (auto ok = check_options(fine.cells, options); !ok) return tl::unexpected(ok.error());
   const auto terms = assemble(fine, material, element);
   if (!terms) return tl::unexpected(terms.error());
@@ -283,6 +288,7 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
       for (Index c = 0; c < fields->cols(); ++c) basis.shape.push_back(static_cast<float>((*fields)(row, c)));
     }
   });
+  if (kept_fields != nullptr) kept_fields->assign(fields->data(), fields->data() + fields->size());
   basis.control_weight = control_masses(*terms, control);
   basis = truncated(basis, options.vectors);
   for (const double ratio : {basis.lowest_ratio, options.middle_ratio, basis.highest_ratio}) {

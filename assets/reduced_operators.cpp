@@ -14,6 +14,11 @@ Index row_of(std::uint32_t node, std::size_t component) {
   return 3 * static_cast<Index>(node) + static_cast<Index>(component);
 }
 
+double mass_between(const StiffnessTerms& terms, std::uint32_t node, std::uint32_t other, std::size_t slot) {
+  return 0.5 *
+         (terms.consistent_mass_kg[node * stencil_size + slot] + (node == other ? terms.lumped_mass_kg[node] : 0.0));
+}
+
 /// 3×3, row-major.
 std::array<double, 9> coupling(const StiffnessTerms& terms, const OperatorMix& mix, std::uint32_t node,
                                std::uint32_t other, std::size_t slot) {
@@ -85,6 +90,23 @@ Columns applied(const StiffnessTerms& terms, const OperatorMix& mix, Eigen::Ref<
           for (Index w = 0; w < width; ++w) to[w] += factor * from[w];
         }
       }
+    });
+  });
+  return result;
+}
+
+Columns mass_times(const StiffnessTerms& terms, Eigen::Ref<const Columns> fields) {
+  // a node's three rows lie side by side where columns are not part of more
+  if (fields.outerStride() != fields.cols()) return mass_times(terms, Columns(fields));
+  Columns result = Columns::Zero(fields.rows(), fields.cols());
+  const Index width = 3 * fields.cols();
+  for_each_node(terms.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const std::uint32_t n = node_index(terms.cells, i, j, k);
+    double* const to = result.data() + n * width;
+    for_each_neighbour(terms.cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
+      const double mass = mass_between(terms, n, m, slot);
+      const double* const from = fields.data() + m * width;
+      for (Index w = 0; w < width; ++w) to[w] += mass * from[w];
     });
   });
   return result;

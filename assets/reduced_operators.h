@@ -24,6 +24,9 @@ OperatorMix stiffness_over_mass(double across, double along, double foundation_1
 /// The mix times `fields`, over all rows.
 Columns applied(const StiffnessTerms& terms, const OperatorMix& mix, Eigen::Ref<const Columns> fields);
 
+/// M₁ times `fields`: the same as of the mix of both masses alone, some times faster.
+Columns mass_times(const StiffnessTerms& terms, Eigen::Ref<const Columns> fields);
+
 /// leftᵀ·right, summed in pieces that are the same on every machine.
 Eigen::MatrixXd inner(Eigen::Ref<const Columns> left, Eigen::Ref<const Columns> right);
 

@@ -31,9 +31,6 @@ struct TrainedBody {
 /// A body scaled by `across` and `along`. Fails where its stiffness is not positive definite.
 Result<TrainedBody> train(const Training& training, double across, double along);
 
-/// M₁.
-inline constexpr OperatorMix whole_mass{0, 0, 0, 1, 1};
-
 /// Root mean square of a held far face's displacement in walking, m.
 inline constexpr double walk_stretch_m = 0.0158;
 

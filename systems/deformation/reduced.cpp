@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "systems/deformation/reduced.cpp"
 #include <hwy/foreach_target.h>
 
+#include <hwy/cache_control.h>
+
 #include <array>
 
 #include "engine/wide-inl.h"
@@ -47,10 +49,16 @@ void deform_tick(const ReducedBlock& block, const EndDrive& end, float tick_s) {
   }
 }
 
+template <bool streamed>
+HWY_INLINE void write(const Wide& w, float* p) {
+  if constexpr (!streamed) return store(w, p);
+  for (std::size_t i = 0; i < vector_count; ++i) hn::Stream(w.part[i], FloatTag{}, p + i * vector_lanes);
+}
+
 /// Displacements of the `nodes` nodes whose coefficients begin at `row`: how much of each vector, `amount`, begins with
 /// the lift's where there is one. A register's worth of coefficients at a time would do no better: all multiply-adds
 /// take theirs from memory, spread over the lanes.
-template <std::size_t nodes>
+template <std::size_t nodes, bool streamed>
 HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t count, const Wide* amount, float* u) {
   std::array<Wide, 3 * nodes> sum;
   const Wide first = amount[0];
@@ -59,22 +67,18 @@ HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t co
     const Wide now = amount[k];
     for (std::size_t c = 0; c < 3 * nodes; ++c) sum[c] = fma(wide(row[c * stride + k]), now, sum[c]);
   }
-  for (std::size_t c = 0; c < 3 * nodes; ++c) store(sum[c], u + c * lane_count);
+  for (std::size_t c = 0; c < 3 * nodes; ++c) write<streamed>(sum[c], u + c * lane_count);
 }
 
 /// Sums that the registers hold beside what they are made of.
 inline constexpr std::size_t nodes_at_once = vector_count == 1 ? 3 : vector_count == 2 ? 2 : 1;
 
-/// `x` is the motions' X; null: static.
-void place(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, const float* x) {
-  const ReducedInputs inputs = reduced_inputs(end, block.frame);
-  const std::size_t vectors = block.basis.vectors;
-  const bool held = end.way == FarEnd::held;
+/// How much of each vector there is, after the end's displacement. `x` is the motions' X; null: static.
+HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, const float* shape, const float* x,
+                             Wide* amount) {
   std::array<Wide, most_inputs> input;
   for (std::size_t i = 0; i < inputs.count; ++i) input[i] = load(*inputs.to[i]);
-  std::array<Wide, most_vectors + 1> amount;
   amount[0] = input[0];
-  const float* shape = points.shape;
   for (std::size_t k = 1; k <= vectors; ++k) {
     const float* share = shape + vectors * lane_count;
     Wide sum = load(share) * input[0];
@@ -85,29 +89,43 @@ void place(const ReducedBlock& block, const ControlPoints& points, const EndDriv
     amount[k] = sum;
     shape = share + inputs.count * lane_count;
   }
+}
 
-  const Cells& cells = block.basis.options.control_cells;
-  const std::size_t stride = vectors + 1, node_stride = 3 * lane_count;
+template <bool streamed>
+HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amount, float* u) {
+  const Cells& cells = basis.options.control_cells;
+  const std::size_t stride = std::size_t{basis.vectors} + 1, node_stride = 3 * lane_count;
   const std::size_t far = first_insertion_node(cells), all = node_count(cells), past = held ? far : all;
   const std::size_t skipped = held ? 0 : 1, count = stride - skipped;
   const Wide none = wide(0.0F);
-  float* u = points.displacement;
   std::size_t n = 0;
   for (; n < plane_nodes(cells); ++n, u += node_stride) {
-    for (std::size_t c = 0; c < node_stride; c += lane_count) store(none, u + c);
+    for (std::size_t c = 0; c < node_stride; c += lane_count) write<streamed>(none, u + c);
   }
-  const float* row = block.basis.shape.data() + 3 * n * stride + skipped;
+  const float* row = basis.shape.data() + 3 * n * stride + skipped;
   const auto place_some = [&]<std::size_t nodes>() HWY_ATTR {
     for (; n + nodes <= past; n += nodes, u += nodes * node_stride, row += 3 * nodes * stride) {
-      place_nodes<nodes>(row, stride, count, amount.data() + skipped, u);
+      place_nodes<nodes, streamed>(row, stride, count, amount + skipped, u);
     }
   };
   place_some.template operator()<nodes_at_once>();
   place_some.template operator()<1>();
   for (; n < all; ++n, u += node_stride) {
-    store(none, u);
-    store(none, u + lane_count);
-    store(input[0], u + 2 * lane_count);
+    write<streamed>(none, u);
+    write<streamed>(none, u + lane_count);
+    write<streamed>(amount[0], u + 2 * lane_count);
+  }
+  if constexpr (streamed) hwy::FlushStream();
+}
+
+void place(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, const float* x) {
+  std::array<Wide, most_vectors + 1> amount;
+  find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points.shape, x, amount.data());
+  const bool held = end.way == FarEnd::held;
+  if (points.streamed) {
+    place_all<true>(block.basis, held, amount.data(), points.displacement);
+  } else {
+    place_all<false>(block.basis, held, amount.data(), points.displacement);
   }
 }
 

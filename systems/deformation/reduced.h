@@ -39,9 +39,13 @@ void deform_reduced(const ReducedBlock& block, const EndDrive& end, float tick_s
 /// of each input, Σ_j E_kj·P_ji (less Σ_j E_kj·lift_share_j for a held end's displacement): q_k. Then, for the report
 /// alone, ω_j of each motion (N), P_j of the first input of each motion (N), the reaction in rest to each input per
 /// unit (of a held face; N per unit), and S²·l·α·(ψᵀM₁ψ − |VᵀM₁ψ|²) (kg/s).
+///
+/// `streamed`: the displacements are written past the caches, which is faster where these could not keep them until
+/// somebody reads them (some ten thousand bellies); the same bits.
 struct ControlPoints {
   const float* shape;
   float* displacement;
+  bool streamed = false;
 };
 void place_control_points(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end);
 

@@ -80,9 +80,10 @@ struct ReducedBasis {
 
 /// `fine` is the muscle's template mesh in cells that contain options.control_cells' nodes. Fails, in one line, on
 /// options out of range, cells that do not nest (or are odd where `corrected`), a bad material or mesh.
-/// Deterministic: the same bits on every machine of one kind of arithmetic.
+/// Deterministic: the same bits on every machine of one kind of arithmetic. `fields`, if not null, becomes ψ (where
+/// there is one) and the vectors over all displacements of the mesh, row-major, a row each.
 Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Material& material, Element element,
-                                        const ReducedOptions& options);
+                                        const ReducedOptions& options, std::vector<double>* fields = nullptr);
 
 /// The basis of its first `vectors` (1 to all of them), bit for bit as if made with so few.
 ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors);

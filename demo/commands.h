@@ -22,6 +22,7 @@ void add_bench_command(CLI::App& app, int& exit_status);
 void add_compare_command(CLI::App& app, int& exit_status);
 void add_stress_command(CLI::App& app, int& exit_status);
 void add_paper_command(CLI::App& app, int& exit_status);
+void add_frontier_command(CLI::App& app, int& exit_status);
 void add_effects_command(CLI::App& app, int& exit_status);
 
 }  // namespace mobil

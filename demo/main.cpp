@@ -40,6 +40,7 @@ int main(int argc, char** argv) {
   mobil::add_compare_command(app, status);
   mobil::add_stress_command(app, status);
   mobil::add_paper_command(app, status);
+  mobil::add_frontier_command(app, status);
   mobil::add_effects_command(app, status);
   app.footer("Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out");
 

@@ -1,0 +1,42 @@
+#include "demo/frontier_method.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace mobil {
+
+Result<HexahedralMesh> frontier_mesh(Muscle muscle, const Cells& cells) {
+  return bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
+}
+
+Result<std::vector<FrontierIndividual>> frontier_individuals(const FrontierDrive& drive, const FrontierMethod& method,
+                                                             bool loads, BellyLibrary& library) {
+  LegMuscles choice = method.choice;
+  choice.muscles.reset();
+  choice.muscles.set(static_cast<std::size_t>(drive.muscle));
+  choice.inertia = loads;
+  std::vector<FrontierIndividual> all(lane_count);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    auto belly = library.belly(drive.plan[lane], choice, frontier_tick_s);
+    if (!belly) return fail(fmt::format("{}: {}", muscle_name(drive.muscle), belly.error().message));
+    FrontierIndividual& own = all[lane];
+    own.shape = belly->shape->shape;
+    own.steps = belly->steps;
+    own.solver = std::move(belly->solver);
+    own.basis = std::move(belly->basis);
+    if (own.basis == nullptr) continue;
+    own.motion.resize(reduced_motion_width(own.basis->vectors, own.basis->inputs));
+    own.points.resize(reduced_shape_width(own.basis->vectors, own.basis->inputs));
+    write_motion(*belly->motions, choice.damping_per_s, frontier_tick_s, own.motion);
+    write_shape(*belly->motions, choice.damping_per_s, own.points);
+  }
+  if (method.even_steps) {
+    const auto most = std::ranges::max(all, {}, &FrontierIndividual::steps).steps;
+    for (FrontierIndividual& individual : all) individual.steps = most;
+  }
+  return all;
+}
+
+}  // namespace mobil

@@ -47,7 +47,8 @@ bool BandCholesky::factorise() {
   return true;
 }
 
-void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
+template <class Matrix>
+void BandCholesky::solve_all(Matrix& columns) const {
   const Eigen::OuterStride<> stride(static_cast<Index>(stride_));
   const auto block = [&](Index row, Index column, Index rows, Index width) {
     return ConstBlock(entry_.data() + static_cast<std::size_t>(column) * stride_ + row, rows, width, stride);
@@ -55,7 +56,7 @@ void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
   for (Index c = 0; c < size_; c += block_width) {
     const Index width = std::min(block_width, size_ - c), below = std::min(reach_, size_ - c - width);
     auto own = columns.middleRows(c, width);
-    block(c, c, width, width).triangularView<Eigen::Lower>().solveInPlace(own);
+    block(c, c, width, width).template triangularView<Eigen::Lower>().solveInPlace(own);
     columns.middleRows(c + width, below).noalias() -= block(c + width, c, below, width) * own;
   }
   const Index last = (size_ - 1) / block_width * block_width;
@@ -67,8 +68,16 @@ void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
       const Index rows = std::min(block_width, below - r);
       own.noalias() -= block(c + width + r, c, rows, width).transpose() * columns.middleRows(c + width + r, rows);
     }
-    block(c, c, width, width).transpose().triangularView<Eigen::Upper>().solveInPlace(own);
+    block(c, c, width, width).transpose().template triangularView<Eigen::Upper>().solveInPlace(own);
   }
+}
+
+void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
+  if (columns.cols() != 1) return solve_all(columns);
+  // one alone is some times faster as a vector
+  Eigen::VectorXd one = columns.col(0);
+  solve_all(one);
+  columns.col(0) = one;
 }
 
 }  // namespace mobil

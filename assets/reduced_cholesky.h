@@ -28,6 +28,8 @@ class BandCholesky {
 
  private:
   static constexpr Eigen::Index block_width = 48;
+  template <class Matrix>
+  void solve_all(Matrix& columns) const;
   using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
   using ConstBlock = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
 

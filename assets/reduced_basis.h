@@ -107,7 +107,8 @@ Result<ReducedBelly> make_reduced_belly(const ReducedBasis& basis, double across
 /// Numbers that the kernels take, laid out as systems/deformation/reduced.h says: `motion` of reduced_motion_width(),
 /// `shape` of reduced_shape_width() floats.
 constexpr std::size_t reduced_motion_width(std::uint32_t vectors, std::uint32_t inputs) {
-  return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + inputs);
+  const std::size_t pairs = inputs > frame_inputs ? frame_inputs / 2 : 0, ends = inputs - 2 * pairs;
+  return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + ends + pairs);
 }
 constexpr std::size_t reduced_state_width(std::uint32_t vectors, std::uint32_t inputs) {
   static_cast<void>(inputs);

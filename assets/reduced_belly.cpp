@@ -7,7 +7,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "assets/reduced_basis.h"
 #include "assets/reduced_eigen.h"
@@ -22,6 +24,12 @@ double field_scale(std::size_t number, double across, double along) {
 
 std::size_t end_inputs(const ReducedBasis& basis) {
   return basis.inputs - (basis.frame.empty() ? 0 : frame_inputs);
+}
+
+/// A float's upper sixteen bits, rounded to the nearest: eight digits.
+std::uint32_t upper_half(double x) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
+  return (bits + 0x7FFFU + (bits >> 16 & 1U)) >> 16;
 }
 
 }  // namespace
@@ -142,7 +150,12 @@ void write_motion(const ReducedBelly& belly, double damping_per_s, double tick_s
     *to++ = b;
     *to++ = g;
     if (belly.inputs == 1) continue;
-    for (std::size_t k = 0; k < belly.inputs; ++k) *to++ = static_cast<float>(belly.participation[j][k]);
+    const double* const p = belly.participation[j];
+    const std::size_t ends = belly.inputs > frame_inputs ? belly.inputs - frame_inputs : belly.inputs;
+    for (std::size_t k = 0; k < ends; ++k) *to++ = static_cast<float>(p[k]);
+    for (std::size_t k = ends; k < belly.inputs; k += 2) {
+      *to++ = std::bit_cast<float>(upper_half(p[k + 1]) << 16 | upper_half(p[k]));
+    }
   }
 }
 

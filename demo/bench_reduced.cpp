@@ -105,7 +105,7 @@ class ReducedCrowd {
   double bytes() const {
     const double n = basis_.vectors, inputs = basis_.inputs;
     double floats = 2 * inputs;
-    if (what_ != What::still) floats += 4 * n + (inputs > 1 ? 3 + inputs : 3) * n;
+    if (what_ != What::still) floats += 4 * n + static_cast<double>(motion_width_);
     if (what_ != What::tick) floats += n * (n + inputs) - (what_ == What::still ? n * n : 0);
     return 4 * (floats + (what_ == What::tick ? 0 : static_cast<double>(nodal_width(basis_.options.control_cells))));
   }

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <complex>
 #include <cstddef>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -68,7 +70,7 @@ struct ReducedBodies {
     for (std::size_t j = 0; j < vectors; ++j) {
       for (std::size_t l = 0; l < lane_count; ++l) {
         omega[j][l] = 20 * std::pow(60.0, (static_cast<double>(j) + 0.5 + 0.4 * even(random)) / vectors);
-        for (std::size_t i = 0; i < basis.inputs; ++i) participation[j][i][l] = even(random);
+        for (std::size_t i = 0; i < basis.inputs; ++i) participation[j][i][l] = std::round(64 * even(random)) / 64;
       }
     }
     for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = scale.along[l] = 1;
@@ -102,11 +104,20 @@ struct ReducedBodies {
         motion[at][l] = static_cast<float>(decay * (cosine + damping / 2 * sine));
         motion[at + 1][l] = static_cast<float>(decay * w * sine);
         motion[at + 2][l] = static_cast<float>(damping / w);
-        for (std::size_t i = 0; basis.inputs > 1 && i < basis.inputs; ++i) {
+        const std::size_t ends = input_count(basis.options.far_end, false);
+        for (std::size_t i = 0; basis.inputs > 1 && i < ends; ++i) {
           motion[at + 3 + i][l] = static_cast<float>(participation[j][i][l]);
         }
+        for (std::size_t i = ends; i < basis.inputs; i += 2) {  // two a word
+          std::uint32_t word = 0;
+          for (const std::size_t part : {std::size_t{1}, std::size_t{0}}) {
+            const auto number = static_cast<float>(participation[j][i + part][l]);
+            word = word << 16 | std::bit_cast<std::uint32_t>(number) >> 16;
+          }
+          motion[at + 3 + ends + (i - ends) / 2][l] = std::bit_cast<float>(word);
+        }
       }
-      at += basis.inputs > 1 ? 3 + basis.inputs : 3;
+      at += motion.size() / basis.vectors;
     }
   }
 

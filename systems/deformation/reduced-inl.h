@@ -47,6 +47,26 @@ HWY_INLINE ReducedInputs reduced_inputs(const EndDrive& end, const FrameLoad<Lan
   return inputs;
 }
 
+/// Two numbers of a word of each lane.
+struct WidePair {
+  Wide even, odd;
+};
+
+HWY_INLINE WidePair load_pair(const float* p) {
+  WidePair pair;
+  for (std::size_t i = 0; i < vector_count; ++i) {
+    const auto word = hn::BitCast(WordTag{}, hn::Load(FloatTag{}, p + i * vector_lanes));
+    pair.even.part[i] = hn::BitCast(FloatTag{}, hn::ShiftLeft<16>(word));
+    pair.odd.part[i] = hn::BitCast(FloatTag{}, hn::And(word, hn::Set(WordTag{}, 0xFFFF0000U)));
+  }
+  return pair;
+}
+
+/// How many inputs' P a motion has in full; the others' go in pairs.
+HWY_INLINE std::size_t full_inputs(std::size_t count) {
+  return count > frame_inputs ? count - frame_inputs : count;
+}
+
 /// Places in `shape` of what follows the rows.
 struct ReducedTail {
   const float *omega, *participation, *reaction, *drag;

@@ -38,14 +38,18 @@ void deform_tick(const ReducedBlock& block, const EndDrive& end, float tick_s) {
     }
     return;
   }
+  const std::size_t full = full_inputs(inputs.count);
   for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count) {
     const float* participation = motion + 3 * lane_count;
     Wide sum = load(participation) * rate[0];
-    for (std::size_t i = 1; i < inputs.count; ++i) {
-      sum = fma(load(participation += lane_count), rate[i], sum);
+    participation += lane_count;
+    for (std::size_t i = 1; i < full; ++i, participation += lane_count) sum = fma(load(participation), rate[i], sum);
+    for (std::size_t i = full; i < inputs.count; i += 2, participation += lane_count) {
+      const WidePair pair = load_pair(participation);
+      sum = fma(pair.odd, rate[i + 1], fma(pair.even, rate[i], sum));
     }
     swing(state, motion, sum);
-    motion = participation + lane_count;
+    motion = participation;
   }
 }
 

@@ -19,8 +19,10 @@ namespace mobil {
 ///
 /// `state` (reduced_state_width): X and W of each motion (X₀ W₀ X₁ W₁ …); with one input both over P. All zero is a
 /// belly at rest under whatever loads it, about to be moved.
-/// `motion` (reduced_motion_width): of each motion a, b, g and, with several inputs, its P (a₀ b₀ g₀ P₀₀ P₀₁ … a₁ …).
-/// With one input P is left to `shape`.
+/// `motion` (reduced_motion_width): of each motion a, b, g and, with several inputs, its P (a₀ b₀ g₀ P₀₀ P₀₁ … a₁ …):
+/// those of the ends as they are, those of the frame's loads two a word, as upper halves of floats, the even one in the
+/// word's lower half. (Memory is what a tick waits for; that they are 0.2 % off at most is so of swings alone, for the
+/// place in rest is in `shape`.) With one input P is left to `shape`.
 struct ReducedBlock {
   const ReducedBasis& basis;
   const BellyScale<Lanes<float>>& scale;

@@ -33,6 +33,7 @@ void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, c
   const std::size_t vectors = block.basis.vectors;
   const ReducedTail tail = reduced_tail(points.shape, vectors, inputs.count);
   const bool held = end.way == FarEnd::held, moving = block.state != nullptr, one = inputs.count == 1;
+  const std::size_t full = full_inputs(inputs.count);
   const auto at = [lane](const float* p, std::size_t i) HWY_ATTR { return hn::Load(d, p + i * lane_count + lane); };
   const auto input = [&](std::size_t i) HWY_ATTR { return hn::Load(d, inputs.to[i]->lane + lane); };
   const V none = hn::Zero(d), end_z = hn::Load(d, end.to[2]->lane + lane);
@@ -50,8 +51,16 @@ void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, c
     if (one) {
       if (!held) s = hn::Mul(first, input(0));
     } else {
-      const float* const participation = motion + (j * (3 + inputs.count) + 3) * lane_count;
-      for (std::size_t i = held ? 1 : 0; i < inputs.count; ++i) s = hn::MulAdd(at(participation, i), input(i), s);
+      const float* participation = motion + 3 * lane_count;
+      for (std::size_t i = 0; i < full; ++i, participation += lane_count) {
+        if (i > 0 || !held) s = hn::MulAdd(at(participation, 0), input(i), s);
+      }
+      for (std::size_t i = full; i < inputs.count; i += 2, participation += lane_count) {
+        const auto word = hn::BitCast(WordTag{}, at(participation, 0));
+        s = hn::MulAdd(hn::BitCast(d, hn::ShiftLeft<16>(word)), input(i), s);
+        s = hn::MulAdd(hn::BitCast(d, hn::And(word, hn::Set(WordTag{}, 0xFFFF0000U))), input(i + 1), s);
+      }
+      motion = participation;
     }
     const V strained = hn::MulAdd(omega, s, x);
     kinetic = hn::MulAdd(w, w, kinetic);

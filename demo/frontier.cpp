@@ -154,6 +154,7 @@ FrontierRequest long_frontier() {
   request.reference = {16, 16, 64};
   request.checks = {fine, {16, 16, 64}};
   request.rounds = 15;
+  request.call_s = 0.05;
   request.rungs = short_rungs();
   auto& all = request.rungs;
   all.push_back(elements("ecd", Method::ecd, fine));

@@ -29,7 +29,7 @@ struct FrontierRung {
 
 /// What is measured. `reference`: cells of the mesh that the reference is made on. `checks`: cells of plain explicit
 /// meshes, one with half the other's cells, whose extrapolated answer the reference is held against; empty for none.
-/// `bytes`: of a method's crowd, so that caches do not flatter.
+/// `bytes`: of a method's crowd, so that caches do not flatter, unless a tick of it then took longer than `call_s`.
 struct FrontierRequest {
   std::string form;
   std::vector<Muscle> muscles = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
@@ -41,6 +41,7 @@ struct FrontierRequest {
   Cells reference = {8, 8, 32};
   std::vector<Cells> checks{};
   std::size_t bytes = std::size_t{48} << 20;
+  double call_s = 0.02;
   int rounds = 5;
   int threads = 0;  // of the answers; costs are one thread's
   std::function<void(std::string_view what, double part)> progress = [](std::string_view, double) {};

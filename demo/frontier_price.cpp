@@ -13,7 +13,6 @@
 namespace mobil {
 namespace {
 
-constexpr double longest_call_s = 0.05;  // of a crowd's tick
 constexpr int repeats = 3;
 
 struct Meter {
@@ -32,12 +31,12 @@ struct Meter {
 
 /// As many blocks as fill the memory, or as fit into the time.
 std::unique_ptr<FrontierCrowd> crowd_of(const FrontierPriced& priced, std::span<const FrontierDrive> drives, bool loads,
-                                        Stiffness stiffness, std::size_t bytes) {
+                                        Stiffness stiffness, const FrontierRequest& request) {
   const FrontierMethod& method = priced.rung->method;
-  FrontierCrowd few(method, drives, priced.individuals, loads, stiffness, bytes, 1);
+  FrontierCrowd few(method, drives, priced.individuals, loads, stiffness, request.bytes, 1);
   const double block_s = measure(1, [&] { few.tick(true); }).best_s / static_cast<double>(drives.size());
-  const auto most = static_cast<std::size_t>(longest_call_s / block_s);
-  return std::make_unique<FrontierCrowd>(method, drives, priced.individuals, loads, stiffness, bytes, most);
+  const auto most = static_cast<std::size_t>(request.call_s / block_s);
+  return std::make_unique<FrontierCrowd>(method, drives, priced.individuals, loads, stiffness, request.bytes, most);
 }
 
 }  // namespace
@@ -48,9 +47,9 @@ Result<void> price(std::span<const FrontierPriced> all, std::span<const Frontier
   const FrontierRequest& request = frontier.request;
   std::vector<Meter> meters(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
-    meters[i].crowd = crowd_of(all[i], drives, loads, Stiffness::individual, request.bytes);
+    meters[i].crowd = crowd_of(all[i], drives, loads, Stiffness::individual, request);
   }
-  Meter shared{crowd_of(all.front(), drives, loads, Stiffness::shared, request.bytes), {}, {}};
+  Meter shared{crowd_of(all.front(), drives, loads, Stiffness::shared, request), {}, {}};
   const auto has_choice = [&](std::size_t i) { return all[i].rung->method.reduced() && all[i].rung->method.moving(); };
   for (int round = 0; round < request.rounds; ++round) {
     request.progress(loads ? "costs with the frame's loads" : "costs", static_cast<double>(round) / request.rounds);

@@ -9,14 +9,15 @@
 namespace mobil {
 namespace {
 
-constexpr std::uint32_t fewer_vectors = 24;
+constexpr std::uint32_t fewer_vectors = 24, vectors_of_a_coarse_mesh = 16;
 
 Cells half(const Cells& cells) {
   return {cells[0] / 2, cells[1] / 2, cells[2] / 2};
 }
 
 /// Sixteen individuals, each with vectors of its own size alone, of a mesh and one of half its cells extrapolated.
-Result<std::vector<FrontierIndividual>> own_vectors(const FrontierDrive& drive, const Cells& cells, bool loads) {
+Result<std::vector<FrontierIndividual>> own_vectors(const FrontierDrive& drive, const Cells& cells,
+                                                    std::uint32_t vectors, bool loads) {
   const auto mesh = frontier_mesh(drive.muscle, cells);
   if (!mesh) return tl::unexpected(mesh.error());
   LegMuscles choice;
@@ -32,7 +33,7 @@ Result<std::vector<FrontierIndividual>> own_vectors(const FrontierDrive& drive, 
     }
     if (all[lane].basis != nullptr) continue;
     ReducedOptions options;
-    options.vectors = most_vectors;
+    options.vectors = vectors;
     options.frame_loads = loads;
     options.foundation_hz = foundation_of(choice);
     options.damping_per_s = choice.damping_per_s;
@@ -81,15 +82,16 @@ Result<FrontierAnswer> explicit_answer(const FrontierDrive& drive, const Cells& 
 
 Result<FrontierReference> make_reference(const FrontierDrive& drive, const Cells& cells, std::span<const Cells> checks,
                                          bool loads) {
-  const auto fine = own_vectors(drive, cells, loads);
+  const std::uint32_t coarse_vectors = cells[0] < 8 ? vectors_of_a_coarse_mesh : most_vectors;
+  const auto fine = own_vectors(drive, cells, most_vectors, loads);
   if (!fine) return tl::unexpected(fine.error());
-  const auto coarse = own_vectors(drive, half(cells), loads);
+  const auto coarse = own_vectors(drive, half(cells), coarse_vectors, loads);
   if (!coarse) return tl::unexpected(coarse.error());
   auto truth = answer_with(drive, *fine, most_vectors, loads);
   if (!truth) return tl::unexpected(truth.error());
   const auto fewer = answer_with(drive, *fine, fewer_vectors, loads);
   if (!fewer) return tl::unexpected(fewer.error());
-  const auto coarser = answer_with(drive, *coarse, most_vectors, loads);
+  const auto coarser = answer_with(drive, *coarse, coarse_vectors, loads);
   if (!coarser) return tl::unexpected(coarser.error());
   FrontierReference reference{std::move(*truth), {}, {}};
   reference.mesh.add(*coarser, reference.truth, drive.walks);

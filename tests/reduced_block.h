@@ -47,6 +47,7 @@ struct ReducedBodies {
   std::array<std::array<double, lane_count>, most_vectors> omega{};
   std::array<std::array<std::array<double, lane_count>, 3 + frame_inputs>, most_vectors> participation{};
   Columns state, motion, shape, displacement;
+  bool streamed = false, hinted = false;
 
   ReducedBodies(std::uint32_t vectors, FarEnd end, bool frame, double damping_per_s, const Cells& cells = {2, 2, 8})
       : damping(damping_per_s) {
@@ -134,10 +135,14 @@ struct ReducedBodies {
   }
 
   ReducedBlock block(const FrameLoad<Lanes<float>>& frame) {
-    return {basis, scale, state.data()->lane, motion.data()->lane, basis.options.frame_loads ? &frame : nullptr};
+    ReducedBlock block{basis, scale, state.data()->lane, motion.data()->lane,
+                       basis.options.frame_loads ? &frame : nullptr};
+    if (hinted) block.next_state = block.next_motion = motion.data()->lane;
+    return block;
   }
 
   void tick(const ReducedDrive& drive, double tick_s);
+  BellyReport<Lanes<float>> report(const ReducedDrive& drive, const MuscleTemplate& control, double tick_s);
   void place(const ReducedDrive& drive, bool at_rest);
   std::vector<Sum> expected_displacement(const ReducedDrive& drive, std::size_t l, bool at_rest) const;
 };
@@ -205,12 +210,23 @@ inline void ReducedBodies::tick(const ReducedDrive& drive, double tick_s) {
 inline void ReducedBodies::place(const ReducedDrive& drive, bool at_rest) {
   drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
     ReducedBlock given = block(frame);
-    const ControlPoints points{shape.data()->lane, displacement.data()->lane};
+    const ControlPoints points{shape.data()->lane, displacement.data()->lane, streamed,
+                               hinted ? shape.data()->lane : nullptr};
     if (!at_rest) return place_control_points(given, points, end);
     given.state = nullptr;
     given.motion = nullptr;
     place_static(given, points, end);
   });
+}
+
+inline BellyReport<Lanes<float>> ReducedBodies::report(const ReducedDrive& drive, const MuscleTemplate& control,
+                                                       double tick_s) {
+  BellyReport<Lanes<float>> told{};
+  drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
+    const ControlPoints points{shape.data()->lane, displacement.data()->lane};
+    report_reduced(block(frame), control, points, end, static_cast<float>(tick_s), told);
+  });
+  return told;
 }
 
 inline std::vector<ReducedBodies::Sum> ReducedBodies::expected_displacement(const ReducedDrive& drive, std::size_t l,

@@ -166,6 +166,25 @@ TEST(Reduced, WithoutMotionOfItsOwnABellyIsInItsStaticPlace) {
   }
 }
 
+TEST(Reduced, HintsAboutMemoryChangeNoBit) {
+  for (const Kind& kind : kinds()) {
+    ReducedBodies plain(kind.vectors, kind.end, kind.frame, 8);
+    plain.write_motion(1.0 / 60);
+    ReducedBodies hinted(plain);
+    hinted.hinted = hinted.streamed = true;
+    ReducedDrive drive(plain, 43);
+    for (int tick = 0; tick < 3; ++tick) {
+      drive.advance();
+      for (ReducedBodies* bodies : {&plain, &hinted}) {
+        bodies->tick(drive, 1.0 / 60);
+        bodies->place(drive, false);
+      }
+    }
+    EXPECT_TRUE(same_bits(plain.state, hinted.state, lane_count));
+    EXPECT_TRUE(same_bits(plain.displacement, hinted.displacement, lane_count));
+  }
+}
+
 TEST(Reduced, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) {
   for (const Kind& kind : kinds()) {
     std::vector<ReducedBodies> results;
@@ -218,14 +237,63 @@ TEST(Reduced, NotANumberStaysInItsLane) {
   }
 }
 
+MuscleTemplate control_of(FarEnd end) {
+  return *make_muscle_template(*make_block({2, 2, 8}, 0.015), Material{}, {.far_end = end});
+}
+
+std::vector<Lanes<float>> figures(const BellyReport<Lanes<float>>& report) {
+  return {report.elongation_m, report.reaction_n, report.volume_ratio, report.kinetic_energy_j, report.strain_energy_j};
+}
+
+TEST(Reduced, ReportsHaveTheSameBitsEverywhereAndKeepANotANumberInItsLane) {
+  for (const Kind& kind : kinds()) {
+    const MuscleTemplate control = control_of(kind.end);
+    constexpr std::size_t sick = 6;
+    std::vector<std::vector<Lanes<float>>> results;
+    const auto run = [&](bool dirty) {
+      ReducedBodies bodies(kind.vectors, kind.end, kind.frame, 8);
+      bodies.write_motion(1.0 / 60);
+      ReducedDrive drive(bodies, 47);
+      drive.advance();
+      bodies.tick(drive, 1.0 / 60);
+      if (dirty) bodies.state.front()[sick] = std::numeric_limits<float>::quiet_NaN();
+      bodies.place(drive, false);
+      results.push_back(figures(bodies.report(drive, control, 1.0 / 60)));
+    };
+    for_each_fused_instruction_set([&] { run(false); });
+    run(true);
+    for (const auto& result : results) EXPECT_TRUE(same_bits(result, results.front(), sick));
+    EXPECT_FALSE(std::isfinite(results.back()[4][sick]));
+  }
+}
+
+TEST(Reduced, ABellyAtRestHasItsVolumeAndNoEnergy) {
+  for (const Kind& kind : kinds()) {
+    ReducedBodies bodies(kind.vectors, kind.end, kind.frame, 8);
+    bodies.write_motion(1.0 / 60);
+    const ReducedDrive still(bodies, 1);
+    bodies.place(still, false);
+    const auto report = bodies.report(still, control_of(kind.end), 1.0 / 60);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      EXPECT_NEAR(static_cast<double>(report.volume_ratio[l]), 1, 1e-5);
+      for (const auto& figure :
+           {report.elongation_m, report.reaction_n, report.kinetic_energy_j, report.strain_energy_j}) {
+        EXPECT_EQ(figure[l], 0.0F);
+      }
+    }
+  }
+}
+
 TEST(Reduced, TicksAndPlacingUseNoHeap) {
   ReducedBodies bodies(16, FarEnd::held, true, 8);
   bodies.write_motion(1.0 / 60);
   ReducedDrive drive(bodies, 41);
   drive.advance();
+  const MuscleTemplate control = control_of(FarEnd::held);
   const std::size_t before = heap_requests;
   bodies.tick(drive, 1.0 / 60);
   bodies.place(drive, false);
+  bodies.report(drive, control, 1.0 / 60);
   bodies.place(drive, true);
   EXPECT_EQ(heap_requests, before);
 }

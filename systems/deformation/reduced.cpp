@@ -32,14 +32,20 @@ void deform_tick(const ReducedBlock& block, const EndDrive& end, float tick_s) {
   for (std::size_t i = 0; i < inputs.count; ++i) rate[i] = (load(*inputs.to[i]) - load(*inputs.from[i])) * per_s;
   float* state = block.state;
   const float* motion = block.motion;
+  Ahead states(block.next_state, 2 * vectors);
+  Ahead motions(block.next_motion, reduced_motion_width(block.basis.vectors, block.basis.inputs));
   if (inputs.count == 1) {
     for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count) {
+      states.fetch_some(2);
+      motions.fetch_some(3);
       swing(state, motion, rate[0]);
     }
     return;
   }
-  const std::size_t full = full_inputs(inputs.count);
+  const std::size_t full = full_inputs(inputs.count), width = 3 + full + (inputs.count - full) / 2;
   for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count) {
+    states.fetch_some(2);
+    motions.fetch_some(width);
     const float* participation = motion + 3 * lane_count;
     Wide sum = load(participation) * rate[0];
     participation += lane_count;
@@ -96,7 +102,8 @@ HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, c
 }
 
 template <bool streamed>
-HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amount, float* u) {
+HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amount, float* u, Ahead states,
+                          Ahead shapes) {
   const Cells& cells = basis.options.control_cells;
   const std::size_t stride = std::size_t{basis.vectors} + 1, node_stride = 3 * lane_count;
   const std::size_t far = first_insertion_node(cells), all = node_count(cells), past = held ? far : all;
@@ -107,8 +114,13 @@ HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amou
     for (std::size_t c = 0; c < node_stride; c += lane_count) write<streamed>(none, u + c);
   }
   const float* row = basis.shape.data() + 3 * n * stride + skipped;
+  const std::size_t groups = (past - n) / nodes_at_once + 1;
+  const std::size_t shape_rows = std::size_t{basis.vectors} * (basis.vectors + basis.inputs) / groups + 1;
+  const std::size_t state_rows = 2 * std::size_t{basis.vectors} / groups + 1;
   const auto place_some = [&]<std::size_t nodes>() HWY_ATTR {
     for (; n + nodes <= past; n += nodes, u += nodes * node_stride, row += 3 * nodes * stride) {
+      states.fetch_some(state_rows);
+      shapes.fetch_some(shape_rows);
       place_nodes<nodes, streamed>(row, stride, count, amount + skipped, u);
     }
   };
@@ -126,10 +138,13 @@ void place(const ReducedBlock& block, const ControlPoints& points, const EndDriv
   std::array<Wide, most_vectors + 1> amount;
   find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points.shape, x, amount.data());
   const bool held = end.way == FarEnd::held;
+  const std::size_t vectors = block.basis.vectors;
+  const Ahead states(x == nullptr ? nullptr : block.next_state, 2 * vectors);
+  const Ahead shapes(points.next_shape, vectors * (vectors + block.basis.inputs));
   if (points.streamed) {
-    place_all<true>(block.basis, held, amount.data(), points.displacement);
+    place_all<true>(block.basis, held, amount.data(), points.displacement, states, shapes);
   } else {
-    place_all<false>(block.basis, held, amount.data(), points.displacement);
+    place_all<false>(block.basis, held, amount.data(), points.displacement, states, shapes);
   }
 }
 

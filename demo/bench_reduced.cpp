@@ -76,6 +76,8 @@ class ReducedCrowd {
     for (std::size_t b = 0; b < blocks; ++b) {
       Columns column = columns(b);
       std::ranges::fill(column.end->to_m.lane, 1e-4F);
+      std::ranges::fill(column.scale->across.lane, 1.0F);
+      std::ranges::fill(column.scale->along.lane, 1.0F);
       for (std::size_t i = 0; i < motion_width_; ++i) {
         const double omega = 20 + 3 * static_cast<double>((i / each + b) % 400), turn = omega * tick_s;
         const std::array numbers = {0.93 * std::cos(turn), 0.93 * std::sin(turn), 8 / omega};
@@ -99,6 +101,15 @@ class ReducedCrowd {
       if (what_ != What::still) deform_reduced(block, *column.end, static_cast<float>(tick_s));
       if (what_ == What::placed) place_control_points(block, points, *column.end);
       if (what_ == What::still) place_static(block, points, *column.end);
+    }
+  }
+
+  void report(const MuscleTemplate& control) {
+    BellyReport<Lanes<float>> told;
+    for (std::size_t b = 0; b < blocks_; ++b) {
+      const Columns column = columns(b);
+      report_reduced({basis_, *column.scale, column.state, column.motion}, control, {column.shape, column.displacement},
+                     *column.end, static_cast<float>(tick_s), told);
     }
   }
 
@@ -221,6 +232,20 @@ Result<Paper> measure_paper(const BenchRun& run, std::size_t blocks) {
   return Paper{us_per_step(Stiffness::individual), us_per_step(Stiffness::shared)};
 }
 
+/// A report of points that are placed.
+Result<void> measure_report(BenchRun& run) {
+  auto mesh = make_block(ReducedOptions{}.control_cells, 0.015);
+  if (!mesh) return tl::unexpected(mesh.error());
+  const auto control = make_muscle_template(std::move(*mesh), {}, {});
+  if (!control) return tl::unexpected(control.error());
+  ReducedCrowd crowd({12, false, What::placed}, cached_blocks);
+  crowd.tick(0, 1, false);
+  const Measured time = measure_short([&] { crowd.report(*control); });
+  run.add_time("reduced.n12.report.us_per_tick", time, crowd.muscles(), 1e-6, "us").bound =
+      "volume, reaction and energies, where control points are";
+  return {};
+}
+
 }  // namespace
 
 Result<void> bench_reduced(BenchRun& run) {
@@ -242,6 +267,7 @@ Result<void> bench_reduced(BenchRun& run) {
       }
     }
   }
+  if (auto done = measure_report(run); !done) return done;
   const std::string line = "reduced.n12", points = "reduced.n12.control_points";
   add_figure(run, "reduced.us_per_tick", us[line], "us", "12 vectors, a line's drive, the whole crowd");
   add_figure(run, "reduced.us_per_tick_with_control_points", us[points], "us", "the same and its 81 nodes");

@@ -83,9 +83,12 @@ HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t co
 /// Sums that the registers hold beside what they are made of.
 inline constexpr std::size_t nodes_at_once = vector_count == 1 ? 3 : vector_count == 2 ? 2 : 1;
 
-/// How much of each vector there is, after the end's displacement. `x` is the motions' X; null: static.
-HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, const float* shape, const float* x,
-                             Wide* amount) {
+/// How much of each vector there is, after the end's displacement. `x` is the motions' X; null: static, which reads but
+/// the inputs' part of a shape, and fetches no more of the next.
+HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, const ControlPoints& points,
+                             const float* x, Wide* amount) {
+  const float* shape = points.shape;
+  const float* next = x == nullptr ? points.next_shape : nullptr;
   std::array<Wide, most_inputs> input;
   for (std::size_t i = 0; i < inputs.count; ++i) input[i] = load(*inputs.to[i]);
   amount[0] = input[0];
@@ -97,6 +100,9 @@ HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, c
       sum = fma(load(shape + j * lane_count), load(x + 2 * j * lane_count), sum);
     }
     amount[k] = sum;
+    for (std::size_t i = 0; next != nullptr && i < inputs.count; ++i) {
+      fetch(next + ((k - 1) * (vectors + inputs.count) + vectors + i) * lane_count);
+    }
     shape = share + inputs.count * lane_count;
   }
 }
@@ -136,11 +142,11 @@ HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amou
 
 void place(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, const float* x) {
   std::array<Wide, most_vectors + 1> amount;
-  find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points.shape, x, amount.data());
+  find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points, x, amount.data());
   const bool held = end.way == FarEnd::held;
   const std::size_t vectors = block.basis.vectors;
   const Ahead states(x == nullptr ? nullptr : block.next_state, 2 * vectors);
-  const Ahead shapes(points.next_shape, vectors * (vectors + block.basis.inputs));
+  const Ahead shapes(x == nullptr ? nullptr : points.next_shape, vectors * (vectors + block.basis.inputs));
   if (points.streamed) {
     place_all<true>(block.basis, held, amount.data(), points.displacement, states, shapes);
   } else {

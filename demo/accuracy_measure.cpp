@@ -61,10 +61,6 @@ Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk
 
 }  // namespace
 
-bool is_deformation(std::string_view system) {
-  return system.starts_with("deformation") || system.starts_with("control points") || system.starts_with("reduced");
-}
-
 float percentile(std::vector<float>& values, double part) {
   if (values.empty()) return 0;
   const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));

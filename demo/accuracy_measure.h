@@ -14,9 +14,6 @@
 
 namespace mobil {
 
-/// What of people's deformation is counted, as systems are called.
-bool is_deformation(std::string_view system);
-
 struct AccuracyPlan {
   std::vector<Muscle> muscles;
   std::vector<BodyRequest> bodies;  // each walks at every class' speed, in proportion to the root of height

@@ -120,7 +120,7 @@ float CostSpectrum::lower_edge(std::size_t bin) {
 }
 
 void MachineFactor::observe(double measured_s, double predicted_s) {
-  if (!(predicted_s > 10e-6) || !(measured_s > 0)) return;
+  if (!(predicted_s > 1e-6) || !(measured_s > 0)) return;
   const double ratio = measured_s / predicted_s;
   if (seen_ == 0) mean_ = ratio;
   const double counted = std::min(ratio, 2 * mean_);

@@ -82,7 +82,7 @@ class CostSpectrum {
 class MachineFactor {
  public:
   explicit MachineFactor(double first = 1) : mean_(first) {}
-  /// One tick, both in seconds. Ticks predicted below 10 µs tell nothing; a single one counts at most twice the mean.
+  /// One tick, both in seconds. Ticks predicted below 1 µs tell nothing; a single one counts at most twice the mean.
   void observe(double measured_s, double predicted_s);
   double mean() const { return mean_; }
   /// A factor to plan by so that 99 of 100 ticks stay within 1.1 of what is planned.

@@ -121,6 +121,10 @@ struct Choice {
 /// A rung as Simulation takes it.
 MuscleMethod rung_method(std::size_t rung, bool control_points);
 
+/// Whether a system of that name is part of what a budget is for: bellies, their control points, and what fades after
+/// changes of method.
+bool is_deformation(std::string_view system);
+
 class Relevance {
  public:
   /// Works on `simulation`, which must outlive it. Throws std::invalid_argument on options out of range.

@@ -9,16 +9,19 @@ namespace {
 
 constexpr float easing = 0.97F;  // how fast tolerances come back when there is time again, an update
 
-/// All that deforms.
 double deformation_s(const Simulation& simulation) {
   double sum = 0;
   for (const SystemReport& system : simulation.report().systems) {
-    if (system.name.starts_with("deformation")) sum += system.seconds;
+    if (is_deformation(system.name)) sum += system.seconds;
   }
   return sum;
 }
 
 }  // namespace
+
+bool is_deformation(std::string_view system) {
+  return system.starts_with("deformation") || system.starts_with("control points") || system == "fade";
+}
 
 void Relevance::observe_machine() {
   if (!scene_.budget_s) {

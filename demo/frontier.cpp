@@ -134,6 +134,15 @@ struct Table {
   }
 };
 
+/// Which muscles a rung is without, and why.
+std::string left_out(const FrontierRung& rung, const FrontierRow& row, const std::string& muscles,
+                     const std::string& why) {
+  const auto& dt_s = rung.method.choice.dt_s;
+  return fmt::format("{} of {} nodes{}{} is without {}: {}", row.method, row.nodes,
+                     dt_s ? fmt::format(" at {:.3g} ms", *dt_s * 1e3) : "", row.loads ? " with the frame's loads" : "",
+                     muscles, why);
+}
+
 bool nearer(double error_a, double cost_a, double error_b, double cost_b) {
   return error_a <= error_b && cost_a <= cost_b && (error_a < error_b || cost_a < cost_b);
 }
@@ -215,23 +224,19 @@ Result<Frontier> measure_frontier(const FrontierRequest& request) {
     for (std::size_t r = 0; r < rows.size(); ++r) {
       rows[r] = row_of(request.rungs[r], loads);
       FrontierError error;
-      std::string why;
+      std::string why, without;
       for (std::size_t m = 0; m < muscles; ++m) {
-        if (const std::string& reason = table.why[scene * muscles + m][r]; !reason.empty()) why = reason;
         const FrontierError& own = answers(m).error[r];
         error.add(own);
         rows[r].error_of_muscle.push_back(own.relative());
         individuals[r].push_back(std::move(answers(m).individuals[r]));
+        if (const std::string& reason = table.why[scene * muscles + m][r]; !reason.empty()) {
+          why = reason;
+          without += fmt::format("{}{}", without.empty() ? "" : ", ", muscle_name(request.muscles[m]));
+        }
       }
-      if (!why.empty()) {
-        frontier.notes.push_back(
-            fmt::format("{} of {} nodes{}{} is left out: {}", rows[r].method, rows[r].nodes,
-                        request.rungs[r].method.choice.dt_s
-                            ? fmt::format(" at {:.3g} ms", *request.rungs[r].method.choice.dt_s * 1e3)
-                            : "",
-                        loads ? " with the frame's loads" : "", why));
-        continue;
-      }
+      if (!why.empty()) frontier.notes.push_back(left_out(request.rungs[r], rows[r], without, why));
+      if (error.reference_square == 0) continue;
       rows[r].error = error.relative();
       rows[r].error_max_m = error.largest_m;
       rows[r].uncertain = rows[r].error < 10 * change.own();

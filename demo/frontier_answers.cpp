@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "systems/deformation/deformation.h"
@@ -233,6 +234,7 @@ void FrontierError::add(const FrontierError& other) {
 }
 
 double FrontierError::relative() const {
+  if (reference_square == 0) return std::numeric_limits<double>::quiet_NaN();
   return std::sqrt(square / reference_square);
 }
 

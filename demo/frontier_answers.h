@@ -53,6 +53,7 @@ struct FrontierError {
   /// Of the walks that are their own, at the ticks of `answer`; `truth` has those and all between them.
   void add(const FrontierAnswer& answer, const FrontierAnswer& truth, std::size_t walks);
   void add(const FrontierError& other);
+  /// NaN where nothing was added.
   double relative() const;
 };
 

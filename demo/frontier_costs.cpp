@@ -9,10 +9,8 @@
 namespace mobil {
 namespace {
 
-std::vector<Lanes<float>> alike(const std::vector<float>& of) {
-  std::vector<Lanes<float>> all(of.size());
-  for (std::size_t i = 0; i < of.size(); ++i) std::ranges::fill(all[i].lane, of[i]);
-  return all;
+void fill(const std::vector<float>& of, Lanes<float>* to) {
+  for (std::size_t i = 0; i < of.size(); ++i) std::ranges::fill(to[i].lane, of[i]);
 }
 
 /// One lane of a component's block in all of its lanes.
@@ -35,26 +33,32 @@ FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const Front
     : method_(method), loads_(loads), stiffness_(stiffness) {
   const std::size_t input =
       sizeof(EndDisplacement<float>) + sizeof(BellyScale<float>) + (loads ? sizeof(FrameLoad<float>) : 0);
-  const FrontierIndividual& first = individuals.front().front();
-  std::size_t numbers = 0;
+  const auto there = [](const std::vector<FrontierIndividual>& sixteen) { return !sixteen.empty(); };
+  const FrontierIndividual& first = std::ranges::find_if(individuals, there)->front();
+  const auto muscles = static_cast<std::size_t>(std::ranges::count_if(individuals, there));
   if (method.reduced()) {
     const ReducedBasis& basis = *first.basis;
-    numbers = reduced_shape_width(basis.vectors, basis.inputs) + point_width;
+    points_ = reduced_shape_width(basis.vectors, basis.inputs);
+    displacement_ = point_width;
     if (method.moving()) {
-      numbers += reduced_state_width(basis.vectors, basis.inputs) + reduced_motion_width(basis.vectors, basis.inputs);
+      state_ = reduced_state_width(basis.vectors, basis.inputs);
+      motion_ = reduced_motion_width(basis.vectors, basis.inputs);
     }
   } else {
-    numbers = nodal_width(method.choice.cells) * (method.choice.method == Method::statics ? 1 : 2);
+    displacement_ = nodal_width(method.choice.cells);
+    velocity_ = method.choice.method == Method::statics ? 0 : displacement_;
     scratch_.resize(scratch_floats(*first.shape, method.choice.method) / lane_count + 1);
   }
+  const std::size_t numbers = state_ + motion_ + points_ + displacement_ + velocity_;
   bytes_each_ = input + numbers * sizeof(float);
   if (method.fixed_step) {
     fixed_steps_ = static_cast<std::uint32_t>(std::lround(frontier_tick_s / *method.choice.dt_s));
     ticks_a_call_ = fixed_steps_ * *method.choice.dt_s / frontier_tick_s;
   }
   const std::size_t wanted = bytes / (bytes_each_ * lane_count);
-  const std::size_t each = std::max<std::size_t>(std::min(wanted, most_blocks) / drives.size(), 1);
+  const std::size_t each = std::max<std::size_t>(std::min(wanted, most_blocks) / muscles, 1);
   for (std::size_t m = 0; m < drives.size(); ++m) {
+    if (individuals[m].empty()) continue;
     const FrontierDrive& drive = drives[m];
     for (std::size_t b = 0; b < each; ++b) {
       // The first walks are everybody's once; of few blocks those in the middle.
@@ -62,7 +66,7 @@ FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const Front
       Block& block = blocks_.emplace_back();
       block.individual = &individuals[m][lane];
       block.scale = alike<BellyScale>(drive.scale, lane);
-      if (stiffness == Stiffness::shared) block.scale = {alike({1.0F})[0], alike({1.0F})[0]};
+      if (stiffness == Stiffness::shared) fill({1, 1}, &block.scale.across);
       const double time_s = static_cast<double>(drive.first + 7 * b % (drive.ticks() - drive.first)) * frontier_tick_s;
       for (std::size_t way = 0; way < 2; ++way) {
         const double from_s = way == 0 ? time_s : time_s + frontier_tick_s,
@@ -70,26 +74,24 @@ FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const Front
         block.end[way] = alike<EndDisplacement>(drive.end(from_s, to_s), lane);
         if (loads) block.load[way] = alike<FrameLoad>(drive.load(from_s, to_s), lane);
       }
-      if (method.reduced()) {
-        block.state.resize(reduced_state_width(first.basis->vectors, first.basis->inputs));
-        block.motion = alike(block.individual->motion);
-        block.points = alike(block.individual->points);
-        block.displacement.resize(point_width);
-      } else {
-        block.displacement.resize(nodal_width(method.choice.cells));
-        block.velocity.resize(method.choice.method == Method::statics ? 0 : block.displacement.size());
-      }
+      block.first = numbers * (blocks_.size() - 1);
     }
+  }
+  numbers_.resize(numbers * blocks_.size());
+  if (!method.reduced()) return;
+  for (const Block& block : blocks_) {
+    if (method.moving()) fill(block.individual->motion, &numbers_[block.first + state_]);
+    fill(block.individual->points, &numbers_[block.first + state_ + motion_]);
   }
 }
 
 void FrontierCrowd::tick(bool control_points) {
   const FlushDenormals flush;
-  for (Block& block : blocks_) {
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
     if (method_.reduced()) {
-      tick_vectors(block, control_points);
+      tick_vectors(b, control_points);
     } else {
-      tick_elements(block);
+      tick_elements(blocks_[b]);
     }
   }
   turn_ = 1 - turn_;
@@ -100,8 +102,8 @@ void FrontierCrowd::tick_elements(Block& block) {
   BellyReport<Lanes<float>> unused;
   const BellyBlock bellies{*own.shape,
                            block.scale,
-                           block.displacement.data()->lane,
-                           block.velocity.empty() ? nullptr : block.velocity.data()->lane,
+                           column(block, 0),
+                           velocity_ == 0 ? nullptr : column(block, displacement_),
                            unused,
                            stiffness_,
                            loads_ ? &block.load[turn_] : nullptr,
@@ -115,10 +117,18 @@ void FrontierCrowd::tick_elements(Block& block) {
   }
 }
 
-void FrontierCrowd::tick_vectors(Block& block, bool control_points) {
-  const ReducedBlock bellies{*block.individual->basis, block.scale, block.state.data()->lane, block.motion.data()->lane,
-                             loads_ ? &block.load[turn_] : nullptr};
-  const ControlPoints points{block.points.data()->lane, block.displacement.data()->lane};
+void FrontierCrowd::tick_vectors(std::size_t b, bool control_points) {
+  const Block& block = blocks_[b];
+  const Block& next = blocks_[std::min(b + 1, blocks_.size() - 1)];
+  const ReducedBlock bellies{*block.individual->basis,
+                             block.scale,
+                             column(block, 0),
+                             column(block, state_),
+                             loads_ ? &block.load[turn_] : nullptr,
+                             column(next, 0),
+                             column(next, state_)};
+  const ControlPoints points{column(block, state_ + motion_), column(block, state_ + motion_ + points_), true,
+                             column(next, state_ + motion_)};
   if (!method_.moving()) {
     place_static(bellies, points, block.end[turn_]);
     return;
@@ -135,8 +145,10 @@ double FrontierCrowd::steps_a_tick() const {
 }
 
 bool FrontierCrowd::finite() const {
-  return std::ranges::all_of(blocks_, [](const Block& block) {
-    return std::ranges::all_of(block.displacement, [](const Lanes<float>& numbers) {
+  const std::size_t before = method_.reduced() ? state_ + motion_ + points_ : 0;
+  return std::ranges::all_of(blocks_, [&](const Block& block) {
+    const auto shown = std::span(numbers_).subspan(block.first + before, displacement_);
+    return std::ranges::all_of(shown, [](const Lanes<float>& numbers) {
       return std::ranges::all_of(numbers.lane, [](float x) { return std::isfinite(x); });
     });
   });

@@ -17,7 +17,7 @@ namespace mobil {
 /// at most `most_blocks`, and at least one of each muscle.
 class FrontierCrowd {
  public:
-  /// `individuals`: of each drive its sixteen. They and `drives` must outlive the crowd.
+  /// `individuals`: of each drive its sixteen, or none; of one at least. They and `drives` must outlive the crowd.
   FrontierCrowd(const FrontierMethod& method, std::span<const FrontierDrive> drives,
                 std::span<const std::vector<FrontierIndividual>> individuals, bool loads, Stiffness stiffness,
                 std::size_t bytes, std::size_t most_blocks);
@@ -36,16 +36,18 @@ class FrontierCrowd {
   bool finite() const;
 
  private:
+  /// Its columns stand in a row, as in a world's table.
   struct Block {
     const FrontierIndividual* individual;
-    std::vector<Lanes<float>> displacement, velocity, state, motion, points;
     BellyScale<Lanes<float>> scale;
     EndDisplacement<Lanes<float>> end[2];  // to and fro
     FrameLoad<Lanes<float>> load[2];
+    std::size_t first;  // of numbers_
   };
 
+  float* column(const Block& block, std::size_t after) { return numbers_[block.first + after].lane; }
   void tick_elements(Block& block);
-  void tick_vectors(Block& block, bool control_points);
+  void tick_vectors(std::size_t b, bool control_points);
 
   const FrontierMethod method_;
   const bool loads_;
@@ -53,7 +55,9 @@ class FrontierCrowd {
   std::size_t bytes_each_ = 0, turn_ = 0;
   double ticks_a_call_ = 1;
   std::uint32_t fixed_steps_ = 0;
+  std::size_t state_ = 0, motion_ = 0, points_ = 0, displacement_ = 0, velocity_ = 0;  // widths
   std::vector<Block> blocks_;
+  std::vector<Lanes<float>> numbers_;
   std::vector<Lanes<float>> scratch_;
 };
 

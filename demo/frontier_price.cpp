@@ -34,7 +34,7 @@ std::unique_ptr<FrontierCrowd> crowd_of(const FrontierPriced& priced, std::span<
                                         Stiffness stiffness, const FrontierRequest& request) {
   const FrontierMethod& method = priced.rung->method;
   FrontierCrowd few(method, drives, priced.individuals, loads, stiffness, request.bytes, 1);
-  const double block_s = measure(1, [&] { few.tick(true); }).best_s / static_cast<double>(drives.size());
+  const double block_s = measure(1, [&] { few.tick(true); }).best_s * lane_count / static_cast<double>(few.muscles());
   const auto most = static_cast<std::size_t>(request.call_s / block_s);
   return std::make_unique<FrontierCrowd>(method, drives, priced.individuals, loads, stiffness, request.bytes, most);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "demo/frontier.h"
@@ -109,7 +110,7 @@ std::string frontier_csv(const Frontier& frontier) {
                        row.nodes, row.dt_s, row.vectors, row.error, row.error_max_m, row.cost_us, row.ratio,
                        row.memory_bytes, row.on_frontier, scene_name(row.loads), row.cells, row.points_us,
                        row.points_ratio, row.points_on_frontier, row.uncertain);
-    for (const double error : row.error_of_muscle) csv += fmt::format(",{:.6g}", error);
+    for (const double error : row.error_of_muscle) csv += std::isfinite(error) ? fmt::format(",{:.6g}", error) : ",";
     std::string mark = row.mark;
     std::ranges::replace(mark, ',', ' ');
     csv += fmt::format(",{}\n", mark);

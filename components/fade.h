@@ -8,10 +8,10 @@ namespace mobil {
 /// Time from a change of method to when nothing is left of what was before, s.
 inline constexpr float fade_s = 0.25F;
 
-/// How long ago the change was.
+/// How long ago the change was, in ticks.
 template <class F>
 struct Fade {
-  F elapsed_s;
+  Whole<F> ticks;
 };
 
 /// Run-time sized columns: by how much displacement (m, three a node) and then velocity (m/s, three a node) of what was

@@ -99,7 +99,7 @@ Beginning beginning(const World& world, MuscleWork& work, const MuscleChange& ch
   if (!computed) return begin(next, was);
   past.shown = past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(muscle);
-  if (fades) add_fade(world, muscle, past.shown);
+  if (fades) add_fade(world, muscle, change.tick_s, past.shown);
   const bool keeps = world.shared<ReducedBasis>(muscle) == next.belly.basis.get() && world.has<ReducedState>(muscle);
   return go_on(next, past, keeps);
 }
@@ -107,75 +107,77 @@ Beginning beginning(const World& world, MuscleWork& work, const MuscleChange& ch
 /// Parts that the method calls for; keeps their values.
 class MethodParts {
  public:
-  MethodParts(World& world_of, const MuscleChange& what, const Beginning& beginning, PartList& to)
-      : world(world_of), change(what), from(beginning), list(to) {
+  MethodParts(World& world, const MuscleChange& change, const Beginning& from, PartList& list)
+      : world_(world), change_(change), from_(from), list_(list) {
     const LegMuscles& choice = change.choice;
-    const Belly& belly = change.belly;
     if (choice.method == Method::none) return;
-    list.add(belly.plan.scale);
+    list_.add(change.belly.plan.scale);
     const std::size_t width = nodal_width(choice.cells);
     if (choice.method == Method::reduced) {
       add_reduced();
     } else {
       add_full(width);
     }
-    if (!has_control_points(choice)) return;
-    list.add(world.share(belly.shape->shape));
-    list.add_field<NodalDisplacement>(width, from.displacement);
-    if (from.fade.empty()) return;
-    list.add(since);
-    list.add_field<FadeStart>(2 * width, from.fade);
-    shown.resize(width);
-    for (std::size_t i = 0; i < width; ++i) shown[i] = from.displacement[i] + from.fade[i];
-    list.add_field<ShownDisplacement>(width, shown);
+    if (has_control_points(choice)) add_control_points(width);
   }
 
  private:
   void add_full(std::size_t width) {
-    const Method method = change.choice.method;
-    const Belly& belly = change.belly;
-    list.add(TagValue<ScratchFloats>{scratch_floats(*belly.shape->shape, method)});
-    if (method != Method::statics) list.add_field<NodalVelocity>(width, from.velocity);
+    const Method method = change_.choice.method;
+    const Belly& belly = change_.belly;
+    list_.add(TagValue<ScratchFloats>{scratch_floats(*belly.shape->shape, method)});
+    if (method != Method::statics) list_.add_field<NodalVelocity>(width, from_.velocity);
     if (method == Method::ecd) {
-      list.add(TagValue<Substeps>{belly.steps});
+      list_.add(TagValue<Substeps>{belly.steps});
       return;
     }
     if (method == Method::statics) {
-      list.add(TagValue<StaticSteps>{belly.steps});
+      list_.add(TagValue<StaticSteps>{belly.steps});
     } else {
-      list.add(TagValue<SolvedSteps>{belly.steps});
+      list_.add(TagValue<SolvedSteps>{belly.steps});
     }
-    list.add(world.share(belly.solver));
+    list_.add(world_.share(belly.solver));
   }
 
   void add_reduced() {
-    const ReducedChoice& reduced = change.choice.reduced;
-    const ReducedBasis& basis = *change.belly.basis;
-    const ReducedBelly& own = *change.belly.motions;
-    list.add(world.share(change.belly.basis));
+    const ReducedChoice& reduced = change_.choice.reduced;
+    const ReducedBasis& basis = *change_.belly.basis;
+    const ReducedBelly& own = *change_.belly.motions;
+    list_.add(world_.share(change_.belly.basis));
     if (reduced.moving) {
-      list.add_field<ReducedState>(reduced_state_width(basis.vectors, basis.inputs), from.state);
+      list_.add_field<ReducedState>(reduced_state_width(basis.vectors, basis.inputs), from_.state);
     } else {
-      list.add(TagValue<ReducedStatic>{1});
+      list_.add(TagValue<ReducedStatic>{1});
     }
     if (reduced.moving || (reduced.control_points && basis.inputs > 1)) {  // there the report reads participations
-      motion.resize(reduced_motion_width(basis.vectors, basis.inputs));
-      write_motion(own, basis.options.damping_per_s, static_cast<double>(change.tick_s), motion);
-      list.add_field<ReducedMotion>(motion.size(), motion);
+      motion_.resize(reduced_motion_width(basis.vectors, basis.inputs));
+      write_motion(own, basis.options.damping_per_s, static_cast<double>(change_.tick_s), motion_);
+      list_.add_field<ReducedMotion>(motion_.size(), motion_);
     }
     if (reduced.control_points) {
-      shape.resize(reduced_shape_width(basis.vectors, basis.inputs));
-      write_shape(own, basis.options.damping_per_s, shape);
-      list.add_field<ReducedShape>(shape.size(), shape);
+      shape_.resize(reduced_shape_width(basis.vectors, basis.inputs));
+      write_shape(own, basis.options.damping_per_s, shape_);
+      list_.add_field<ReducedShape>(shape_.size(), shape_);
     }
   }
 
-  World& world;
-  const MuscleChange& change;
-  const Beginning& from;
-  PartList& list;
-  std::vector<float> motion, shape, shown;
-  Fade<float> since{0};
+  void add_control_points(std::size_t width) {
+    list_.add(world_.share(change_.belly.shape->shape));
+    list_.add_field<NodalDisplacement>(width, from_.displacement);
+    if (from_.fade.empty()) return;
+    list_.add(since_);
+    list_.add_field<FadeStart>(2 * width, from_.fade);
+    shown_.resize(width);
+    for (std::size_t i = 0; i < width; ++i) shown_[i] = from_.displacement[i] + from_.fade[i];
+    list_.add_field<ShownDisplacement>(width, shown_);
+  }
+
+  World& world_;
+  const MuscleChange& change_;
+  const Beginning& from_;
+  PartList& list_;
+  std::vector<float> motion_, shape_, shown_;
+  Fade<float> since_{0};
 };
 
 template <template <class> class End>
@@ -220,11 +222,14 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
     muscle = world.create_from(list.parts());
   }
   if (from.fade.empty()) return;
-  const auto ticks = static_cast<std::uint32_t>(std::ceil(fade_s / change.tick_s * (1 - 1e-5F)));
-  work.fading.push_back({muscle, change.tick + ticks});
+  work.fading.push_back({muscle, change.tick + fade_ticks(change.tick_s)});
 }
 
 }  // namespace
+
+std::uint32_t fade_ticks(float tick_s) {
+  return static_cast<std::uint32_t>(std::ceil(fade_s / tick_s * (1 - 1e-5F)));
+}
 
 void make_muscle(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle) {
   if (change.choice.drive == Drive::displacement) {

@@ -33,6 +33,9 @@ struct MuscleChange {
   float tick_s;
 };
 
+/// Whole ticks until nothing is left of what fades, up to rounding.
+std::uint32_t fade_ticks(float tick_s);
+
 /// `muscle` becomes an entity of just the parts that its method needs, or a new one where it is stale.
 void make_muscle(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle);
 

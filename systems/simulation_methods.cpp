@@ -53,10 +53,11 @@ MuscleMethod Simulation::method(Entity entity, Muscle muscle) const {
 
 /// Of those whose time is up; who changed again since has a later entry.
 void Simulation::end_fades() {
+  const std::uint32_t ticks = fade_ticks(static_cast<float>(clock_.tick_s()));
   for (; !work_->fading.empty() && work_->fading.front().ends <= tick_; work_->fading.pop_front()) {
     const Entity muscle = work_->fading.front().muscle;
     const auto fade = world_.get<Fade>(muscle);
-    if (!fade || fade->elapsed_s < 0.999F * fade_s) continue;
+    if (!fade || fade->ticks < ticks) continue;
     world_.remove_parts(muscle, {type_id<Fade<float>>(), type_id<FadeStart>(), type_id<ShownDisplacement>()});
   }
 }

@@ -13,7 +13,9 @@
 namespace mobil {
 namespace {
 
-constexpr int settling = 4, moving_back = 2;  // static solutions, each of which takes away most of what the last left
+// Static solutions, each of which takes away most of what the last left: from nothing, from nearby under a frame's
+// load, and where a shape in proportion is all but right.
+constexpr int from_nothing = 4, from_nearby = 2, once = 1;
 
 struct alignas(64) Line {
   float lane[lane_count];
@@ -80,7 +82,7 @@ std::vector<float> static_velocity(const StaticBelly& belly, const BellyLoad& lo
   }
   if (load.frame || !scales) {
     if (load.frame) before = displacement;
-    solve(belly, at_start(load), load.frame ? moving_back : settling, before);
+    solve(belly, at_start(load), load.frame ? once : from_nothing, before);
   }
   std::vector<float> velocity(displacement.size());
   for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] = (displacement[i] - before[i]) / load.tick_s;
@@ -150,11 +152,12 @@ BellyMotion stretched(const Belly& belly, const LineOfAction<float>& line, const
   return motion;
 }
 
-/// What `motion` becomes under all loads: the static answer, and how it moves.
-void settle(const Belly& belly, const BellySolver& solver, const BellyLoad& load, BellyMotion& motion) {
+/// What `motion` becomes under all loads: the static answer, and, where asked, how it moves.
+void settle(const Belly& belly, const BellySolver& solver, const BellyLoad& load, int solutions, BellyMotion& motion,
+            bool moves) {
   const StaticBelly of{*belly.shape->shape, solver, belly.plan.scale};
-  solve(of, load, settling, motion.displacement);
-  motion.velocity = static_velocity(of, load, motion.displacement);
+  solve(of, load, solutions, motion.displacement);
+  if (moves) motion.velocity = static_velocity(of, load, motion.displacement);
 }
 
 /// The state that goes on from `motion`.
@@ -235,10 +238,10 @@ std::optional<BellyMotion> computed_motion(const World& world, Entity muscle, fl
   return reduced_motion(*basis, last.belly, load, field_of<ReducedState>(world, muscle));
 }
 
-void add_fade(const World& world, Entity muscle, BellyMotion& motion) {
+void add_fade(const World& world, Entity muscle, float tick_s, BellyMotion& motion) {
   const auto fade = world.get<Fade>(muscle);
   if (!fade) return;
-  const FadeShare share = fade_share(fade->elapsed_s);
+  const FadeShare share = fade_share(static_cast<float>(fade->ticks) * tick_s);
   const std::vector<float> start = field_of<FadeStart>(world, muscle);
   const std::size_t width = motion.displacement.size();
   for (std::size_t i = 0; i < width; ++i) {
@@ -262,7 +265,9 @@ Beginning begin(const NextBelly& next, bool moves) {
     return from;
   }
   BellyMotion motion = stretched(next.belly, next.line, next.load);
-  if (next.choice.inertia) settle(next.belly, *next.belly.resting, next.load, motion);
+  if (next.choice.inertia) {
+    settle(next.belly, *next.belly.resting, next.load, moves ? from_nearby : from_nothing, motion, moves);
+  }
   if (!moves) std::fill(motion.velocity.begin(), motion.velocity.end(), 0.0F);
   return {std::move(motion.displacement), std::move(motion.velocity), {}, {}};
 }
@@ -275,7 +280,7 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
   BellyMotion after;
   if (method == Method::statics) {
     after = stretched(next.belly, next.line, next.load);
-    settle(next.belly, *next.belly.solver, next.load, after);
+    settle(next.belly, *next.belly.solver, next.load, next.load.frame ? from_nearby : once, after, seen);
   } else {
     if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, shown);
     if (!has_control_points(next.choice)) return from;

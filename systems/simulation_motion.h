@@ -36,7 +36,7 @@ struct LastReducedBelly {
 /// What a muscle computes, and what it shows: that and what fades. Nothing where there is no belly. Velocities of ECD
 /// and ICD are taken as they are, half a step back; static answers move as their loads over the last tick did.
 std::optional<BellyMotion> computed_motion(const World& world, Entity muscle, float tick_s, LastReducedBelly& last);
-void add_fade(const World& world, Entity muscle, BellyMotion& motion);
+void add_fade(const World& world, Entity muscle, float tick_s, BellyMotion& motion);
 
 /// The belly that a muscle is about to become. `load` is the last tick's.
 struct NextBelly {

@@ -15,8 +15,7 @@ void fade_out(const float* displacement, const float* start, std::uint32_t words
               float* shown, float tick_s) {
   Lanes<float> d, v;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    fade.elapsed_s[lane] += tick_s;
-    const FadeShare share = fade_share(fade.elapsed_s[lane]);
+    const FadeShare share = fade_share(static_cast<float>(++fade.ticks[lane]) * tick_s);
     d[lane] = share.displacement;
     v[lane] = share.velocity;
   }

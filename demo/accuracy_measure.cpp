@@ -183,6 +183,11 @@ Result<RungCost> measure_costs(std::size_t humans, bool inertia) {
   const auto nothing = measure(0, false);  // what asking for the time takes
   if (!nothing) return tl::unexpected(nothing.error());
   for (std::size_t r = 1; r < rung_count; ++r) {
+    if (rungs[r].cells == reference_cells) {  // in a tick a finer mesh's vectors are vectors like others
+      cost.state_us[r] = cost.state_us[r - 1];
+      cost.points_us[r] = cost.points_us[r - 1];
+      continue;
+    }
     const auto bare = measure(r, false);
     if (!bare) return tl::unexpected(bare.error());
     const auto with = rungs[r].method == Method::reduced ? measure(r, true) : bare;

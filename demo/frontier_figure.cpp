@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
+#include <limits>
 #include <string_view>
 
 #include "demo/frontier.h"
@@ -56,7 +58,7 @@ void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
       if (row.loads != loads || row.method != method) continue;
       points.x.push_back(row.*cost);
       points.y.push_back(100 * row.error);
-      points.text.push_back(numbered && row.vectors > 0 && row.on_frontier ? std::to_string(row.vectors) : "");
+      points.text.push_back(numbered && std::has_single_bit(row.vectors) ? std::to_string(row.vectors) : "");
     }
     if (!points.x.empty()) panel.points.push_back(std::move(points));
   };
@@ -88,7 +90,12 @@ PlotFigure frontier_figure(const Frontier& frontier) {
   for (const FrontierChange& change : frontier.change) {
     PlotPanel panel;
     panel.title = change.loads ? "line of action, gravity and the frame's motion" : "line of action alone";
-    panel.x = {"µs a muscle and tick of 1/60 s", {}, {}, true};
+    double least = std::numeric_limits<double>::infinity(), most = 0;
+    for (const FrontierRow& row : frontier.rows) {
+      least = std::min(least, row.cost_us);
+      most = std::max(most, row.points_us);
+    }
+    panel.x = {"µs a muscle and tick of 1/60 s", least / 1.6, most * 1.6, true};
     panel.y = {"error, % of the displacement (rms)", {}, {}, true};
     add_line(frontier, change.loads, false, panel);
     add_line(frontier, change.loads, true, panel);

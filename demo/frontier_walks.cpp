@@ -87,6 +87,25 @@ Result<void> record(const FrontierWalk& walk, std::size_t lane, std::vector<Fron
   return {};
 }
 
+void repeat(FrontierDrive& drive, std::size_t from, std::size_t to) {
+  drive.plan[to] = drive.plan[from];
+  const auto copy = [&](Lanes<float>& of) { of[to] = of[from]; };
+  const auto copy_all = [&](Vec3<Lanes<float>>& of) {
+    copy(of.x);
+    copy(of.y);
+    copy(of.z);
+  };
+  copy(drive.scale.across);
+  copy(drive.scale.along);
+  for (Lanes<float>& end : drive.end_m) copy(end);
+  for (FrontierFrame& frame : drive.frame) {
+    copy_all(frame.constant);
+    copy_all(frame.gradient.x);
+    copy_all(frame.gradient.y);
+    copy_all(frame.gradient.z);
+  }
+}
+
 }  // namespace
 
 EndDisplacement<Lanes<float>> FrontierDrive::end(double from_s, double to_s) const {
@@ -151,8 +170,11 @@ Result<std::vector<FrontierDrive>> record_walks(std::span<const Muscle> muscles,
     drives.back().end_m.resize(ticks + 1);
     drives.back().frame.resize(ticks + 1);
   }
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    if (auto done = record(walks[lane % walks.size()], lane, drives); !done) return tl::unexpected(done.error());
+  for (std::size_t lane = 0; lane < walks.size(); ++lane) {
+    if (auto done = record(walks[lane], lane, drives); !done) return tl::unexpected(done.error());
+  }
+  for (FrontierDrive& drive : drives) {
+    for (std::size_t lane = walks.size(); lane < lane_count; ++lane) repeat(drive, lane % walks.size(), lane);
   }
   return drives;
 }

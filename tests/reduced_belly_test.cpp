@@ -1,10 +1,12 @@
 // One body's motions: eigenvectors, the numbers that kernels take, and states that are fitted and shown.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <complex>
+#include <ctime>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -135,6 +137,22 @@ TEST(ReducedBelly, TakesNothingFromTheHeap) {
   write_shape(*belly, 8, shape);
   EXPECT_EQ(heap_requests, before);
   EXPECT_TRUE(std::all_of(shape.begin(), shape.end(), [](float x) { return std::isfinite(x); }));
+}
+
+// Only prints.
+TEST(ReducedBelly, DISABLED_Microseconds) {
+  for (const bool frame : {false, true}) {
+    for (const std::uint32_t vectors : {8U, 12U, 16U}) {
+      const auto basis = truncated(basis_of(FarEnd::held, frame), vectors);
+      constexpr int bellies = 20000;
+      double sum = 0;
+      const std::clock_t begin = std::clock();  // of this process alone
+      for (int i = 0; i < bellies; ++i) sum += make_reduced_belly(basis, 1 + 1e-6 * i, 1)->omega_1_s[0];
+      const double took_us = 1e6 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      fmt::print("{} vectors, {} inputs: {:.2f} us a belly ({:.3g} Hz)\n", vectors, basis.inputs, took_us / bellies,
+                 sum / bellies / 6.283);
+    }
+  }
 }
 
 RC_GTEST_PROP(ReducedState, ShownAndFittedIsItself, ()) {

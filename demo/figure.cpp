@@ -32,17 +32,21 @@ bool is_tendon(const std::string& name) {
   return name.find("tendon") != std::string::npos || name.find("ligament") != std::string::npos;
 }
 
-MuscleSet simulated(const Human& human) {
+/// Those with a belly, whose mesh a surface may follow.
+MuscleSet simulated(const Simulation& simulation, const Human& human) {
   MuscleSet set;
-  for (const HumanMuscle& own : human.muscles) set.set(static_cast<std::size_t>(own.plan.muscle));
+  for (const HumanMuscle& own : human.muscles) {
+    const bool belly = simulation.world().shared<MuscleTemplate>(own.entity[right]) != nullptr;
+    set.set(static_cast<std::size_t>(own.plan.muscle), belly);
+  }
   return set;
 }
 
 /// Binds a surface, and what there is of it beyond the kneecap, to the mesh of the muscle that drives it.
 void bind(const Simulation& simulation, const Human& human, Muscle driver, const Attachments& attachments,
           MuscleSurface& surface, Ligament* beyond = nullptr) {
-  const auto& [plan, entity, method] = *std::find_if(human.muscles.begin(), human.muscles.end(),
-                                             [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
+  const auto& [plan, entity, method] = *std::find_if(
+      human.muscles.begin(), human.muscles.end(), [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
   const auto* shape = simulation.world().shared<MuscleTemplate>(entity[right]);
   const HexahedralMesh cage = individual_cage(*shape, plan.scale);
   const RestFrame frame{geometry::to_float(plan.start_m), geometry::to_float(plan.rotation)};
@@ -70,7 +74,7 @@ Result<Figure> real_figure(const Simulation& simulation, const Human& human, con
     if (!real[index(bone.segment)]) figure.bones.push_back(std::move(bone));
   }
   for (auto& muscle : fitted->muscles) {
-    const auto driver = driving_muscle(simulated(human), muscle.group, muscle.muscle);
+    const auto driver = driving_muscle(simulated(simulation, human), muscle.group, muscle.muscle);
     if (!driver) continue;
     auto ligament = cut_at_kneecap(muscle, human.body);
     bind(simulation, human, *driver, muscle.attachments, muscle.surface, ligament ? &*ligament : nullptr);
@@ -88,7 +92,7 @@ Result<Figure> make_figure(const Simulation& simulation, const Human& human,
   Figure figure;
   figure.bones = make_bone_surfaces(human.body);
   for (auto& muscle : make_muscle_surfaces(human.body)) {
-    const auto driver = driving_muscle(simulated(human), muscle.group, muscle.muscle);
+    const auto driver = driving_muscle(simulated(simulation, human), muscle.group, muscle.muscle);
     if (!driver) continue;
     if (muscle.ligament) {
       bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);

@@ -73,8 +73,9 @@ void add_muscle_rows(const Simulation& simulation, const Human& human, std::stri
   for (const Side side : {right, left}) {
     for (const HumanMuscle& own : human.muscles) {
       const Entity muscle = own.entity[side];
+      const auto belly = simulation.get<BellyReport>(muscle);
       table.add(simulation.time_s(), side, own.plan.muscle, *simulation.get<LineOfAction>(muscle),
-                *simulation.get<LineMotion>(muscle), *simulation.get<BellyReport>(muscle), method);
+                *simulation.get<LineMotion>(muscle), belly ? std::optional(*belly) : std::nullopt, method);
     }
   }
 }

@@ -59,6 +59,7 @@ std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Human& h
                   [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
                     const auto* shape = simulation.world().shared<MuscleTemplate>(muscle);
                     const NodalView moved = simulation.nodal_displacement(muscle);
+                    if (moved.first == nullptr) return;  // a line alone
                     const BellyScale<float> scale = plan.scale;
                     const auto node = [&](std::uint32_t n) {
                       const auto& rest = shape->mesh.node[n];

@@ -67,7 +67,10 @@ const char* const walk_muscles_help =
     "and\n"
     "    cheap; members are the thirteen muscles on their own, for close views; what is not chosen is not simulated.\n"
     "  --method ecd: explicit, in steps short enough for each belly; icd: the same with the consistent mass;\n"
-    "    caa: implicit, one step a tick; static: no vibration at all. summary.json tells the steps taken.\n"
+    "    caa: implicit, one step a tick; static: no vibration at all; reduced: a few vectors of a finer mesh, the "
+    "cheapest\n"
+    "    that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the steps "
+    "taken.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
     "Hz);\n"
     "    without it they move by the line's pull alone.\n";
@@ -105,7 +108,7 @@ void add_walk_options(CLI::App& command, WalkText& text) {
                   "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
       ->capture_default_str()
       ->group("Muscles");
-  command.add_option("--method", text.method, "How muscles move: ecd, icd, caa or static, see below")
+  command.add_option("--method", text.method, "How muscles move: ecd, icd, caa, static, reduced or none, see below")
       ->capture_default_str()
       ->group("Muscles");
   command

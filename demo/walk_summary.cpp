@@ -18,26 +18,29 @@ double decimal(float value) {
 }
 
 Json muscles_json(const Simulation& simulation, const Human& human) {
-  const Method method = human.leg_muscles.method;
   Json muscles = Json::array();
   for (const HumanMuscle& own : human.muscles) {
     for (const Side side : {right, left}) {
       const Entity entity = own.entity[side];
       const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
-      const auto scale = simulation.get<BellyScale>(entity);
+      const BellyScale<float>& scale = own.plan.scale;
       const auto line = simulation.get<LineOfAction>(entity);
-      if (shape == nullptr || !scale || !line) continue;
-      const bool stepped = method != Method::statics;
+      if (!line) continue;
+      const Method method = own.method.method;
+      const bool stepped = method == Method::ecd || method == Method::icd || method == Method::caa;
       const bool limited = method == Method::ecd || method == Method::icd;
       const std::uint64_t steps =
           simulation.world().get<Substeps>(entity).value_or(simulation.world().get<SolvedSteps>(entity).value_or(1));
-      const double critical =
-          critical_step(shape->critical_steps, static_cast<double>(scale->across), static_cast<double>(scale->along))
-              .value_or(0.0);
+      const double critical = limited ? critical_step(shape->critical_steps, static_cast<double>(scale.across),
+                                                      static_cast<double>(scale.along))
+                                            .value_or(0.0)
+                                      : 0.0;
       const MusclePlan& plan = own.plan;
       muscles.push_back({{"group", muscle_name(plan.muscle)},
                          {"side", side == right ? "right" : "left"},
-                         {"nodes", node_count(shape->mesh.cells)},
+                         {"method", method_name[static_cast<std::size_t>(method)]},
+                         {"nodes", shape == nullptr ? 0 : node_count(shape->mesh.cells)},
+                         {"vectors", method == Method::reduced ? Json(own.method.reduced.vectors) : Json()},
                          {"rest_length_m", line->rest_length_m},
                          {"belly_length_m", plan.belly_length_m},
                          {"section_m2", plan.section_m2},
@@ -79,12 +82,16 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
 
   const double simulated = outcome.simulated_s;
   const double ticks = outcome.ticks;
-  Json stages = Json::object();
+  Json stages = Json::object(), cost = Json::array();
   const auto systems = simulation.schedule().systems();
   const auto& timings = outcome.stages;
   for (std::size_t i = 0; i < systems.size(); ++i) {
+    const bool ran = timings[i].seconds > 0;
     stages[systems[i].name] = {{"us_per_tick", 1e6 * timings[i].seconds / ticks},
-                               {"times_faster_than_real_time", simulated / timings[i].seconds}};
+                               {"times_faster_than_real_time", ran ? Json(simulated / timings[i].seconds) : Json()}};
+    cost.push_back({{"name", systems[i].name},
+                    {"ms_per_tick", 1e3 * timings[i].seconds / ticks},
+                    {"entities", static_cast<double>(timings[i].rows) / ticks}});
   }
   summary["time"] = {{"simulated_s", simulated},
                      {"ticks", outcome.ticks},
@@ -94,6 +101,7 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                      {"times_faster_than_real_time", simulated / outcome.simulation_s},
                      {"command_wall_s", outcome.wall_s},
                      {"stages", stages}};
+  summary["systems"] = cost;
   summary["muscles"] = muscles_json(simulation, human);
   Json glb = Json::array();
   for (const auto& muscle : exported) {

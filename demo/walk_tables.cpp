@@ -69,13 +69,20 @@ MuscleTable::MuscleTable()
           "hip_flexion_arm_m,knee_flexion_arm_m,ankle_dorsiflexion_arm_m\n") {}
 
 void MuscleTable::add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line,
-                      const LineMotion<float>& motion, const BellyReport<float>& belly, std::string_view method) {
-  fmt::format_to(
-      std::back_inserter(text), "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.6f},{:.6e},{:.6e},{},{:.6f}",
-      time_s, side_name[side], muscle_name(muscle), line.length_m, line.rest_length_m,
-      line.length_m / line.rest_length_m, line.stiffness_n_per_m, line.force_n, belly.elongation_m, belly.volume_ratio,
-      belly.kinetic_energy_j, belly.strain_energy_j, method, belly.elongation_m - (line.length_m - line.rest_length_m));
-  fmt::format_to(std::back_inserter(text), ",{:.6f},{:.6f},{:.6f},{:.6f}\n", motion.speed_m_s, motion.hip_flexion_arm_m,
+                      const LineMotion<float>& motion, const std::optional<BellyReport<float>>& belly,
+                      std::string_view method) {
+  auto out = std::back_inserter(text);
+  fmt::format_to(out, "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f}", time_s, side_name[side], muscle_name(muscle),
+                 line.length_m, line.rest_length_m, line.length_m / line.rest_length_m, line.stiffness_n_per_m,
+                 line.force_n);
+  if (belly) {
+    fmt::format_to(out, ",{:.6f},{:.6f},{:.6e},{:.6e},{},{:.6f}", belly->elongation_m, belly->volume_ratio,
+                   belly->kinetic_energy_j, belly->strain_energy_j, method,
+                   belly->elongation_m - (line.length_m - line.rest_length_m));
+  } else {
+    fmt::format_to(out, ",,,,,{},", method);
+  }
+  fmt::format_to(out, ",{:.6f},{:.6f},{:.6f},{:.6f}\n", motion.speed_m_s, motion.hip_flexion_arm_m,
                  motion.knee_flexion_arm_m, motion.ankle_dorsiflexion_arm_m);
 }
 

@@ -34,14 +34,14 @@ struct MotionTable {
   std::string text;
 };
 
-/// The method column: ecd, icd, caa or static; where the end is pulled ecd_force and so on.
+/// The method column: ecd, icd, caa, static, reduced or none; where the end is pulled ecd_force and so on.
 std::string method_label(const LegMuscles& muscles);
 
-/// muscles.csv under way.
+/// muscles.csv under way. A muscle without a belly has empty cells for it.
 struct MuscleTable {
   MuscleTable();
   void add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line, const LineMotion<float>& motion,
-           const BellyReport<float>& belly, std::string_view method);
+           const std::optional<BellyReport<float>>& belly, std::string_view method);
   std::string text;
 };
 

@@ -139,7 +139,8 @@ TEST(ReductionBound, IsNeverBelowTheErrorWhateverTheBellyItsEndAndItsLoads) {
       const double ratio = o.middle_ratio * std::pow(o.ratio_width, side);
       const Size size = size_of(ratio, between(0.7, 1.3));
       const double damping = between(0.1, 1.2) * body_range(c.bound, size.across, size.along).slowest_1_s;
-      const Loads loads = any_loads(random, c.basis, o.far_end == FarEnd::held ? 0.02 : 0.5, 60);
+      Loads loads = any_loads(random, c.basis, o.far_end == FarEnd::held ? 0.02 : 0.5, 60);
+      if (round % 4 == 2) std::fill(loads.begin() + 3, loads.end(), loads[2]);  // what was kicked swings on alone
       const Compared all = compare(c, size.across, size.along, damping, loads, between(0.004, 0.03));
       EXPECT_GE(least(all.energy), 1) << "round " << round << " side " << side;
       EXPECT_GE(least(all.rms), 1) << "round " << round << " side " << side;

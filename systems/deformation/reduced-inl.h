@@ -72,15 +72,27 @@ HWY_INLINE void fetch(const float* p) {
   __builtin_prefetch(p, 0, 2);
 }
 
-/// Sixteen lanes each, from `at` on, fetched some at a time.
-struct Ahead {
-  const float *at, *end;
+/// `rows` rows of sixteen lanes from each of `runs` places `apart` rows apart, fetched some at a time.
+class Ahead {
+ public:
+  HWY_INLINE Ahead(const float* begin, std::size_t runs, std::size_t rows, std::size_t apart)
+      : at_(begin), runs_(begin == nullptr ? 0 : runs), rows_(rows), left_(rows), skipped_(apart - rows) {}
 
-  Ahead(const float* begin, std::size_t rows)
-      : at(begin), end(begin == nullptr ? nullptr : begin + rows * lane_count) {}
-  HWY_INLINE void fetch_some(std::size_t rows) {
-    for (std::size_t i = 0; i < rows && at < end; ++i, at += lane_count) fetch(at);
+  std::size_t rows() const { return runs_ * rows_; }  // until some are fetched
+
+  HWY_INLINE void fetch_some(std::size_t count) {
+    for (std::size_t i = 0; i < count && runs_ > 0; ++i, at_ += lane_count) {
+      fetch(at_);
+      if (--left_ > 0) continue;
+      left_ = rows_;
+      at_ += skipped_ * lane_count;
+      --runs_;
+    }
   }
+
+ private:
+  const float* at_;
+  std::size_t runs_, rows_, left_, skipped_;
 };
 
 /// Places in `shape` of what follows the rows.

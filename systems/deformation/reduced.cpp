@@ -32,17 +32,17 @@ void deform_tick(const ReducedBlock& block, const EndDrive& end, float tick_s) {
   for (std::size_t i = 0; i < inputs.count; ++i) rate[i] = (load(*inputs.to[i]) - load(*inputs.from[i])) * per_s;
   float* state = block.state;
   const float* motion = block.motion;
-  Ahead states(block.next_state, 2 * vectors);
-  Ahead motions(block.next_motion, reduced_motion_width(block.basis.vectors, block.basis.inputs));
+  const std::size_t full = full_inputs(inputs.count);
+  const std::size_t width = inputs.count == 1 ? 3 : 3 + full + (inputs.count - full) / 2;
+  Ahead states(block.next_state, vectors, 2, 2), motions(block.next_motion, vectors, width, width);
   if (inputs.count == 1) {
     for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count) {
       states.fetch_some(2);
-      motions.fetch_some(3);
+      motions.fetch_some(width);
       swing(state, motion, rate[0]);
     }
     return;
   }
-  const std::size_t full = full_inputs(inputs.count), width = 3 + full + (inputs.count - full) / 2;
   for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count) {
     states.fetch_some(2);
     motions.fetch_some(width);
@@ -83,12 +83,9 @@ HWY_INLINE void place_nodes(const float* row, std::size_t stride, std::size_t co
 /// Sums that the registers hold beside what they are made of.
 inline constexpr std::size_t nodes_at_once = vector_count == 1 ? 3 : vector_count == 2 ? 2 : 1;
 
-/// How much of each vector there is, after the end's displacement. `x` is the motions' X; null: static, which reads but
-/// the inputs' part of a shape, and fetches no more of the next.
-HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, const ControlPoints& points,
-                             const float* x, Wide* amount) {
-  const float* shape = points.shape;
-  const float* next = x == nullptr ? points.next_shape : nullptr;
+/// How much of each vector there is, after the end's displacement. `x` is the motions' X; null: static.
+HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, const float* shape, const float* x,
+                             Wide* amount) {
   std::array<Wide, most_inputs> input;
   for (std::size_t i = 0; i < inputs.count; ++i) input[i] = load(*inputs.to[i]);
   amount[0] = input[0];
@@ -100,9 +97,6 @@ HWY_INLINE void find_amounts(const ReducedInputs& inputs, std::size_t vectors, c
       sum = fma(load(shape + j * lane_count), load(x + 2 * j * lane_count), sum);
     }
     amount[k] = sum;
-    for (std::size_t i = 0; next != nullptr && i < inputs.count; ++i) {
-      fetch(next + ((k - 1) * (vectors + inputs.count) + vectors + i) * lane_count);
-    }
     shape = share + inputs.count * lane_count;
   }
 }
@@ -121,8 +115,8 @@ HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amou
   }
   const float* row = basis.shape.data() + 3 * n * stride + skipped;
   const std::size_t groups = (past - n) / nodes_at_once + 1;
-  const std::size_t shape_rows = std::size_t{basis.vectors} * (basis.vectors + basis.inputs) / groups + 1;
-  const std::size_t state_rows = 2 * std::size_t{basis.vectors} / groups + 1;
+  const std::size_t shape_rows = shapes.rows() / groups + 1;
+  const std::size_t state_rows = states.rows() / groups + 1;
   const auto place_some = [&]<std::size_t nodes>() HWY_ATTR {
     for (; n + nodes <= past; n += nodes, u += nodes * node_stride, row += 3 * nodes * stride) {
       states.fetch_some(state_rows);
@@ -142,11 +136,14 @@ HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amou
 
 void place(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, const float* x) {
   std::array<Wide, most_vectors + 1> amount;
-  find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points, x, amount.data());
+  find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points.shape, x, amount.data());
   const bool held = end.way == FarEnd::held;
   const std::size_t vectors = block.basis.vectors;
-  const Ahead states(x == nullptr ? nullptr : block.next_state, 2 * vectors);
-  const Ahead shapes(x == nullptr ? nullptr : points.next_shape, vectors * (vectors + block.basis.inputs));
+  // A static answer reads no more of a shape than the inputs' part.
+  const std::size_t row = vectors + block.basis.inputs, first = x == nullptr ? vectors : 0;
+  const Ahead states(x == nullptr ? nullptr : block.next_state, vectors, 2, 2);
+  const Ahead shapes(points.next_shape == nullptr ? nullptr : points.next_shape + first * lane_count, vectors,
+                     row - first, row);
   if (points.streamed) {
     place_all<true>(block.basis, held, amount.data(), points.displacement, states, shapes);
   } else {

@@ -23,12 +23,11 @@
 // energy of K₀ and in M₁; for a body
 //   |ρ|²_K⁻¹ ≤ (p/least)·|ρ|²_K₀⁻¹,   |K⁻¹ρ|_M ≤ p·|K₀⁻¹ρ|_M + (ε/ω₁)·√p·|ρ|_K₀⁻¹,   ε² = max x²/(1 + x),
 // x from least − 1 to most − 1, by the proven range least·K₀ ≤ p·K ≤ most·K₀.
-// Three walks of four muscle groups on 4x4x16 cells, 12 vectors (triceps 8), a space of 64, four sizes up to the ends of
-// the range: the bound is 1.5 times the error at least, 4 to 11 times it in the median; in m, 4 to 29 times. It sums
-// what single kicks leave unresolved as if all pushed one way, so it is dullest (up to 50) where the input is smooth and
-// the error below 1 %. 3 to 9 us a tick; 2 to 10 ms a belly.
-// Rozza, Huynh and Patera, Arch. Comput. Methods Eng. 15, 2008 (residuals' norms offline and online, coercivity
-// bounds).
+// Three walks of four muscle groups on 4x4x16 cells, 12 vectors (triceps 8), a space of 64, four sizes up to the ends
+// of the range: the bound is 1.5 times the error at least, 4 to 11 times it in the median; in m, 4 to 29 times. It sums
+// what single kicks leave unresolved as if all pushed one way, so it is dullest where the input is smooth and the mesh
+// coarse (hamstrings in 2x2x8 cells, error below 1 %: 50). 3 to 9 us a tick; 2 to 10 ms a belly. Rozza, Huynh and
+// Patera, Arch. Comput. Methods Eng. 15, 2008 (residuals' norms offline and online, coercivity bounds).
 
 #include <cstddef>
 #include <cstdint>

@@ -40,6 +40,7 @@ template <class Tag>
 struct Field {
   std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
   std::uint32_t words;
+  const float* next;  // where the table's next block has it, to be fetched meanwhile and never read; null at the last
 };
 
 /// A component as it was before this tick: the system runs ahead of all that write it.
@@ -195,7 +196,9 @@ template <class Tag>
 struct Parameter<Field<Tag>>
     : ColumnParameter<std::is_const_v<Tag> ? Access::Mode::read : Access::Mode::write, std::remove_const_t<Tag>> {
   static Field<Tag> make(const BlockView& view, const Bound& bound) {
-    return {Parameter::data(view, bound), bound.words};
+    const bool last = view.block + 1 >= view.table.block_count();
+    return {Parameter::data(view, bound), bound.words,
+            last ? nullptr : view.table.block(view.block + 1) + bound.first_word * lane_count};
   }
 };
 

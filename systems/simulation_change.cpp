@@ -47,6 +47,10 @@ bool was_full(const World& world, Entity muscle) {
   return world.has<MuscleTemplate>(muscle) && !world.has<ReducedBasis>(muscle);
 }
 
+bool is_reported(const LegMuscles& choice) {
+  return has_control_points(choice) && (choice.method != Method::reduced || choice.reduced.reported);
+}
+
 /// A muscle's line as it is, or as a first tick would write it.
 template <template <class> class End>
 FirstLine<End> present_line(const World& world, const MuscleChange& change, Entity muscle) {
@@ -149,7 +153,7 @@ class MethodParts {
     } else {
       list_.add(TagValue<ReducedStatic>{1});
     }
-    if (reduced.moving || (reduced.control_points && basis.inputs > 1)) {  // there the report reads participations
+    if (reduced.moving || (is_reported(change_.choice) && basis.inputs > 1)) {  // there the report reads participations
       motion_.resize(reduced_motion_width(basis.vectors, basis.inputs));
       write_motion(own, basis.options.damping_per_s, static_cast<double>(change_.tick_s), motion_);
       list_.add_field<ReducedMotion>(motion_.size(), motion_);
@@ -208,7 +212,7 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
   list.add(owner, plan.leg_scale, at.leg, at.line, at.end, world.share(belly.shape->lines));
   const MethodParts method(world, change, from, list);
   const BellyReport<float> report = world.get<BellyReport>(muscle).value_or(BellyReport<float>{});
-  if (has_control_points(choice)) list.add(report);
+  if (is_reported(choice)) list.add(report);
   if (inertia) list.add(inertia->history, inertia->load);
   LineMotion<float> motion{};
   if (choice.line_motion) {

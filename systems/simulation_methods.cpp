@@ -18,8 +18,9 @@ auto find_muscle_of(Muscles& muscles, Muscle muscle) {
 bool same(const MuscleMethod& a, const MuscleMethod& b) {
   if (a.method != b.method) return false;
   const ReducedChoice &x = a.reduced, &y = b.reduced;
-  return a.method != Method::reduced || (x.vectors == y.vectors && x.moving == y.moving && x.corrected == y.corrected &&
-                                         x.cells == y.cells && x.control_points == y.control_points);
+  return a.method != Method::reduced ||
+         (x.vectors == y.vectors && x.moving == y.moving && x.corrected == y.corrected && x.cells == y.cells &&
+          x.control_points == y.control_points && x.reported == y.reported);
 }
 
 }  // namespace

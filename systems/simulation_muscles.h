@@ -32,9 +32,10 @@ struct ReducedChoice {
   bool moving = true;          // false: the static answer alone, which has no state
   bool corrected = true;       // the mesh's own error extrapolated away (assets/reduced_basis.h)
   Cells cells = {4, 4, 16};    // of the mesh that the vectors are of; has all nodes of LegMuscles::cells
-  /// Whether someone looks: control points are placed (NodalDisplacement), and what they did reported. Without, the
-  /// state alone goes on.
+  /// Whether someone looks: control points are placed (NodalDisplacement). Without, the state alone goes on.
   bool control_points = true;
+  /// Whether what control points did is told (BellyReport), which takes more than half as long as placing them.
+  bool reported = true;
 };
 
 /// How one muscle is simulated, at its person's other choices.
@@ -70,9 +71,10 @@ struct LegMuscles {
 // Tags of muscle tables. Who steps explicitly (ECD) has Substeps and NodalVelocity; who solves (ICD, CAA) SolvedSteps,
 // NodalVelocity and a Shared<BellySolver>; who stands still (static) StaticSteps and a Shared<BellySolver>. Who moves
 // along vectors (reduced) has a Shared<ReducedBasis>, ReducedState and ReducedMotion, or ReducedStatic where it has no
-// motion of its own; and only where someone looks ReducedShape and what all the others have, NodalDisplacement and
-// BellyReport. Those that feel inertia have FrameHistory and FrameLoad besides. Who has nothing but a line (none) has
-// none of these. For a while after a change of method: Fade, FadeStart and ShownDisplacement (components/fade.h).
+// motion of its own; only where someone looks ReducedShape and what all the others have, NodalDisplacement; and only
+// where someone asks what all the others have, BellyReport. Those that feel inertia have FrameHistory and FrameLoad
+// besides. Who has nothing but a line (none) has none of these. For a while after a change of method: Fade, FadeStart
+// and ShownDisplacement (components/fade.h).
 
 /// The number of equal steps a tick is cut into.
 struct Substeps {};

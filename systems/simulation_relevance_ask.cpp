@@ -65,7 +65,7 @@ MuscleMethod rung_method(std::size_t rung, bool control_points) {
   const Rung& of = rungs[rung];
   MuscleMethod method{of.method, {}};
   if (of.method == Method::reduced) {
-    method.reduced = {of.vectors, of.moving, true, of.cells, control_points};
+    method.reduced = {of.vectors, of.moving, true, of.cells, control_points, false};
   }
   return method;
 }

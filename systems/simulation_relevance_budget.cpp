@@ -20,7 +20,8 @@ double deformation_s(const Simulation& simulation) {
 }  // namespace
 
 bool is_deformation(std::string_view system) {
-  return system.starts_with("deformation") || system.starts_with("control points") || system == "fade";
+  return system.starts_with("deformation") || system.starts_with("control points") || system.starts_with("report") ||
+         system == "fade";
 }
 
 void Relevance::observe_machine() {

@@ -65,31 +65,42 @@ template <template <class> class End>
 void move_reduced(Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
                   const End<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedMotion> motion,
                   Field<ReducedState> state) {
-  deform_reduced({*basis, scale, state.data, motion.data, frame.block}, end, tick_s);
+  deform_reduced({*basis, scale, state.data, motion.data, frame.block, state.next, motion.next}, end, tick_s);
+}
+
+/// What is but read of a block along vectors; motion where there is more than one input.
+ReducedBlock read_only(const ReducedBasis& basis, const BellyScale<Lanes<float>>& scale, const float* state,
+                       const float* motion, const FrameLoad<Lanes<float>>* frame) {
+  return {basis, scale, const_cast<float*>(state), motion, frame};
 }
 
 /// Where somebody looks at them.
 template <template <class> class End>
-void place(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
-           const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Maybe<FrameLoad> frame,
-           Field<const ReducedMotion> motion, Field<const ReducedState> state, Field<const ReducedShape> shape,
-           Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
-  const ReducedBlock block{*basis, scale, const_cast<float*>(state.data), motion.data, frame.block};  // it is but read
-  const ControlPoints points{shape.data, displacement.data};
-  place_control_points(block, points, end);
-  report_reduced(block, *control, points, end, tick_s, report);
+void place(Shared<ReducedBasis> basis, const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end,
+           Maybe<FrameLoad> frame, Field<const ReducedState> state, Field<const ReducedShape> shape,
+           Field<NodalDisplacement> displacement) {
+  ReducedBlock block = read_only(*basis, scale, state.data, nullptr, frame.block);
+  block.next_state = state.next;
+  place_control_points(block, {shape.data, displacement.data, false, shape.next}, end);
 }
 
-/// Static answers. The report reads motions where there is more than one input.
+/// Where somebody looks at static answers.
 template <template <class> class End>
-void place_still(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, TagValue<ReducedStatic>, float tick_s,
-                 const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Maybe<FrameLoad> frame,
-                 MaybeField<ReducedMotion> motion, Field<const ReducedShape> shape,
-                 Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
-  const ReducedBlock block{*basis, scale, nullptr, motion.data, frame.block};
-  const ControlPoints points{shape.data, displacement.data};
-  place_static(block, points, end);
-  report_reduced(block, *control, points, end, tick_s, report);
+void place_still(Shared<ReducedBasis> basis, TagValue<ReducedStatic>, const BellyScale<Lanes<float>>& scale,
+                 const End<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedShape> shape,
+                 Field<NodalDisplacement> displacement) {
+  place_static(read_only(*basis, scale, nullptr, nullptr, frame.block),
+               {shape.data, displacement.data, false, shape.next}, end);
+}
+
+/// Where somebody asks what either did.
+template <template <class> class End>
+void report_vectors(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
+                    const BellyScale<Lanes<float>>& scale, const End<Lanes<float>>& end, Maybe<FrameLoad> frame,
+                    MaybeField<ReducedMotion> motion, MaybeField<ReducedState> state, Field<const ReducedShape> shape,
+                    Field<const NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+  const ControlPoints points{shape.data, const_cast<float*>(displacement.data)};  // it is but read
+  report_reduced(read_only(*basis, scale, state.data, motion.data, frame.block), *control, points, end, tick_s, report);
 }
 
 /// What a change of method left over.
@@ -138,6 +149,10 @@ Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
       .after("control points, pulled")
       .add("control points, static, pulled", &place_still<EndForce>)
       .after("control points, static")
+      .add("reports", &report_vectors<EndDisplacement>)
+      .after("deformation, static, pulled")
+      .add("reports, pulled", &report_vectors<EndForce>)
+      .after("reports")
       .add("fade", &fade);
   return systems.build(memory);
 }

@@ -161,7 +161,6 @@ FrontierRequest long_frontier() {
   request.form = "long";
   request.seconds = 2.7;
   request.reference = {16, 16, 64};
-  request.checks = {fine, {16, 16, 64}};
   request.rounds = 15;
   request.call_s = 0.05;
   request.rungs = short_rungs();
@@ -175,7 +174,7 @@ FrontierRequest long_frontier() {
   for (const std::uint32_t count : {4U, 8U, 12U, 16U, 24U, 32U}) {
     all.push_back(vectors("reduced-plain", count, middle, false));
   }
-  for (const std::uint32_t count : {4U, 8U, 12U, 16U, 24U, 32U}) all.push_back(vectors("reduced", count, fine));
+  for (const std::uint32_t count : {4U, 8U, 10U, 12U, 16U, 24U, 32U}) all.push_back(vectors("reduced", count, fine));
   return request;
 }
 

@@ -18,8 +18,8 @@ namespace mobil {
 namespace {
 
 struct FrontierText {
-  std::string out = "out";
-  bool short_form = false, long_form = false;
+  std::string out = "out", loads = "both";
+  bool short_form = false, long_form = false, check = false;
 };
 
 /// On a terminal: what is being done and how far it is. Gone when the results are told.
@@ -33,6 +33,8 @@ Result<void> run_frontier(const FrontierText& text) {
   if (text.short_form && text.long_form) return fail("--short and --long are both asked for; give one of them");
   if (auto made = make_output_folder(text.out); !made) return made;
   FrontierRequest request = text.long_form ? long_frontier() : short_frontier();
+  if (text.loads != "both") request.scenes = {text.loads == "frame"};
+  if (text.check) request.checks = {{8, 8, 32}, {16, 16, 64}};
   request.progress = &show;
   const auto frontier = measure_frontier(request);
   if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
@@ -63,11 +65,16 @@ void add_frontier_command(CLI::App& app, int& exit_status) {
       "Methods (mobil muscle --help says what they are): static, ecd, icd, caa; reduced: so many vectors of a finer\n"
       "mesh, its error extrapolated away (reduced-plain: left in; reduced-static: without motion of its own).\n"
       "Examples: mobil frontier\n"
-      "          mobil frontier --long --out frontier");
+      "          mobil frontier --long --loads line --out frontier");
   command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   command->add_flag("--short", text->short_form, "A minute at most on two cores; the default");
-  command->add_flag("--long", text->long_form,
-                    "All meshes, and a reference twice as fine and checked by full meshes: half an hour");
+  command->add_flag("--long", text->long_form, "All meshes, and a reference twice as fine: twenty minutes");
+  command->add_option("--loads", text->loads, "line: of the line of action alone; frame: with the frame's too; or both")
+      ->check(CLI::IsMember({"line", "frame", "both"}))
+      ->capture_default_str();
+  command->add_flag("--check", text->check,
+                    "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for "
+                    "each muscle and kind of load");
   command->add_option("--out", text->out, "Folder for frontier.csv, .svg and .json, made if missing")
       ->capture_default_str();
   refuse_empty_values(*command);

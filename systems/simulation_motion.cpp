@@ -282,6 +282,7 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
     after = stretched(next.belly, next.line, next.load);
     settle(next.belly, *next.belly.solver, next.load, next.load.frame ? from_nearby : once, after, seen);
   } else {
+    keeps = keeps && next.choice.reduced.moving;
     if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, shown);
     if (!has_control_points(next.choice)) return from;
     after = keeps ? computed : reduced_motion(*next.belly.basis, *next.belly.motions, next.load, from.state);

@@ -80,8 +80,7 @@ void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
 
 PlotFigure frontier_figure(const Frontier& frontier) {
   PlotFigure figure{"What accuracy costs",
-                    "Error against a converged reference over walks of the library's own; cost on one core of this"
-                    " machine. Numbers are vectors.",
+                    "Against a converged reference, over our own walks; one core. Numbers: vectors.",
                     frontier.change.size(),
                     {},
                     true,

@@ -4,10 +4,8 @@
 #include <cmath>
 
 namespace mobil {
-namespace {
 
-/// ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral).
-std::vector<float> far_shares(const HexahedralMesh& mesh) {
+std::vector<double> far_shares(const HexahedralMesh& mesh) {
   const std::uint32_t first = first_insertion_node(mesh.cells);
   std::vector<double> area(plane_nodes(mesh.cells));
   double total = 0;
@@ -32,10 +30,11 @@ std::vector<float> far_shares(const HexahedralMesh& mesh) {
       for (std::size_t a = 0; a < 4; ++a) area[quad[a] - first] += n[a] * patch;
     }
   }
-  std::vector<float> share;
-  for (const double a : area) share.push_back(static_cast<float>(a / total));
-  return share;
+  for (double& a : area) a /= total;
+  return area;
 }
+
+namespace {
 
 constexpr std::size_t own_slot = stencil_slot(0, 0, 0);
 
@@ -131,7 +130,7 @@ KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms
       kernel.rest_m.push_back(static_cast<float>(x));
     }
   }
-  kernel.far_share = far_shares(mesh);
+  for (const double share : far_shares(mesh)) kernel.far_share.push_back(static_cast<float>(share));
   kernel.skin = boundary_quads(cells);
   kernel.volume_m3 = static_cast<float>(volume(mesh));
   return kernel;

@@ -28,6 +28,10 @@ struct KernelArrays {
   float volume_m3 = 0;
 };
 
+/// ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral): what a uniform
+/// traction puts on each.
+std::vector<double> far_shares(const HexahedralMesh& mesh);
+
 KernelArrays make_kernel_arrays(const HexahedralMesh& mesh, const StiffnessTerms& terms);
 
 }  // namespace mobil

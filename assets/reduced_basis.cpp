@@ -76,11 +76,6 @@ Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, const
   return p;
 }
 
-template <class F>
-void for_each_matrix(Projected& p, F&& f) {
-  for (MatrixXd* const m : {&p.mass, &p.a, &p.b, &p.c, &p.foundation, &p.frame, &p.traction}) f(*m);
-}
-
 /// What is left of an error of second order in the cells' size, of twice the cells taken away.
 void extrapolate(Projected& fine, Projected coarse) {
   const auto one = [](MatrixXd& f, const MatrixXd& c) {

@@ -115,24 +115,26 @@ constexpr std::size_t reduced_motion_width(std::uint32_t vectors, std::uint32_t 
   const std::size_t pairs = inputs > frame_inputs ? frame_inputs / 2 : 0, ends = inputs - 2 * pairs;
   return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + ends + pairs);
 }
-constexpr std::size_t reduced_state_width(std::uint32_t vectors, std::uint32_t inputs) {
-  static_cast<void>(inputs);
+constexpr std::size_t reduced_state_width(std::uint32_t vectors) {
   return 2 * std::size_t{vectors};
 }
 constexpr std::size_t reduced_shape_width(std::uint32_t vectors, std::uint32_t inputs) {
   return std::size_t{vectors} * (vectors + inputs) + 2 * std::size_t{vectors} + inputs + 1;
 }
+/// Coordinates q of displacements of the control points (m, 3·nodes) with the held end at `w` (m; 0 without a lift).
+void fit_coordinates(const ReducedBasis& basis, double w, std::span<const float> displacement, std::span<double> q);
+
 void write_motion(const ReducedBelly& belly, double damping_per_s, double tick_s, std::span<float> motion);
 void write_shape(const ReducedBelly& belly, double damping_per_s, std::span<float> shape);
 
 /// A belly's state from the displacement and velocity of its control points (3·nodes floats each, this body's m and
 /// m/s) under `input` and its rates of change (per s), and back. To and fro, displacement and velocity are kept up to
 /// what the vectors cannot show.
-void fit_state(const ReducedBasis& basis, const ReducedBelly& belly, double damping_per_s,
-               std::span<const double> input, std::span<const double> rate, std::span<const float> displacement,
-               std::span<const float> velocity, std::span<float> state);
-void show_state(const ReducedBasis& basis, const ReducedBelly& belly, double damping_per_s,
-                std::span<const double> input, std::span<const double> rate, std::span<const float> state,
-                std::span<float> displacement, std::span<float> velocity);
+void fit_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<const double> input,
+               std::span<const double> rate, std::span<const float> displacement, std::span<const float> velocity,
+               std::span<float> state);
+void show_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<const double> input,
+                std::span<const double> rate, std::span<const float> state, std::span<float> displacement,
+                std::span<float> velocity);
 
 }  // namespace mobil

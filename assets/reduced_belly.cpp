@@ -209,25 +209,25 @@ void show(const ReducedBasis& basis, double w, const double* q, std::span<float>
   }
 }
 
-void fit(const ReducedBasis& basis, double w, std::span<const float> field, double* q) {
-  const std::size_t rows = field.size(), width = std::size_t{basis.vectors} + 1;
+}  // namespace
+
+void fit_coordinates(const ReducedBasis& basis, double w, std::span<const float> displacement, std::span<double> q) {
+  const std::size_t rows = displacement.size(), width = std::size_t{basis.vectors} + 1;
   for (std::size_t i = 0; i < basis.vectors; ++i) {
     q[i] = 0;
     for (std::size_t row = 0; row < rows; ++row) {
       q[i] += basis.fit[i * rows + row] *
-              (static_cast<double>(field[row]) - static_cast<double>(basis.shape[row * width]) * w);
+              (static_cast<double>(displacement[row]) - static_cast<double>(basis.shape[row * width]) * w);
     }
   }
 }
 
-}  // namespace
-
-void fit_state(const ReducedBasis& basis, const ReducedBelly& belly, double /*damping_per_s*/,
-               std::span<const double> input, std::span<const double> rate, std::span<const float> displacement,
-               std::span<const float> velocity, std::span<float> state) {
+void fit_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<const double> input,
+               std::span<const double> rate, std::span<const float> displacement, std::span<const float> velocity,
+               std::span<float> state) {
   double q[most_vectors], speed[most_vectors];
-  fit(basis, input[0], displacement, q);
-  fit(basis, rate[0], velocity, speed);
+  fit_coordinates(basis, input[0], displacement, q);
+  fit_coordinates(basis, rate[0], velocity, speed);
   for (std::size_t j = 0; j < belly.vectors; ++j) {
     double z = belly.lift_share[j] * input[0], zdot = belly.lift_share[j] * rate[0];
     for (std::size_t i = 0; i < belly.vectors; ++i) {
@@ -240,9 +240,9 @@ void fit_state(const ReducedBasis& basis, const ReducedBelly& belly, double /*da
   }
 }
 
-void show_state(const ReducedBasis& basis, const ReducedBelly& belly, double /*damping_per_s*/,
-                std::span<const double> input, std::span<const double> rate, std::span<const float> state,
-                std::span<float> displacement, std::span<float> velocity) {
+void show_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<const double> input,
+                std::span<const double> rate, std::span<const float> state, std::span<float> displacement,
+                std::span<float> velocity) {
   double q[most_vectors] = {}, speed[most_vectors] = {};
   for (std::size_t j = 0; j < belly.vectors; ++j) {
     const double unit = belly.inputs == 1 ? belly.participation[j][0] : 1;

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "assets/kernel_arrays.h"
+
 namespace mobil {
 namespace {
 
@@ -37,34 +39,6 @@ std::size_t moving_nodes(const Cells& cells, FarEnd end) {
 
 std::size_t band_reach(const Cells& cells) {
   return 3 * (std::size_t{plane_nodes(cells)} + cells[0] + 2) + 2;
-}
-
-/// ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral).
-Eigen::VectorXd far_shares(const HexahedralMesh& mesh) {
-  using Eigen::Vector3d;
-  const std::uint32_t first = first_insertion_node(mesh.cells);
-  Eigen::VectorXd area = Eigen::VectorXd::Zero(plane_nodes(mesh.cells));
-  const double g = 1 / std::sqrt(3.0);
-  const Eigen::Vector4d xi(-1, 1, 1, -1), eta(-1, -1, 1, 1);
-  for (const Quad& quad : insertion_quads(mesh.cells)) {
-    for (const double s : {-g, g}) {
-      for (const double t : {-g, g}) {
-        Vector3d along_s = Vector3d::Zero(), along_t = Vector3d::Zero();
-        for (std::size_t n = 0; n < 4; ++n) {
-          const auto i = static_cast<Index>(n);
-          const auto& p = mesh.node[quad[n]];
-          along_s += xi(i) * (1 + eta(i) * t) / 4 * Vector3d(p.x, p.y, p.z);
-          along_t += eta(i) * (1 + xi(i) * s) / 4 * Vector3d(p.x, p.y, p.z);
-        }
-        const double patch = along_s.cross(along_t).norm();
-        for (std::size_t n = 0; n < 4; ++n) {
-          const auto i = static_cast<Index>(n);
-          area(static_cast<Index>(quad[n] - first)) += patch * (1 + xi(i) * s) * (1 + eta(i) * t) / 4;
-        }
-      }
-    }
-  }
-  return area / area.sum();
 }
 
 }  // namespace
@@ -174,12 +148,12 @@ Columns far_step(const Cells& cells) {
 }
 
 Columns far_traction(const HexahedralMesh& mesh, bool all_axes) {
-  const Eigen::VectorXd share = far_shares(mesh);
+  const std::vector<double> share = far_shares(mesh);
   const std::size_t first = all_axes ? 0 : 2;
   Columns load = Columns::Zero(row_of(node_count(mesh.cells), 0), all_axes ? 3 : 1);
   for (std::uint32_t i = 0; i < plane_nodes(mesh.cells); ++i) {
     for (std::size_t c = first; c < 3; ++c) {
-      load(row_of(first_insertion_node(mesh.cells) + i, c), static_cast<Index>(c - first)) = share(i);
+      load(row_of(first_insertion_node(mesh.cells) + i, c), static_cast<Index>(c - first)) = share[i];
     }
   }
   return load;

@@ -108,7 +108,7 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
       for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
         const auto own = std::ranges::find(human.muscles, plan.muscles[m], [](const auto& h) { return h.plan.muscle; });
         if (basis.size() <= m) {
-          auto made = reference_basis(*own, choice);
+          auto made = reference_basis(own->plan, choice);
           if (!made) return tl::unexpected(made.error());
           basis.push_back(std::move(*made));
           tell(0.8 * static_cast<double>(b * plan.muscles.size() + m) /

@@ -8,23 +8,16 @@
 #include "systems/simulation_rows.h"
 
 namespace mobil {
-namespace {
 
-constexpr double braced_hz = 7;  // LegMuscles::foundation_hz, left out
-
-}  // namespace
-
-Result<std::shared_ptr<const ReducedBasis>> reference_basis(const HumanMuscle& muscle, const LegMuscles& choice,
-                                                            const Cells& cells) {
-  const Muscle which = muscle.plan.muscle;
-  const auto mesh = bend_block(cells, muscle_cage(which), reference_belly_m(which), belly_grading);
+Result<std::shared_ptr<const ReducedBasis>> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
+                                                            const Cells& cells, std::uint32_t vectors) {
+  const auto mesh = bend_block(cells, muscle_cage(plan.muscle), reference_belly_m(plan.muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
-  const auto across = static_cast<double>(muscle.plan.scale.across),
-             along = static_cast<double>(muscle.plan.scale.along);
+  const auto across = static_cast<double>(plan.scale.across), along = static_cast<double>(plan.scale.along);
   ReducedOptions options;
-  options.vectors = most_vectors;
+  options.vectors = vectors;
   options.frame_loads = choice.inertia;
-  options.foundation_hz = choice.foundation_hz.value_or(choice.inertia ? braced_hz : 0);
+  options.foundation_hz = foundation_of(choice);
   options.damping_per_s = choice.damping_per_s;
   options.middle_ratio = across / along;
   options.ratio_width = 1;
@@ -51,7 +44,7 @@ Result<ReferenceMuscle> ReferenceMuscle::make(std::shared_ptr<const ReducedBasis
   write_shape(*belly, choice.damping_per_s, shape);
   made.motion_ = spread(motion);
   made.shape_ = spread(shape);
-  made.state_ = spread(std::vector<float>(reduced_state_width(basis->vectors, basis->inputs)));
+  made.state_ = spread(std::vector<float>(reduced_state_width(basis->vectors)));
   made.displacement_ = spread(std::vector<float>(3 * std::size_t{node_count(basis->options.control_cells)}));
   made.scale_ = broadcast(scale);
   made.tick_s_ = static_cast<float>(tick_s);

@@ -18,9 +18,11 @@ namespace mobil {
 /// What references are made of: 32 vectors of this mesh, extrapolated.
 inline constexpr Cells reference_cells = {8, 8, 32};
 
-/// The basis for one person's muscle. Errors: those of make_reduced_basis.
-Result<std::shared_ptr<const ReducedBasis>> reference_basis(const HumanMuscle& muscle, const LegMuscles& choice,
-                                                            const Cells& cells = reference_cells);
+/// The basis for a muscle of one person's size, of `choice` with its inertia and damping. Errors: those of
+/// make_reduced_basis.
+Result<std::shared_ptr<const ReducedBasis>> reference_basis(const MusclePlan& plan, const LegMuscles& choice,
+                                                            const Cells& cells = reference_cells,
+                                                            std::uint32_t vectors = most_vectors);
 
 /// One muscle of one leg, at rest at first under whatever loads it.
 class ReferenceMuscle {

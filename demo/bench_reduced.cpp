@@ -65,7 +65,7 @@ class ReducedCrowd {
       : what_(shape.what),
         blocks_(blocks),
         basis_(make_basis(shape)),
-        state_width_(what_ == What::still ? 0 : reduced_state_width(basis_.vectors, basis_.inputs)),
+        state_width_(what_ == What::still ? 0 : reduced_state_width(basis_.vectors)),
         motion_width_(what_ == What::still ? 0 : reduced_motion_width(basis_.vectors, basis_.inputs)),
         shape_width_(what_ == What::tick ? 0 : reduced_shape_width(basis_.vectors, basis_.inputs)),
         node_width_(what_ == What::tick ? 0 : nodal_width(basis_.options.control_cells)),

@@ -107,7 +107,7 @@ void answer_by_vectors(const FrontierDrive& drive, const FrontierMethod& method,
   const ReducedBasis& basis = *group.individual->basis;
   const auto motion = in_lanes(individuals, &FrontierIndividual::motion, group);
   const auto shape = in_lanes(individuals, &FrontierIndividual::points, group);
-  std::vector<Lanes<float>> state(reduced_state_width(basis.vectors, basis.inputs)), displacement(point_width);
+  std::vector<Lanes<float>> state(reduced_state_width(basis.vectors)), displacement(point_width);
   EndDisplacement<Lanes<float>> end{};
   FrameLoad<Lanes<float>> load{};
   const ReducedBlock block{basis, drive.scale, state.data()->lane, motion.data()->lane, loads ? &load : nullptr};

@@ -41,7 +41,7 @@ FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const Front
     points_ = reduced_shape_width(basis.vectors, basis.inputs);
     displacement_ = point_width;
     if (method.moving()) {
-      state_ = reduced_state_width(basis.vectors, basis.inputs);
+      state_ = reduced_state_width(basis.vectors);
       motion_ = reduced_motion_width(basis.vectors, basis.inputs);
     }
   } else {

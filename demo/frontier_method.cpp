@@ -11,6 +11,15 @@ Result<HexahedralMesh> frontier_mesh(Muscle muscle, const Cells& cells) {
   return bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
 }
 
+void set_vectors(FrontierIndividual& own, std::shared_ptr<const ReducedBasis> basis, const ReducedBelly& belly,
+                 double damping_per_s) {
+  own.motion.resize(reduced_motion_width(basis->vectors, basis->inputs));
+  own.points.resize(reduced_shape_width(basis->vectors, basis->inputs));
+  write_motion(belly, damping_per_s, frontier_tick_s, own.motion);
+  write_shape(belly, damping_per_s, own.points);
+  own.basis = std::move(basis);
+}
+
 Result<std::vector<FrontierIndividual>> frontier_individuals(const FrontierDrive& drive, const FrontierMethod& method,
                                                              bool loads, BellyLibrary& library) {
   LegMuscles choice = method.choice;
@@ -25,12 +34,7 @@ Result<std::vector<FrontierIndividual>> frontier_individuals(const FrontierDrive
     own.shape = belly->shape->shape;
     own.steps = belly->steps;
     own.solver = std::move(belly->solver);
-    own.basis = std::move(belly->basis);
-    if (own.basis == nullptr) continue;
-    own.motion.resize(reduced_motion_width(own.basis->vectors, own.basis->inputs));
-    own.points.resize(reduced_shape_width(own.basis->vectors, own.basis->inputs));
-    write_motion(*belly->motions, choice.damping_per_s, frontier_tick_s, own.motion);
-    write_shape(*belly->motions, choice.damping_per_s, own.points);
+    if (belly->basis != nullptr) set_vectors(own, belly->basis, *belly->motions, choice.damping_per_s);
   }
   if (method.even_steps) {
     const auto most = std::ranges::max(all, {}, &FrontierIndividual::steps).steps;

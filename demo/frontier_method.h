@@ -47,6 +47,10 @@ struct FrontierIndividual {
   }
 };
 
+/// Makes `own` move along those vectors, with that body's motions.
+void set_vectors(FrontierIndividual& own, std::shared_ptr<const ReducedBasis> basis, const ReducedBelly& belly,
+                 double damping_per_s);
+
 /// The drive's sixteen, set up as people's muscles are. `loads`: for the frame's too. Fails on a choice out of range,
 /// or a step above somebody's critical one.
 Result<std::vector<FrontierIndividual>> frontier_individuals(const FrontierDrive& drive, const FrontierMethod& method,

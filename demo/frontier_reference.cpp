@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "demo/accuracy_reference.h"
 #include "demo/frontier.h"
 
 namespace mobil {
@@ -18,31 +19,19 @@ Cells half(const Cells& cells) {
 /// Sixteen individuals, each with vectors of its own size alone, of a mesh and one of half its cells extrapolated.
 Result<std::vector<FrontierIndividual>> own_vectors(const FrontierDrive& drive, const Cells& cells,
                                                     std::uint32_t vectors, bool loads) {
-  const auto mesh = frontier_mesh(drive.muscle, cells);
-  if (!mesh) return tl::unexpected(mesh.error());
   LegMuscles choice;
   choice.inertia = loads;
   std::vector<FrontierIndividual> all(lane_count);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto across = static_cast<double>(drive.scale.across[lane]);
-    const auto along = static_cast<double>(drive.scale.along[lane]);
     for (std::size_t before = 0; before < lane && all[lane].basis == nullptr; ++before) {
       const bool same = drive.scale.across[before] == drive.scale.across[lane] &&
                         drive.scale.along[before] == drive.scale.along[lane];
       if (same) all[lane] = all[before];
     }
     if (all[lane].basis != nullptr) continue;
-    ReducedOptions options;
-    options.vectors = vectors;
-    options.frame_loads = loads;
-    options.foundation_hz = foundation_of(choice);
-    options.damping_per_s = choice.damping_per_s;
-    options.middle_ratio = across / along;
-    options.ratio_width = 1;
-    options.middle_product = across * along;
-    auto basis = make_reduced_basis(*mesh, choice.material, choice.element, options);
+    auto basis = reference_basis(drive.plan[lane], choice, cells, vectors);
     if (!basis) return tl::unexpected(basis.error());
-    all[lane].basis = std::make_shared<const ReducedBasis>(std::move(*basis));
+    all[lane].basis = std::move(*basis);
   }
   return all;
 }
@@ -59,11 +48,7 @@ Result<FrontierAnswer> answer_with(const FrontierDrive& drive, std::vector<Front
     const auto belly = make_reduced_belly(*basis, static_cast<double>(drive.scale.across[lane]),
                                           static_cast<double>(drive.scale.along[lane]));
     if (!belly) return tl::unexpected(belly.error());
-    own.motion.resize(reduced_motion_width(basis->vectors, basis->inputs));
-    own.points.resize(reduced_shape_width(basis->vectors, basis->inputs));
-    write_motion(*belly, method.choice.damping_per_s, frontier_tick_s, own.motion);
-    write_shape(*belly, method.choice.damping_per_s, own.points);
-    own.basis = basis;
+    set_vectors(own, basis, *belly, method.choice.damping_per_s);
   }
   return answer_of(drive, method, individuals, loads);
 }

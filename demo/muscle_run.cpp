@@ -160,23 +160,18 @@ class ReducedOne : public Belly {
 
   /// The reduced coordinates of the displacement.
   std::vector<float> coordinates() const {
-    const std::size_t n = basis_.vectors, width = displacement_.size();
-    std::vector<float> q(n);
-    for (std::size_t v = 0; v < n; ++v) {
-      double sum = 0;
-      for (std::size_t i = 0; i < width; ++i) {
-        sum += basis_.fit[v * width + i] * static_cast<double>(displacement_[i][0]);
-      }
-      q[v] = static_cast<float>(sum);
-    }
-    return q;
+    std::vector<float> shown;
+    for (const Lanes<float>& lanes : displacement_) shown.push_back(lanes[0]);
+    double q[most_vectors];
+    fit_coordinates(basis_, 0, shown, q);
+    return {q, q + basis_.vectors};
   }
 
  private:
   ReducedOne(const MuscleRequest& request, const ReducedBelly& own)
       : basis_(*request.basis),
         dt_s_(request.dt_s),
-        state_(reduced_state_width(basis_.vectors, basis_.inputs)),
+        state_(reduced_state_width(basis_.vectors)),
         motion_(reduced_motion_width(basis_.vectors, basis_.inputs)),
         shape_(reduced_shape_width(basis_.vectors, basis_.inputs)),
         displacement_(nodal_width(request.muscle.mesh.cells)) {
@@ -196,7 +191,7 @@ class ReducedOne : public Belly {
     input.resize(basis_.inputs);
     const std::vector<float> still(displacement_.size());
     row.resize(state_.size());
-    fit_state(basis_, own, damping, input, std::vector<double>(basis_.inputs), still, still, row);
+    fit_state(basis_, own, input, std::vector<double>(basis_.inputs), still, still, row);
     fill(row, state_);
   }
 

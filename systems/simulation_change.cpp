@@ -104,7 +104,8 @@ Beginning beginning(const World& world, MuscleWork& work, const MuscleChange& ch
   past.shown = past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(muscle);
   if (fades) add_fade(world, muscle, change.tick_s, past.shown);
-  const bool keeps = world.shared<ReducedBasis>(muscle) == next.belly.basis.get() && world.has<ReducedState>(muscle);
+  const bool keeps = next.choice.reduced.moving && world.has<ReducedState>(muscle) &&
+                     world.shared<ReducedBasis>(muscle) == next.belly.basis.get();
   return go_on(next, past, keeps);
 }
 
@@ -149,7 +150,7 @@ class MethodParts {
     const ReducedBelly& own = *change_.belly.motions;
     list_.add(world_.share(change_.belly.basis));
     if (reduced.moving) {
-      list_.add_field<ReducedState>(reduced_state_width(basis.vectors, basis.inputs), from_.state);
+      list_.add_field<ReducedState>(reduced_state_width(basis.vectors), from_.state);
     } else {
       list_.add(TagValue<ReducedStatic>{1});
     }

@@ -123,7 +123,7 @@ Inputs inputs_of(const BellyLoad& load, std::uint32_t count) {
 
 /// Motions at the speed of their static answers: behind these by as much as damping holds them back, or right there.
 std::vector<float> state_with_loads(const ReducedBelly& belly, const Inputs& inputs, double damping_per_s) {
-  std::vector<float> state(reduced_state_width(belly.vectors, belly.inputs));
+  std::vector<float> state(reduced_state_width(belly.vectors));
   for (std::size_t j = 0; j < belly.vectors; ++j) {
     double rate = inputs.rate[0];  // with one input a motion is kept over its participation
     if (inputs.count > 1) {
@@ -164,9 +164,8 @@ void settle(const Belly& belly, const BellySolver& solver, const BellyLoad& load
 std::vector<float> reduced_state(const Belly& belly, const BellyLoad& load, const BellyMotion& motion) {
   const ReducedBasis& basis = *belly.basis;
   const Inputs inputs = inputs_of(load, basis.inputs);
-  std::vector<float> state(reduced_state_width(basis.vectors, basis.inputs));
-  fit_state(basis, *belly.motions, basis.options.damping_per_s, inputs.values(), inputs.rates(), motion.displacement,
-            motion.velocity, state);
+  std::vector<float> state(reduced_state_width(basis.vectors));
+  fit_state(basis, *belly.motions, inputs.values(), inputs.rates(), motion.displacement, motion.velocity, state);
   return state;
 }
 
@@ -176,8 +175,8 @@ BellyMotion reduced_motion(const ReducedBasis& basis, const ReducedBelly& belly,
   const Inputs inputs = inputs_of(load, basis.inputs);
   const std::size_t width = 3 * basis.control_weight.size();
   BellyMotion motion{std::vector<float>(width), std::vector<float>(width)};
-  show_state(basis, belly, basis.options.damping_per_s, inputs.values(), inputs.rates(),
-             state.empty() ? state_with_loads(belly, inputs, 0) : state, motion.displacement, motion.velocity);
+  show_state(basis, belly, inputs.values(), inputs.rates(), state.empty() ? state_with_loads(belly, inputs, 0) : state,
+             motion.displacement, motion.velocity);
   return motion;
 }
 
@@ -257,7 +256,7 @@ Beginning begin(const NextBelly& next, bool moves) {
     if (next.choice.reduced.moving) {
       from.state =
           moves ? state_with_loads(*next.belly.motions, inputs_of(next.load, basis.inputs), basis.options.damping_per_s)
-                : std::vector<float>(reduced_state_width(basis.vectors, basis.inputs));
+                : std::vector<float>(reduced_state_width(basis.vectors));
     }
     if (has_control_points(next.choice)) {
       from.displacement = reduced_motion(basis, *next.belly.motions, next.load, from.state).displacement;
@@ -282,7 +281,6 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
     after = stretched(next.belly, next.line, next.load);
     settle(next.belly, *next.belly.solver, next.load, next.load.frame ? from_nearby : once, after, seen);
   } else {
-    keeps = keeps && next.choice.reduced.moving;
     if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, shown);
     if (!has_control_points(next.choice)) return from;
     after = keeps ? computed : reduced_motion(*next.belly.basis, *next.belly.motions, next.load, from.state);

@@ -12,7 +12,6 @@
 namespace mobil {
 namespace {
 
-constexpr float default_tolerance_m = 0.001F;
 constexpr float person_radius_m = 1, closest_m = 0.3F;
 constexpr float leave_m = 0.5F;  // how much farther out somebody seen must be to be seen no more
 constexpr float reference_height = static_cast<float>(reference_body_height_m);
@@ -42,10 +41,6 @@ Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, 
                                        : View::out_of_reach;
   const float nearest = std::max(view == View::near ? camera.near_m : distance - person_radius_m, closest_m);
   return {view, tolerance_px * camera.radians_per_pixel * nearest};
-}
-
-bool positive(double value) {
-  return value > 0 && std::isfinite(value);
 }
 
 }  // namespace
@@ -104,12 +99,15 @@ RelevanceReport Relevance::update() {
 }
 
 std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b) {
-  float* const block = table.block(b);
+  const float* const block = table.block(b);
   const std::uint32_t live = table.live(b);
   for (std::uint32_t lane = 0; lane < live; ++lane) {
     const auto word = [&](std::uint32_t w) { return block[w * lane_count + lane]; };
-    const auto needs = read_lane<Needs<float>>(block, at.needs, lane);
-    auto tiers = read_lane<Tiers<float>>(block, at.tiers, lane);
+    const auto row = static_cast<std::uint32_t>(b * lane_count) + lane;
+    Needs<float> needs;
+    Tiers<float> tiers;
+    table.read(row, at.needs, ComponentLayout<Needs>::words, &needs);
+    table.read(row, at.tiers, ComponentLayout<Tiers>::words, &tiers);
     const float height = word(at.size);
     float speed = INFINITY;
     if (at.gait != Table::no_column && at.plan != Table::no_column) {
@@ -131,18 +129,21 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
     if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
     tiers.view = static_cast<std::uint32_t>(view);
 
-    const auto wanted = static_cast<std::uint32_t>(scene_.muscles.to_ulong());
-    decide(table.entities(b)[lane], tiers, (needs.own & own_muscles) != 0 ? needs.muscles : wanted);
-    write_lane(tiers, block, at.tiers, lane);
+    decide(table.entities(b)[lane], tiers, wanted(needs));
+    table.write(row, at.tiers, ComponentLayout<Tiers>::words, &tiers);
   }
   return live;
 }
 
-void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted) {
+std::uint32_t Relevance::wanted(const Needs<float>& needs) const {
+  return (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(scene_.muscles.to_ulong());
+}
+
+void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles) {
   const auto view = static_cast<View>(tiers.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = tiers.relative_size / tiers.tolerance_m;  // errors as parts of the tolerance, over the table's
-  const float limit = allowed_factor() / size;
+  const float limit = factor_ / size;
   const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
   for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
@@ -155,7 +156,7 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted) 
     const std::int64_t cost = ladder_.cost_ps(as_is, now);
     counted_ps_ += cost;
     std::uint32_t goal = 0;
-    if (simulated && bit_at(wanted, m)) {
+    if (simulated && bit_at(wanted_muscles, m)) {
       if (scene_.budget_s) counting_.add(ladder_, as_seen, size);
       goal = ladder_.from(now, as_seen, limit, over ? 1.0F : options_.slack);
     }

@@ -173,12 +173,12 @@ class Relevance {
 
   void find_tables();
   std::uint32_t evaluate(Table& table, const Columns& at, std::size_t block);
-  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted);
+  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);
   void observe_machine();
   void plan_budget();
   void carry_out(RelevanceReport& report);
   void change(const Switch& one, RelevanceReport& report);
-  float allowed_factor() const;
+  std::uint32_t wanted(const Needs<float>& needs) const;
 
   Simulation& simulation_;
   RelevanceOptions options_;

@@ -12,10 +12,6 @@ namespace {
 
 constexpr std::uint32_t full_rung = rung_count - 1;
 
-bool positive(double value) {
-  return value > 0 && std::isfinite(value);
-}
-
 /// The rung that a method is, or the one that it costs about as much as.
 std::uint32_t rung_of(const MuscleMethod& method) {
   if (method.method == Method::none) return 0;
@@ -122,7 +118,7 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
   tiers.muscles = 0;
   tiers.inertia = human->leg_muscles.inertia ? 1 : 0;
-  tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(0.001F);
+  tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
   tiers.relative_size = options_.margin;
   for (const HumanMuscle& own : human->muscles) {
     const auto m = static_cast<std::uint32_t>(own.plan.muscle);
@@ -181,8 +177,6 @@ tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
   choice.tolerance_m = tiers->tolerance_m;
   choice.predicted_cost_us = 0.5e-6 * static_cast<double>(ladder_.cost_ps(of, rung)) * machine_.mean();
   const auto view = static_cast<View>(tiers->view);
-  const std::uint32_t wanted =
-      (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(scene_.muscles.to_ulong());
   const bool shown_differs =
       bit_at(tiers->points, m) != bit_at(tiers->goal_points, m) && rungs[choice.rung].method == Method::reduced;
   if (marked == forced_rung) {
@@ -191,7 +185,7 @@ tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
     choice.reason = Reason::refused;
   } else if (goal != marked || shown_differs) {
     choice.reason = Reason::switch_pending;
-  } else if (!bit_at(wanted, m)) {
+  } else if (!bit_at(wanted(needs), m)) {
     choice.reason = Reason::not_wanted;
   } else if (view == View::out_of_sight) {
     choice.reason = Reason::out_of_sight;

@@ -44,10 +44,6 @@ void Relevance::plan_budget() {
   factor_ = afforded > factor_ ? afforded : std::max(afforded, easing * factor_);
 }
 
-float Relevance::allowed_factor() const {
-  return factor_;
-}
-
 /// Cheaper ones get half of the turns, or what dearer ones leave, or under too high a cost all.
 void Relevance::carry_out(RelevanceReport& report) {
   const auto first = [](const Switch& a, const Switch& b, bool most) {

@@ -1,14 +1,16 @@
 #pragma once
-// Rungs packed into a person's row, and rows out of blocks without a detour. Part of Relevance.
+// Rungs packed into a person's row, and what else the parts of Relevance share.
 
-#include <cstddef>
+#include <cmath>
 #include <cstdint>
-#include <cstring>
-
-#include "components/lanes.h"
-#include "components/relevance.h"
 
 namespace mobil {
+
+inline constexpr float default_tolerance_m = 0.001F;
+
+inline bool positive(double value) {
+  return value > 0 && std::isfinite(value);
+}
 
 /// Instead of a rung: the caller chose, or Simulation refused; both are left alone.
 inline constexpr std::uint32_t forced_rung = 15, refused_rung = 14;
@@ -25,22 +27,6 @@ inline bool bit_at(std::uint32_t bits, std::uint32_t muscle) {
 }
 inline void set_bit(std::uint32_t& bits, std::uint32_t muscle, bool on) {
   bits = (bits & ~(1U << muscle)) | (on ? 1U : 0U) << muscle;
-}
-
-/// One lane of a component whose first word in the block is `column`.
-template <class Row>
-Row read_lane(const float* block, std::uint32_t column, std::size_t lane) {
-  Row row;
-  auto* out = reinterpret_cast<std::byte*>(&row);
-  for (std::size_t w = 0; w < sizeof(Row) / 4; ++w)
-    std::memcpy(out + 4 * w, block + (column + w) * lane_count + lane, 4);
-  return row;
-}
-template <class Row>
-void write_lane(const Row& row, float* block, std::uint32_t column, std::size_t lane) {
-  const auto* in = reinterpret_cast<const std::byte*>(&row);
-  for (std::size_t w = 0; w < sizeof(Row) / 4; ++w)
-    std::memcpy(block + (column + w) * lane_count + lane, in + 4 * w, 4);
 }
 
 }  // namespace mobil

@@ -164,7 +164,7 @@ RC_GTEST_PROP(ReducedState, ShownAndFittedIsItself, ()) {
     input[k] = uniform(-0.02, 0.02);
     rate[k] = uniform(-0.2, 0.2);
   }
-  std::vector<float> state(reduced_state_width(basis.vectors, basis.inputs)), again(state.size());
+  std::vector<float> state(reduced_state_width(basis.vectors)), again(state.size());
   for (std::size_t j = 0; j < basis.vectors; ++j) {
     // over P, with one input: as large in all motions as they are shown
     const double unit = basis.inputs == 1 ? std::max(1e-4, std::abs(belly.participation[j][0])) : 1;
@@ -173,9 +173,9 @@ RC_GTEST_PROP(ReducedState, ShownAndFittedIsItself, ()) {
   }
   const std::size_t width = 3 * basis.control_weight.size();
   std::vector<float> u(width), v(width), u2(width), v2(width);
-  show_state(basis, belly, 8, input, rate, state, u, v);
-  fit_state(basis, belly, 8, input, rate, u, v, again);
-  show_state(basis, belly, 8, input, rate, again, u2, v2);
+  show_state(basis, belly, input, rate, state, u, v);
+  fit_state(basis, belly, input, rate, u, v, again);
+  show_state(basis, belly, input, rate, again, u2, v2);
   const auto off = [](const std::vector<float>& a, const std::vector<float>& b) {
     double error = 0, norm = 0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -196,9 +196,9 @@ RC_GTEST_PROP(ReducedState, OfABodyAtRestIsZero, ()) {
   const std::vector<double> rate(basis.inputs, 0.0);
   for (double& x : input) x = uniform(-0.02, 0.02);
   const std::size_t n = basis.vectors, width = 3 * basis.control_weight.size(), row = n + basis.inputs;
-  std::vector<float> zero(reduced_state_width(basis.vectors, basis.inputs)), u(width), v(width),
+  std::vector<float> zero(reduced_state_width(basis.vectors)), u(width), v(width),
       shape(reduced_shape_width(basis.vectors, basis.inputs));
-  show_state(basis, belly, 8, input, rate, zero, u, v);
+  show_state(basis, belly, input, rate, zero, u, v);
   write_shape(belly, 8, shape);
   double largest = 0;
   for (const float x : u) largest = std::max(largest, std::abs(static_cast<double>(x)));

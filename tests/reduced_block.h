@@ -56,7 +56,7 @@ struct ReducedBodies {
     basis.options.control_cells = cells;
     basis.options.vectors = basis.vectors = vectors;
     basis.inputs = input_count(end, frame);
-    state.resize(reduced_state_width(vectors, basis.inputs));
+    state.resize(reduced_state_width(vectors));
     motion.resize(reduced_motion_width(vectors, basis.inputs));
     shape.resize(reduced_shape_width(vectors, basis.inputs));
     displacement.resize(std::size_t{3} * node_count(cells));

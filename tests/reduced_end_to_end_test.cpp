@@ -124,7 +124,7 @@ std::array<History, 2> reduced(const Case& what) {
   }
   const ReducedBasis& basis = *made;
   const auto control = make_muscle_template(spindle(control_cells), Material{}, {.far_end = what.end});
-  std::vector<Lanes<float>> state(reduced_state_width(basis.vectors, basis.inputs));
+  std::vector<Lanes<float>> state(reduced_state_width(basis.vectors));
   std::vector<Lanes<float>> motion(reduced_motion_width(basis.vectors, basis.inputs));
   std::vector<Lanes<float>> shape(reduced_shape_width(basis.vectors, basis.inputs));
   std::vector<Lanes<float>> displacement(nodal_width(control_cells));

@@ -74,7 +74,7 @@ Result<std::vector<Walk>> begin(const Plan& plan, Simulation& simulation, Releva
         const auto own =
             std::ranges::find(human.muscles, walker.muscles[m], [](const HumanMuscle& h) { return h.plan.muscle; });
         if (bases.size() <= m) {
-          auto made = reference_basis(*own, human.leg_muscles);
+          auto made = reference_basis(own->plan, human.leg_muscles);
           if (!made) return tl::unexpected(made.error());
           bases.push_back(std::move(*made));
         }

@@ -82,13 +82,18 @@ class Lookup {
   const float* find(Entity entity) const {
     const auto place = world_->find(entity);
     if (!place) return nullptr;
-    const std::uint32_t column = place.table->column(type_id<C<float>>());
-    if (column == Table::no_column) return nullptr;
-    return place.table->block(place.row / lane_count) + column * lane_count + place.row % lane_count;
+    if (place.table != last_) {
+      last_ = place.table;
+      column_ = place.table->column(type_id<C<float>>());
+    }
+    if (column_ == Table::no_column) return nullptr;
+    return place.table->block(place.row / lane_count) + column_ * lane_count + place.row % lane_count;
   }
 
  private:
   const World* world_;
+  mutable const Table* last_ = nullptr;  // most that one asks for lie in one table
+  mutable std::uint32_t column_ = Table::no_column;
 };
 
 /// What one parameter does with a component or field (`none`: nothing that order depends on).

@@ -59,11 +59,10 @@ FirstLine<End> present_line(const World& world, const MuscleChange& change, Enti
   rest.rest_length_m = static_cast<float>(plan.rest_length_m);
   rest.stiffness_n_per_m = static_cast<float>(
       axial_stiffness(shape->axial, static_cast<double>(plan.scale.across), static_cast<double>(plan.scale.along)));
-  const auto leg = world.get<LegFrames>(muscle);
   const auto line = world.get<LineOfAction>(muscle);
   const auto end = world.get<End>(muscle);
-  if (leg && line && end) {
-    FirstLine<End> present{*leg, *line, *end};
+  if (line && end) {
+    FirstLine<End> present{*line, *end};
     present.line.stiffness_n_per_m = rest.stiffness_n_per_m;
     return present;
   }
@@ -210,7 +209,7 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
 
   PartList list;
   const MuscleOwner<float> owner{change.human.entity.index, change.human.entity.generation, change.side};
-  list.add(owner, plan.leg_scale, at.leg, at.line, at.end, world.share(belly.shape->lines));
+  list.add(owner, plan.leg_scale, at.line, at.end, world.share(belly.shape->lines));
   const MethodParts method(world, change, from, list);
   const BellyReport<float> report = world.get<BellyReport>(muscle).value_or(BellyReport<float>{});
   if (is_reported(choice)) list.add(report);
@@ -218,7 +217,9 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
   LineMotion<float> motion{};
   if (choice.line_motion) {
     const auto before = world.get<LineMotion>(muscle);
-    motion = before ? *before : first_motion(*belly.shape->lines, plan.leg_scale, at.leg, at.line, change.tick_s);
+    motion = before ? *before
+                    : first_motion(*belly.shape->lines, plan.leg_scale, *world.get<Pose>(change.human.entity),
+                                   change.side, at.line, change.tick_s);
     list.add(motion);
   }
   if (world.alive(muscle)) {

@@ -12,15 +12,23 @@
 
 namespace mobil {
 
+namespace {
+
+LegFrames<Lanes<float>> leg_of(const Pose<float>& pose, Side side) {
+  LegFrames<Lanes<float>> leg;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) gather_leg(pose, side, leg, lane);
+  return leg;
+}
+
+}  // namespace
+
 template <template <class> class End>
 FirstLine<End> first_line(const MuscleLines& lines, const LegScale<float>& scale, const LineOfAction<float>& rest,
                           const Pose<float>& pose, Side side) {
-  LegFrames<Lanes<float>> leg;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) gather_leg(pose, side, leg, lane);
   auto line = broadcast(rest);
   End<Lanes<float>> end{};
-  lines_of_action(lines, broadcast(scale), leg, line, end);
-  return {first_lane(leg), first_lane(line), first_lane(end)};
+  lines_of_action(lines, broadcast(scale), leg_of(pose, side), line, end);
+  return {first_lane(line), first_lane(end)};
 }
 
 template FirstLine<EndDisplacement> first_line(const MuscleLines&, const LegScale<float>&, const LineOfAction<float>&,
@@ -28,10 +36,10 @@ template FirstLine<EndDisplacement> first_line(const MuscleLines&, const LegScal
 template FirstLine<EndForce> first_line(const MuscleLines&, const LegScale<float>&, const LineOfAction<float>&,
                                         const Pose<float>&, Side);
 
-LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& scale, const LegFrames<float>& leg,
-                               const LineOfAction<float>& line, float tick_s) {
+LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& scale, const Pose<float>& pose,
+                               Side side, const LineOfAction<float>& line, float tick_s) {
   LineMotion<Lanes<float>> motion{};
-  line_motion(lines, broadcast(scale), broadcast(leg), broadcast(line), motion, tick_s);
+  line_motion(lines, broadcast(scale), leg_of(pose, side), broadcast(line), motion, tick_s);
   return first_lane(motion);
 }
 

@@ -15,10 +15,9 @@ struct Human;
 struct MuscleLines;
 class World;
 
-/// A leg of a given pose, and its line of action with the end where it then is, as a first tick would write them.
+/// The line of action of a leg of a given pose, with the end where it then is, as a first tick would write them.
 template <template <class> class End>
 struct FirstLine {
-  LegFrames<float> leg;
   LineOfAction<float> line;
   End<float> end;
 };
@@ -28,8 +27,8 @@ FirstLine<End> first_line(const MuscleLines& lines, const LegScale<float>& scale
                           const Pose<float>& pose, Side side);
 
 /// Of a line that has just begun: it does not lengthen yet.
-LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& scale, const LegFrames<float>& leg,
-                               const LineOfAction<float>& line, float tick_s);
+LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& scale, const Pose<float>& pose,
+                               Side side, const LineOfAction<float>& line, float tick_s);
 
 /// The last poses of a person, the present one at the end: a walker's four as far as they are known, of a posed person
 /// that one alone. Kept for the person's other muscles.

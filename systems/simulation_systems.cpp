@@ -14,22 +14,42 @@
 namespace mobil {
 namespace {
 
-void gather_legs(Lookup<Pose> poses, const MuscleOwner<Lanes<float>>& owner, LegFrames<Lanes<float>>& leg) {
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const float* pose = poses.find({owner.index[lane], owner.generation[lane]});
-    if (pose != nullptr) gather_leg(pose, static_cast<Side>(owner.side[lane]), leg, lane);
+constexpr Pose<float> make_nobodys_pose() {
+  Pose<float> pose{};
+  for (auto& rotation : pose.rotation) rotation = {0, 0, 0, 1};
+  for (const Side side : {right, left}) {
+    pose.position_m[index(on_side(Segment::thigh_right, side))].y = 1;
+    pose.position_m[index(on_side(Segment::shank_right, side))].y = 0.5F;
   }
+  return pose;
+}
+constexpr Pose<float> nobodys_pose = make_nobodys_pose();
+
+/// The one gather of a tick. Whose human is gone stands still in the anatomical position of nobody.
+LegFrames<Lanes<float>> legs_of(const Lookup<Pose>& poses, const MuscleOwner<Lanes<float>>& owner) {
+  LegFrames<Lanes<float>> leg;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto side = static_cast<Side>(owner.side[lane]);
+    const float* pose = poses.find({owner.index[lane], owner.generation[lane]});
+    if (pose != nullptr) {
+      gather_leg(pose, side, leg, lane);
+    } else {
+      gather_leg(nobodys_pose, side, leg, lane);
+    }
+  }
+  return leg;
 }
 
 template <template <class> class End>
-void follow_lines(Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
-                  LineOfAction<Lanes<float>>& line, End<Lanes<float>>& end) {
-  lines_of_action(*lines, scale, leg, line, end);
+void follow_lines(Lookup<Pose> poses, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
+                  const LegScale<Lanes<float>>& scale, LineOfAction<Lanes<float>>& line, End<Lanes<float>>& end) {
+  lines_of_action(*lines, scale, legs_of(poses, owner), line, end);
 }
 
-void move_lines(Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
-                const LineOfAction<Lanes<float>>& line, LineMotion<Lanes<float>>& motion, float tick_s) {
-  line_motion(*lines, scale, leg, line, motion, tick_s);
+void move_lines(Lookup<Pose> poses, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
+                const LegScale<Lanes<float>>& scale, const LineOfAction<Lanes<float>>& line,
+                LineMotion<Lanes<float>>& motion, float tick_s) {
+  line_motion(*lines, scale, legs_of(poses, owner), line, motion, tick_s);
 }
 
 /// ECD.
@@ -121,7 +141,6 @@ Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
       .add("kinematics", &pose_skeleton)
       .add("centre of mass", &centre_of_mass)
       .add("forces", &joint_forces)
-      .add("leg frames", &gather_legs)
       .add("lines of action", &follow_lines<EndDisplacement>)
       .add("lines of action, pulling", &follow_lines<EndForce>)
       .after("lines of action")

@@ -8,22 +8,48 @@
 
 namespace mobil {
 
-/// One system's run over all its blocks, shared by the threads that do it.
+namespace {
+
+/// What a core's own cache holds besides what the systems themselves read.
+constexpr std::size_t tile_bytes = 128 * 1024;
+
+double steady_now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+}  // namespace
+
+/// One pass over all its blocks, shared by the threads that do it.
 struct Schedule::Pass {
-  const System& system;
-  const std::vector<Match>& matches;
+  std::span<const System> systems;  // all of the schedule's
+  std::span<const Match> matches;
   const World& world;
   Tick tick;
-  const std::vector<ChosenRow>& chosen;
-  ScratchPool* scratch;  // null where the system needs none
+  double (*clock)();
+  std::atomic<std::int64_t>* spent_ns;
+  std::span<const ChosenRow> chosen;
+  std::uint16_t* chosen_lanes;
+  std::size_t packed;    // the system that chooses and is chosen for
+  ScratchPool* scratch;  // null where no system needs any
+
+  void spend(std::size_t system, double seconds) const {
+    spent_ns[system].fetch_add(static_cast<std::int64_t>(seconds * 1e9), std::memory_order_relaxed);
+  }
 };
 
 Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memory)
     : systems_(std::move(systems)),
+      passes_(schedule_passes(systems_)),
       timings_(systems_.size()),
-      matches_(systems_.size()),
-      scratch_floats_(systems_.size()),
-      scratch_(std::make_unique<ScratchPool>(memory)) {}
+      matches_(passes_.size()),
+      scratch_floats_(passes_.size()),
+      spent_ns_(std::make_unique<std::atomic<std::int64_t>[]>(systems_.size())),
+      scratch_(std::make_unique<ScratchPool>(memory)),
+      clock_(&steady_now) {}
+
+void Schedule::measure_with(double (*clock)()) {
+  clock_ = clock == nullptr ? &steady_now : clock;
+}
 
 void Schedule::match(World& world) {
   if (world_ != world.identity()) {
@@ -34,54 +60,95 @@ void Schedule::match(World& world) {
   }
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
-    for (std::size_t s = 0; s < systems_.size(); ++s) {
-      std::vector<Bound> bound(systems_[s].parameters);
-      if (!systems_[s].bind(world, table, bound.data())) continue;
-      for (const Bound& b : bound) scratch_floats_[s] = std::max(scratch_floats_[s], b.scratch_floats);
-      matches_[s].push_back({&table, 0, std::move(bound)});
+    const std::size_t block_bytes = std::max<std::size_t>(1, table.words() * sizeof(Lanes<float>));
+    for (std::size_t p = 0; p < passes_.size(); ++p) {
+      Match match{&table, {}, std::max<std::size_t>(1, tile_bytes / block_bytes)};
+      for (std::size_t s = passes_[p].first; s < passes_[p].last; ++s) {
+        std::vector<Bound> bound(systems_[s].parameters);
+        if (!systems_[s].bind(world, table, bound.data())) continue;
+        for (const Bound& b : bound) scratch_floats_[p] = std::max(scratch_floats_[p], b.scratch_floats);
+        match.steps.push_back({s, std::move(bound)});
+      }
+      if (!match.steps.empty()) matches_[p].push_back(std::move(match));
     }
   }
 }
 
-void Schedule::run_blocks(void* context, std::size_t begin, std::size_t end) {
+/// f(match, first block, block after the last) for each of those tiles.
+template <class F>
+void Schedule::for_tiles(const Pass& pass, std::size_t begin, std::size_t end, const F& f) {
+  auto match = std::upper_bound(pass.matches.begin(), pass.matches.end(), begin,
+                                [](std::size_t tile, const Match& m) { return tile < m.first_tile; }) -
+               1;
+  for (std::size_t tile = begin; tile < end; ++tile) {
+    while ((tile - match->first_tile) * match->tile_blocks >= match->table->block_count()) ++match;
+    const std::size_t first = (tile - match->first_tile) * match->tile_blocks;
+    f(*match, first, std::min(first + match->tile_blocks, match->table->block_count()));
+  }
+}
+
+void Schedule::run_tiles(void* context, std::size_t begin, std::size_t end) {
   const FlushDenormals flush;
   const Pass& pass = *static_cast<const Pass*>(context);
   const ScratchLease scratch(pass.scratch);
-  auto match = std::upper_bound(pass.matches.begin(), pass.matches.end(), begin,
-                                [](std::size_t block, const Match& m) { return block < m.first_block; }) -
-               1;
-  for (std::size_t b = begin; b < end; ++b) {
-    while (b - match->first_block >= match->table->block_count()) ++match;
-    pass.system.run({pass.world, *match->table, b - match->first_block, pass.tick, scratch.data()},
-                    match->bound.data());
-  }
+  double before = pass.clock();
+  for_tiles(pass, begin, end, [&](const Match& match, std::size_t first, std::size_t last) {
+    for (const Step& step : match.steps) {
+      const System& system = pass.systems[step.system];
+      for (std::size_t b = first; b < last; ++b) {
+        system.run({pass.world, *match.table, b, pass.tick, scratch.data()}, step.bound.data());
+      }
+      const double now = pass.clock();
+      pass.spend(step.system, now - before);
+      before = now;
+    }
+  });
+}
+
+void Schedule::choose_lanes(void* context, std::size_t begin, std::size_t end) {
+  const FlushDenormals flush;
+  const Pass& pass = *static_cast<const Pass*>(context);
+  const System& system = pass.systems[pass.packed];
+  const double before = pass.clock();
+  for_tiles(pass, begin, end, [&](const Match& match, std::size_t first, std::size_t last) {
+    for (std::size_t b = first; b < last; ++b) {
+      const std::uint32_t lanes = system.choose({pass.world, *match.table, b, pass.tick}, match.steps[0].bound.data());
+      pass.chosen_lanes[match.first_block + b] =
+          static_cast<std::uint16_t>(lanes & ((1U << match.table->live(b)) - 1U));
+    }
+  });
+  pass.spend(pass.packed, pass.clock() - before);
 }
 
 void Schedule::run_chosen(void* context, std::size_t begin, std::size_t end) {
   const FlushDenormals flush;
   const Pass& pass = *static_cast<const Pass*>(context);
-  const std::span<const ChosenRow> rows = pass.chosen;
+  const double before = pass.clock();
   for (std::size_t b = begin; b < end; ++b) {
     const std::size_t first = b * lane_count;
-    pass.system.run_rows(rows.subspan(first, std::min(lane_count, rows.size() - first)), pass.tick);
+    const std::size_t count = std::min(lane_count, pass.chosen.size() - first);
+    pass.systems[pass.packed].run_rows(pass.chosen.subspan(first, count), pass.tick);
   }
+  pass.spend(pass.packed, pass.clock() - before);
 }
 
-void Schedule::choose_rows(const System& system, const std::vector<Match>& matches, const World& world, Tick tick) {
-  const FlushDenormals flush;
+void Schedule::run_packed(Pass& pass, std::size_t tiles, std::size_t blocks, const Jobs& jobs) {
+  chosen_lanes_.resize(blocks);
+  pass.chosen_lanes = chosen_lanes_.data();
+  jobs.parallel_for(jobs.user, tiles, &choose_lanes, &pass);
   chosen_.clear();
-  std::size_t rows = 0;
-  for (const Match& match : matches) rows += match.table->row_count();
-  chosen_.reserve(rows);
-  for (const Match& match : matches) {
+  chosen_.reserve(blocks * lane_count);
+  for (const Match& match : pass.matches) {
+    const Bound* bound = match.steps[0].bound.data() + systems_[pass.packed].chooser_parameters;
     for (std::size_t b = 0; b < match.table->block_count(); ++b) {
-      std::uint32_t bits = system.choose({world, *match.table, b, tick}, match.bound.data());
-      bits &= (1U << match.table->live(b)) - 1U;
-      for (; bits != 0; bits &= bits - 1)
-        chosen_.push_back({match.table->block(b), match.bound.data() + system.chooser_parameters,
-                           static_cast<std::uint32_t>(std::countr_zero(bits))});
+      for (std::uint32_t lanes = chosen_lanes_[match.first_block + b]; lanes != 0; lanes &= lanes - 1)
+        chosen_.push_back({match.table->block(b), bound, static_cast<std::uint32_t>(std::countr_zero(lanes))});
     }
   }
+  timings_[pass.packed].last_rows = chosen_.size();
+  if (chosen_.empty()) return;
+  pass.chosen = chosen_;
+  jobs.parallel_for(jobs.user, (chosen_.size() + lane_count - 1) / lane_count, &run_chosen, &pass);
 }
 
 void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
@@ -91,28 +158,39 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     scratch_->prepare(*most, jobs.threads);
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {
-    Timing& timing = timings_[s];
-    ++timing.calls;
-    timing.last_rows = 0;
-    timing.last_seconds = 0;
-    std::size_t blocks = 0;
-    for (Match& m : matches_[s]) {
+    timings_[s].last_rows = 0;
+    spent_ns_[s].store(0, std::memory_order_relaxed);
+  }
+  for (std::size_t p = 0; p < passes_.size(); ++p) {
+    std::size_t tiles = 0, blocks = 0;
+    for (Match& m : matches_[p]) {
+      m.first_tile = tiles;
       m.first_block = blocks;
+      tiles += (m.table->block_count() + m.tile_blocks - 1) / m.tile_blocks;
       blocks += m.table->block_count();
-      timing.last_rows += m.table->row_count();
+      for (const Step& step : m.steps) timings_[step.system].last_rows += m.table->row_count();
     }
     if (blocks == 0) continue;
-    const auto start = std::chrono::steady_clock::now();
-    Pass pass{systems_[s], matches_[s], world, tick, chosen_, scratch_floats_[s] > 0 ? scratch_.get() : nullptr};
-    if (systems_[s].choose) {
-      choose_rows(systems_[s], matches_[s], world, tick);
-      timing.last_rows = chosen_.size();
-      blocks = (chosen_.size() + lane_count - 1) / lane_count;
-      if (blocks > 0) jobs.parallel_for(jobs.user, blocks, &run_chosen, &pass);
+    Pass pass{systems_,
+              matches_[p],
+              world,
+              tick,
+              clock_,
+              spent_ns_.get(),
+              {},
+              nullptr,
+              passes_[p].first,
+              scratch_floats_[p] > 0 ? scratch_.get() : nullptr};
+    if (systems_[pass.packed].choose) {
+      run_packed(pass, tiles, blocks, jobs);
     } else {
-      jobs.parallel_for(jobs.user, blocks, &run_blocks, &pass);
+      jobs.parallel_for(jobs.user, tiles, &run_tiles, &pass);
     }
-    timing.last_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  }
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    Timing& timing = timings_[s];
+    ++timing.calls;
+    timing.last_seconds = 1e-9 * static_cast<double>(spent_ns_[s].load(std::memory_order_relaxed));
     timing.seconds += timing.last_seconds;
     timing.rows += timing.last_rows;
   }

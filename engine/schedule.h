@@ -8,9 +8,11 @@
 //
 // Order: who reads a component runs after who writes it; who reads it as Previous runs before. Where `after` says
 // otherwise, `after` wins. Two writers of one component need an `after`, be it on different tables. Ties go by the
-// order of adding, so that the order is always the same.
+// order of adding, so that the order is always the same. That is so of each block: systems that need nothing of other
+// blocks (no Lookup between them) go over one block after the other together, while it is in a cache.
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -45,8 +47,8 @@ struct System {
   std::size_t chooser_parameters = 0;  // what is bound begins with them
 };
 
-/// Ticks, rows worked on and wall time of a system in all, and the last tick's. Rows are entities: of a packed system
-/// those chosen. Where no table is a system's, its code does not run and no time is taken.
+/// Ticks, rows worked on and time of a system in all, and the last tick's. Rows are entities: of a packed system those
+/// chosen. Time is that of all threads together. Where no table is a system's, its code does not run and takes no time.
 struct Timing {
   std::uint64_t calls = 0;
   std::uint64_t rows = 0;
@@ -55,44 +57,68 @@ struct Timing {
   double last_seconds = 0;
 };
 
+/// Systems that run block by block, one after the other while a block is in a cache, before any other of the order:
+/// `first` up to before `last` of the order. A packed system is a pass of its own.
+struct SystemRange {
+  std::size_t first, last;
+};
+
 class Schedule {
  public:
-  /// One tick. Every system over all blocks of its tables, one system after the other. Takes memory only when tables
-  /// have been made since the last run, another world comes along, or more threads work at once than before. Denormals
-  /// are zero while a system runs.
+  /// One tick. In each pass some neighbouring blocks at a time go through all the systems whose tables they are in.
+  /// Takes memory only when tables have been made since the last run, another world comes along, or more threads work
+  /// at once or more rows may be chosen than before. Denormals are zero while a system runs.
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
   /// In the order of running.
   std::span<const System> systems() const { return systems_; }
+  std::span<const SystemRange> passes() const { return passes_; }
   std::span<const Timing> timings() const { return timings_; }
   /// Null when there is no system of that name.
   const Timing* timing(std::string_view name) const;
   void reset_timings();
+  /// What time is read from, s; nullptr: the machine's steady clock. A clock of the calling thread's processor time
+  /// says what systems cost while others use the machine.
+  void measure_with(double (*clock)());
 
   /// The order as text, a line a system: what it reads and writes.
   std::string describe() const;
 
  private:
   friend class ScheduleBuilder;
-  struct Match {
-    Table* table;
-    std::size_t first_block;  // among all blocks of the system, this tick
+  /// A system on a table.
+  struct Step {
+    std::size_t system;
     std::vector<Bound> bound;
   };
+  /// What a pass does to a table: some blocks at a time, a tile, so that they stay in a cache.
+  struct Match {
+    Table* table;
+    std::vector<Step> steps;
+    std::size_t tile_blocks;
+    std::size_t first_tile = 0, first_block = 0;  // among all of the pass, this tick
+  };
   struct Pass;
-  static void run_blocks(void* pass, std::size_t begin, std::size_t end);
+  static void run_tiles(void* pass, std::size_t begin, std::size_t end);
+  static void choose_lanes(void* pass, std::size_t begin, std::size_t end);
   static void run_chosen(void* pass, std::size_t begin, std::size_t end);
-  void choose_rows(const System& system, const std::vector<Match>& matches, const World& world, Tick tick);
+  template <class F>
+  static void for_tiles(const Pass& pass, std::size_t begin, std::size_t end, const F& f);
+  void run_packed(Pass& pass, std::size_t tiles, std::size_t blocks, const Jobs& jobs);
 
   Schedule(std::vector<System> systems, std::pmr::memory_resource* memory);
   void match(World& world);
 
   std::vector<System> systems_;
+  std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
-  std::vector<std::vector<Match>> matches_;  // by system
-  std::vector<ChosenRow> chosen_;            // of the packed system that runs, kept for its memory
-  std::vector<std::size_t> scratch_floats_;  // by system, the most that a table of it needs
+  std::vector<std::vector<Match>> matches_;                // by pass
+  std::vector<std::uint16_t> chosen_lanes_;                // by block of a packed system that runs, kept for its memory
+  std::vector<ChosenRow> chosen_;                          // the same as rows
+  std::vector<std::size_t> scratch_floats_;                // by pass, the most that a table of it needs
+  std::unique_ptr<std::atomic<std::int64_t>[]> spent_ns_;  // by system, this tick
   std::unique_ptr<ScratchPool> scratch_;
+  double (*clock_)();
   std::size_t tables_seen_ = 0;
   std::shared_ptr<const char> world_;
 };

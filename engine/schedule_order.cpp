@@ -141,4 +141,27 @@ Result<std::vector<std::size_t>> schedule_order(std::span<const System> systems)
   return order;
 }
 
+std::vector<SystemRange> schedule_passes(std::span<const System> ordered) {
+  const auto meet = [](const System& a, Mode of_a, const System& b, Mode of_b) {
+    return std::any_of(a.accesses.begin(), a.accesses.end(), [&](const Access& x) {
+      return x.mode == of_a && std::any_of(b.accesses.begin(), b.accesses.end(),
+                                           [&](const Access& y) { return y.mode == of_b && y.id == x.id; });
+    });
+  };
+  std::vector<SystemRange> passes;
+  for (std::size_t s = 0; s < ordered.size(); ++s) {
+    bool joins = !passes.empty() && !ordered[s].choose && !ordered[passes.back().first].choose;
+    for (std::size_t other = joins ? passes.back().first : s; joins && other < s; ++other) {
+      joins = !meet(ordered[other], Mode::write, ordered[s], Mode::lookup) &&
+              !meet(ordered[other], Mode::lookup, ordered[s], Mode::write);
+    }
+    if (joins) {
+      passes.back().last = s + 1;
+    } else {
+      passes.push_back({s, s + 1});
+    }
+  }
+  return passes;
+}
+
 }  // namespace mobil

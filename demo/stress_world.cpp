@@ -21,7 +21,7 @@ void add_row(const World& world, Entity entity, bool with_handles, std::vector<s
   const auto place = world.find(entity);
   if (!place) return;
   for (const KeyPart& part : place.table->key()) {
-    if (part.kind == PartKind::tag) continue;
+    if (!has_column(part.kind)) continue;
     if (!with_handles && part.id == type_id<MuscleOwner<float>>()) continue;
     const auto width = static_cast<std::uint32_t>(part.value);
     const std::size_t from = words.size();

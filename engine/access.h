@@ -142,7 +142,7 @@ struct ColumnParameter {
   static constexpr Access access() { return {mode, type_id<T>(), type_name<T>()}; }
   static bool bind(const World&, const Table& table, Bound& bound) {
     const KeyPart* part = find_part(table.key(), type_id<T>());
-    if (part == nullptr || part->kind == PartKind::tag) return false;
+    if (part == nullptr || !has_column(part->kind)) return false;
     bound.first_word = table.column(part->id);
     bound.words = static_cast<std::uint32_t>(part->value);
     return true;
@@ -157,7 +157,7 @@ struct TagParameter {
   static constexpr Access access() { return {}; }
   static bool bind(const World& world, const Table& table, Bound& bound) {
     const KeyPart* part = find_part(table.key(), type_id<T>());
-    if (part == nullptr || part->kind != PartKind::tag) return false;
+    if (part == nullptr || has_column(part->kind)) return false;
     bound.tag = part->value;
     bound.resource = world.resource(part->value);
     return true;

@@ -66,6 +66,8 @@ class EntityRegister {
   }
 
  private:
+  friend class WorldSnapshot;  // engine/snapshot.h
+
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
   struct Slot {
     std::uint32_t generation;

@@ -38,7 +38,12 @@ constexpr std::uint64_t type_id() {
   return hash;
 }
 
-enum class PartKind : std::uint8_t { component, field, tag };
+/// `shared`: a tag whose value is the index of a resource, which means something in its own world alone.
+enum class PartKind : std::uint8_t { component, field, tag, shared };
+/// Whether rows have words of it.
+constexpr bool has_column(PartKind kind) {
+  return kind <= PartKind::field;
+}
 
 /// One part of a table's key. `value`: words a row of a component or field, the value of a tag.
 struct KeyPart {
@@ -122,7 +127,7 @@ constexpr KeyPart key_part(const TagValue<Tag>& tag) {
 }
 template <class T>
 constexpr KeyPart key_part(const Shared<T>& shared) {
-  return {type_id<T>(), PartKind::tag, shared.index, type_name<T>()};
+  return {type_id<T>(), PartKind::shared, shared.index, type_name<T>()};
 }
 
 template <class P>

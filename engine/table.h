@@ -56,6 +56,8 @@ class Table {
   void copy_from(std::uint32_t row, const Table& other, std::uint32_t other_row);
 
  private:
+  friend class WorldSnapshot;  // engine/snapshot.h
+
   void park(std::uint32_t first_word, std::uint32_t words);
 
   TableKey key_;

@@ -133,7 +133,7 @@ Status World::remove_part(Entity entity, std::uint64_t id) {
 Status World::replace_tag(Entity entity, const KeyPart& tag) {
   const auto part = part_of(entity, tag.id);
   if (!part) return part.error();
-  if (part->kind != PartKind::tag) return Status::missing;
+  if (part->kind != tag.kind) return Status::missing;
   if (*part == tag) return Status::ok;
   scratch_ = find(entity).table->key();
   scratch_.erase(lower_bound(scratch_, tag.id));

@@ -129,6 +129,8 @@ class World {
     return index < resources_.size() ? resources_[index].get() : nullptr;
   }
 
+  /// The number of its table among `tables()`, and its row; null when stale. Until the next change of structure.
+  const EntityRegister::Location* locate(Entity entity) const { return entities_.find(entity); }
   Place<Table> find(Entity entity);
   Place<const Table> find(Entity entity) const;
   /// In the order of their creation, empty ones too; a table lives and stays put as long as the world.
@@ -139,6 +141,8 @@ class World {
   const std::shared_ptr<const char>& identity() const { return identity_; }
 
  private:
+  friend class WorldSnapshot;  // engine/snapshot.h
+
   Place<Table> create_row(const TableKey& key, Entity& entity);
   Status add_part(Entity entity, const KeyPart& part);
   Status remove_part(Entity entity, std::uint64_t id);

@@ -22,7 +22,7 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
   for (const KeyPart& part : place.table->key()) {
     const bool steps = part.id == type_id<Substeps>() || part.id == type_id<SolvedSteps>();
     if (steps) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
-    if (part.kind == PartKind::tag || part.id == type_id<MuscleOwner<float>>()) continue;
+    if (!has_column(part.kind) || part.id == type_id<MuscleOwner<float>>()) continue;
     std::vector<std::uint32_t> words(part.value);
     const auto width = static_cast<std::uint32_t>(part.value);
     place.table->read(place.row, place.table->column(part.id), width, words.data());

@@ -27,6 +27,8 @@ struct Material {
   double density_kg_m3 = 1000.0;
   double young_pa = 1.06667e4;
   double poisson = 0.3333;
+
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// How displacements within an eight-node hexahedron become stiffness: at 2×2×2 Gauss points; the same with the

@@ -104,7 +104,7 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
       const auto copies = spawn_copies(simulation, plan.bodies[b], speed, choice);
       if (!copies) return tl::unexpected(copies.error());
       walk.human = *copies;
-      const Human& human = *simulation.human(walk.human[driving_rung]);
+      const Human human = *simulation.human(walk.human[driving_rung]);
       for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
         const auto own = std::ranges::find(human.muscles, plan.muscles[m], [](const auto& h) { return h.plan.muscle; });
         if (basis.size() <= m) {

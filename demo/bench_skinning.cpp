@@ -34,7 +34,7 @@ Result<void> bench_skinning(BenchRun& run) {
   const auto entity = simulation.spawn({});
   if (!entity) return tl::unexpected(entity.error());
   if (auto done = simulation.add_leg_muscles(*entity); !done) return done;
-  const Human& human = *simulation.human(*entity);
+  const Human human = *simulation.human(*entity);
   const auto figure = make_figure(simulation, human, std::nullopt);
   if (!figure) return tl::unexpected(figure.error());
   simulation.advance(0.2);

@@ -151,7 +151,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
       "a muscle that is simulated; ReducedChoice::control_points", std::max(us, 0.0), systems);
 
   tell("surfaces");
-  const Human& human = *simulation.human(people.front());
+  const Human human = *simulation.human(people.front());
   const auto figure = make_figure(simulation, human, std::nullopt);
   if (!figure) return tl::unexpected(figure.error());
   WalkRecording recording = begin_recording(*figure, static_cast<float>(simulation.tick_s()));

@@ -60,7 +60,7 @@ Result<void> record(const FrontierWalk& walk, std::size_t lane, std::vector<Fron
   for (const FrontierDrive& drive : drives) choice.muscles.set(static_cast<std::size_t>(drive.muscle));
   choice.inertia = true;
   if (auto done = simulation.add_leg_muscles(*human, choice); !done) return done;
-  const Human& who = *simulation.human(*human);
+  const Human who = *simulation.human(*human);
   for (FrontierDrive& drive : drives) {
     const auto own = std::ranges::find(who.muscles, drive.muscle, [](const HumanMuscle& m) { return m.plan.muscle; });
     drive.plan[lane] = own->plan;

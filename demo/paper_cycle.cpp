@@ -144,7 +144,7 @@ Result<PaperCycle> walk_cycle(const CycleRequest& request) {
       return tl::unexpected(added.error());
     }
   }
-  const Human& human = *simulation.human(*entity);
+  const Human human = *simulation.human(*entity);
   Figure figure;
   if (!request.shown_at.empty()) {
     auto made = make_figure(simulation, human, request.anatomy);

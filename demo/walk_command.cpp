@@ -173,16 +173,16 @@ Result<void> run_walk(const WalkOptions& options) {
   Simulation simulation;
   const auto entity = simulation.spawn(options.body, options.gait);
   if (!entity) return tl::unexpected(entity.error());
-  const Human& human = *simulation.human(*entity);
   std::vector<GaitChange> changes;
   if (options.script) {
-    auto planned = plan_changes(*options.script, human.body, options.gait);
+    auto planned = plan_changes(*options.script, simulation.human(*entity)->body, options.gait);
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));
     changes = std::move(*planned);
   }
   const auto added = simulation.add_leg_muscles(*entity, options.muscles);
   if (!added) return added;
   if (options.forces) simulation.add_forces(*entity);
+  const Human human = *simulation.human(*entity);
   const auto figure = make_figure(simulation, human, options.anatomy);
   if (!figure) return tl::unexpected(figure.error());
   const bool folder_was_there = std::filesystem::exists(options.out);

@@ -30,12 +30,13 @@ struct Standing {
   CentreOfMass<float> centre;
 };
 
-Standing first_instant(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan) {
+Standing first_instant(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                       const GaitState<Lanes<float>>& state) {
   Pose<Lanes<float>> pose;
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
-  pose_skeleton(size, plan, GaitState<Lanes<float>>{}, pose, angles, feet);
+  pose_skeleton(size, plan, state, pose, angles, feet);
   centre_of_mass(size, pose, centre);
   return {first_lane(pose), first_lane(angles), first_lane(feet), first_lane(centre)};
 }
@@ -93,61 +94,69 @@ Simulation::Simulation(const SimulationOptions& options)
 
 Simulation::~Simulation() = default;
 
-Result<Entity> Simulation::spawn(const BodyRequest& request, const GaitRequest& gait_request) {
-  const auto body = make_body(request);
+Result<Entity> Simulation::spawn_one(const SpawnRequest& request) {
+  const auto body = make_body(request.body);
   if (!body) return tl::unexpected(body.error());
-  const auto gait = resolve_gait(*body, gait_request);
+  auto gait = resolve_gait(*body, request.gait);
   if (!gait) return tl::unexpected(gait.error());
-  const BodySize<float> size{request.height_m, request.mass_kg};
+  if (!(std::fabs(request.x_m) < 1e6F && std::fabs(request.z_m) < 1e6F && std::fabs(request.heading_rad) < 1e4F)) {
+    return fail(fmt::format("a place of {} and {} m or a heading of {} rad is not within ±1000000 m and ±10000 rad",
+                            request.x_m, request.z_m, request.heading_rad));
+  }
+  gait->heading_rad = request.heading_rad;
+  const BodySize<float> size{request.body.height_m, request.body.mass_kg};
   const auto sizes = broadcast(size);
   StepPlan<Lanes<float>> plan{};
   plan_first_step(sizes, broadcast(*gait), plan);
-  const Standing standing = first_instant(sizes, plan);
-  const Entity entity = world_.create(size, *gait, first_lane(plan), GaitState<float>{}, standing.pose, standing.angles,
+  GaitState<float> state{};
+  state.line_x_m = request.x_m;
+  state.line_z_m = request.z_m;
+  state.heading_rad = request.heading_rad;
+  const Standing standing = first_instant(sizes, plan, broadcast(state));
+  const Entity entity = world_.create(size, *gait, first_lane(plan), state, standing.pose, standing.angles,
                                       standing.feet, standing.centre);
-  keep({entity, *body, *gait, {}, {}});
+  people_.add({entity, request.body, false, 0, {}});
   return entity;
 }
 
-void Simulation::keep(Human human) {
-  const std::size_t at = human.entity.index;
-  if (humans_.size() <= at) humans_.resize(at + 1);
-  humans_[at] = std::make_unique<Human>(std::move(human));
+Result<Entity> Simulation::spawn(const BodyRequest& body, const GaitRequest& gait) {
+  return spawn_one({body, gait, 0, 0, 0, {}});
 }
 
 Status Simulation::despawn(Entity entity) {
   if (find(entity) == nullptr) return Status::stale_entity;
   remove_leg_muscles(entity);
-  humans_[entity.index].reset();
+  people_.remove(entity);
   return world_.destroy(entity);
 }
 
 Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) {
-  Human* human = find(entity);
+  const PersonRecord* human = person(entity);
   if (human == nullptr) return fail("change_gait: that person is not there (a stale handle); spawn one first");
   if (human->posed) return fail("change_gait: this person's host animates the skeleton; spawn a walker instead");
-  auto gait = resolve_gait(human->body, request);
+  auto gait = resolve_gait(*make_body(human->body), request);
   if (!gait) return tl::unexpected(gait.error());
-  gait->heading_rad = human->gait.heading_rad;
-  gait->revision = human->gait.revision + 1;
-  human->gait = *gait;
+  const Gait<float> before = *world_.get<Gait>(entity);
+  gait->heading_rad = before.heading_rad;
+  gait->revision = before.revision + 1;
   world_.set(entity, *gait);
   return {};
 }
 
 Result<void> Simulation::turn_to(Entity entity, float heading_rad) {
-  Human* human = find(entity);
+  const PersonRecord* human = person(entity);
   if (human == nullptr) return fail("turn_to: that person is not there (a stale handle); spawn one first");
   if (human->posed) return fail("turn_to: this person's host animates the skeleton; turn the pose instead");
   if (!(std::fabs(heading_rad) < 1e4F))
     return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
-  human->gait.heading_rad = heading_rad;
-  world_.set(entity, human->gait);
+  Gait<float> gait = *world_.get<Gait>(entity);
+  gait.heading_rad = heading_rad;
+  world_.set(entity, gait);
   return {};
 }
 
 Status Simulation::add_forces(Entity entity) {
-  const Human* human = find(entity);
+  const PersonRecord* human = person(entity);
   if (human == nullptr) return Status::stale_entity;
   if (human->posed) return Status::missing;
   if (world_.has<MotionHistory>(entity)) return Status::ok;
@@ -178,21 +187,22 @@ void Simulation::tick() {
   end_fades();
 }
 
-const Human* Simulation::human(Entity entity) const {
-  return const_cast<Simulation*>(this)->find(entity);
-}
-
-Human* Simulation::find(Entity entity) {
-  if (!world_.alive(entity) || entity.index >= humans_.size()) return nullptr;
-  Human* human = humans_[entity.index].get();
-  return human != nullptr && human->entity == entity ? human : nullptr;
+std::optional<Human> Simulation::human(Entity entity) const {
+  const PersonRecord* of = person(entity);
+  if (of == nullptr) return std::nullopt;
+  Human human{entity, *make_body(of->body), world_.get<Gait>(entity).value_or(Gait<float>{}), {}, {}, of->posed};
+  for (const OwnMuscle& own : of->muscles) {
+    human.muscles.push_back({*make_muscle_plan(human.body, own.muscle), own.entity, own.method});
+  }
+  if (!of->muscles.empty()) human.leg_muscles = people_.choice(*of);
+  return human;
 }
 
 Entity Simulation::muscle(Entity entity, Muscle muscle, Side side) const {
-  const Human* owner = human(entity);
+  const PersonRecord* owner = person(entity);
   if (owner == nullptr) return {};
-  for (const HumanMuscle& m : owner->muscles) {
-    if (m.plan.muscle == muscle) return m.entity[side];
+  for (const OwnMuscle& m : owner->muscles) {
+    if (m.muscle == muscle) return m.entity[side];
   }
   return {};
 }

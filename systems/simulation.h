@@ -15,6 +15,7 @@
 #include <memory>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -30,6 +31,7 @@
 #include "engine/schedule.h"
 #include "engine/world.h"
 #include "systems/simulation_muscles.h"
+#include "systems/simulation_people.h"
 
 namespace mobil {
 
@@ -41,21 +43,30 @@ struct SimulationOptions {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
 };
 
-/// One of a person's muscles, by side.
+/// One of a person's muscles, by side, with its plan.
 struct HumanMuscle {
   MusclePlan plan;
   std::array<Entity, 2> entity;
   MuscleMethod method;  // as it is
 };
 
-/// One walking person as set up at spawn; what changes is in the world.
+/// One person with all that follows from what was asked for.
 struct Human {
   Entity entity;
   Body body;
-  Gait<float> gait;
+  Gait<float> gait;                  // as last asked for; zeros of posed people
   std::vector<HumanMuscle> muscles;  // in the table's order; empty without muscles
   LegMuscles leg_muscles;            // as asked for; means nothing without muscles
   bool posed = false;                // its host animates the skeleton: no gait
+};
+
+/// One person of many to come, at a place on the ground, walking where they look (rad about +Y, 0 toward +Z, positive
+/// to the left).
+struct SpawnRequest {
+  BodyRequest body{};
+  GaitRequest gait{};
+  float x_m = 0, z_m = 0, heading_rad = 0;
+  std::optional<LegMuscles> muscles{};
 };
 
 /// What one system cost: wall time, and entities that it worked on.
@@ -99,6 +110,16 @@ class Simulation {
   Status set_pose(Entity human, const Pose<float>& pose);
   /// Stale handles answer Status::stale_entity.
   Status despawn(Entity human);
+
+  /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
+  /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is as it
+  /// was.
+  Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
+  /// All or none: where one of them is stale or named twice, Status::stale_entity.
+  Status despawn(std::span<const Entity> people);
+  /// Makes what bodies of usual build share who choose so, with the simulation's jobs: then spawning them and changing
+  /// their methods does not wait for that. Errors: a choice out of range; all is as it was.
+  Result<void> prepare(const LegMuscles& choice);
 
   /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
   /// steps. A speed of 0 stops, a positive one starts again. Errors: a stale handle, a gait out of range; all is as it
@@ -144,14 +165,21 @@ class Simulation {
   double time_s() const { return tick_ * clock_.tick_s(); }
   /// Of the last tick and of all.
   StepReport report() const;
+  /// One number of everybody's state and the tick: people's rows and muscles to the last bit, what was asked of them,
+  /// and rows that are nobody's. The same whatever order people came in, whatever rows they lie in and whatever
+  /// handles they have.
+  std::uint64_t state_hash() const;
 
   /// An entity's row of a component, or why there is none.
   template <template <class> class C>
   tl::expected<C<float>, Status> get(Entity entity) const {
     return world_.get<C>(entity);
   }
-  /// What a person was set up as; null for a stale handle.
-  const Human* human(Entity entity) const;
+  /// A person with body and plans of muscles, made when asked for (some microseconds); nothing for a stale handle.
+  std::optional<Human> human(Entity entity) const;
+  /// What is kept of a person; null for a stale handle. Until somebody comes or goes.
+  const PersonRecord* person(Entity entity) const { return world_.alive(entity) ? people_.find(entity) : nullptr; }
+  const People& people() const { return people_; }
   /// A person's muscle; a stale handle where there is none.
   Entity muscle(Entity human, Muscle muscle, Side side) const;
 
@@ -166,17 +194,17 @@ class Simulation {
   const Schedule& schedule() const { return *schedule_; }
 
  private:
-  void set_muscles(Human& human, const std::vector<Belly>& bellies, const LegMuscles& choice);
+  Result<Entity> spawn_one(const SpawnRequest& request);
+  void set_muscles(PersonRecord& person, const std::vector<Belly>& bellies, const LegMuscles& choice);
   void end_fades();
-  Human* find(Entity entity);
-  void keep(Human human);
+  PersonRecord* find(Entity entity) { return const_cast<PersonRecord*>(person(entity)); }
 
   World world_;
   Clock clock_;
   std::optional<Threads> threads_;
   Jobs jobs_;
   std::optional<Schedule> schedule_;
-  std::vector<std::unique_ptr<Human>> humans_;  // by entity index
+  People people_;
   BellyLibrary bellies_;
   std::unique_ptr<MuscleWork> work_;
   std::uint32_t tick_ = 0;

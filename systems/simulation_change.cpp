@@ -66,7 +66,7 @@ FirstLine<End> present_line(const World& world, const MuscleChange& change, Enti
     present.line.stiffness_n_per_m = rest.stiffness_n_per_m;
     return present;
   }
-  const Pose<float> pose = *world.get<Pose>(change.human.entity);
+  const Pose<float> pose = *world.get<Pose>(change.human);
   FirstLine<End> first = first_line<End>(*shape->lines, plan.leg_scale, rest, pose, change.side);
   if (line) first.line = *line;
   first.line.stiffness_n_per_m = rest.stiffness_n_per_m;
@@ -208,7 +208,7 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
   const Beginning from = beginning(world, work, change, muscle, {belly, choice, at.line, load});
 
   PartList list;
-  const MuscleOwner<float> owner{change.human.entity.index, change.human.entity.generation, change.side};
+  const MuscleOwner<float> owner{change.human.index, change.human.generation, change.side};
   list.add(owner, plan.leg_scale, at.line, at.end, world.share(belly.shape->lines));
   const MethodParts method(world, change, from, list);
   const BellyReport<float> report = world.get<BellyReport>(muscle).value_or(BellyReport<float>{});
@@ -218,8 +218,8 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
   if (choice.line_motion) {
     const auto before = world.get<LineMotion>(muscle);
     motion = before ? *before
-                    : first_motion(*belly.shape->lines, plan.leg_scale, *world.get<Pose>(change.human.entity),
-                                   change.side, at.line, change.tick_s);
+                    : first_motion(*belly.shape->lines, plan.leg_scale, *world.get<Pose>(change.human), change.side,
+                                   at.line, change.tick_s);
     list.add(motion);
   }
   if (world.alive(muscle)) {

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <deque>
 
-#include "systems/simulation.h"
+#include "engine/world.h"
 #include "systems/simulation_lines.h"
 #include "systems/simulation_motion.h"
+#include "systems/simulation_muscles.h"
 
 namespace mobil {
 
@@ -24,7 +25,7 @@ struct MuscleWork {
 /// What a person's muscle is to be. Where it `goes_on`, so does what is shown, whatever the methods; else full methods
 /// take the fields of one another as they are, and a belly that was not there before begins at rest.
 struct MuscleChange {
-  const Human& human;
+  Entity human;
   Side side;
   const Belly& belly;
   const LegMuscles& choice;

@@ -7,7 +7,6 @@
 #include "systems/lines/frame_motion.h"
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
-#include "systems/simulation.h"
 #include "systems/simulation_rows.h"
 
 namespace mobil {
@@ -43,20 +42,20 @@ LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& 
   return first_lane(motion);
 }
 
-void look_back(const World& world, const Human& human, std::uint32_t tick, float tick_s, RecentPoses& recent) {
-  if (recent.human == human.entity && recent.tick == tick) return;
-  recent.human = human.entity;
+void look_back(const World& world, Entity human, std::uint32_t tick, float tick_s, RecentPoses& recent) {
+  if (recent.human == human && recent.tick == tick) return;
+  recent.human = human;
   recent.tick = tick;
   recent.poses.clear();
-  if (human.posed) {
-    recent.poses.push_back(*world.get<Pose>(human.entity));
+  const auto state = world.get<GaitState>(human);
+  if (!state) {
+    recent.poses.push_back(*world.get<Pose>(human));
     return;
   }
-  const auto sizes = broadcast(*world.get<BodySize>(human.entity));
-  const auto plan = *world.get<StepPlan>(human.entity);
-  const auto state = *world.get<GaitState>(human.entity);
+  const auto sizes = broadcast(*world.get<BodySize>(human));
+  const auto plan = *world.get<StepPlan>(human);
   for (const float ticks : {3.0F, 2.0F, 1.0F, 0.0F}) {
-    const auto then = earlier(state, plan, ticks * tick_s);
+    const auto then = earlier(*state, plan, ticks * tick_s);
     if (!then) continue;
     Pose<Lanes<float>> pose;
     JointAngles<Lanes<float>> angles;

@@ -11,7 +11,6 @@
 
 namespace mobil {
 
-struct Human;
 struct MuscleLines;
 class World;
 
@@ -37,7 +36,7 @@ struct RecentPoses {
   std::uint32_t tick = 0;
   std::vector<Pose<float>> poses;
 };
-void look_back(const World& world, const Human& human, std::uint32_t tick, float tick_s, RecentPoses& recent);
+void look_back(const World& world, Entity human, std::uint32_t tick, float tick_s, RecentPoses& recent);
 
 /// The motion of a muscle's frame up to now, as far as it is known, as the ticks before would have recorded it.
 struct Inertia {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "assets/anthropometry.h"
 #include "components/fade.h"
 #include "systems/simulation.h"
 #include "systems/simulation_change.h"
@@ -12,33 +13,30 @@ namespace {
 
 template <class Muscles>
 auto find_muscle_of(Muscles& muscles, Muscle muscle) {
-  return std::find_if(muscles.begin(), muscles.end(), [&](const HumanMuscle& m) { return m.plan.muscle == muscle; });
+  return std::find_if(muscles.begin(), muscles.end(), [&](const OwnMuscle& m) { return m.muscle == muscle; });
 }
 
 bool same(const MuscleMethod& a, const MuscleMethod& b) {
   if (a.method != b.method) return false;
-  const ReducedChoice &x = a.reduced, &y = b.reduced;
-  return a.method != Method::reduced ||
-         (x.vectors == y.vectors && x.moving == y.moving && x.corrected == y.corrected && x.cells == y.cells &&
-          x.control_points == y.control_points && x.reported == y.reported);
+  return a.method != Method::reduced || a.reduced == b.reduced;
 }
 
 }  // namespace
 
 Result<void> Simulation::set_method(Entity entity, Muscle muscle, const MuscleMethod& method) {
-  Human* human = find(entity);
+  PersonRecord* human = find(entity);
   if (human == nullptr) return fail("set_method: that person is not there (a stale handle); spawn one first");
   const auto own = find_muscle_of(human->muscles, muscle);
   if (own == human->muscles.end())
     return fail("set_method: this person has no such muscle; choose one of those in add_leg_muscles");
   if (same(own->method, method)) return {};
-  LegMuscles choice = human->leg_muscles;
+  LegMuscles choice = people_.choice(*human);
   choice.method = method.method;
   choice.reduced = method.reduced;
-  const auto belly = bellies_.belly(own->plan, choice, clock_.tick_s());
+  const auto belly = bellies_.belly(*make_muscle_plan(*make_body(human->body), muscle), choice, tick_s());
   if (!belly) return fail(fmt::format("set_method: {}: {}", muscle_name(muscle), belly.error().message));
   for (const Side side : {right, left}) {
-    make_muscle(world_, *work_, {*human, side, *belly, choice, true, tick_, static_cast<float>(clock_.tick_s())},
+    make_muscle(world_, *work_, {entity, side, *belly, choice, true, tick_, static_cast<float>(tick_s())},
                 own->entity[side]);
   }
   own->method = method;
@@ -46,7 +44,7 @@ Result<void> Simulation::set_method(Entity entity, Muscle muscle, const MuscleMe
 }
 
 MuscleMethod Simulation::method(Entity entity, Muscle muscle) const {
-  const Human* owner = human(entity);
+  const PersonRecord* owner = person(entity);
   if (owner == nullptr) return {Method::none};
   const auto own = find_muscle_of(owner->muscles, muscle);
   return own == owner->muscles.end() ? MuscleMethod{Method::none} : own->method;

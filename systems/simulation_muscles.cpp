@@ -3,60 +3,61 @@
 
 #include <utility>
 
+#include "assets/anthropometry.h"
 #include "systems/simulation.h"
 #include "systems/simulation_change.h"
 
 namespace mobil {
 
 /// Muscles that are there keep their handles, others begin; those that are no longer asked for go.
-void Simulation::set_muscles(Human& human, const std::vector<Belly>& bellies, const LegMuscles& choice) {
-  std::vector<HumanMuscle> all;
+void Simulation::set_muscles(PersonRecord& person, const std::vector<Belly>& bellies, const LegMuscles& choice) {
+  std::vector<OwnMuscle> all;
+  all.reserve(bellies.size());
   for (const Belly& belly : bellies) {
-    HumanMuscle own{belly.plan, {}, {choice.method, choice.reduced}};
-    for (HumanMuscle& before : human.muscles) {
-      if (before.plan.muscle == belly.plan.muscle) std::swap(own.entity, before.entity);
+    OwnMuscle own{belly.plan.muscle, {}, {choice.method, choice.reduced}};
+    for (OwnMuscle& before : person.muscles) {
+      if (before.muscle == own.muscle) std::swap(own.entity, before.entity);
     }
     for (const Side side : {right, left}) {
-      make_muscle(world_, *work_, {human, side, belly, choice, false, tick_, static_cast<float>(clock_.tick_s())},
+      make_muscle(world_, *work_, {person.entity, side, belly, choice, false, tick_, static_cast<float>(tick_s())},
                   own.entity[side]);
     }
     all.push_back(own);
   }
-  for (const HumanMuscle& before : human.muscles) {
+  for (const OwnMuscle& before : person.muscles) {
     for (const Entity muscle : before.entity) world_.destroy(muscle);
   }
-  human.muscles = std::move(all);
-  human.leg_muscles = choice;
+  person.muscles = std::move(all);
+  person.choice = people_.number_of(choice);
 }
 
 Result<void> Simulation::add_leg_muscles(Entity entity, const LegMuscles& choice) {
-  Human* human = find(entity);
+  PersonRecord* human = find(entity);
   if (human == nullptr) return fail("add_leg_muscles: that person is not there (a stale handle); spawn one first");
   if (!human->muscles.empty()) return fail("add_leg_muscles: this person has leg muscles; remove them first");
-  const auto bellies = bellies_.bellies(human->body, choice, clock_.tick_s());
+  const auto bellies = bellies_.bellies(*make_body(human->body), choice, tick_s());
   if (!bellies) return fail("add_leg_muscles: " + bellies.error().message);
   set_muscles(*human, *bellies, choice);
   return {};
 }
 
 Result<void> Simulation::change_leg_muscles(Entity entity, const LegMuscles& choice) {
-  Human* human = find(entity);
+  PersonRecord* human = find(entity);
   if (human == nullptr) return fail("change_leg_muscles: that person is not there (a stale handle); spawn one first");
   if (human->muscles.empty()) return fail("change_leg_muscles: this person has no leg muscles; add them first");
-  const auto bellies = bellies_.bellies(human->body, choice, clock_.tick_s());
+  const auto bellies = bellies_.bellies(*make_body(human->body), choice, tick_s());
   if (!bellies) return fail("change_leg_muscles: " + bellies.error().message);
   set_muscles(*human, *bellies, choice);
   return {};
 }
 
 Status Simulation::remove_leg_muscles(Entity entity) {
-  Human* human = find(entity);
+  PersonRecord* human = find(entity);
   if (human == nullptr) return Status::stale_entity;
-  for (const HumanMuscle& own : human->muscles) {
+  for (const OwnMuscle& own : human->muscles) {
     for (const Entity muscle : own.entity) world_.destroy(muscle);
   }
   human->muscles.clear();
-  human->leg_muscles = {};
   return Status::ok;
 }
 

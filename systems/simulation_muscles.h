@@ -36,6 +36,8 @@ struct ReducedChoice {
   bool control_points = true;
   /// Whether what control points did is told (BellyReport), which takes more than half as long as placing them.
   bool reported = true;
+
+  friend bool operator==(const ReducedChoice&, const ReducedChoice&) = default;
 };
 
 /// How one muscle is simulated, at its person's other choices.
@@ -66,6 +68,8 @@ struct LegMuscles {
   /// Longest step; a tick is cut into equal ones no longer than that. Left out: of ECD and ICD 0.9 of each individual's
   /// own critical step, of CAA the tick. Static has no steps.
   std::optional<double> dt_s{};
+
+  friend bool operator==(const LegMuscles&, const LegMuscles&) = default;
 };
 
 // Tags of muscle tables. Who steps explicitly (ECD) has Substeps and NodalVelocity; who solves (ICD, CAA) SolvedSteps,

@@ -13,14 +13,12 @@ Result<Entity> Simulation::spawn_posed(const BodyRequest& request) {
   Pose<Lanes<float>> standing;
   pose_anatomical(broadcast(size), standing);
   const Entity entity = world_.create(size, first_lane(standing));
-  Human human{entity, *body, {}, {}, {}};
-  human.posed = true;
-  keep(std::move(human));
+  people_.add({entity, request, true, 0, {}});
   return entity;
 }
 
 Status Simulation::set_pose(Entity entity, const Pose<float>& pose) {
-  const Human* human = find(entity);
+  const PersonRecord* human = person(entity);
   if (human == nullptr) return Status::stale_entity;
   if (!human->posed) return Status::missing;
   return world_.set(entity, pose);

@@ -89,7 +89,7 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
 }
 
 Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
-  const Human* human = simulation_.human(entity);
+  const PersonRecord* human = simulation_.person(entity);
   if (human == nullptr) return fail("manage: that person is not there (a stale handle); spawn one first");
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
@@ -117,11 +117,11 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
   auto tiers = world.get<Tiers>(entity).value_or(Tiers<float>{});
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
   tiers.muscles = 0;
-  tiers.inertia = human->leg_muscles.inertia ? 1 : 0;
+  tiers.inertia = !human->muscles.empty() && simulation_.people().choice(*human).inertia ? 1 : 0;
   tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
   tiers.relative_size = options_.margin;
-  for (const HumanMuscle& own : human->muscles) {
-    const auto m = static_cast<std::uint32_t>(own.plan.muscle);
+  for (const OwnMuscle& own : human->muscles) {
+    const auto m = static_cast<std::uint32_t>(own.muscle);
     set_bit(tiers.muscles, m, true);
     if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
     set_rung(tiers.rung, m, rung_of(own.method));

@@ -21,7 +21,7 @@ TEST(Posed, StandsInTheAnatomicalPosition) {
   for (int i = 0; i < 6; ++i) {
     Simulation simulation;
     const Entity human = pose_person(simulation, i);
-    const Human& made = *simulation.human(human);
+    const Human made = *simulation.human(human);
     EXPECT_TRUE(made.posed);
     const auto pose = *simulation.get<Pose>(human);
     for (std::size_t s = 0; s < segment_count; ++s) {

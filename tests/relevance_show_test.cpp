@@ -69,7 +69,7 @@ Result<std::vector<Walk>> begin(const Plan& plan, Simulation& simulation, Releva
           return tl::unexpected(done.error());
         walk.copies.push_back(*human);
       }
-      const Human& human = *simulation.human(walk.copies.front());
+      const Human human = *simulation.human(walk.copies.front());
       for (std::size_t m = 0; m < walker.muscles.size(); ++m) {
         const auto own =
             std::ranges::find(human.muscles, walker.muscles[m], [](const HumanMuscle& h) { return h.plan.muscle; });

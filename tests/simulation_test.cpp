@@ -211,7 +211,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
     double asked = 0, missed = 0;
     for (int i = 0; i < 300; ++i) {
       simulation.tick();
-      for (const auto& own : simulation.human(human)->muscles) {
+      for (const auto& own : simulation.person(human)->muscles) {
         for (const Entity muscle : own.entity) {
           const auto line = *simulation.get<LineOfAction>(muscle);
           const auto report = *simulation.get<BellyReport>(muscle);
@@ -261,7 +261,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * muscle_group_count);
     EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
     std::vector<Entity> muscles;
-    for (const auto& own : simulation.human(human)->muscles)
+    for (const auto& own : simulation.person(human)->muscles)
       muscles.insert(muscles.end(), own.entity.begin(), own.entity.end());
     for (const Entity muscle : muscles) {
       EXPECT_TRUE(simulation.world().alive(muscle));
@@ -330,17 +330,17 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
     EXPECT_EQ(simulation.despawn(gone), Status::stale_entity);
     EXPECT_EQ(simulation.remove_leg_muscles(gone), Status::stale_entity);
     EXPECT_FALSE(simulation.add_leg_muscles(gone));
-    EXPECT_EQ(simulation.human(gone), nullptr);
+    EXPECT_FALSE(simulation.human(gone));
     EXPECT_EQ(simulation.get<Pose>(gone).error(), Status::stale_entity);
     EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, right)));
   }
   EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
   EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
-  EXPECT_EQ(simulation.human(muscle), nullptr);
+  EXPECT_FALSE(simulation.human(muscle));
   // A muscle is no person, though it lives.
   const Entity living = simulation.muscle(next, Muscle::hamstrings, left);
   ASSERT_TRUE(simulation.world().alive(living));
-  EXPECT_EQ(simulation.human(living), nullptr);
+  EXPECT_FALSE(simulation.human(living));
   EXPECT_EQ(simulation.despawn(living), Status::stale_entity);
   EXPECT_TRUE(simulation.world().alive(living));
 }

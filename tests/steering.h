@@ -179,7 +179,7 @@ class Watch : public Findings {
                      *simulation.get<GaitState>(walker.entity)};
     walker_ = &walker;
     if (samples_ == 0) {
-      const Body& body = simulation.human(walker.entity)->body;
+      const Body body = simulation.human(walker.entity)->body;
       shank_ = exact(body.joint_offset_m[index(Segment::foot_right)]);
       toes_ = static_cast<double>(body.tip_m[index(Segment::toes_right)].z);
     }

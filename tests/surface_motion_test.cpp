@@ -72,7 +72,7 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     ADD_FAILURE() << added.error().message;
     return {};
   }
-  const Human& human = *simulation.human(entity);
+  const Human human = *simulation.human(entity);
   struct Driven {
     Moving moving;
     Entity muscle;

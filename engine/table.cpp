@@ -43,6 +43,24 @@ void Table::reserve_row() {
   blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
 }
 
+void Table::reserve(std::uint32_t rows) {
+  const std::size_t blocks = (std::size_t{rows} + lane_count - 1) / lane_count;
+  if (blocks <= blocks_.size()) return;
+  blocks_.reserve(blocks);
+  entities_.resize(blocks * lane_count);
+  while (blocks_.size() < blocks) {
+    blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
+  }
+}
+
+void Table::trim() {
+  while (blocks_.size() > block_count() + 1) {
+    memory_->deallocate(blocks_.back(), words_ * lane_count * word_bytes, block_alignment);
+    blocks_.pop_back();
+  }
+  entities_.resize(blocks_.size() * lane_count);
+}
+
 std::uint32_t Table::add_row(Entity entity) {
   const std::uint32_t row = rows_;
   float* block = blocks_[row / lane_count];
@@ -66,11 +84,7 @@ Entity Table::remove_row(std::uint32_t row) {
     entities_[row] = moved;
     copy_lane(blocks_[row / lane_count] + row % lane_count, blocks_[last / lane_count] + last % lane_count, words_);
   }
-  if (blocks_.size() > block_count() + 1) {
-    memory_->deallocate(blocks_.back(), words_ * lane_count * word_bytes, block_alignment);
-    blocks_.pop_back();
-    entities_.resize(blocks_.size() * lane_count);
-  }
+  trim();
   park(0, words_);
   return moved;
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
+#include <span>
 #include <vector>
 
 #include "components/lanes.h"
@@ -13,6 +14,11 @@
 #include "engine/key.h"
 
 namespace mobil {
+
+/// A row that takes another's place, both of one table.
+struct RowMove {
+  std::uint32_t to, from;
+};
 
 /// Rows 0 … row_count − 1 are dense: row r is lane r % 16 of block r / 16. The lanes of the last block that have no row
 /// hold copies of its lane 0, so that a kernel may always run all sixteen. What a kernel computes there, nobody reads.
@@ -45,9 +51,25 @@ class Table {
   // What follows is for World, which keeps the entities' register in step.
 
   /// Makes room for one more row. Throws what the memory resource throws; nothing else here takes memory.
-  void reserve_row();
+  void reserve_row() { reserve_rows(1); }
+  void reserve_rows(std::uint32_t count);
+  /// Makes room for so many rows in all.
+  void reserve(std::uint32_t rows);
+  /// Gives back all empty blocks but one.
+  void trim();
   /// Appends a row of zeros, for which there must be room, and says which.
   std::uint32_t add_row(Entity entity);
+  /// Many rows behind those that there are, for which there must be room, from values in blocks of sixteen lanes as
+  /// World::create_many has them; several threads may write, each its own target blocks. They are rows once they are
+  /// `appended`; `park` makes a table whole again whose new rows are not to be.
+  void write_new(std::size_t first_block, std::size_t end_block, std::uint32_t count, std::span<const PartValue> parts);
+  void append(std::span<const Entity> entities);
+  void park() { park(0, words_); }
+  /// Moves rows onto others, which may be in any order; several threads may, each others.
+  void copy_rows(std::span<const RowMove> moves);
+  /// The entity of one row becomes that of another; then the last `count` rows are gone.
+  void rename(const RowMove& move) { entities_[move.to] = entities_[move.from]; }
+  void drop_last(std::uint32_t count);
   /// Removes a row by moving the last one into its place; returns the entity that moved, nobody if none had to.
   Entity remove_row(std::uint32_t row);
   void read(std::uint32_t row, std::uint32_t first_word, std::uint32_t words, void* out) const;

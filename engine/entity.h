@@ -1,6 +1,8 @@
 #pragma once
 // Handles. An entity is a number that was given out once; whoever holds it after the entity is gone is told so.
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
@@ -34,6 +36,12 @@ class EntityRegister {
   };
 
   explicit EntityRegister(std::pmr::memory_resource* memory) : slots_(memory) {}
+
+  /// Room for so many more: then `create` takes no memory.
+  void reserve(std::size_t more) {
+    const std::size_t slots = slots_.size() + more;
+    if (slots > slots_.capacity()) slots_.reserve(std::max(slots, 2 * slots_.capacity()));
+  }
 
   Entity create() {
     std::uint32_t index = first_free_;

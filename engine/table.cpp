@@ -36,21 +36,22 @@ std::uint32_t Table::live(std::size_t b) const {
   return static_cast<std::uint32_t>(std::min<std::size_t>(lane_count, rows_ - b * lane_count));
 }
 
-void Table::reserve_row() {
-  if (rows_ < blocks_.size() * lane_count) return;
-  if (blocks_.size() == blocks_.capacity()) blocks_.reserve(2 * blocks_.size() + 1);
-  entities_.resize((blocks_.size() + 1) * lane_count);
-  blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
-}
-
 void Table::reserve(std::uint32_t rows) {
   const std::size_t blocks = (std::size_t{rows} + lane_count - 1) / lane_count;
   if (blocks <= blocks_.size()) return;
-  blocks_.reserve(blocks);
-  entities_.resize(blocks * lane_count);
-  while (blocks_.size() < blocks) {
-    blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
+  if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.size() + 1));
+  if (blocks * lane_count > entities_.capacity()) {
+    entities_.reserve(std::max(blocks * lane_count, 2 * entities_.size()));
   }
+  try {
+    while (blocks_.size() < blocks) {
+      blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
+    }
+  } catch (...) {
+    trim();
+    throw;
+  }
+  entities_.resize(blocks * lane_count);
 }
 
 void Table::trim() {
@@ -59,6 +60,62 @@ void Table::trim() {
     blocks_.pop_back();
   }
   entities_.resize(blocks_.size() * lane_count);
+}
+
+void Table::write_new(std::size_t first_block, std::size_t end_block, std::uint32_t count,
+                      std::span<const PartValue> parts) {
+  for (std::size_t b = first_block; b < end_block; ++b) {
+    // Lanes of this block, and which of the new rows they are: of two of the blocks that values come in, mostly.
+    const std::size_t lane = b * lane_count < rows_ ? rows_ - b * lane_count : 0;
+    const std::size_t lanes = std::min(lane_count, rows_ + count - b * lane_count) - lane;
+    const std::size_t from = b * lane_count + lane - rows_, source = from / lane_count, offset = from % lane_count;
+    const std::size_t head = std::min(lanes, lane_count - offset), tail = lanes - head;
+    for (const auto& [part, values] : parts) {
+      if (part.kind == PartKind::tag) continue;
+      const std::size_t words = part.value;
+      float* to = blocks_[b] + column(part.id) * lane_count + lane;
+      if (values == nullptr) {
+        for (std::size_t w = 0; w < words; ++w, to += lane_count) std::memset(to, 0, lanes * word_bytes);
+        continue;
+      }
+      const float* of = static_cast<const float*>(values) + source * words * lane_count;
+      for (std::size_t w = 0; w < words; ++w, to += lane_count, of += lane_count) {
+        std::memcpy(to, of + offset, head * word_bytes);
+        if (tail > 0) std::memcpy(to + head, of + words * lane_count, tail * word_bytes);
+      }
+    }
+  }
+}
+
+void Table::append(std::span<const Entity> entities) {
+  std::copy(entities.begin(), entities.end(), entities_.begin() + rows_);
+  rows_ += static_cast<std::uint32_t>(entities.size());
+  park(0, words_);
+}
+
+void Table::copy_rows(std::span<const RowMove> moves) {
+  for (std::size_t i = 0; i < moves.size();) {
+    // Those between the same two blocks together: their words are in the same lines of memory.
+    const std::size_t to_block = moves[i].to / lane_count, from_block = moves[i].from / lane_count;
+    std::size_t end = i + 1;
+    while (end < moves.size() && moves[end].to / lane_count == to_block && moves[end].from / lane_count == from_block) {
+      ++end;
+    }
+    float* to = blocks_[to_block];
+    const float* from = blocks_[from_block];
+    for (std::size_t w = 0; w < words_; ++w, to += lane_count, from += lane_count) {
+      for (std::size_t m = i; m < end; ++m) {
+        std::memcpy(to + moves[m].to % lane_count, from + moves[m].from % lane_count, word_bytes);
+      }
+    }
+    i = end;
+  }
+}
+
+void Table::drop_last(std::uint32_t count) {
+  rows_ -= count;
+  trim();
+  park(0, words_);
 }
 
 std::uint32_t Table::add_row(Entity entity) {

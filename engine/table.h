@@ -51,9 +51,8 @@ class Table {
   // What follows is for World, which keeps the entities' register in step.
 
   /// Makes room for one more row. Throws what the memory resource throws; nothing else here takes memory.
-  void reserve_row() { reserve_rows(1); }
-  void reserve_rows(std::uint32_t count);
-  /// Makes room for so many rows in all.
+  void reserve_row() { reserve(rows_ + 1); }
+  /// Makes room for so many rows in all; where memory runs out, all is as it was.
   void reserve(std::uint32_t rows);
   /// Gives back all empty blocks but one.
   void trim();

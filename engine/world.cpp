@@ -81,6 +81,107 @@ Status World::destroy(Entity entity) {
   return Status::ok;
 }
 
+void World::create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs) {
+  if (entities.empty()) return;
+  key_from(parts);
+  const std::uint32_t index = table_of(scratch_);
+  struct Work {
+    Table& table;
+    std::span<const PartValue> parts;
+    std::uint32_t first, count;
+  } work{tables_[index], parts, tables_[index].row_count(), static_cast<std::uint32_t>(entities.size())};
+  work.table.reserve(work.first + work.count);
+  entities_.reserve(entities.size());
+  const std::size_t first_block = work.first / lane_count;
+  const std::size_t blocks = (work.first + work.count - 1) / lane_count + 1 - first_block;
+  const auto write = [](void* context, std::size_t begin, std::size_t end) {
+    const auto& of = *static_cast<Work*>(context);
+    const std::size_t at = of.first / lane_count;
+    of.table.write_new(at + begin, at + end, of.count, of.parts);
+  };
+  try {
+    jobs.parallel_for(jobs.user, blocks, write, &work);
+  } catch (...) {
+    work.table.drop_last(0);
+    throw;
+  }
+  for (std::uint32_t i = 0; i < work.count; ++i) {
+    entities[i] = entities_.create();
+    *entities_.find(entities[i]) = {index, work.first + i};
+  }
+  work.table.append(entities);
+}
+
+namespace {
+
+struct Gone {
+  std::uint32_t table, row;
+  bool operator<(const Gone& other) const { return table != other.table ? table < other.table : row < other.row; }
+  bool operator==(const Gone&) const = default;
+};
+
+struct Moves {
+  std::pmr::deque<Table>& tables;
+  std::pmr::vector<std::uint32_t> table;
+  std::pmr::vector<RowMove> move;
+
+  static void copy(void* context, std::size_t begin, std::size_t end) {
+    auto& of = *static_cast<Moves*>(context);
+    while (begin < end) {
+      std::size_t same = begin + 1;
+      while (same < end && of.table[same] == of.table[begin]) ++same;
+      of.tables[of.table[begin]].copy_rows({&of.move[begin], same - begin});
+      begin = same;
+    }
+  }
+};
+
+}  // namespace
+
+Status World::destroy_many(std::span<const Entity> entities, const Jobs& jobs) {
+  std::pmr::vector<Gone> gone(memory_);
+  gone.reserve(entities.size());
+  for (const Entity entity : entities) {
+    const auto* location = entities_.find(entity);
+    if (location == nullptr) return Status::stale_entity;
+    gone.push_back({location->table, location->row});
+  }
+  std::sort(gone.begin(), gone.end());
+  if (std::adjacent_find(gone.begin(), gone.end()) != gone.end()) return Status::stale_entity;
+  const auto end_of_table = [&](auto first) {
+    return std::find_if(first, gone.end(), [table = first->table](const Gone& g) { return g.table != table; });
+  };
+
+  // The last rows that stay, in their order, take the places of those that go.
+  Moves moves{tables_, std::pmr::vector<std::uint32_t>(memory_), std::pmr::vector<RowMove>(memory_)};
+  moves.table.reserve(gone.size());
+  moves.move.reserve(gone.size());
+  for (auto first = gone.begin(), end = first; first != gone.end(); first = end) {
+    end = end_of_table(first);
+    const auto left = static_cast<std::uint32_t>(tables_[first->table].row_count() - (end - first));
+    auto later = std::find_if(first, end, [&](const Gone& g) { return g.row >= left; });
+    std::uint32_t from = left;
+    for (auto hole = first; hole != end && hole->row < left; ++hole, ++from) {
+      for (; later != end && later->row == from; ++later) ++from;
+      moves.table.push_back(first->table);
+      moves.move.push_back({hole->row, from});
+    }
+  }
+  if (!moves.move.empty()) jobs.parallel_for(jobs.user, moves.move.size(), &Moves::copy, &moves);
+  for (std::size_t i = 0; i < moves.move.size(); ++i) {
+    Table& table = tables_[moves.table[i]];
+    const RowMove& move = moves.move[i];
+    entities_.find(table.entities(move.from / lane_count)[move.from % lane_count])->row = move.to;
+    table.rename(move);
+  }
+  for (auto first = gone.begin(), end = first; first != gone.end(); first = end) {
+    end = end_of_table(first);
+    tables_[first->table].drop_last(static_cast<std::uint32_t>(end - first));
+  }
+  for (const Entity entity : entities) entities_.destroy(entity);
+  return Status::ok;
+}
+
 void World::move(Entity entity, const TableKey& key) {
   const std::uint32_t to = table_of(key);
   auto* location = entities_.find(entity);

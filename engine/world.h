@@ -25,6 +25,7 @@
 #include <vector>
 
 #include "engine/entity.h"
+#include "engine/jobs.h"
 #include "engine/key.h"
 #include "engine/table.h"
 
@@ -58,6 +59,13 @@ class World {
   /// The same from lists put together at run time; each type once.
   Entity create_from(std::span<const PartValue> parts);
   Status remake_from(Entity entity, std::span<const PartValue> parts);
+  /// Many entities of the same parts. A row's values come in blocks of sixteen lanes: that of word w of the entity that
+  /// is number i at [(i / 16 · words + w) · 16 + i % 16]; null is zeros. The same entities as one by one, in
+  /// `entities`. Where memory runs out, the world is as it was.
+  void create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs = {});
+  /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
+  /// most; in which order rows then lie is not that of one by one. Takes memory for the while.
+  Status destroy_many(std::span<const Entity> entities, const Jobs& jobs = {});
   /// Several parts less at once, those of them that are there.
   Status remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids);
   bool alive(Entity entity) const { return entities_.alive(entity); }

@@ -15,36 +15,6 @@ namespace {
 constexpr double least_cpu_s = 20e-6;  // asking a thread for its time on a processor takes about 0.5 us
 constexpr double settling_s = 2;       // until nobody steps in time with anybody else
 
-/// Steele, Lea & Flood's SplitMix64: the same numbers on every machine.
-class Random {
- public:
-  Random(std::size_t person, std::uint32_t draw) : state_(BenchCrowd::seed << 56 ^ std::uint64_t{draw} << 40 ^ person) {
-    next();
-  }
-  float even(float low, float high) { return low + (high - low) * unit(); }
-  /// A sum of twelve even numbers, which is bell-shaped enough and exact everywhere.
-  float bell(float mean, float deviation) {
-    float sum = -6;
-    for (int i = 0; i < 12; ++i) sum += unit();
-    return mean + deviation * std::clamp(sum, -2.5F, 2.5F);
-  }
-
- private:
-  std::uint64_t next() {
-    std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-    z = (z ^ z >> 27) * 0x94d049bb133111eb;
-    return z ^ z >> 31;
-  }
-  float unit() { return static_cast<float>(next() >> 40) * 0x1p-24F; }
-
-  std::uint64_t state_;
-};
-
-float drawn_speed(Random& random) {
-  return random.bell(1.35F, 0.15F);
-}
-
 /// On a terminal, after the first second: how many are there.
 class Progress {
  public:
@@ -69,36 +39,6 @@ class Progress {
 
 }  // namespace
 
-BenchPerson bench_person(std::size_t i, std::uint32_t draw) {
-  Random random(i, draw);
-  BenchPerson person;
-  person.body.height_m = random.bell(1.72F, 0.09F);
-  person.body.mass_kg = random.bell(24, 3) * person.body.height_m * person.body.height_m;
-  person.body.biotype = {random.bell(3, 0.7F), random.bell(4, 0.7F), random.bell(3, 0.7F)};
-  person.body.constitution = static_cast<Constitution>(std::min(3, static_cast<int>(random.even(0, 4))));
-  person.gait.speed_m_s = drawn_speed(random);
-  for (const GaitParameter& parameter : gait_parameters) {
-    float& value = person.gait.style.*parameter.value;
-    value = std::clamp(value * random.even(0.9F, 1.1F), parameter.low, parameter.high);
-  }
-  return person;
-}
-
-BenchCrowd::BenchCrowd()
-    : simulation_({.jobs = Jobs{&meter_, [](void* user, std::size_t count, Jobs::Body body, void* context) {
-                                  auto& meter = *static_cast<CpuMeter*>(user);
-                                  if (!meter.on) return body(context, 0, count);
-                                  const double start = thread_cpu_now_s();
-                                  body(context, 0, count);
-                                  // the system at work is the first that has run no more often than the last one
-                                  const auto timings = meter.schedule->timings();
-                                  const auto at = std::ranges::find(timings, timings.back().calls, &Timing::calls);
-                                  meter.system_s[static_cast<std::size_t>(at - timings.begin())] +=
-                                      thread_cpu_now_s() - start;
-                                }}}) {
-  meter_.schedule = &simulation_.schedule();
-}
-
 Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
   std::shared_ptr<BenchCrowd> crowd(new BenchCrowd);
   if (auto done = crowd->spawn(humans); !done) return tl::unexpected(done.error());
@@ -112,7 +52,7 @@ Result<void> BenchCrowd::spawn(std::size_t humans) {
   double wall_s = 0, cpu_s = 0;
   for (std::size_t i = 0; i < humans; ++i) {
     for (std::uint32_t draw = 0;; ++draw) {
-      const BenchPerson person = bench_person(i, draw);
+      const CrowdPerson person = crowd_person(seed, i, draw);
       const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
       const auto entity = simulation_.spawn(person.body, person.gait);
       const double wall_end = wall_now_s(), cpu_end = thread_cpu_now_s();
@@ -177,12 +117,14 @@ const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
 }
 
 std::vector<double> BenchCrowd::cpu_of(const std::function<void()>& work) {
-  simulation_.schedule().reset_timings();
-  meter_.system_s.assign(simulation_.schedule().systems().size(), 0);
-  meter_.on = true;
+  Schedule& schedule = simulation_.schedule();
+  schedule.reset_timings();
+  schedule.measure_with(&thread_cpu_now_s);
   work();
-  meter_.on = false;
-  return meter_.system_s;
+  schedule.measure_with(nullptr);
+  std::vector<double> seconds;
+  for (const Timing& timing : schedule.timings()) seconds.push_back(timing.seconds);
+  return seconds;
 }
 
 std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
@@ -203,8 +145,8 @@ std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
 
 Result<void> BenchCrowd::change_speeds(std::uint32_t round) {
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    Random random(i, 0x1000 + round);
-    asked_[i].gait.speed_m_s = drawn_speed(random);
+    CrowdRandom random(seed, i, 0x1000 + round);
+    asked_[i].gait.speed_m_s = crowd_speed(random);
     if (auto done = simulation_.change_gait(people_[i], asked_[i].gait); !done) return done;
   }
   return {};

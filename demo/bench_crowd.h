@@ -10,25 +10,14 @@
 #include <string_view>
 #include <vector>
 
-#include "components/body.h"
-#include "components/gait.h"
 #include "demo/bench_measure.h"
+#include "demo/crowd_people.h"
 #include "engine/error.h"
 #include "systems/simulation.h"
 
 namespace mobil {
 
-struct BenchPerson {
-  BodyRequest body;
-  GaitRequest gait;
-};
-
-/// Person `i` of a crowd: always the same, however large the crowd is. Drawn from: height 1.72 ± 0.09 m, body mass
-/// index 24 ± 3 kg/m², biotype about 3-4-3 ± 0.7 each, speed 1.35 ± 0.15 m/s (mean ± standard deviation, bell-shaped,
-/// cut at 2.5 deviations), any constitution, and every gait parameter within a tenth of its default (even), asymmetries
-/// none. `draw`: another person for the same place.
-BenchPerson bench_person(std::size_t i, std::uint32_t draw);
-
+/// The people of demo/crowd_people.h.
 class BenchCrowd {
  public:
   static constexpr std::uint64_t seed = 1;
@@ -49,31 +38,23 @@ class BenchCrowd {
   /// a system that is not there or has nobody to work on.
   std::size_t bytes_per_human(std::string_view system);
 
-  /// Seconds that each system, in the order of the schedule, had a processor for while `work` ran, the choosing of
-  /// lanes not counted. Resets the schedule's timings.
+  /// Seconds that each system, in the order of the schedule, had a processor for while `work` ran. Resets the
+  /// schedule's timings.
   std::vector<double> cpu_of(const std::function<void()>& work);
 
   /// Asks everybody for another speed, drawn as the first one was. Errors: the first refusal.
   Result<void> change_speeds(std::uint32_t round);
 
  private:
-  BenchCrowd();
+  BenchCrowd() = default;
   BenchCrowd(const BenchCrowd&) = delete;
   BenchCrowd& operator=(const BenchCrowd&) = delete;
   Result<void> spawn(std::size_t humans);
   const Table* table_of(const System& system) const;
 
-  /// Does the work on this thread and, when asked, adds to each system's time on a processor.
-  struct CpuMeter {
-    const Schedule* schedule = nullptr;
-    bool on = false;
-    std::vector<double> system_s;  // in the order of the schedule
-  };
-
-  CpuMeter meter_;
   Simulation simulation_;
   std::vector<Entity> people_;
-  std::vector<BenchPerson> asked_;
+  std::vector<CrowdPerson> asked_;
   Measured spawn_;
   std::size_t drawn_again_ = 0;
   std::map<std::string, Measured, std::less<>> steady_;

@@ -24,5 +24,6 @@ void add_stress_command(CLI::App& app, int& exit_status);
 void add_paper_command(CLI::App& app, int& exit_status);
 void add_frontier_command(CLI::App& app, int& exit_status);
 void add_effects_command(CLI::App& app, int& exit_status);
+void add_crowd_command(CLI::App& app, int& exit_status);
 
 }  // namespace mobil

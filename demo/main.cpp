@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   mobil::add_paper_command(app, status);
   mobil::add_frontier_command(app, status);
   mobil::add_effects_command(app, status);
+  mobil::add_crowd_command(app, status);
   app.footer("Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out");
 
   try {

@@ -13,6 +13,14 @@ struct LegFrames {
   Quat<F> pelvis, thigh, shank, foot;
 };
 
+/// Both legs of a person, right first, as they are looked up by their muscles.
+struct LegPost {
+  struct alignas(64) Leg {
+    LegFrames<float> frames;
+  };
+  Leg leg[2];
+};
+
 /// Sizes of a leg over those of the leg that the published paths belong to: lengths of thigh and shank, and of both
 /// together for what lies across them.
 template <class F>

@@ -106,7 +106,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.method = Method::none;
   auto done = everybody([&](Entity human) { return simulation.add_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
-  us = meter(named({"lines of action", "lines of action, pulling"}), &systems);
+  us = meter(named({"leg frames", "lines of action", "lines of action, pulling"}), &systems);
   add("lines of action", "where muscles run, how long they are", "kinematics; add_leg_muscles()", us, systems);
 
   choice.line_motion = true;

@@ -6,6 +6,7 @@
 //   Maybe<C>                 reads this block's component where the table has it; MaybeField<Tag> a field
 //   Previous<C>              reads what the component was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
+//   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
 //   Scratch<Tag>             memory to work in, as many floats as the table's tag says
 //   Tick, float              the tick; a plain float is its length in s
@@ -72,28 +73,70 @@ struct Scratch {
   std::size_t floats;
 };
 
-/// Rows of component C of any entity.
-template <template <class> class C>
-class Lookup {
+/// Where a column of any entity's row is.
+class ColumnLookup {
  public:
-  explicit Lookup(const World& world) : world_(&world) {}
+  struct Found {
+    const float* column = nullptr;  // null when the entity is stale or has no such column
+    std::uint32_t lane = 0;
+  };
 
-  /// Word 0 of that entity's row; word w is 16·w further on. Null when the entity is stale or has no such component.
-  const float* find(Entity entity) const {
+  ColumnLookup(const World& world, std::uint64_t id) : world_(&world), id_(id) {}
+  Found find(Entity entity) const {
     const auto place = world_->find(entity);
-    if (!place) return nullptr;
+    if (!place) return {};
     if (place.table != last_) {
       last_ = place.table;
-      column_ = place.table->column(type_id<C<float>>());
+      first_word_ = place.table->column(id_);
     }
-    if (column_ == Table::no_column) return nullptr;
-    return place.table->block(place.row / lane_count) + column_ * lane_count + place.row % lane_count;
+    if (first_word_ == Table::no_column) return {};
+    return {place.table->block(place.row / lane_count) + first_word_ * lane_count,
+            static_cast<std::uint32_t>(place.row % lane_count)};
   }
 
  private:
   const World* world_;
+  std::uint64_t id_;
   mutable const Table* last_ = nullptr;  // most that one asks for lie in one table
-  mutable std::uint32_t column_ = Table::no_column;
+  mutable std::uint32_t first_word_ = Table::no_column;
+};
+
+/// Rows of component C of any entity.
+template <template <class> class C>
+class Lookup {
+ public:
+  explicit Lookup(const World& world) : columns_(world, type_id<C<float>>()) {}
+
+  /// Word 0 of that entity's row; word w is 16·w further on. Null when the entity is stale or has no such component.
+  const float* find(Entity entity) const {
+    const auto [column, lane] = columns_.find(entity);
+    return column == nullptr ? nullptr : column + lane;
+  }
+
+ private:
+  ColumnLookup columns_;
+};
+
+/// What the sixteen rows of a block publish, to be written for all of them.
+template <class T>
+struct Published {
+  T* row;
+};
+
+/// What any entity has published this tick.
+template <class T>
+class LookupPublished {
+ public:
+  explicit LookupPublished(const World& world) : columns_(world, type_id<T>()) {}
+
+  /// Null when the entity is stale or publishes no T.
+  const T* find(Entity entity) const {
+    const auto [column, lane] = columns_.find(entity);
+    return column == nullptr ? nullptr : reinterpret_cast<const T*>(column) + lane;
+  }
+
+ private:
+  ColumnLookup columns_;
 };
 
 /// What one parameter does with a component or field (`none`: nothing that order depends on).
@@ -222,6 +265,24 @@ template <template <class> class C>
 struct Parameter<Lookup<C>> : AnywhereParameter {
   static constexpr Access access() { return {Access::Mode::lookup, type_id<C<float>>(), type_name<C<float>>()}; }
   static Lookup<C> make(const BlockView& view, const Bound&) { return Lookup<C>(view.world); }
+};
+
+template <class T>
+struct Parameter<Published<T>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::write, type_id<T>(), type_name<T>()}; }
+  static bool bind(const World&, const Table& table, Bound& bound) {
+    bound.first_word = table.column(type_id<T>());
+    return bound.first_word != Table::no_column;
+  }
+  static Published<T> make(const BlockView& view, const Bound& bound) {
+    return {reinterpret_cast<T*>(view.table.block(view.block) + bound.first_word * lane_count)};
+  }
+};
+
+template <class T>
+struct Parameter<LookupPublished<T>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::lookup, type_id<T>(), type_name<T>()}; }
+  static LookupPublished<T> make(const BlockView& view, const Bound&) { return LookupPublished<T>(view.world); }
 };
 
 template <class Tag>

@@ -1,8 +1,9 @@
 #pragma once
-// What an entity can be made of, and the key that those parts form together. There are three kinds:
+// What an entity can be made of, and the key that those parts form together. There are four kinds:
 //   component  Pose<float>                  a row of 4-byte words, the same number in every table
 //   field      FieldWidth<NodalVelocity>    a row of floats whose number the table's key fixes
 //   tag        TagValue<Substeps>, Shared<Mesh>   one value for the whole table, part of its key
+//   published  Publishes<LegPost>  what a row tells others within a tick; no state
 // Parts are told apart by a hash of their type's full name, which must be unique in a program: nothing is registered,
 // nothing is global.
 
@@ -38,14 +39,15 @@ constexpr std::uint64_t type_id() {
   return hash;
 }
 
-/// `shared`: a tag whose value is the index of a resource, which means something in its own world alone.
-enum class PartKind : std::uint8_t { component, field, tag, shared };
-/// Whether rows have words of it.
+/// `shared`: a tag whose value is the index of a resource, which means something in its own world alone. `published`:
+/// what rows tell others in a tick, gone when it ends.
+enum class PartKind : std::uint8_t { component, field, tag, shared, published };
+/// Whether rows have words of it as their state.
 constexpr bool has_column(PartKind kind) {
   return kind <= PartKind::field;
 }
 
-/// One part of a table's key. `value`: words a row of a component or field, the value of a tag.
+/// One part of a table's key. `value`: words a row of a component, field or published struct, the value of a tag.
 struct KeyPart {
   std::uint64_t id = 0;
   PartKind kind = PartKind::component;
@@ -97,6 +99,12 @@ struct Shared {
   const T* operator->() const { return resource; }
 };
 
+/// What each row tells others, T: a plain struct that a system writes for all rows in every tick before anybody looks.
+/// It is not state: a row that moves leaves it behind. One row's lies in one piece, so that to look it up takes but the
+/// lines of memory that T fills.
+template <class T>
+struct Publishes {};
+
 /// A component's layout: word w of lane l of a block lies at block[16·w + l]. That needs members that are F, Whole<F>
 /// or arrays and structs of those; what of it can be checked is checked here.
 template <template <class> class C>
@@ -128,6 +136,12 @@ constexpr KeyPart key_part(const TagValue<Tag>& tag) {
 template <class T>
 constexpr KeyPart key_part(const Shared<T>& shared) {
   return {type_id<T>(), PartKind::shared, shared.index, type_name<T>()};
+}
+
+template <class T>
+constexpr KeyPart key_part(const Publishes<T>&) {
+  static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 64 == 0 && alignof(T) <= 64, "whole lines of memory");
+  return {type_id<T>(), PartKind::published, sizeof(T) / 4, type_name<T>()};
 }
 
 template <class P>

@@ -60,7 +60,7 @@ void Schedule::match(World& world) {
   }
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
-    const std::size_t block_bytes = std::max<std::size_t>(1, table.words() * sizeof(Lanes<float>));
+    const std::size_t block_bytes = std::max<std::size_t>(1, table.block_bytes());
     for (std::size_t p = 0; p < passes_.size(); ++p) {
       Match match{&table, {}, std::max<std::size_t>(1, tile_bytes / block_bytes)};
       for (std::size_t s = passes_[p].first; s < passes_[p].last; ++s) {

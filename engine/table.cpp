@@ -21,10 +21,15 @@ Table::Table(const TableKey& key, std::pmr::memory_resource* memory)
     first_word_.push_back(column ? words_ : no_column);
     if (column) words_ += static_cast<std::uint32_t>(part.value);
   }
+  for (std::size_t i = 0; i < key_.size(); ++i) {
+    if (key_[i].kind != PartKind::published) continue;
+    first_word_[i] = words_ + published_words_;
+    published_words_ += static_cast<std::uint32_t>(key_[i].value);
+  }
 }
 
 Table::~Table() {
-  for (float* block : blocks_) memory_->deallocate(block, words_ * lane_count * word_bytes, block_alignment);
+  for (float* block : blocks_) memory_->deallocate(block, block_bytes(), block_alignment);
 }
 
 std::uint32_t Table::column(std::uint64_t id) const {
@@ -45,7 +50,7 @@ void Table::reserve(std::uint32_t rows) {
   }
   try {
     while (blocks_.size() < blocks) {
-      blocks_.push_back(static_cast<float*>(memory_->allocate(words_ * lane_count * word_bytes, block_alignment)));
+      blocks_.push_back(static_cast<float*>(memory_->allocate(block_bytes(), block_alignment)));
     }
   } catch (...) {
     trim();
@@ -56,7 +61,7 @@ void Table::reserve(std::uint32_t rows) {
 
 void Table::trim() {
   while (blocks_.size() > block_count() + 1) {
-    memory_->deallocate(blocks_.back(), words_ * lane_count * word_bytes, block_alignment);
+    memory_->deallocate(blocks_.back(), block_bytes(), block_alignment);
     blocks_.pop_back();
   }
   entities_.resize(blocks_.size() * lane_count);
@@ -71,7 +76,7 @@ void Table::write_new(std::size_t first_block, std::size_t end_block, std::uint3
     const std::size_t from = b * lane_count + lane - rows_, source = from / lane_count, offset = from % lane_count;
     const std::size_t head = std::min(lanes, lane_count - offset), tail = lanes - head;
     for (const auto& [part, values] : parts) {
-      if (part.kind == PartKind::tag) continue;
+      if (!has_column(part.kind)) continue;
       const std::size_t words = part.value;
       float* to = blocks_[b] + column(part.id) * lane_count + lane;
       if (values == nullptr) {

@@ -34,13 +34,16 @@ class Table {
   const TableKey& key() const { return key_; }
   std::uint32_t row_count() const { return rows_; }
   std::size_t block_count() const { return (rows_ + lane_count - 1) / lane_count; }
-  /// Words of one row, all columns together; a block is words() · 64 bytes.
+  /// Words of one row's state, all columns together.
   std::uint32_t words() const { return words_; }
+  /// What a block takes: state, and what rows publish.
+  std::size_t block_bytes() const { return (std::size_t{words_} + published_words_) * sizeof(Lanes<float>); }
 
-  /// First word of a component's or field's column inside a block; `no_column` where there is none.
+  /// First word of a component's or field's column inside a block, or of what rows publish (sixteen structs one after
+  /// the other); `no_column` where there is none.
   std::uint32_t column(std::uint64_t id) const;
 
-  /// A block's words, 64-byte aligned; word w of lane l at [16·w + l].
+  /// A block's words, 64-byte aligned; word w of lane l at [16·w + l]. What rows publish follows.
   float* block(std::size_t b) { return blocks_[b]; }
   const float* block(std::size_t b) const { return blocks_[b]; }
   /// Whose rows those are, sixteen; past `live(b)` the first one's again.
@@ -86,7 +89,7 @@ class Table {
   std::pmr::vector<float*> blocks_;             // one empty block at most is kept for the next row
   std::pmr::vector<Entity> entities_;           // sixteen a block
   std::pmr::memory_resource* memory_;
-  std::uint32_t words_ = 0;
+  std::uint32_t words_ = 0, published_words_ = 0;
   std::uint32_t rows_ = 0;
 };
 

@@ -136,6 +136,7 @@ class World {
   const void* resource(std::uint64_t index) const {
     return index < resources_.size() ? resources_[index].get() : nullptr;
   }
+  std::uint64_t resource_count() const { return resources_.size(); }
 
   /// The number of its table among `tables()`, and its row; null when stale. Until the next change of structure.
   const EntityRegister::Location* locate(Entity entity) const { return entities_.find(entity); }
@@ -174,6 +175,8 @@ class World {
   static void write_part(Place<Table>, const TagValue<Tag>&) {}
   template <class T>
   static void write_part(Place<Table>, const Shared<T>&) {}
+  template <class T>
+  static void write_part(Place<Table>, const Publishes<T>&) {}
 
   std::pmr::memory_resource* memory_;
   EntityRegister entities_;

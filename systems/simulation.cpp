@@ -7,6 +7,7 @@
 
 #include "assets/anthropometry.h"
 #include "components/fade.h"
+#include "components/leg_frames.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
@@ -20,25 +21,6 @@ Clock make_clock(const SimulationOptions& options) {
   auto clock = Clock::make(options.tick_s, options.max_frame_s);
   if (!clock) throw std::invalid_argument(clock.error().message);
   return *clock;
-}
-
-/// What kinematics makes of a walker's first instant.
-struct Standing {
-  Pose<float> pose;
-  JointAngles<float> angles;
-  Feet<float> feet;
-  CentreOfMass<float> centre;
-};
-
-Standing first_instant(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                       const GaitState<Lanes<float>>& state) {
-  Pose<Lanes<float>> pose;
-  JointAngles<Lanes<float>> angles;
-  Feet<Lanes<float>> feet;
-  CentreOfMass<Lanes<float>> centre;
-  pose_skeleton(size, plan, state, pose, angles, feet);
-  centre_of_mass(size, pose, centre);
-  return {first_lane(pose), first_lane(angles), first_lane(feet), first_lane(centre)};
 }
 
 /// The motion of a person up to now, as two ticks of the system of forces would have recorded it.
@@ -93,42 +75,6 @@ Simulation::Simulation(const SimulationOptions& options)
 }
 
 Simulation::~Simulation() = default;
-
-Result<Entity> Simulation::spawn_one(const SpawnRequest& request) {
-  const auto body = make_body(request.body);
-  if (!body) return tl::unexpected(body.error());
-  auto gait = resolve_gait(*body, request.gait);
-  if (!gait) return tl::unexpected(gait.error());
-  if (!(std::fabs(request.x_m) < 1e6F && std::fabs(request.z_m) < 1e6F && std::fabs(request.heading_rad) < 1e4F)) {
-    return fail(fmt::format("a place of {} and {} m or a heading of {} rad is not within ±1000000 m and ±10000 rad",
-                            request.x_m, request.z_m, request.heading_rad));
-  }
-  gait->heading_rad = request.heading_rad;
-  const BodySize<float> size{request.body.height_m, request.body.mass_kg};
-  const auto sizes = broadcast(size);
-  StepPlan<Lanes<float>> plan{};
-  plan_first_step(sizes, broadcast(*gait), plan);
-  GaitState<float> state{};
-  state.line_x_m = request.x_m;
-  state.line_z_m = request.z_m;
-  state.heading_rad = request.heading_rad;
-  const Standing standing = first_instant(sizes, plan, broadcast(state));
-  const Entity entity = world_.create(size, *gait, first_lane(plan), state, standing.pose, standing.angles,
-                                      standing.feet, standing.centre);
-  people_.add({entity, request.body, false, 0, {}});
-  return entity;
-}
-
-Result<Entity> Simulation::spawn(const BodyRequest& body, const GaitRequest& gait) {
-  return spawn_one({body, gait, 0, 0, 0, {}});
-}
-
-Status Simulation::despawn(Entity entity) {
-  if (find(entity) == nullptr) return Status::stale_entity;
-  remove_leg_muscles(entity);
-  people_.remove(entity);
-  return world_.destroy(entity);
-}
 
 Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) {
   const PersonRecord* human = person(entity);

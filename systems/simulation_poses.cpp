@@ -1,5 +1,6 @@
 // People whose host animates them.
 #include "assets/anthropometry.h"
+#include "components/leg_frames.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/simulation.h"
 #include "systems/simulation_rows.h"
@@ -12,7 +13,7 @@ Result<Entity> Simulation::spawn_posed(const BodyRequest& request) {
   const BodySize<float> size{request.height_m, request.mass_kg};
   Pose<Lanes<float>> standing;
   pose_anatomical(broadcast(size), standing);
-  const Entity entity = world_.create(size, first_lane(standing));
+  const Entity entity = world_.create(size, first_lane(standing), Publishes<LegPost>{});
   people_.add({entity, request, true, 0, {}});
   return entity;
 }

@@ -14,42 +14,37 @@
 namespace mobil {
 namespace {
 
-constexpr Pose<float> make_nobodys_pose() {
-  Pose<float> pose{};
-  for (auto& rotation : pose.rotation) rotation = {0, 0, 0, 1};
-  for (const Side side : {right, left}) {
-    pose.position_m[index(on_side(Segment::thigh_right, side))].y = 1;
-    pose.position_m[index(on_side(Segment::shank_right, side))].y = 0.5F;
-  }
-  return pose;
-}
-constexpr Pose<float> nobodys_pose = make_nobodys_pose();
+constexpr LegFrames<float> nobodys_leg{{0, 1, 0},    {0, 0.5F, 0}, {0, 0, 0},   {0, 0, 0, 1},
+                                       {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}};
 
-/// The one gather of a tick. Whose human is gone stands still in the anatomical position of nobody.
-LegFrames<Lanes<float>> legs_of(const Lookup<Pose>& poses, const MuscleOwner<Lanes<float>>& owner) {
-  LegFrames<Lanes<float>> leg;
+void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
+  post_legs(pose, posts.row);
+}
+
+/// The one gather of a tick. Whose human is gone stands still.
+LegFrames<Lanes<float>> legs_of(const LookupPublished<LegPost>& posts, const MuscleOwner<Lanes<float>>& owner) {
+  const LegFrames<float>* from[lane_count];
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto side = static_cast<Side>(owner.side[lane]);
-    const float* pose = poses.find({owner.index[lane], owner.generation[lane]});
-    if (pose != nullptr) {
-      gather_leg(pose, side, leg, lane);
-    } else {
-      gather_leg(nobodys_pose, side, leg, lane);
-    }
+    const LegPost* post = posts.find({owner.index[lane], owner.generation[lane]});
+    from[lane] = post == nullptr ? &nobodys_leg : &post->leg[owner.side[lane]].frames;
+    __builtin_prefetch(from[lane]);
+    __builtin_prefetch(reinterpret_cast<const char*>(from[lane]) + 64);
   }
+  LegFrames<Lanes<float>> leg;
+  take_legs(from, leg);
   return leg;
 }
 
 template <template <class> class End>
-void follow_lines(Lookup<Pose> poses, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
+void follow_lines(LookupPublished<LegPost> posts, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
                   const LegScale<Lanes<float>>& scale, LineOfAction<Lanes<float>>& line, End<Lanes<float>>& end) {
-  lines_of_action(*lines, scale, legs_of(poses, owner), line, end);
+  lines_of_action(*lines, scale, legs_of(posts, owner), line, end);
 }
 
-void move_lines(Lookup<Pose> poses, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
+void move_lines(LookupPublished<LegPost> posts, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
                 const LegScale<Lanes<float>>& scale, const LineOfAction<Lanes<float>>& line,
                 LineMotion<Lanes<float>>& motion, float tick_s) {
-  line_motion(*lines, scale, legs_of(poses, owner), line, motion, tick_s);
+  line_motion(*lines, scale, legs_of(posts, owner), line, motion, tick_s);
 }
 
 /// ECD.
@@ -141,6 +136,7 @@ Result<Schedule> make_schedule(std::pmr::memory_resource* memory) {
       .add("kinematics", &pose_skeleton)
       .add("centre of mass", &centre_of_mass)
       .add("forces", &joint_forces)
+      .add("leg frames", &publish_legs)
       .add("lines of action", &follow_lines<EndDisplacement>)
       .add("lines of action, pulling", &follow_lines<EndForce>)
       .after("lines of action")

@@ -70,6 +70,29 @@ TEST(EngineSchedule, ALookupAndAFieldAreReadsToo) {
             "write look");
 }
 
+std::string passes_of(const ScheduleBuilder& builder) {
+  const auto schedule = builder.build();
+  std::string text;
+  for (const SystemRange& pass : schedule->passes()) {
+    for (std::size_t s = pass.first; s < pass.last; ++s) text += schedule->systems()[s].name;
+    text += '|';
+  }
+  return text;
+}
+
+TEST(EngineSchedule, SystemsThatNeedNothingOfOtherBlocksShareAPass) {
+  EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).add("b", &a_to_b).add("c", &b_to_c)), "abc|");
+  const auto look_at_a = [](Lookup<A>, LB&) {};
+  EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).add("b", look_at_a).add("c", &b_to_c)), "a|bc|");
+  // nobody changes what others of the pass may still look up
+  EXPECT_EQ(passes_of(ScheduleBuilder().add("a", &write_a).after("c").add("b", look_at_a).add("c", &b_to_c)), "bc|a|");
+  EXPECT_EQ(passes_of(ScheduleBuilder()
+                          .add("a", &write_a)
+                          .add_packed("p", [](const LA&) { return 1U; }, [](const LA&, LB&) {})
+                          .add("c", &b_to_c)),
+            "a|p|c|");
+}
+
 TEST(EngineSchedule, PreviousReadsAheadOfTheWriterAndBreaksACircle) {
   EXPECT_EQ(order_of(ScheduleBuilder().add("a", &write_a).add("p", [](Previous<A>, LB&) {})), "p a");
   ScheduleBuilder circle;

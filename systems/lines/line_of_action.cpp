@@ -102,22 +102,22 @@ HWY_EXPORT(act_by_displacement);
 HWY_EXPORT(act_by_force);
 HWY_EXPORT(flexions);
 
-/// `word(i)` is the i-th of a pose's floats.
-template <class Word>
-void gather(Word word, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {
+/// `word(i)` is the i-th of a pose's floats; put(f, x) makes x what f becomes.
+template <class Word, class F, class Put>
+void gather(Word word, Side side, LegFrames<F>& legs, Put put) {
   const float mirror = side == left ? -1.0F : 1.0F;
-  const auto position = [&](Segment right_segment, Vec3<Lanes<float>>& to) {
+  const auto position = [&](Segment right_segment, Vec3<F>& to) {
     const std::size_t at = 3 * index(on_side(right_segment, side));
-    to.x[lane] = mirror * word(at);
-    to.y[lane] = word(at + 1);
-    to.z[lane] = word(at + 2);
+    put(to.x, mirror * word(at));
+    put(to.y, word(at + 1));
+    put(to.z, word(at + 2));
   };
-  const auto rotation = [&](Segment segment, Quat<Lanes<float>>& to) {
+  const auto rotation = [&](Segment segment, Quat<F>& to) {
     const std::size_t at = 3 * segment_count + 4 * index(segment);
-    to.x[lane] = word(at);
-    to.y[lane] = mirror * word(at + 1);
-    to.z[lane] = mirror * word(at + 2);
-    to.w[lane] = word(at + 3);
+    put(to.x, word(at));
+    put(to.y, mirror * word(at + 1));
+    put(to.z, mirror * word(at + 2));
+    put(to.w, word(at + 3));
   };
   position(Segment::thigh_right, legs.hip_m);
   position(Segment::shank_right, legs.knee_m);
@@ -131,7 +131,27 @@ void gather(Word word, Side side, LegFrames<Lanes<float>>& legs, std::size_t lan
 }  // namespace
 
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {
-  gather([pose](std::size_t i) { return pose[i * lane_count]; }, side, legs, lane);
+  gather([pose](std::size_t i) { return pose[i * lane_count]; }, side, legs,
+         [lane](Lanes<float>& to, float x) { to[lane] = x; });
+}
+
+void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts) {
+  const auto* words = reinterpret_cast<const float*>(&pose);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    for (const Side side : {right, left}) {
+      gather([at = words + lane](std::size_t i) { return at[i * lane_count]; }, side, posts[lane].leg[side].frames,
+             [](float& to, float x) { to = x; });
+    }
+  }
+}
+
+void take_legs(const LegFrames<float>* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
+  static_assert(sizeof(legs) == lane_count * sizeof(LegFrames<float>));
+  auto* to = reinterpret_cast<float*>(&legs);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const auto* row = reinterpret_cast<const float*>(from[lane]);
+    for (std::size_t w = 0; w < sizeof(LegFrames<float>) / sizeof(float); ++w) to[w * lane_count + lane] = row[w];
+  }
 }
 
 void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {
@@ -145,7 +165,7 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
     const std::size_t part = (i - 3 * segment_count) % 4;
     return part == 0 ? q.x : part == 1 ? q.y : part == 2 ? q.z : q.w;
   };
-  gather(word, side, legs, lane);
+  gather(word, side, legs, [lane](Lanes<float>& to, float x) { to[lane] = x; });
 }
 
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,

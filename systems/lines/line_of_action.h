@@ -14,6 +14,10 @@ namespace mobil {
 /// rotation; a left leg as its mirror image. `pose`: the human's lane of a block of Pose, that is its first word, the
 /// others following at a distance of `lane_count` floats; no NaN is looked for.
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane);
+/// The same of both legs of sixteen people, for their muscles to look up.
+void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts);
+/// Sixteen of them side by side.
+void take_legs(const LegFrames<float>* const (&from)[lane_count], LegFrames<Lanes<float>>& legs);
 /// The same from one row.
 void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane);
 

@@ -13,12 +13,16 @@
 #include "assets/output_file.h"
 #include "demo/commands.h"
 #include "demo/crowd_options.h"
+#include "demo/crowd_picture.h"
 #include "demo/crowd_report.h"
 #include "demo/crowd_run.h"
 #include "demo/crowd_scene.h"
+#include "systems/capture/png.h"
 
 namespace mobil {
 namespace {
+
+constexpr double picture_s = 1.0 / 30;
 
 bool on_terminal() {
   return isatty(STDERR_FILENO) != 0;
@@ -38,6 +42,34 @@ Result<void> write_report(const CrowdOptions& options, const std::string& json) 
   if (options.report.empty()) return {};
   if (auto done = write_file(options.report, json); !done) return fail("--report " + done.error().message);
   fmt::print("written {}\n", options.report.string());
+  return {};
+}
+
+/// Of the crowd as it is, and as it goes on.
+Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
+  if (options.capture.empty()) return {};
+  if (options.frames > 0) {
+    if (auto done = make_output_folder(options.capture); !done) return fail("--capture " + done.error().message);
+  }
+  auto camera = CrowdCamera::create();
+  if (!camera) return tl::unexpected(camera.error());
+  const std::size_t pictures = std::max<std::size_t>(options.frames, 1);
+  const auto ticks_a_picture = static_cast<int>(std::lround(picture_s / scene.simulation().tick_s()));
+  Image image;
+  for (std::size_t i = 0; i < pictures; ++i) {
+    for (int tick = 0; i > 0 && tick < ticks_a_picture; ++tick) {
+      if (auto done = scene.decide(); !done) return tl::unexpected(done.error());
+      scene.choose_methods();
+      scene.tick();
+    }
+    if (auto done = camera->take(scene, image); !done) return done;
+    const auto file = options.frames > 0 ? options.capture / fmt::format("frame_{:04}.png", i) : options.capture;
+    const PngEffort effort = options.frames > 0 ? PngEffort::quick : PngEffort::small;
+    if (auto done = write_png(file.string(), image, effort); !done) return fail("--capture " + done.error().message);
+    show_progress("pictures", i + 1, pictures);
+  }
+  show("");
+  fmt::print("written {}\n", options.capture.string());
   return {};
 }
 
@@ -65,6 +97,7 @@ Result<void> run(const CrowdOptions& options) {
   show("");
   if (!measured) return tl::unexpected(measured.error());
   fmt::print("{}", crowd_text(*measured, memory, scene));
+  if (auto done = take_pictures(options, scene); !done) return done;
   return write_report(options, crowd_json(*measured, memory, scene, options));
 }
 

@@ -59,6 +59,11 @@ class Clock {
   /// Time fed that has not made a whole tick yet.
   double remainder_s() const { return to_seconds(remainder_); }
 
+  /// The same in units of 2⁻⁵⁰ s, to be kept and put back: from 0 to below a tick.
+  std::int64_t tick_units() const { return tick_; }
+  std::int64_t remainder_units() const { return remainder_; }
+  void set_remainder_units(std::int64_t units) { remainder_ = units; }
+
  private:
   static std::int64_t to_units(double seconds) { return std::llround(std::ldexp(seconds, 50)); }
   static double to_seconds(std::int64_t units) { return std::ldexp(static_cast<double>(units), -50); }

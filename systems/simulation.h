@@ -91,7 +91,8 @@ struct NodalView {
   std::uint32_t nodes = 0;
 };
 
-struct MuscleWork;  // systems/simulation_change.h
+struct MuscleWork;    // systems/simulation_change.h
+struct SnapshotWork;  // systems/simulation_snapshot_work.h
 
 class Simulation {
  public:
@@ -165,6 +166,18 @@ class Simulation {
   double time_s() const { return tick_ * clock_.tick_s(); }
   /// Of the last tick and of all.
   StepReport report() const;
+  /// The state alone as bytes, in the caller's memory: everybody, their rows and handles, what they chose, the tick and
+  /// the time fed since. Neither scene nor meshes nor bases: those are made again where they are missing, from what
+  /// people chose. `save` says how many bytes it wrote, `snapshot_bytes` of them, and takes memory only for resources
+  /// that no snapshot had met before. Errors: too little room; a table with a shared resource of the host's own.
+  std::size_t snapshot_bytes() const;
+  Result<std::size_t> save(std::span<std::byte> out) const;
+  /// Everything as it was when that was saved, to the last bit, handles included, here or in another simulation whose
+  /// tick is as long; where rows and people are as many as they were, without taking memory. Bytes are never trusted:
+  /// what was cut, altered or made by a newer version is refused in one line, and so is what does not fit in memory;
+  /// the simulation is then as it was. Components of the host's own are known once an entity has had them. What systems
+  /// are scheduled, threads and reports are not state.
+  Result<void> restore(std::span<const std::byte> in);
   /// One number of everybody's state and the tick: people's rows and muscles to the last bit, what was asked of them,
   /// and rows that are nobody's. The same whatever order people came in, whatever rows they lie in and whatever
   /// handles they have.
@@ -197,6 +210,8 @@ class Simulation {
   Result<Entity> spawn_one(const SpawnRequest& request);
   void set_muscles(PersonRecord& person, const std::vector<Belly>& bellies, const LegMuscles& choice);
   void end_fades();
+  SnapshotWork& snapshot_work() const;
+  Result<void> restore_checked(std::span<const std::byte> in);
   PersonRecord* find(Entity entity) { return const_cast<PersonRecord*>(person(entity)); }
 
   World world_;
@@ -207,6 +222,7 @@ class Simulation {
   People people_;
   BellyLibrary bellies_;
   std::unique_ptr<MuscleWork> work_;
+  mutable std::shared_ptr<SnapshotWork> snapshots_;  // made when first needed
   std::uint32_t tick_ = 0;
 };
 

@@ -121,6 +121,8 @@ class BellyLibrary {
   Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
 
  private:
+  friend class ResourceList;  // systems/simulation_resources.h
+
   struct Solver {
     const BellyTemplate* shape;
     std::shared_ptr<const BellySolver> solver;

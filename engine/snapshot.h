@@ -1,0 +1,87 @@
+#pragma once
+// The state of a World as bytes, and back: rows, entities and who is alive, down to the last bit. It knows nothing of
+// what tables mean: shared resources are numbers here, which the caller translates, and what else goes into a snapshot
+// is the caller's (the front door: systems/simulation_snapshot.h). Layout: engine/snapshot_bytes.h.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/snapshot_bytes.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+/// One table with rows: its parts and entities are among those of all tables, its blocks within the bytes of all.
+struct SavedTable {
+  std::uint64_t first_block_byte, first_entity;
+  std::uint32_t first_part, parts, rows, words;
+};
+struct SavedPart {
+  std::uint64_t id, value;
+  std::uint32_t kind, spare;
+};
+struct SavedSlot {
+  std::uint32_t generation, table, row;
+};
+
+/// A world in a snapshot, every number of which fits every other: who reads it stays within its bytes.
+struct SavedWorld {
+  Records<SavedTable> tables;
+  Records<SavedPart> parts;
+  Records<SavedSlot> slots;  // `table` is nobody for a free one, whose `row` is the next free one
+  Records<Entity> entities;
+  std::span<const std::byte> blocks;
+  std::uint32_t first_free = 0;
+
+  static constexpr std::uint32_t nobody = 0xffffffff;
+  /// Its slot; nothing for a stale handle.
+  std::optional<SavedSlot> find(Entity entity) const;
+  std::optional<SavedPart> part(std::uint32_t table, std::uint64_t id) const;
+  /// First word of a column in a table's blocks; Table::no_column where it has none.
+  std::uint32_t column(std::uint32_t table, std::uint64_t id) const;
+  std::uint32_t word(std::uint32_t table, std::uint32_t row, std::uint32_t column_word) const;
+};
+
+/// A resource's number in the snapshot and in the world that is restored.
+struct SharedNumber {
+  std::uint64_t id, saved, present;
+};
+
+class WorldSnapshot {
+ public:
+  /// Bytes of the parts `world` and `blocks`. Tables without rows are left out.
+  static SnapshotLayout layout(const World& world);
+  /// Writes those parts, and seals the whole: the front must be there. No heap.
+  static void save(const World& world, const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs);
+
+  /// Checks that everything agrees: sizes, keys, the register with the rows and its list of free slots.
+  static Result<SavedWorld> read(const OpenSnapshot& snapshot);
+
+  /// Finds or makes a table for each one saved, and makes room. Until `commit` the world is as it was, but for tables
+  /// and blocks without rows; nothing here keeps pointers into the snapshot. `known`: parts that tables may have beside
+  /// those that the world's have. `shared`: of every resource named. `check` says whether a key that the world has no
+  /// table of yet makes sense. Takes memory only where more is needed than the last time. Throws what the memory
+  /// resource throws; then call `give_up`.
+  Result<void> prepare(World& world, const SavedWorld& saved, std::span<const KeyPart> known,
+                       std::span<const SharedNumber> shared, const std::function<Result<void>(const TableKey&)>& check);
+  /// Makes the world what was saved. Only after a `prepare` of the same two that succeeded.
+  void commit(World& world, const SavedWorld& saved, const Jobs& jobs) const noexcept;
+  /// Gives back the room made.
+  static void give_up(World& world) noexcept;
+
+ private:
+  Result<KeyPart> known_part(const World& world, const SavedPart& part, std::span<const KeyPart> known,
+                             std::span<const SharedNumber> shared) const;
+
+  std::vector<std::uint32_t> table_;  // of the world, by table saved
+  std::vector<std::uint32_t> saved_;  // the other way round
+  std::pmr::vector<KeyPart> key_;
+};
+
+}  // namespace mobil

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "assets/reduced_eigen.h"
 #include "assets/reduced_operators.h"
 #include "assets/reduced_training.h"
 
@@ -295,6 +296,48 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
   return basis;
 }
 
+namespace {
+
+ReducedBasis::Turned turned_of(const ReducedBasis& basis) {
+  const std::size_t n = basis.vectors;
+  const auto [across, along] = scale_of(basis.options.middle_ratio, basis.options.middle_product);
+  const double ratio = across / along, size = across * along;
+  alignas(64) double matrix[most_vectors][most_vectors];
+  for (std::size_t i = 0; i < n * n; ++i) {
+    double k = (basis.a[i] / ratio + basis.b[i] + basis.c[i] * ratio) / size;
+    if (!basis.foundation.empty()) k += basis.foundation_1_s2 * basis.foundation[i];
+    matrix[i / n][i % n] = k;
+  }
+  SmallEigen eigen;
+  if (!solve_small(matrix, n, eigen)) return {};
+  ReducedBasis::Turned turned;
+  for (std::size_t j = 0; j < n; ++j) {
+    turned.vector.insert(turned.vector.end(), eigen.vector[j], eigen.vector[j] + n);
+  }
+  const auto turn = [&](const std::vector<double>& from, std::vector<double>& to) {
+    if (from.empty()) return;
+    std::vector<double> half(n * n);
+    to.assign(n * n, 0);
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t j = 0; j < n; ++j) half[i * n + j] += eigen.vector[i][k] * from[k * n + j];
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      for (std::size_t k = 0; k < n; ++k) {
+        for (std::size_t j = 0; j < n; ++j) to[i * n + j] += half[i * n + k] * eigen.vector[j][k];
+      }
+    }
+  };
+  turn(basis.a, turned.a);
+  turn(basis.b, turned.b);
+  turn(basis.c, turned.c);
+  turn(basis.foundation, turned.foundation);
+  return turned;
+}
+
+}  // namespace
+
 ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors) {
   const std::size_t all = basis.vectors, few = std::min<std::size_t>(vectors, all);
   ReducedBasis cut = basis;
@@ -314,6 +357,7 @@ ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors) {
   if (!cut.frame.empty()) cut.frame.resize(frame_inputs * few);
   take(cut.shape, 3 * cut.control_weight.size(), all + 1, few + 1);
   cut.fit = fit_of(cut);
+  cut.turned = turned_of(cut);
   return cut;
 }
 

@@ -77,6 +77,12 @@ struct ReducedBasis {
   std::vector<float> shape;
   std::vector<double> control_weight;  // kg, one a node
   std::vector<double> fit;
+
+  /// The motions of the body in the middle (a row each, over V), and what A, B, C and F are along them: nearly diagonal
+  /// for all bodies of the range. By `truncated`.
+  struct Turned {
+    std::vector<double> vector, a, b, c, foundation;  // N×N
+  } turned;
 };
 
 /// `fine` is the muscle's template mesh in cells that contain options.control_cells' nodes. Fails, in one line, on

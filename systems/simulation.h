@@ -91,7 +91,9 @@ struct NodalView {
   std::uint32_t nodes = 0;
 };
 
-struct MuscleWork;    // systems/simulation_change.h
+struct MuscleWork;  // systems/simulation_change.h
+struct MuscleSize;  // systems/simulation_spawn.h
+struct NotMade;
 struct SnapshotWork;  // systems/simulation_snapshot_work.h
 
 class Simulation {
@@ -207,7 +209,10 @@ class Simulation {
   const Schedule& schedule() const { return *schedule_; }
 
  private:
-  Result<Entity> spawn_one(const SpawnRequest& request);
+  class Batch;
+  tl::expected<void, NotMade> spawn_all(std::span<const SpawnRequest> people, std::span<Entity> entities);
+  tl::expected<void, NotMade> begin(Batch& batch, std::span<const Entity> people, std::span<const MuscleSize> size,
+                                    const LegMuscles& choice);
   void set_muscles(PersonRecord& person, const std::vector<Belly>& bellies, const LegMuscles& choice);
   void end_fades();
   SnapshotWork& snapshot_work() const;

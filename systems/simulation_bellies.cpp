@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/simulation_muscles.h"
 
@@ -29,27 +30,6 @@ bool same_template(const LegMuscles& a, const LegMuscles& b) {
   return same_tissue(a, b) && a.drive == b.drive && stepped_mass(a) == stepped_mass(b) &&
          a.damping_per_s == b.damping_per_s && a.stiffness_damping_s == b.stiffness_damping_s &&
          foundation_of(a) == foundation_of(b);
-}
-
-/// What make_muscle_template does not look at.
-Result<void> check(const LegMuscles& choice, double tick_s) {
-  if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
-      choice.mass > Mass::consistent) {
-    return fail("a drive, method, element or mass is none of those named; take one of the enumerations' values");
-  }
-  if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
-    return fail(
-        fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
-                    " muscle_members() or find_muscle(name)",
-                    muscles().size()));
-  }
-  if (!choice.dt_s) return {};
-  const double least = tick_s / most_steps;
-  if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {
-    return fail(fmt::format("a step of {} s must be finite and at least {:.3g} s; give another or leave it out",
-                            *choice.dt_s, least));
-  }
-  return {};
 }
 
 /// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
@@ -79,6 +59,26 @@ Error of_muscle(Muscle muscle, const Error& error) {
 }
 
 }  // namespace
+
+Result<void> check_choice(const LegMuscles& choice, double tick_s) {
+  if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
+      choice.mass > Mass::consistent) {
+    return fail("a drive, method, element or mass is none of those named; take one of the enumerations' values");
+  }
+  if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
+    return fail(
+        fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
+                    " muscle_members() or find_muscle(name)",
+                    muscles().size()));
+  }
+  if (!choice.dt_s) return {};
+  const double least = tick_s / most_steps;
+  if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {
+    return fail(fmt::format("a step of {} s must be finite and at least {:.3g} s; give another or leave it out",
+                            *choice.dt_s, least));
+  }
+  return {};
+}
 
 double foundation_of(const LegMuscles& choice) {
   return choice.foundation_hz.value_or(choice.inertia ? braced_hz : 0);
@@ -161,8 +161,20 @@ Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTempl
   return solvers_.back().solver;
 }
 
+Result<BellyLibrary::Common> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice,
+                                                  const BellyScale<float>& scale) {
+  const auto made = shape(muscle, choice);
+  if (!made) return tl::unexpected(made.error());
+  Common common{*made, nullptr};
+  if (choice.method != Method::reduced) return common;
+  auto along = basis(muscle, choice, scale);
+  if (!along) return tl::unexpected(along.error());
+  common.basis = std::move(*along);
+  return common;
+}
+
 Result<std::vector<Belly>> BellyLibrary::bellies(const Body& body, const LegMuscles& choice, double tick_s) {
-  if (auto ok = check(choice, tick_s); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
   std::vector<Belly> all;
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (!choice.muscles[m]) continue;
@@ -177,7 +189,7 @@ Result<std::vector<Belly>> BellyLibrary::bellies(const Body& body, const LegMusc
 }
 
 Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s) {
-  if (auto ok = check(choice, tick_s); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
   Belly belly;
   belly.plan = plan;
   const auto made = shape(plan.muscle, choice);
@@ -187,11 +199,24 @@ Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choi
   if (choice.method == Method::reduced) {
     auto along = basis(plan.muscle, choice, plan.scale);
     if (!along) return tl::unexpected(along.error());
-    auto motions =
-        make_reduced_belly(**along, static_cast<double>(plan.scale.across), static_cast<double>(plan.scale.along));
-    if (!motions) return tl::unexpected(motions.error());
+    ReducedBellies one;
+    if (auto solved = solve_bellies(**along, {&plan.scale, 1}, one); !solved) return tl::unexpected(solved.error());
+    const double damping = (*along)->options.damping_per_s;
+    std::vector<Lanes<float>> words(
+        std::max(reduced_motion_width(one.vectors, one.inputs), reduced_shape_width(one.vectors, one.inputs)));
+    const auto first_lanes = [&](std::size_t width) {
+      std::vector<float> row(width);
+      for (std::size_t w = 0; w < width; ++w) row[w] = words[w][0];
+      return row;
+    };
+    write_motions(one, damping, tick_s, words[0].lane);
+    belly.motion = first_lanes(reduced_motion_width(one.vectors, one.inputs));
+    if (choice.reduced.control_points) {
+      write_shapes(one, damping, words[0].lane);
+      belly.rest_shape = first_lanes(reduced_shape_width(one.vectors, one.inputs));
+    }
     belly.basis = std::move(*along);
-    belly.motions = std::make_shared<const ReducedBelly>(*motions);
+    belly.motions = std::make_shared<const ReducedBelly>(belly_of(one, 0));
     return belly;
   }
   const auto count = steps(*belly.shape->shape, choice, plan.scale, tick_s);

@@ -54,7 +54,8 @@ bool is_reported(const LegMuscles& choice) {
 /// A muscle's line as it is, or as a first tick would write it.
 template <template <class> class End>
 FirstLine<End> present_line(const World& world, const MuscleChange& change, Entity muscle) {
-  const auto& [plan, shape, steps, solver, resting, basis, motions] = change.belly;
+  const MusclePlan& plan = change.belly.plan;
+  const BellyTemplate* const shape = change.belly.shape;
   LineOfAction<float> rest{};
   rest.rest_length_m = static_cast<float>(plan.rest_length_m);
   rest.stiffness_n_per_m = static_cast<float>(
@@ -146,7 +147,6 @@ class MethodParts {
   void add_reduced() {
     const ReducedChoice& reduced = change_.choice.reduced;
     const ReducedBasis& basis = *change_.belly.basis;
-    const ReducedBelly& own = *change_.belly.motions;
     list_.add(world_.share(change_.belly.basis));
     if (reduced.moving) {
       list_.add_field<ReducedState>(reduced_state_width(basis.vectors), from_.state);
@@ -154,14 +154,10 @@ class MethodParts {
       list_.add(TagValue<ReducedStatic>{1});
     }
     if (reduced.moving || (is_reported(change_.choice) && basis.inputs > 1)) {  // there the report reads participations
-      motion_.resize(reduced_motion_width(basis.vectors, basis.inputs));
-      write_motion(own, basis.options.damping_per_s, static_cast<double>(change_.tick_s), motion_);
-      list_.add_field<ReducedMotion>(motion_.size(), motion_);
+      list_.add_field<ReducedMotion>(change_.belly.motion.size(), change_.belly.motion);
     }
     if (reduced.control_points) {
-      shape_.resize(reduced_shape_width(basis.vectors, basis.inputs));
-      write_shape(own, basis.options.damping_per_s, shape_);
-      list_.add_field<ReducedShape>(shape_.size(), shape_);
+      list_.add_field<ReducedShape>(change_.belly.rest_shape.size(), change_.belly.rest_shape);
     }
   }
 
@@ -180,7 +176,7 @@ class MethodParts {
   const MuscleChange& change_;
   const Beginning& from_;
   PartList& list_;
-  std::vector<float> motion_, shape_, shown_;
+  std::vector<float> shown_;
   Fade<float> since_{0};
 };
 

@@ -8,6 +8,7 @@
 #include "components/fade.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/fade.h"
+#include "systems/deformation/reduced_bellies.h"
 #include "systems/simulation_rows.h"
 
 namespace mobil {
@@ -229,10 +230,9 @@ std::optional<BellyMotion> computed_motion(const World& world, Entity muscle, fl
   const auto* basis = world.shared<ReducedBasis>(muscle);
   if (basis == nullptr) return std::nullopt;
   if (last.basis != basis || last.scale.across != scale->across || last.scale.along != scale->along) {
-    const auto belly =
-        make_reduced_belly(*basis, static_cast<double>(scale->across), static_cast<double>(scale->along));
-    if (!belly) return std::nullopt;  // never: it was made before
-    last = {basis, *scale, *belly};
+    ReducedBellies one;
+    if (!solve_bellies(*basis, {&*scale, 1}, one)) return std::nullopt;  // never: it was made before
+    last = {basis, *scale, belly_of(one, 0)};
   }
   return reduced_motion(*basis, last.belly, load, field_of<ReducedState>(world, muscle));
 }

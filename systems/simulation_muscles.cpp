@@ -31,16 +31,6 @@ void Simulation::set_muscles(PersonRecord& person, const std::vector<Belly>& bel
   person.choice = people_.number_of(choice);
 }
 
-Result<void> Simulation::add_leg_muscles(Entity entity, const LegMuscles& choice) {
-  PersonRecord* human = find(entity);
-  if (human == nullptr) return fail("add_leg_muscles: that person is not there (a stale handle); spawn one first");
-  if (!human->muscles.empty()) return fail("add_leg_muscles: this person has leg muscles; remove them first");
-  const auto bellies = bellies_.bellies(*make_body(human->body), choice, tick_s());
-  if (!bellies) return fail("add_leg_muscles: " + bellies.error().message);
-  set_muscles(*human, *bellies, choice);
-  return {};
-}
-
 Result<void> Simulation::change_leg_muscles(Entity entity, const LegMuscles& choice) {
   PersonRecord* human = find(entity);
   if (human == nullptr) return fail("change_leg_muscles: that person is not there (a stale handle); spawn one first");
@@ -54,9 +44,13 @@ Result<void> Simulation::change_leg_muscles(Entity entity, const LegMuscles& cho
 Status Simulation::remove_leg_muscles(Entity entity) {
   PersonRecord* human = find(entity);
   if (human == nullptr) return Status::stale_entity;
+  std::vector<Entity> rows;
   for (const OwnMuscle& own : human->muscles) {
-    for (const Entity muscle : own.entity) world_.destroy(muscle);
+    for (const Entity muscle : own.entity) {
+      if (world_.alive(muscle)) rows.push_back(muscle);
+    }
   }
+  world_.destroy_many(rows, jobs_);
   human->muscles.clear();
   return Status::ok;
 }

@@ -108,12 +108,20 @@ struct Belly {
   std::shared_ptr<const BellySolver> resting;   // of the shape that a belly with inertia begins with; else null
   std::shared_ptr<const ReducedBasis> basis;    // of reduced
   std::shared_ptr<const ReducedBelly> motions;  // of reduced: this body's own
+  std::vector<float> motion, rest_shape;        // and its rows, ReducedMotion and ReducedShape
 };
 
 /// Templates, solvers and bases, made when they are first asked for and kept. Solvers and bases are those of bodies in
 /// the middle of a range of sizes: what one gets depends on one's own size alone.
 class BellyLibrary {
  public:
+  /// Of muscles with a line alone, and of reduced ones, what bodies of about that size share. Of a choice in range.
+  struct Common {
+    const BellyTemplate* shape;
+    std::shared_ptr<const ReducedBasis> basis;  // of reduced
+  };
+  Result<Common> shared(Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale);
+
   /// A person's chosen muscles in the table's order. Errors: a choice out of range; a `dt_s` above a belly's critical
   /// step, which names the muscle and the limit.
   Result<std::vector<Belly>> bellies(const Body& body, const LegMuscles& choice, double tick_s);
@@ -147,6 +155,8 @@ class BellyLibrary {
   std::vector<Basis> bases_;
 };
 
+/// Whether a choice is in range, as far as that does not take a body to say.
+Result<void> check_choice(const LegMuscles& choice, double tick_s);
 /// Of a choice in range: the sideways foundation, Hz.
 double foundation_of(const LegMuscles& choice);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);

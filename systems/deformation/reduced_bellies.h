@@ -1,0 +1,63 @@
+#pragma once
+// The reduced problems of up to sixteen bodies of one basis, solved together: a lane is a body, and what a lane gets
+// does not depend on who shares the block. Set-up, in double precision; the same bits on every instruction set.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "assets/reduced_basis.h"
+#include "components/lanes.h"
+#include "components/muscle.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// What ReducedBelly (assets/reduced_basis.h) has of one body; lanes past the bodies hold whatever.
+struct ReducedBellies {
+  std::uint32_t vectors = 0, inputs = 0, count = 0;
+  std::vector<Lanes<double>> words{}, scratch{};
+
+  using Column = Lanes<double>;
+  void resize(std::uint32_t all_vectors, std::uint32_t all_inputs) {
+    vectors = all_vectors;
+    inputs = all_inputs;
+    words.resize(std::size_t{vectors} * (2 + vectors + inputs) + inputs + 1);
+  }
+  Column& omega_1_s(std::size_t motion) { return words[motion]; }
+  Column& lift_share(std::size_t motion) { return words[vectors + motion]; }
+  Column& eigenvector(std::size_t motion, std::size_t vector) { return words[(2 + motion) * vectors + vector]; }
+  Column& participation(std::size_t motion, std::size_t input) {
+    return words[(2 + std::size_t{vectors}) * vectors + motion * inputs + input];
+  }
+  Column& reaction(std::size_t input) { return words[(2 + std::size_t{vectors} + inputs) * vectors + input]; }
+  Column& lift_mass_kg() { return words.back(); }
+  const Column& omega_1_s(std::size_t motion) const { return mine().omega_1_s(motion); }
+  const Column& lift_share(std::size_t motion) const { return mine().lift_share(motion); }
+  const Column& eigenvector(std::size_t motion, std::size_t vector) const { return mine().eigenvector(motion, vector); }
+  const Column& participation(std::size_t motion, std::size_t input) const {
+    return mine().participation(motion, input);
+  }
+  const Column& reaction(std::size_t input) const { return mine().reaction(input); }
+  const Column& lift_mass_kg() const { return words.back(); }
+
+ private:
+  ReducedBellies& mine() const { return const_cast<ReducedBellies&>(*this); }
+};
+
+/// 1 to 16 bodies. By Jacobi's rotations in the order of a tournament, from the motions of the body in the middle of
+/// the basis's range (ReducedBasis::turned) where it has them (Golub and Van Loan, Matrix Computations, 4th ed., 8.5).
+/// Errors: as make_reduced_belly, of the first body that has one.
+Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<float>> bodies,
+                           ReducedBellies& bellies);
+ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane);
+
+/// As write_motion and write_shape, of sixteen: word w of lane l at [16·w + l].
+void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion);
+void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* shape);
+/// Displacements of the control points at rest under the first input, of bellies that have no other.
+void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,
+                   float* displacement);
+
+}  // namespace mobil

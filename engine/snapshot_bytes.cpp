@@ -94,13 +94,13 @@ void seal_snapshot(const SnapshotLayout& layout, std::span<std::byte> out, const
 }
 
 Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jobs) {
-  const std::string give = "; give one that `save` made, whole";
+  constexpr const char* give = "; give one that `save` made, whole";
   Header header{};
   if (in.size() < sizeof(header))
     return fail("a snapshot begins with " + std::to_string(sizeof(header)) + " bytes, and there are " +
                 std::to_string(in.size()) + give);
   std::memcpy(&header, in.data(), sizeof(header));
-  if (header.magic != magic) return fail("these bytes are no snapshot" + give);
+  if (header.magic != magic) return fail(std::string("these bytes are no snapshot") + give);
   if (header.byte_order != byte_order)
     return fail("the snapshot was made on a machine of another byte order; restore it on one like that");
   if (header.version != format_version)
@@ -110,11 +110,11 @@ Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jo
     return fail("the snapshot is cut or padded: it says " + std::to_string(header.bytes) + " bytes, and there are " +
                 std::to_string(in.size()) + give);
   SnapshotLayout layout;
-  if (!read_layout(header, in.size(), layout)) return fail("the snapshot's header is damaged" + give);
+  if (!read_layout(header, in.size(), layout)) return fail(std::string("the snapshot's header is damaged") + give);
   Checking checking{layout, in};
   run_all(jobs, layout.chunks(), checking);
   if (!checking.sound || header.seal != seal_of(header, in.subspan(layout.seals_at(), 8 * layout.chunks())))
-    return fail("the snapshot was altered or damaged: its checksum does not fit" + give);
+    return fail(std::string("the snapshot was altered or damaged: its checksum does not fit") + give);
   return OpenSnapshot{in.subspan(layout.front_at(), layout.front), in.subspan(layout.world_at(), layout.world),
                       in.subspan(layout.blocks_at(), layout.blocks)};
 }

@@ -3,10 +3,15 @@
 #include <algorithm>
 #include <cstring>
 
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
 namespace mobil {
 namespace {
 constexpr std::size_t word_bytes = sizeof(float);
 constexpr std::size_t block_alignment = alignof(Lanes<float>);
+constexpr std::size_t large_page = std::size_t{2} << 20;
 
 // Words may be floats or whole numbers: they are only ever moved as bytes.
 void copy_lane(float* to, const float* from, std::uint32_t words) {
@@ -15,7 +20,7 @@ void copy_lane(float* to, const float* from, std::uint32_t words) {
 }  // namespace
 
 Table::Table(const TableKey& key, std::pmr::memory_resource* memory)
-    : key_(key, memory), first_word_(memory), blocks_(memory), entities_(memory), memory_(memory) {
+    : key_(key, memory), first_word_(memory), chunks_(memory), blocks_(memory), entities_(memory), memory_(memory) {
   for (const KeyPart& part : key_) {
     const bool column = has_column(part.kind);
     first_word_.push_back(column ? words_ : no_column);
@@ -29,7 +34,40 @@ Table::Table(const TableKey& key, std::pmr::memory_resource* memory)
 }
 
 Table::~Table() {
-  for (float* block : blocks_) memory_->deallocate(block, block_bytes(), block_alignment);
+  rows_ = 0;
+  while (!chunks_.empty()) drop_chunk();
+}
+
+std::size_t Table::chunk_bytes(std::size_t blocks) const {
+  return std::max<std::size_t>(blocks * block_bytes(), block_alignment);
+}
+
+std::size_t Table::alignment_of(std::size_t bytes) {
+  return bytes >= large_page ? large_page : block_alignment;
+}
+
+/// As many blocks in one piece as there are already, up to a large page full: a crowd's tables lie in pages that one
+/// entry each maps, and small ones take little.
+void Table::add_chunk(std::size_t least) {
+  const std::size_t full = (large_page + chunk_bytes(1) - 1) / chunk_bytes(1);
+  const std::size_t count = std::min(full, std::max(least, blocks_.size()));
+  if (chunks_.size() == chunks_.capacity()) chunks_.reserve(2 * chunks_.size() + 1);
+  if (blocks_.size() + count > blocks_.capacity())
+    blocks_.reserve(std::max(blocks_.size() + count, 2 * blocks_.size()));
+  const std::size_t bytes = chunk_bytes(count);
+  auto* const memory = static_cast<float*>(memory_->allocate(bytes, alignment_of(bytes)));
+#if defined(__linux__)
+  if (bytes >= large_page) madvise(memory, large_page, MADV_HUGEPAGE);  // a wish: whether it is granted changes nothing
+#endif
+  chunks_.push_back({memory, count});
+  for (std::size_t b = 0; b < count; ++b) blocks_.push_back(memory + b * block_bytes() / word_bytes);
+}
+
+void Table::drop_chunk() {
+  const auto [memory, count] = chunks_.back();
+  memory_->deallocate(memory, chunk_bytes(count), alignment_of(chunk_bytes(count)));
+  blocks_.resize(blocks_.size() - count);
+  chunks_.pop_back();
 }
 
 std::uint32_t Table::column(std::uint64_t id) const {
@@ -44,27 +82,18 @@ std::uint32_t Table::live(std::size_t b) const {
 void Table::reserve(std::uint32_t rows) {
   const std::size_t blocks = (std::size_t{rows} + lane_count - 1) / lane_count;
   if (blocks <= blocks_.size()) return;
-  if (blocks > blocks_.capacity()) blocks_.reserve(std::max(blocks, 2 * blocks_.size() + 1));
-  if (blocks * lane_count > entities_.capacity()) {
-    entities_.reserve(std::max(blocks * lane_count, 2 * entities_.size()));
-  }
   try {
-    while (blocks_.size() < blocks) {
-      blocks_.push_back(static_cast<float*>(memory_->allocate(block_bytes(), block_alignment)));
-    }
+    while (blocks_.size() < blocks) add_chunk(blocks - blocks_.size());
+    entities_.resize(blocks_.size() * lane_count);
   } catch (...) {
     trim();
     throw;
   }
-  entities_.resize(blocks * lane_count);
 }
 
 void Table::trim() {
-  while (blocks_.size() > block_count() + 1) {
-    memory_->deallocate(blocks_.back(), block_bytes(), block_alignment);
-    blocks_.pop_back();
-  }
-  entities_.resize(blocks_.size() * lane_count);
+  while (!chunks_.empty() && blocks_.size() - chunks_.back().blocks > block_count()) drop_chunk();
+  if (entities_.size() > blocks_.size() * lane_count) entities_.resize(blocks_.size() * lane_count);
 }
 
 void Table::write_new(std::size_t first_block, std::size_t end_block, std::uint32_t count,

@@ -1,6 +1,7 @@
 #pragma once
 // All rows of one key, in blocks of sixteen lanes. One block is one piece of memory: every word of every column as
-// sixteen neighbouring 4-byte numbers, column after column in the order of the key. Blocks never move.
+// sixteen neighbouring 4-byte numbers, column after column in the order of the key. Blocks never move; neighbours
+// mostly lie one after the other.
 
 #include <cstddef>
 #include <cstdint>
@@ -57,7 +58,7 @@ class Table {
   void reserve_row() { reserve(rows_ + 1); }
   /// Makes room for so many rows in all; where memory runs out, all is as it was.
   void reserve(std::uint32_t rows);
-  /// Gives back all empty blocks but one.
+  /// Gives back memory that no row needs, but for a next block.
   void trim();
   /// Appends a row of zeros, for which there must be room, and says which.
   std::uint32_t add_row(Entity entity);
@@ -82,11 +83,20 @@ class Table {
  private:
   friend class WorldSnapshot;  // engine/snapshot.h
 
+  struct Chunk {
+    float* memory;
+    std::size_t blocks;
+  };
   void park(std::uint32_t first_word, std::uint32_t words);
+  std::size_t chunk_bytes(std::size_t blocks) const;
+  static std::size_t alignment_of(std::size_t bytes);
+  void add_chunk(std::size_t least_blocks);
+  void drop_chunk();
 
   TableKey key_;
   std::pmr::vector<std::uint32_t> first_word_;  // by part of the key
-  std::pmr::vector<float*> blocks_;             // one empty block at most is kept for the next row
+  std::pmr::vector<Chunk> chunks_;              // of memory, each several blocks
+  std::pmr::vector<float*> blocks_;             // more than there are rows for: those of chunks begun, one at least
   std::pmr::vector<Entity> entities_;           // sixteen a block
   std::pmr::memory_resource* memory_;
   std::uint32_t words_ = 0, published_words_ = 0;

@@ -63,6 +63,7 @@ KneeSpline knee_spline(const KneeTrack& track) {
 }
 
 Vec track_at(const KneeTrack& track, double flexion_deg) {
+  if (flexion_deg == 0) return track[0];  // what all of the below comes to there
   const KneeSpline s = knee_spline(track);
   const double u = flexion_deg / knee_knot_deg;
   Vec at = s.at_zero + u * s.slope;
@@ -124,43 +125,78 @@ LegFrames<double> rolled(const LegScale<double>& scale, const LegFrames<double>&
   return there;
 }
 
-std::vector<PathCorner> member_path(const MemberMuscle& muscle, const LegScale<double>& scale,
-                                    const LegFrames<double>& leg) {
-  const LegFrames<double> there = rolled(scale, leg);
-  std::vector<PathPoint> points(muscle.path.begin(), muscle.path.end());
-  if (muscle.kneecap != nullptr) points.push_back(path_end(muscle, knee_flexion(leg) / degree));
-  std::vector<PathCorner> corners;
-  for (auto p = points.begin(); p != points.end(); ++p) {
-    Vec at = path_point(*p, scale, there);
-    if (p->hold != PathHold::fixed) {
-      const auto next = std::find_if(p, points.end(), [](const PathPoint& q) { return q.hold == PathHold::fixed; });
-      const auto touched =
-          touch(corners.back().at - at, path_point(*next, scale, there) - at, edge_axis(p->bone, leg), p->hold);
+namespace {
+
+/// A leg as all its members' paths need it.
+struct BentLeg {
+  const LegScale<double>& scale;
+  const LegFrames<double>& leg;
+  LegFrames<double> there = rolled(scale, leg);
+  double flexion_deg = knee_flexion(leg) / degree;
+};
+
+/// The corners of a member's path one after the other.
+template <class Visit>
+void follow_path(const MemberMuscle& muscle, const BentLeg& bent, Visit visit) {
+  const PathPoint end = path_end(muscle, bent.flexion_deg);
+  const std::size_t own = muscle.path.size(), all = own + (muscle.kneecap != nullptr ? 1 : 0);
+  const auto point = [&](std::size_t i) -> const PathPoint& { return i < own ? muscle.path[i] : end; };
+  Vec before{};
+  for (std::size_t i = 0; i < all; ++i) {
+    const PathPoint& p = point(i);
+    Vec at = path_point(p, bent.scale, bent.there);
+    if (p.hold != PathHold::fixed) {
+      std::size_t next = i;
+      while (point(next).hold != PathHold::fixed) ++next;
+      const Vec straight_to = path_point(point(next), bent.scale, bent.there);
+      const auto touched = touch(before - at, straight_to - at, edge_axis(p.bone, bent.leg), p.hold);
       if (!touched) continue;
       at = at + *touched;
     }
-    corners.push_back({at, p->bone});
+    visit(PathCorner{at, p.bone});
+    before = at;
   }
+}
+
+double path_length(const MemberMuscle& muscle, const BentLeg& bent) {
+  double sum = 0;
+  std::optional<Vec> before;
+  follow_path(muscle, bent, [&](const PathCorner& corner) {
+    if (before) sum += length(corner.at - *before);
+    before = corner.at;
+  });
+  return sum;
+}
+
+double reference_volume_cm3(const MemberMuscle& muscle) {
+  return handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg);
+}
+
+}  // namespace
+
+std::vector<PathCorner> member_path(const MemberMuscle& muscle, const LegScale<double>& scale,
+                                    const LegFrames<double>& leg) {
+  std::vector<PathCorner> corners;
+  follow_path(muscle, {scale, leg}, [&](const PathCorner& corner) { corners.push_back(corner); });
   return corners;
 }
 
 double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
-  const auto corners = member_path(muscle, scale, leg);
-  double sum = 0;
-  for (std::size_t i = 1; i < corners.size(); ++i) sum += length(corners[i].at - corners[i - 1].at);
-  return sum;
+  return path_length(muscle, {scale, leg});
 }
 
 double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle) {
   double all = 0;
-  for (const auto& m : members) all += handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
-  return handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg) / all;
+  for (const auto& m : members) all += reference_volume_cm3(m);
+  return reference_volume_cm3(muscle) / all;
 }
 
 double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
   const auto members = members_of(muscle);
-  double sum = 0;
-  for (const auto& m : members) sum += member_weight(members, m) * member_length(m, scale, leg);
+  const BentLeg bent{scale, leg};
+  double all = 0, sum = 0;
+  for (const auto& m : members) all += reference_volume_cm3(m);
+  for (const auto& m : members) sum += reference_volume_cm3(m) / all * path_length(m, bent);
   return sum;
 }
 

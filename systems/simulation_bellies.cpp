@@ -105,13 +105,19 @@ bool feels_frame(const LegMuscles& choice) {
   return choice.inertia && (moves || has_control_points(choice));
 }
 
-Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles& choice) {
-  const BellyTemplate* alike = nullptr;  // but for what the tissue itself does not depend on
+std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(Muscle muscle,
+                                                                               const LegMuscles& choice) const {
+  const BellyTemplate* alike = nullptr;
   for (const auto& made : templates_) {
     if (made->muscle != muscle || !same_tissue(made->choice, choice)) continue;
-    if (same_template(made->choice, choice)) return made.get();
+    if (same_template(made->choice, choice)) return {made.get(), made.get()};
     alike = made.get();
   }
+  return {nullptr, alike};
+}
+
+Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, const LegMuscles& choice,
+                                                                const BellyTemplate* alike) {
   auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   MuscleOptions options;
@@ -133,7 +139,15 @@ Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles
   made->stretch = alike ? alike->stretch : static_stretch(shape->terms, 1, 1);
   made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
   made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));
-  templates_.push_back(std::move(made));
+  return made;
+}
+
+Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles& choice) {
+  const auto [found, alike] = find_shape(muscle, choice);
+  if (found != nullptr) return found;
+  auto made = make_shape(muscle, choice, alike);
+  if (!made) return tl::unexpected(made.error());
+  templates_.push_back(std::move(*made));
   return templates_.back().get();
 }
 
@@ -209,7 +223,7 @@ Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choi
       for (std::size_t w = 0; w < width; ++w) row[w] = words[w][0];
       return row;
     };
-    write_motions(one, damping, tick_s, words[0].lane);
+    write_motions(one, damping, static_cast<double>(static_cast<float>(tick_s)), words[0].lane);
     belly.motion = first_lanes(reduced_motion_width(one.vectors, one.inputs));
     if (choice.reduced.control_points) {
       write_shapes(one, damping, words[0].lane);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "assets/axial_stiffness.h"
@@ -17,6 +18,7 @@
 #include "components/body.h"
 #include "components/muscle.h"
 #include "engine/error.h"
+#include "engine/jobs.h"
 
 namespace mobil {
 
@@ -125,6 +127,9 @@ class BellyLibrary {
   /// A person's chosen muscles in the table's order. Errors: a choice out of range; a `dt_s` above a belly's critical
   /// step, which names the muscle and the limit.
   Result<std::vector<Belly>> bellies(const Body& body, const LegMuscles& choice, double tick_s);
+  /// Makes all that bodies of usual size share: templates and bases by jobs, solvers one after the other. Errors: as
+  /// above.
+  Result<void> prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs);
   /// The one muscle of that plan. Errors name no muscle.
   Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
 
@@ -136,6 +141,10 @@ class BellyLibrary {
     std::shared_ptr<const BellySolver> solver;
   };
   /// Made with most_vectors; the others are the first ones of those.
+  struct BasisKey {
+    double ratio, product;  // in the middle of the bodies that it is for
+    bool operator==(const BasisKey&) const = default;
+  };
   struct Basis {
     Muscle muscle;
     LegMuscles choice;
@@ -145,16 +154,30 @@ class BellyLibrary {
   };
 
   Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
+  /// The template, or null; and one that differs in what the tissue itself does not depend on, or null.
+  std::pair<const BellyTemplate*, const BellyTemplate*> find_shape(Muscle muscle, const LegMuscles& choice) const;
+  static Result<std::unique_ptr<BellyTemplate>> make_shape(Muscle muscle, const LegMuscles& choice,
+                                                           const BellyTemplate* alike);
   Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                     const BellyScale<float>& scale);
   Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,
                                                     const BellyScale<float>& scale);
+  static BasisKey basis_key(const LegMuscles& choice, double ratio, double product);
+  static std::vector<BasisKey> usual_bases(const LegMuscles& choice);
+  Basis* find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
+  static Result<Basis> make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
+  static std::shared_ptr<const ReducedBasis> cut(Basis& made, std::uint32_t vectors);
+  void prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s);
 
   std::vector<std::unique_ptr<BellyTemplate>> templates_;
   std::vector<Solver> solvers_;
   std::vector<Basis> bases_;
 };
 
+/// Of bellies against their templates, what people of usual build have: across over along, and across times along.
+namespace usual_sizes {
+inline constexpr double least_ratio = 0.84, most_ratio = 1.23, least_product = 0.6, most_product = 1.3;
+}
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
 /// Of a choice in range: the sideways foundation, Hz.

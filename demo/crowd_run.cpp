@@ -4,8 +4,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "components/fade.h"
 #include "demo/bench_measure.h"
-#include "demo/crowd_hash.h"
 #include "demo/heap_count.h"
 #include "systems/simulation_people.h"
 
@@ -21,9 +21,19 @@ double process_cpu_now_s() {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
+/// Muscles that fade after a change of method; when that ends the row is made anew.
+std::size_t fading(const World& world) {
+  std::size_t rows = 0;
+  for (const Table& table : world.tables()) {
+    if (table.row_count() > 0 && find_part(table.key(), type_id<Fade<float>>()) != nullptr) rows += table.row_count();
+  }
+  return rows;
+}
+
 /// One tick, and what it took of heap.
 Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
   CrowdTick tick;
+  const std::size_t fading_before = fading(scene.simulation().world());
   start_heap_count();
   const double cpu_start = process_cpu_now_s(), start = wall_now_s();
   const auto decisions = scene.decide();
@@ -38,7 +48,7 @@ Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
   tick.wall_ms = 1e3 * (end - start);
   tick.host_ms = 1e3 * (decided - start);
   tick.relevance_ms = 1e3 * (ready - decided);
-  tick.steady = !decisions->structural() && chosen.switched == 0;
+  tick.steady = !decisions->structural() && chosen.switched == 0 && fading(scene.simulation().world()) == fading_before;
   if (tick.steady) {
     ++run.steady_ticks;
     run.steady_allocations += allocations;
@@ -86,7 +96,7 @@ Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, co
   double live_s = wall_now_s();
   for (std::size_t i = 0; i < ticks; ++i) {
     if (auto done = measured_tick(scene, run); !done) return tl::unexpected(done.error());
-    if (hashes && (i + 1) % hash_every == 0) run.hashes.push_back(crowd_hash(scene));
+    if (hashes && (i + 1) % hash_every == 0) run.hashes.push_back(simulation.state_hash());
     if (!live || wall_now_s() < live_s) continue;
     run.muscles_by_rung = scene.muscles_by_rung();
     live(run, ticks);

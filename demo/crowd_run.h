@@ -18,7 +18,7 @@ namespace mobil {
 /// and the processor time of all threads.
 struct CrowdTick {
   double wall_ms = 0, cpu_ms = 0, host_ms = 0, relevance_ms = 0;
-  bool steady = false;  // nobody came, went or changed method
+  bool steady = false;  // nobody came, went, changed method or was done with that
 };
 
 struct CrowdSystem {

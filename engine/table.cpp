@@ -81,10 +81,10 @@ std::uint32_t Table::live(std::size_t b) const {
 
 void Table::reserve(std::uint32_t rows) {
   const std::size_t blocks = (std::size_t{rows} + lane_count - 1) / lane_count;
-  if (blocks <= blocks_.size()) return;
+  if (blocks * lane_count <= entities_.size()) return;
   try {
     while (blocks_.size() < blocks) add_chunk(blocks - blocks_.size());
-    entities_.resize(blocks_.size() * lane_count);
+    entities_.resize(blocks_.size() * lane_count);  // where this fails, the next time makes up for it
   } catch (...) {
     trim();
     throw;

@@ -73,6 +73,22 @@ void Relevance::find_tables() {
   }
 }
 
+RelevanceState Relevance::state() const {
+  return {crowd_, counting_, machine_, cost_ps_, counted_ps_, budget_ps_, factor_, turn_, last_tick_};
+}
+
+void Relevance::set_state(const RelevanceState& state) {
+  crowd_ = state.crowd;
+  counting_ = state.counting;
+  machine_ = state.machine;
+  cost_ps_ = state.cost_ps;
+  counted_ps_ = state.counted_ps;
+  budget_ps_ = state.budget_ps;
+  factor_ = state.factor;
+  turn_ = state.turn % options_.stagger;
+  last_tick_ = state.last_tick;
+}
+
 RelevanceReport Relevance::update() {
   RelevanceReport report;
   find_tables();

@@ -129,6 +129,16 @@ MuscleMethod rung_method(std::size_t rung, bool control_points);
 /// changes of method.
 bool is_deformation(std::string_view system);
 
+/// What choosing remembers from one update to the next besides people's rows: plain data, to be kept beside a snapshot
+/// of the simulation.
+struct RelevanceState {
+  CostSpectrum crowd, counting;
+  MachineFactor machine;
+  std::int64_t cost_ps = 0, counted_ps = 0, budget_ps = 0;
+  float factor = 1;
+  std::uint32_t turn = 0, last_tick = 0;
+};
+
 class Relevance {
  public:
   /// Works on `simulation`, which must outlive it. Throws std::invalid_argument on options out of range.
@@ -154,6 +164,11 @@ class Relevance {
   /// Looks at a part of the crowd, and changes methods. Call it before each tick, or less often. Takes memory only as
   /// crowds grow and methods change.
   RelevanceReport update();
+
+  /// As it is; and as it was, with the simulation restored to what it was then: choosing goes on with the same bits,
+  /// scene and machine_factor being the same.
+  RelevanceState state() const;
+  void set_state(const RelevanceState& state);
 
   /// Errors: Status as for components; `missing` where the person is not managed or has no such muscle.
   tl::expected<Choice, Status> why(Entity human, Muscle muscle) const;

@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cstdio>
 #include <map>
+#include <type_traits>
 #include <vector>
 
+#include "systems/simulation_relevance.h"
 #include "systems/simulation_snapshot.h"
 #include "tests/counting_heap.h"
 #include "tests/crowd_play.h"
@@ -96,6 +98,40 @@ TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
   const std::size_t before = heap_requests;
   round();
   EXPECT_EQ(heap_requests, before);
+}
+
+TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
+  Simulation simulation;
+  Relevance relevance(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
+  for (int i = 0; i < 40; ++i) {
+    const Entity human = *simulation.spawn(person(i).body, person(i).gait);
+    ASSERT_TRUE(relevance.manage(human, {.muscles = 1}));
+  }
+  SceneNeeds scene;
+  scene.tolerance_m = 0.004F;
+  scene.budget_s = 2e-5;
+  const auto run = [&] {
+    std::vector<std::uint64_t> hashes;
+    for (int tick = 0; tick < 25; ++tick) {
+      relevance.update();
+      simulation.tick();
+      hashes.push_back(simulation.state_hash());
+    }
+    return hashes;
+  };
+  ASSERT_TRUE(relevance.set_scene(scene));
+  run();
+  scene.budget_s = 5e-5;
+  ASSERT_TRUE(relevance.set_scene(scene));
+  relevance.update();
+  Rollback window(1);
+  ASSERT_TRUE(window.keep(simulation));
+  const RelevanceState kept = relevance.state();
+  static_assert(std::is_trivially_copyable_v<RelevanceState>);
+  const auto first = run();
+  ASSERT_TRUE(window.back(simulation, 1));
+  relevance.set_state(kept);
+  EXPECT_EQ(run(), first);
 }
 
 // What a window of eight ticks costs; run it by name.

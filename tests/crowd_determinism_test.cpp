@@ -22,7 +22,7 @@ namespace {
 constexpr int ticks = 120, apart = 30;
 constexpr play::Script script{};
 
-/// Of everybody by number, every so many ticks.
+/// Of everybody by number and together, every so many ticks.
 using Hashes = std::vector<std::map<int, std::uint64_t>>;
 
 Hashes run(const SimulationOptions& options, const std::vector<int>& order = play::Crowd::in_turn(script)) {

@@ -110,9 +110,10 @@ class Crowd {
     ++now_;
   }
 
-  /// By number.
+  /// By number; everybody's together as -1.
   std::map<int, std::uint64_t> hashes() const {
     std::map<int, std::uint64_t> all;
+    all[-1] = simulation_.state_hash();
     for (const auto& [who, human] : people_) all[who] = hash_human(simulation_, human);
     return all;
   }

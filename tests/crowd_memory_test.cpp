@@ -1,0 +1,241 @@
+// A crowd's memory: none in steady ticks, all of a world's from its caller, nothing changed where there is none left,
+// and so much a person.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <memory_resource>
+#include <new>
+#include <vector>
+
+#include "tests/counting_heap.h"
+#include "tests/counting_malloc.h"
+#include "tests/crowd_play.h"
+#include "tests/crowd_pool.h"
+#include "tests/engine_counting_memory.h"
+
+namespace mobil {
+namespace {
+
+using play::coarse;
+
+/// One of the effects, and their sum.
+struct Effects {
+  bool forces = false;
+  LegMuscles muscles;
+};
+
+std::vector<Effects> every_effect() {
+  std::vector<Effects> all;
+  for (const MuscleMethod& method : play::every_method()) {
+    for (const bool more : {false, true}) {
+      Effects e{more, {.method = method.method, .reduced = method.reduced, .inertia = more, .line_motion = more}};
+      if (more && method.method == Method::ecd) e.muscles.drive = Drive::force;
+      e.muscles.muscles = 0;
+      e.muscles.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
+      all.push_back(e);
+    }
+  }
+  return all;
+}
+
+TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
+  CountingMemory memory;
+  const auto effects = every_effect();
+  WilfulPool wilful(3);
+  const std::vector<SimulationOptions> options = {
+      {.memory = &memory}, {.threads = 2, .memory = &memory}, {.jobs = wilful.jobs(), .memory = &memory}};
+  for (const SimulationOptions& o : options) {
+    Simulation simulation(o);
+    for (std::size_t i = 0; i < 2 * effects.size(); ++i) {
+      const Effects& e = effects[i % effects.size()];
+      const Entity human = join(simulation, person(static_cast<int>(i)), false);
+      if (e.forces) {
+        EXPECT_EQ(simulation.add_forces(human), Status::ok);
+      }
+      const auto added = simulation.add_leg_muscles(human, e.muscles);
+      ASSERT_TRUE(added) << added.error().message;
+      // a change of method fades and is over before what is counted begins
+      if (i % 3 == 0) {
+        EXPECT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::statics}));
+      }
+    }
+    for (int i = 0; i < 80; ++i) simulation.tick();
+    const std::size_t heap = heap_requests, all = malloc_requests, lent = memory.requests;
+    ASSERT_GT(heap, 0U);  // the counters count
+    ASSERT_TRUE(all > 0 || !counts_malloc);
+    for (int i = 0; i < 60; ++i) simulation.advance(1.0 / 60);
+    EXPECT_EQ(heap_requests - heap, 0U);
+    EXPECT_EQ(memory.requests - lent, 0U);
+    EXPECT_EQ(malloc_requests - all, 0U) << "libraries included";
+  }
+}
+
+TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
+  CountingMemory memory;
+  std::size_t people = 0;
+  {
+    play::Crowd crowd({.memory = &memory}, {.at_first = 20, .comers = 20});
+    // nothing of a world's own lies elsewhere: the default resource lends nothing
+    std::pmr::memory_resource* before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
+    for (int i = 0; i < 90; ++i) crowd.tick();
+    std::pmr::set_default_resource(before);
+    people = crowd.people().size();
+    EXPECT_GT(memory.lent(), people);
+  }
+  EXPECT_EQ(memory.lent(), 0U);
+}
+
+/// What there is: handles and state of everybody, and what the front door says of them.
+std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& people) {
+  std::uint64_t hash = hash_world(simulation);
+  for (const Entity human : people) hash = fnv(hash_human(simulation, human), static_cast<std::uint32_t>(hash));
+  return hash;
+}
+
+/// Does `change` with memory for ever more requests until it succeeds; each refusal must leave all as it was, and what
+/// comes of it at last must be what comes of it with memory enough.
+void refuse_at_every_request(const std::function<void(Simulation&, std::vector<Entity>&)>& change) {
+  const auto make = [](CountingMemory& memory, std::vector<Entity>& people) {
+    auto simulation = std::make_unique<Simulation>(SimulationOptions{.memory = &memory});
+    for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, person(i), i % 4 == 0));
+    for (int i = 0; i < 5; ++i) simulation->tick();
+    return simulation;
+  };
+  CountingMemory memory, enough;
+  std::vector<Entity> people, others;
+  const auto simulation = make(memory, people), other = make(enough, others);
+  const std::size_t before_requests = enough.requests;
+  change(*other, others);
+  const std::size_t requests = enough.requests - before_requests;
+  other->tick();
+  for (std::size_t granted = 0; granted <= requests; ++granted) {
+    const std::uint64_t before = all_of(*simulation, people);
+    const std::size_t rows_before = rows(simulation->world()), count = people.size();
+    memory.refuse_after = granted;
+    bool refused = false;
+    try {
+      change(*simulation, people);
+    } catch (const std::bad_alloc&) {
+      refused = true;
+    }
+    memory.refuse_after = SIZE_MAX;
+    if (!refused) break;
+    ASSERT_LT(granted, requests);
+    ASSERT_EQ(people.size(), count);
+    EXPECT_EQ(rows(simulation->world()), rows_before) << "at request " << granted << " of " << requests;
+    ASSERT_EQ(all_of(*simulation, people), before) << "at request " << granted << " of " << requests;
+  }
+  simulation->tick();
+  ASSERT_EQ(people.size(), others.size());
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    EXPECT_EQ(hash_human(*simulation, people[i]), hash_human(*other, others[i])) << "person " << i;
+  }
+}
+
+void add(Simulation& simulation, Entity human, const LegMuscles& choice) {
+  const auto added = simulation.add_leg_muscles(human, choice);
+  ASSERT_TRUE(added) << added.error().message;
+}
+
+TEST(CrowdMemory, ASpawnThatFindsNoneLeavesAllAsItWas) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    people.push_back(*simulation.spawn(person(20).body, person(20).gait));
+  });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    people.push_back(*simulation.spawn_posed(person(20).body));
+  });
+}
+
+// What is disabled does not hold yet: half of the rows are made, or going asks for memory and ends the program.
+
+TEST(CrowdMemory, DISABLED_MusclesThatFindNoneLeaveAllAsItWas) {
+  refuse_at_every_request(
+      [](Simulation& simulation, std::vector<Entity>& people) { add(simulation, people[1], {.method = Method::caa}); });
+}
+
+TEST(CrowdMemory, DISABLED_AChangeOfMethodThatFindsNoneLeavesAllAsItWas) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    EXPECT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::statics}));
+  });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    EXPECT_TRUE(simulation.change_leg_muscles(people[0], {.drive = Drive::force, .inertia = true}));
+  });
+}
+
+TEST(CrowdMemory, DISABLED_EffectsThatFindNoneLeaveAllAsItWas) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    EXPECT_EQ(simulation.add_forces(people[0]), Status::ok);
+  });
+}
+
+TEST(CrowdMemory, DISABLED_SpawningManyWithMusclesIsAllOrNoneToo) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    std::vector<SpawnRequest> requests;
+    for (int i = 0; i < 3; ++i)
+      requests.push_back({.body = person(20 + i).body, .gait = person(20 + i).gait, .muscles = LegMuscles{}});
+    std::vector<Entity> come(requests.size());
+    const auto done = simulation.spawn(requests, come);
+    ASSERT_TRUE(done) << done.error().message;
+    people.insert(people.end(), come.begin(), come.end());
+  });
+}
+
+TEST(CrowdMemory, DISABLED_GoingTakesNone) {
+  CountingMemory memory;
+  Simulation simulation({.memory = &memory});
+  std::vector<Entity> people;
+  for (int i = 0; i < 40; ++i) people.push_back(join(simulation, person(i), i % 2 == 0));
+  memory.refuse_after = 0;
+  for (const Entity human : people) EXPECT_EQ(simulation.despawn(human), Status::ok);
+  memory.refuse_after = SIZE_MAX;
+  EXPECT_EQ(rows(simulation.world()), 0U);
+}
+
+/// Knows how many bytes it has lent.
+class WeighingMemory : public std::pmr::memory_resource {
+ public:
+  std::size_t bytes = 0;
+
+ private:
+  void* do_allocate(std::size_t size, std::size_t alignment) override {
+    bytes += size;
+    return std::pmr::new_delete_resource()->allocate(size, alignment);
+  }
+  void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
+    bytes -= size;
+    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
+  WeighingMemory memory;
+  Simulation simulation({.memory = &memory});
+  LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};
+  std::vector<Entity> people;
+  const auto grow_to = [&](std::size_t count) {
+    while (people.size() < count) {
+      const Entity human = join(simulation, person(static_cast<int>(people.size() % 64)), false);
+      add(simulation, human, choice);
+      people.push_back(human);
+    }
+    simulation.tick();
+    return static_cast<double>(memory.bytes);
+  };
+  const double few = grow_to(640), some = grow_to(1280), many = grow_to(2560);
+  const double each = (some - few) / 640, each_later = (many - some) / 1280;
+  EXPECT_LT(each, 8192);  // at the far tier
+  EXPECT_NEAR(each_later, each, 0.1 * each);
+  EXPECT_LT(many, 1.25 * each * 2560);  // what there is besides people is little
+  while (people.size() > 640) {
+    EXPECT_EQ(simulation.despawn(people.back()), Status::ok);
+    people.pop_back();
+  }
+  simulation.tick();
+  EXPECT_LT(static_cast<double>(memory.bytes), few + 0.5 * (some - few));
+}
+
+}  // namespace
+}  // namespace mobil

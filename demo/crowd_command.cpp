@@ -142,7 +142,7 @@ void add_crowd_command(CLI::App& app, int& exit_status) {
       "missed.\n"
       "Before it, not measured: spawning, and at least two seconds until methods have settled. heap requests are "
       "those\n"
-      "of malloc and its kin on all threads.\n"
+      "of malloc and its kin on all threads. Of a picture's people those near the camera show bones and muscles.\n"
       "\nExamples: mobil crowd\n"
       "          mobil crowd --humans 10000 --churn 100 --report crowd.json\n"
       "          mobil crowd --humans 10000 --seconds 5 --raise\n"

@@ -94,8 +94,9 @@ std::string crowd_live_line(const CrowdRun& run, std::size_t of) {
 
 std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene) {
   const CrowdRequest& crowd = scene.request();
-  std::string text = fmt::format("{} humans on {:.0f} m x {:.0f} m, {} threads, seed {}\n", scene.walkers().size(),
-                                 scene.side_m(), scene.side_m(), threads_of(crowd), crowd.seed);
+  std::string text =
+      fmt::format("{} humans on {:.0f} m x {:.0f} m, {} thread{}, seed {}\n", scene.walkers().size(), scene.side_m(),
+                  scene.side_m(), threads_of(crowd), threads_of(crowd) == 1 ? "" : "s", crowd.seed);
   text += fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms\n",
                       run.ticks.size(), 1e3 * run.tick_s, run.missed, percentile_ms(run.ticks, 0.5),
                       percentile_ms(run.ticks, 0.99), percentile_ms(run.ticks, 1));

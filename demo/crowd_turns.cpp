@@ -1,6 +1,7 @@
 // Who turns, walks faster or slower, stops and goes on; who is near.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "demo/crowd_scene.h"
 
@@ -8,6 +9,8 @@ namespace mobil {
 namespace {
 
 constexpr std::uint64_t return_stream = 0x40000;
+constexpr float whole_turn = 2 * std::numbers::pi_v<float>;
+constexpr float aims = 0.2F;   // rad off at most where who returns is to go
 constexpr float stays = 0.9F;  // part of the squared distance by which who is near counts as nearer
 
 }  // namespace
@@ -46,7 +49,7 @@ Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decision
     ++decisions.changed_speed;
   }
   if (change.turn_rad != 0 && !walker.returning) {
-    walker.heading_rad = std::remainder(walker.heading_rad + change.turn_rad, 6.2831853F);
+    walker.heading_rad = std::remainder(walker.heading_rad + change.turn_rad, whole_turn);
     if (auto done = simulation_->turn_to(walker.entity, walker.heading_rad); !done) return done;
     ++decisions.turned;
   }
@@ -77,19 +80,24 @@ void CrowdScene::read_places() {
   }
 }
 
-/// Who has left the square heads for a point of their own in its inner half.
+/// Who is outside of the square heads for a point of their own in its inner half, and goes on aiming at it: a turn
+/// takes steps, and those lead elsewhere.
 Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
   const auto half_m = static_cast<float>(0.5 * side_m_);
   for (CrowdWalker& walker : walkers_) {
     const bool outside = std::max(std::abs(walker.x_m), std::abs(walker.z_m)) > half_m;
-    if (outside == walker.returning) continue;
-    walker.returning = outside;
-    if (!outside) continue;
-    CrowdRandom random(request_.seed, walker.number, return_stream + walker.changes);
+    if (!outside) {
+      walker.returning = false;
+      continue;
+    }
+    CrowdRandom random(request_.seed, walker.number, return_stream);
     const float x_m = random.even(-0.5F, 0.5F) * half_m, z_m = random.even(-0.5F, 0.5F) * half_m;
-    walker.heading_rad = std::atan2(x_m - walker.x_m, z_m - walker.z_m);
-    if (auto done = simulation_->turn_to(walker.entity, walker.heading_rad); !done) return done;
-    ++decisions.turned;
+    const float heading_rad = std::atan2(x_m - walker.x_m, z_m - walker.z_m);
+    if (walker.returning && std::abs(std::remainder(heading_rad - walker.heading_rad, whole_turn)) < aims) continue;
+    decisions.turned += walker.returning ? 0 : 1;
+    walker.returning = true;
+    walker.heading_rad = heading_rad;
+    if (auto done = simulation_->turn_to(walker.entity, heading_rad); !done) return done;
   }
   return {};
 }

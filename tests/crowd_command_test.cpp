@@ -120,7 +120,9 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
   std::size_t muscles = 0;
   for (const auto& [method, count] : report["muscles_by_method"].items()) muscles += count.get<std::size_t>();
   EXPECT_EQ(muscles, 40U * 8U);
-  if (heap_is_counted()) EXPECT_EQ(report["steady_allocations"], 0);
+  if (heap_is_counted()) {
+    EXPECT_EQ(report["steady_allocations"], 0);
+  }
 }
 
 TEST(CrowdCommand, MusclesFollowTheSeedAloneOnOneThreadAndOnTwo) {
@@ -210,7 +212,9 @@ TEST(CrowdPeople, ChangesComeAFewTimesAMinuteAndWhoStopsGoesOn) {
       const CrowdChange change = crowd_change(1, number, k, stopped);
       EXPECT_GE(change.after_s, 0);
       EXPECT_LT(change.after_s, 2048.0F / 60);
-      if (stopped) EXPECT_GT(change.speed_m_s, 0);
+      if (stopped) {
+        EXPECT_GT(change.speed_m_s, 0);
+      }
       stopped = change.speed_m_s == 0;
       stops += stopped ? 1 : 0;
       ++changes;

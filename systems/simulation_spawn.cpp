@@ -117,12 +117,14 @@ class Simulation::Batch {
   ~Batch() {
     if (done) return;
     for (const Entity muscle : loose) of_.world_.destroy(muscle);
-    for (const Entity person : people) {
-      if (of_.person(person) == nullptr) {
-        of_.world_.destroy(person);
-      } else {
-        of_.despawn(person);
+    for (const Entity human : people) {
+      if (const PersonRecord* const kept = of_.person(human)) {
+        for (const OwnMuscle& own : kept->muscles) {
+          for (const Entity muscle : own.entity) of_.world_.destroy(muscle);
+        }
+        of_.people_.remove(human);
       }
+      of_.world_.destroy(human);
     }
   }
   Batch(const Batch&) = delete;

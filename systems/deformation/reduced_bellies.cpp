@@ -59,7 +59,7 @@ struct Turn {
 /// Half an element below zero, lane by lane: what makes a_pq vanish. Lanes where it has vanished stay as they are.
 HWY_INLINE Turn turn_of(Eigen& x, std::size_t p, std::size_t q) {
   const V app = load(x.at(p, p)), aqq = load(x.at(q, q)), apq = load(x.at(p, q));
-  const auto active = hn::Gt(mul(apq, apq), mul(all(1e-27), hn::Abs(mul(app, aqq))));
+  const auto active = hn::Gt(mul(apq, apq), mul(all(1e-22), hn::Abs(mul(app, aqq))));
   Turn turn{p, q, all(1), all(0), !hn::AllFalse(Tag{}, active)};
   if (!turn.any) return turn;
   const V apart = sub(aqq, app), twice = add(apq, apq);

@@ -56,6 +56,7 @@ BenchScene::BenchScene(const LegMuscles& choice) : choice_(choice), simulation_(
 
 Result<void> BenchScene::grow_to(std::size_t humans) {
   constexpr std::size_t at_once = 1000;
+  if (auto done = simulation_.prepare(choice_); !done) return done;
   std::vector<SpawnRequest> requests;
   std::vector<Entity> entities;
   double spent_s = 0;

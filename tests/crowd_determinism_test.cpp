@@ -67,7 +67,7 @@ TEST(CrowdDeterminism, EverythingIsUnderWay) {
 
 TEST(CrowdDeterminism, ThreadsDoNotMatter) {
   EXPECT_EQ(run({.threads = 2}), alone());
-  for (const std::size_t threads : {3, 8}) {
+  for (const std::size_t threads : {std::size_t{3}, std::size_t{8}}) {
     WilfulPool pool(threads);
     EXPECT_EQ(run({.jobs = pool.jobs()}), alone()) << threads << " threads";
   }

@@ -4,6 +4,7 @@
 //   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
 //   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
 //   Maybe<C>                 reads this block's component where the table has it; MaybeField<Tag> a field
+//   Ahead<C>                 where the next block has it, to fetch what it names meanwhile
 //   Previous<C>              reads what the component was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
 //   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
@@ -51,6 +52,13 @@ struct Previous {
 
   const C<Lanes<float>>& operator*() const { return *block; }
   const C<Lanes<float>>* operator->() const { return block; }
+};
+
+/// A component of the table's next block, whose values an earlier tick left there: to guess by what will be needed next
+/// and fetch it. Null at the last block.
+template <template <class> class C>
+struct Ahead {
+  const C<Lanes<float>>* block;
 };
 
 /// A component that not every table has: null where it is missing.
@@ -247,6 +255,18 @@ struct Parameter<Field<Tag>>
     const bool last = view.block + 1 >= view.table.block_count();
     return {Parameter::data(view, bound), bound.words,
             last ? nullptr : view.table.block(view.block + 1) + bound.first_word * lane_count};
+  }
+};
+
+template <template <class> class C>
+struct Parameter<Ahead<C>> : AnywhereParameter {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    return Parameter<const C<Lanes<float>>&>::bind(world, table, bound);
+  }
+  static Ahead<C> make(const BlockView& view, const Bound& bound) {
+    if (view.block + 1 == view.table.block_count()) return {nullptr};
+    const float* first = view.table.block(view.block + 1) + bound.first_word * lane_count;
+    return {reinterpret_cast<const C<Lanes<float>>*>(first)};
   }
 };
 

@@ -46,11 +46,12 @@ std::size_t Table::alignment_of(std::size_t bytes) {
   return bytes >= large_page ? large_page : block_alignment;
 }
 
-/// As many blocks in one piece as there are already, up to a large page full: a crowd's tables lie in pages that one
-/// entry each maps, and small ones take little.
+/// Pieces of a quarter of what there is, so that little is held in vain; of a crowd's tables, in the end, of a large page
+/// each, which one entry maps.
 void Table::add_chunk(std::size_t least) {
   const std::size_t full = (large_page + chunk_bytes(1) - 1) / chunk_bytes(1);
-  const std::size_t count = std::min(full, std::max(least, blocks_.size()));
+  const std::size_t more = blocks_.size() < 2 * full ? blocks_.size() / 4 : full;
+  const std::size_t count = std::min(full, std::max(least, more));
   if (chunks_.size() == chunks_.capacity()) chunks_.reserve(2 * chunks_.size() + 1);
   if (blocks_.size() + count > blocks_.capacity())
     blocks_.reserve(std::max(blocks_.size() + count, 2 * blocks_.size()));

@@ -14,37 +14,47 @@
 namespace mobil {
 namespace {
 
-constexpr LegFrames<float> nobodys_leg{{0, 1, 0},    {0, 0.5F, 0}, {0, 0, 0},   {0, 0, 0, 1},
-                                       {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}};
+constexpr LegPost::Leg nobodys_leg{
+    {{0, 1, 0}, {0, 0.5F, 0}, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}};
 
 void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
   post_legs(pose, posts.row);
 }
 
-/// The one gather of a tick. Whose human is gone stands still.
-LegFrames<Lanes<float>> legs_of(const LookupPublished<LegPost>& posts, const MuscleOwner<Lanes<float>>& owner) {
-  const LegFrames<float>* from[lane_count];
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const LegPost* post = posts.find({owner.index[lane], owner.generation[lane]});
-    from[lane] = post == nullptr ? &nobodys_leg : &post->leg[owner.side[lane]].frames;
-    __builtin_prefetch(from[lane]);
-    __builtin_prefetch(reinterpret_cast<const char*>(from[lane]) + 64);
-  }
+using LegsOfOwners = LookupPublished<LegPost>;
+
+const LegPost::Leg& leg_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, std::size_t lane) {
+  const LegPost* post = posts.find({owner.index[lane], owner.generation[lane]});
+  return post == nullptr ? nobodys_leg : post->leg[owner.side[lane]];
+}
+
+/// The one gather of a tick; those of the block `ahead` are fetched meanwhile. Whose human is gone stands still.
+LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner,
+                                Ahead<MuscleOwner> ahead) {
+  const LegPost::Leg* from[lane_count];
+  for (std::size_t lane = 0; lane < lane_count; ++lane) from[lane] = &leg_of(posts, owner, lane);
   LegFrames<Lanes<float>> leg;
   take_legs(from, leg);
+  if (ahead.block == nullptr) return leg;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const LegPost::Leg& next = leg_of(posts, *ahead.block, lane);
+    __builtin_prefetch(&next);
+    __builtin_prefetch(reinterpret_cast<const char*>(&next) + 64);
+  }
   return leg;
 }
 
 template <template <class> class End>
-void follow_lines(LookupPublished<LegPost> posts, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
-                  const LegScale<Lanes<float>>& scale, LineOfAction<Lanes<float>>& line, End<Lanes<float>>& end) {
-  lines_of_action(*lines, scale, legs_of(posts, owner), line, end);
+void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
+                  Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, LineOfAction<Lanes<float>>& line,
+                  End<Lanes<float>>& end) {
+  lines_of_action(*lines, scale, legs_of(posts, owner, ahead), line, end);
 }
 
-void move_lines(LookupPublished<LegPost> posts, const MuscleOwner<Lanes<float>>& owner, Shared<MuscleLines> lines,
-                const LegScale<Lanes<float>>& scale, const LineOfAction<Lanes<float>>& line,
+void move_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
+                Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LineOfAction<Lanes<float>>& line,
                 LineMotion<Lanes<float>>& motion, float tick_s) {
-  line_motion(*lines, scale, legs_of(posts, owner), line, motion, tick_s);
+  line_motion(*lines, scale, legs_of(posts, owner, ahead), line, motion, tick_s);
 }
 
 /// ECD.

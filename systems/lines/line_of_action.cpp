@@ -85,6 +85,29 @@ void act_by_force(const MuscleLines& lines, const LegScale<Lanes<float>>& scale,
   follow(first, load(line.stiffness_n_per_m) * elongation, end.from_n, end.to_n);
 }
 
+/// Four rows of four words at a time turn into four words of four lanes.
+void take_rows(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
+  const hn::Full128<float> d;
+  constexpr std::size_t words = sizeof(LegFrames<float>) / sizeof(float);
+  static_assert(sizeof(LegPost::Leg) >= 4 * ((words + 3) / 4) * sizeof(float));
+  auto* const to = reinterpret_cast<float*>(&legs);
+  for (std::size_t lane = 0; lane < lane_count; lane += 4) {
+    const float* row[4];
+    for (std::size_t i = 0; i < 4; ++i) row[i] = reinterpret_cast<const float*>(from[lane + i]);
+    for (std::size_t w = 0; w < words; w += 4) {
+      const auto a = hn::Load(d, row[0] + w), b = hn::Load(d, row[1] + w);
+      const auto c = hn::Load(d, row[2] + w), e = hn::Load(d, row[3] + w);
+      const auto ab_low = hn::InterleaveLower(d, a, b), ab_high = hn::InterleaveUpper(d, a, b);
+      const auto ce_low = hn::InterleaveLower(d, c, e), ce_high = hn::InterleaveUpper(d, c, e);
+      float* const line = to + w * lane_count + lane;
+      hn::Store(hn::ConcatLowerLower(d, ce_low, ab_low), d, line);
+      if (w + 1 < words) hn::Store(hn::ConcatUpperUpper(d, ce_low, ab_low), d, line + lane_count);
+      if (w + 2 < words) hn::Store(hn::ConcatLowerLower(d, ce_high, ab_high), d, line + 2 * lane_count);
+      if (w + 3 < words) hn::Store(hn::ConcatUpperUpper(d, ce_high, ab_high), d, line + 3 * lane_count);
+    }
+  }
+}
+
 void flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {
   store(knee_flexion(load(legs.thigh), load(legs.shank)), flexion_rad);
 }
@@ -101,6 +124,7 @@ namespace {
 HWY_EXPORT(act_by_displacement);
 HWY_EXPORT(act_by_force);
 HWY_EXPORT(flexions);
+HWY_EXPORT(take_rows);
 
 /// `word(i)` is the i-th of a pose's floats; put(f, x) makes x what f becomes.
 template <class Word, class F, class Put>
@@ -145,13 +169,8 @@ void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts) {
   }
 }
 
-void take_legs(const LegFrames<float>* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
-  static_assert(sizeof(legs) == lane_count * sizeof(LegFrames<float>));
-  auto* to = reinterpret_cast<float*>(&legs);
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const auto* row = reinterpret_cast<const float*>(from[lane]);
-    for (std::size_t w = 0; w < sizeof(LegFrames<float>) / sizeof(float); ++w) to[w * lane_count + lane] = row[w];
-  }
+void take_legs(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
+  HWY_DYNAMIC_DISPATCH(take_rows)(from, legs);
 }
 
 void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {

@@ -17,7 +17,7 @@ void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std
 /// The same of both legs of sixteen people, for their muscles to look up.
 void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts);
 /// Sixteen of them side by side.
-void take_legs(const LegFrames<float>* const (&from)[lane_count], LegFrames<Lanes<float>>& legs);
+void take_legs(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs);
 /// The same from one row.
 void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane);
 

@@ -62,7 +62,7 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request
   std::unique_ptr<CrowdScene> scene(new CrowdScene(request));
   if (request.effects.muscles) {
     RelevanceOptions options;
-    options.switches = 32;
+    options.switches = 8;  // near ones change every second: spread over it
     options.stagger = 8;
     options.leg_muscles = scene->muscles_;
     if (!request.budget_s) options.machine_factor = 1;

@@ -85,25 +85,45 @@ void act_by_force(const MuscleLines& lines, const LegScale<Lanes<float>>& scale,
   follow(first, load(line.stiffness_n_per_m) * elongation, end.from_n, end.to_n);
 }
 
-/// Four rows of four words at a time turn into four words of four lanes.
+using Four = hn::Full128<float>;
+
+/// Four rows of four words as four words of four rows.
+HWY_INLINE void turn(hn::Vec<Four> (&v)[4]) {
+  const Four d;
+  const auto low = hn::InterleaveLower(d, v[0], v[1]), high = hn::InterleaveUpper(d, v[0], v[1]);
+  const auto low2 = hn::InterleaveLower(d, v[2], v[3]), high2 = hn::InterleaveUpper(d, v[2], v[3]);
+  v[0] = hn::ConcatLowerLower(d, low2, low);
+  v[1] = hn::ConcatUpperUpper(d, low2, low);
+  v[2] = hn::ConcatLowerLower(d, high2, high);
+  v[3] = hn::ConcatUpperUpper(d, high2, high);
+}
+
+constexpr std::size_t leg_words = sizeof(LegFrames<float>) / sizeof(float);
+static_assert(sizeof(LegPost::Leg) >= 4 * ((leg_words + 3) / 4) * sizeof(float));
+
 void take_rows(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
-  const hn::Full128<float> d;
-  constexpr std::size_t words = sizeof(LegFrames<float>) / sizeof(float);
-  static_assert(sizeof(LegPost::Leg) >= 4 * ((words + 3) / 4) * sizeof(float));
+  const Four d;
   auto* const to = reinterpret_cast<float*>(&legs);
   for (std::size_t lane = 0; lane < lane_count; lane += 4) {
-    const float* row[4];
-    for (std::size_t i = 0; i < 4; ++i) row[i] = reinterpret_cast<const float*>(from[lane + i]);
-    for (std::size_t w = 0; w < words; w += 4) {
-      const auto a = hn::Load(d, row[0] + w), b = hn::Load(d, row[1] + w);
-      const auto c = hn::Load(d, row[2] + w), e = hn::Load(d, row[3] + w);
-      const auto ab_low = hn::InterleaveLower(d, a, b), ab_high = hn::InterleaveUpper(d, a, b);
-      const auto ce_low = hn::InterleaveLower(d, c, e), ce_high = hn::InterleaveUpper(d, c, e);
-      float* const line = to + w * lane_count + lane;
-      hn::Store(hn::ConcatLowerLower(d, ce_low, ab_low), d, line);
-      if (w + 1 < words) hn::Store(hn::ConcatUpperUpper(d, ce_low, ab_low), d, line + lane_count);
-      if (w + 2 < words) hn::Store(hn::ConcatLowerLower(d, ce_high, ab_high), d, line + 2 * lane_count);
-      if (w + 3 < words) hn::Store(hn::ConcatUpperUpper(d, ce_high, ab_high), d, line + 3 * lane_count);
+    for (std::size_t w = 0; w < leg_words; w += 4) {
+      hn::Vec<Four> v[4];
+      for (std::size_t i = 0; i < 4; ++i) v[i] = hn::Load(d, reinterpret_cast<const float*>(from[lane + i]) + w);
+      turn(v);
+      for (std::size_t i = 0; i < 4 && w + i < leg_words; ++i) hn::Store(v[i], d, to + (w + i) * lane_count + lane);
+    }
+  }
+}
+
+void put_rows(const LegFrames<Lanes<float>>& legs, Side side, LegPost* posts) {
+  const Four d;
+  const auto* const from = reinterpret_cast<const float*>(&legs);
+  for (std::size_t lane = 0; lane < lane_count; lane += 4) {
+    for (std::size_t w = 0; w < leg_words; w += 4) {
+      hn::Vec<Four> v[4];
+      for (std::size_t i = 0; i < 4; ++i)
+        v[i] = w + i < leg_words ? hn::Load(d, from + (w + i) * lane_count + lane) : hn::Zero(d);
+      turn(v);
+      for (std::size_t i = 0; i < 4; ++i) hn::Store(v[i], d, reinterpret_cast<float*>(&posts[lane + i].leg[side]) + w);
     }
   }
 }
@@ -125,23 +145,24 @@ HWY_EXPORT(act_by_displacement);
 HWY_EXPORT(act_by_force);
 HWY_EXPORT(flexions);
 HWY_EXPORT(take_rows);
+HWY_EXPORT(put_rows);
 
-/// `word(i)` is the i-th of a pose's floats; put(f, x) makes x what f becomes.
+/// `word(i)` is the i-th of a pose's words; put(f, x, sign) makes sign·x what f becomes.
 template <class Word, class F, class Put>
 void gather(Word word, Side side, LegFrames<F>& legs, Put put) {
   const float mirror = side == left ? -1.0F : 1.0F;
   const auto position = [&](Segment right_segment, Vec3<F>& to) {
     const std::size_t at = 3 * index(on_side(right_segment, side));
-    put(to.x, mirror * word(at));
-    put(to.y, word(at + 1));
-    put(to.z, word(at + 2));
+    put(to.x, word(at), mirror);
+    put(to.y, word(at + 1), 1.0F);
+    put(to.z, word(at + 2), 1.0F);
   };
   const auto rotation = [&](Segment segment, Quat<F>& to) {
     const std::size_t at = 3 * segment_count + 4 * index(segment);
-    put(to.x, word(at));
-    put(to.y, mirror * word(at + 1));
-    put(to.z, mirror * word(at + 2));
-    put(to.w, word(at + 3));
+    put(to.x, word(at), 1.0F);
+    put(to.y, word(at + 1), mirror);
+    put(to.z, word(at + 2), mirror);
+    put(to.w, word(at + 3), 1.0F);
   };
   position(Segment::thigh_right, legs.hip_m);
   position(Segment::shank_right, legs.knee_m);
@@ -156,16 +177,18 @@ void gather(Word word, Side side, LegFrames<F>& legs, Put put) {
 
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane) {
   gather([pose](std::size_t i) { return pose[i * lane_count]; }, side, legs,
-         [lane](Lanes<float>& to, float x) { to[lane] = x; });
+         [lane](Lanes<float>& to, float x, float sign) { to[lane] = sign * x; });
 }
 
 void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts) {
-  const auto* words = reinterpret_cast<const float*>(&pose);
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    for (const Side side : {right, left}) {
-      gather([at = words + lane](std::size_t i) { return at[i * lane_count]; }, side, posts[lane].leg[side].frames,
-             [](float& to, float x) { to = x; });
-    }
+  const auto* words = reinterpret_cast<const Lanes<float>*>(&pose);
+  for (const Side side : {right, left}) {
+    LegFrames<Lanes<float>> legs;
+    gather([words](std::size_t i) -> const Lanes<float>& { return words[i]; }, side, legs,
+           [](Lanes<float>& to, const Lanes<float>& x, float sign) {
+             for (std::size_t lane = 0; lane < lane_count; ++lane) to[lane] = sign * x[lane];
+           });
+    HWY_DYNAMIC_DISPATCH(put_rows)(legs, side, posts);
   }
 }
 
@@ -184,7 +207,7 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
     const std::size_t part = (i - 3 * segment_count) % 4;
     return part == 0 ? q.x : part == 1 ? q.y : part == 2 ? q.z : q.w;
   };
-  gather(word, side, legs, [lane](Lanes<float>& to, float x) { to[lane] = x; });
+  gather(word, side, legs, [lane](Lanes<float>& to, float x, float sign) { to[lane] = sign * x; });
 }
 
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,

@@ -55,6 +55,12 @@ class EntityRegister {
     return {index, slots_[index].generation};
   }
 
+  /// The entity created last is as if it had never been: the next one gets its handle.
+  void undo_create(Entity entity) {
+    slots_[entity.index].location = {nobody, first_free_};
+    first_free_ = entity.index;
+  }
+
   /// Null when the handle is stale.
   Location* find(Entity entity) { return alive(entity) ? &slots_[entity.index].location : nullptr; }
   const Location* find(Entity entity) const { return alive(entity) ? &slots_[entity.index].location : nullptr; }

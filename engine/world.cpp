@@ -62,6 +62,12 @@ Status World::remake_from(Entity entity, std::span<const PartValue> parts) {
   return Status::ok;
 }
 
+void World::reserve(std::span<const PartValue> parts, std::uint32_t rows) {
+  key_from(parts);
+  Table& table = tables_[table_of(scratch_)];
+  table.reserve(table.row_count() + rows);
+}
+
 Place<Table> World::create_row(const TableKey& key, Entity& entity) {
   const std::uint32_t table = table_of(key);
   tables_[table].reserve_row();
@@ -79,6 +85,15 @@ Status World::destroy(Entity entity) {
   if (auto* theirs = entities_.find(moved)) theirs->row = row;
   entities_.destroy(entity);
   return Status::ok;
+}
+
+void World::undo_create(std::span<const Entity> entities) {
+  for (std::size_t i = entities.size(); i-- > 0;) {
+    const auto [table, row] = *entities_.find(entities[i]);
+    const Entity moved = tables_[table].remove_row(row);
+    if (auto* theirs = entities_.find(moved)) theirs->row = row;
+    entities_.undo_create(entities[i]);
+  }
 }
 
 void World::create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs) {
@@ -117,7 +132,6 @@ namespace {
 struct Gone {
   std::uint32_t table, row;
   bool operator<(const Gone& other) const { return table != other.table ? table < other.table : row < other.row; }
-  bool operator==(const Gone&) const = default;
 };
 
 struct Moves {
@@ -138,16 +152,36 @@ struct Moves {
 
 }  // namespace
 
+bool World::alive_once(std::span<const Entity> entities) {
+  constexpr std::uint32_t named = 0x80000000;  // in a row's number, for the while
+  std::size_t count = 0;
+  for (; count < entities.size(); ++count) {
+    auto* const location = entities_.find(entities[count]);
+    if (location == nullptr || (location->row & named) != 0) break;
+    location->row |= named;
+  }
+  for (const Entity entity : entities.first(count)) entities_.find(entity)->row &= ~named;
+  return count == entities.size();
+}
+
 Status World::destroy_many(std::span<const Entity> entities, const Jobs& jobs) {
+  if (!alive_once(entities)) return Status::stale_entity;
+  try {
+    destroy_together(entities, jobs);
+  } catch (...) {  // only rows that go have been written to
+    for (const Entity entity : entities) destroy(entity);
+  }
+  return Status::ok;
+}
+
+void World::destroy_together(std::span<const Entity> entities, const Jobs& jobs) {
   std::pmr::vector<Gone> gone(memory_);
   gone.reserve(entities.size());
   for (const Entity entity : entities) {
     const auto* location = entities_.find(entity);
-    if (location == nullptr) return Status::stale_entity;
     gone.push_back({location->table, location->row});
   }
   std::sort(gone.begin(), gone.end());
-  if (std::adjacent_find(gone.begin(), gone.end()) != gone.end()) return Status::stale_entity;
   const auto end_of_table = [&](auto first) {
     return std::find_if(first, gone.end(), [table = first->table](const Gone& g) { return g.table != table; });
   };
@@ -179,7 +213,6 @@ Status World::destroy_many(std::span<const Entity> entities, const Jobs& jobs) {
     tables_[first->table].drop_last(static_cast<std::uint32_t>(end - first));
   }
   for (const Entity entity : entities) entities_.destroy(entity);
-  return Status::ok;
 }
 
 void World::move(Entity entity, const TableKey& key) {
@@ -194,6 +227,21 @@ void World::move(Entity entity, const TableKey& key) {
   const Entity moved = source.remove_row(old_row);
   if (auto* theirs = entities_.find(moved)) theirs->row = old_row;
   *location = {to, row};
+}
+
+Status World::add_parts(Entity entity, std::span<const PartValue> parts) {
+  if (!alive(entity)) return Status::stale_entity;
+  const TableKey& before = find(entity).table->key();
+  const auto is_new = [&](const PartValue& value) { return find_part(before, value.part.id) == nullptr; };
+  scratch_ = before;
+  for (const PartValue& value : parts) {
+    if (is_new(value)) insert_part(scratch_, value.part);
+  }
+  if (!(scratch_ == before)) move(entity, scratch_);
+  for (const PartValue& value : parts) {
+    if (is_new(value)) write_from(find(entity), {&value, 1});
+  }
+  return Status::ok;
 }
 
 Status World::remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids) {

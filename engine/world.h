@@ -64,8 +64,20 @@ class World {
   /// `entities`. Where memory runs out, the world is as it was.
   void create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs = {});
   /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
-  /// most; in which order rows then lie is not that of one by one. Takes memory for the while.
+  /// most; in which order rows then lie is not that of one by one. Takes memory for the while; where there is none,
+  /// they go one by one.
   Status destroy_many(std::span<const Entity> entities, const Jobs& jobs = {});
+  /// Whether all of them are alive, each named once. Takes no memory.
+  bool alive_once(std::span<const Entity> entities);
+  /// The entities created last, in the order of their creation, are as if they had never been: handles given out
+  /// afterwards are the same. Takes no memory.
+  void undo_create(std::span<const Entity> entities);
+  /// Room for so many more entities of these parts; and for so many of whatever parts. Then create_from, remake_from
+  /// and create_many take no memory for them.
+  void reserve(std::span<const PartValue> parts, std::uint32_t rows);
+  void reserve_entities(std::size_t more) { entities_.reserve(more); }
+  /// Several parts more at once, those of them that are not there.
+  Status add_parts(Entity entity, std::span<const PartValue> parts);
   /// Several parts less at once, those of them that are there.
   Status remove_parts(Entity entity, std::initializer_list<std::uint64_t> ids);
   bool alive(Entity entity) const { return entities_.alive(entity); }
@@ -153,6 +165,7 @@ class World {
   friend class WorldSnapshot;  // engine/snapshot.h
 
   Place<Table> create_row(const TableKey& key, Entity& entity);
+  void destroy_together(std::span<const Entity> entities, const Jobs& jobs);
   Status add_part(Entity entity, const KeyPart& part);
   Status remove_part(Entity entity, std::uint64_t id);
   Status replace_tag(Entity entity, const KeyPart& tag);

@@ -107,18 +107,18 @@ Status Simulation::add_forces(Entity entity) {
   if (human->posed) return Status::missing;
   if (world_.has<MotionHistory>(entity)) return Status::ok;
   const auto tick_s = static_cast<float>(clock_.tick_s());
-  world_.add(entity, recent_motion(*world_.get<BodySize>(entity), *world_.get<StepPlan>(entity),
-                                   *world_.get<GaitState>(entity), tick_s));
-  world_.add(entity, GroundReaction<float>{});
-  return world_.add(entity, JointMoments<float>{});
+  const MotionHistory<float> motion = recent_motion(*world_.get<BodySize>(entity), *world_.get<StepPlan>(entity),
+                                                    *world_.get<GaitState>(entity), tick_s);
+  return world_.add_parts(
+      entity, std::array<PartValue, 3>{
+                  part_value(motion), {component_part<GroundReaction>()}, {component_part<JointMoments>()}});
 }
 
 Status Simulation::remove_forces(Entity entity) {
   if (find(entity) == nullptr) return Status::stale_entity;
   if (!world_.has<MotionHistory>(entity)) return Status::ok;
-  world_.remove<MotionHistory>(entity);
-  world_.remove<GroundReaction>(entity);
-  return world_.remove<JointMoments>(entity);
+  return world_.remove_parts(
+      entity, {type_id<MotionHistory<float>>(), type_id<GroundReaction<float>>(), type_id<JointMoments<float>>()});
 }
 
 Ticks Simulation::advance(double seconds) {

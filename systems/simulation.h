@@ -9,6 +9,9 @@
 //
 // Everything else is a table: `world()` has all components, `schedule()` all systems in the order they run. Nothing is
 // global; any number of simulations may live side by side. One thread at a time may use one.
+//
+// Where memory runs out as people come or change, that throws std::bad_alloc and all is as it was: people, rows and
+// handles, also those yet to be given out. Going takes none.
 
 #include <array>
 #include <cstdint>
@@ -116,7 +119,7 @@ class Simulation {
 
   /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
   /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is as it
-  /// was.
+  /// was; `entities` mean nothing then.
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
   /// All or none: where one of them is stale or named twice, Status::stale_entity.
   Status despawn(std::span<const Entity> people);

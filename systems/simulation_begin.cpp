@@ -141,7 +141,7 @@ Result<void> begin_block(const Beginners& all, Group<End>& group, std::size_t b)
 /// Both sides' rows.
 template <template <class> class End>
 void create_rows(World& world, const LegMuscles& choice, const Jobs& jobs, const Group<End>& group, std::size_t muscles,
-                 std::span<OwnMuscle> own) {
+                 std::span<OwnMuscle> own, std::vector<Entity>& all_made) {
   const ReducedBasis* const basis = group.basis.get();
   for (const Side side : {right, left}) {
     const auto& of = group.side[side];
@@ -177,6 +177,7 @@ void create_rows(World& world, const LegMuscles& choice, const Jobs& jobs, const
     }
     std::vector<Entity> made(group.who.size());
     world.create_many(parts, made, jobs);
+    all_made.insert(all_made.end(), made.begin(), made.end());
     for (std::size_t i = 0; i < made.size(); ++i) own[group.who[i] * muscles + group.muscle].entity[side] = made[i];
   }
 }
@@ -184,7 +185,8 @@ void create_rows(World& world, const LegMuscles& choice, const Jobs& jobs, const
 template <template <class> class End>
 tl::expected<void, NotMade> begin_with(World& world, BellyLibrary& library, const LegMuscles& choice, float tick_s,
                                        const Jobs& jobs, std::span<const Entity> people,
-                                       std::span<const MuscleSize> size, std::span<OwnMuscle> own) {
+                                       std::span<const MuscleSize> size, std::span<OwnMuscle> own,
+                                       std::vector<Entity>& made) {
   const std::size_t muscles = choice.muscles.count();
   std::vector<Group<End>> groups;
   for (std::size_t at = 0, number = 0; number < choice.muscles.size(); ++number) {
@@ -227,7 +229,7 @@ tl::expected<void, NotMade> begin_with(World& world, BellyLibrary& library, cons
   for (const Task& task : tasks) {
     if (!task.done) return tl::unexpected(NotMade{groups[task.group].who[task.block * lane_count], task.done.error()});
   }
-  for (const auto& group : groups) create_rows(world, choice, jobs, group, muscles, own);
+  for (const auto& group : groups) create_rows(world, choice, jobs, group, muscles, own, made);
   return {};
 }
 
@@ -244,10 +246,11 @@ bool begin_together(const LegMuscles& choice) {
 
 tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice, float tick_s,
                                           const Jobs& jobs, std::span<const Entity> people,
-                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own) {
+                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own,
+                                          std::vector<Entity>& made) {
   return choice.drive == Drive::displacement
-             ? begin_with<EndDisplacement>(world, library, choice, tick_s, jobs, people, size, own)
-             : begin_with<EndForce>(world, library, choice, tick_s, jobs, people, size, own);
+             ? begin_with<EndDisplacement>(world, library, choice, tick_s, jobs, people, size, own, made)
+             : begin_with<EndForce>(world, library, choice, tick_s, jobs, people, size, own, made);
 }
 
 }  // namespace mobil

@@ -12,24 +12,51 @@
 namespace mobil {
 namespace {
 
-/// The parts that a muscle is to consist of. Values stay with the caller.
+/// The parts that a muscle is to consist of, values included.
 class PartList {
  public:
   template <class... P>
   void add(const P&... part) {
-    ((value_[count_++] = part_value(part)), ...);
+    (add_one(part_value(part)), ...);
   }
   /// Without values a field keeps what it has, or begins with zeros.
   template <class Tag>
   void add_field(std::size_t words, const std::vector<float>& values) {
-    value_[count_++] = {key_part(FieldWidth<Tag>{static_cast<std::uint32_t>(words)}),
-                        values.empty() ? nullptr : values.data()};
+    add_one({key_part(FieldWidth<Tag>{static_cast<std::uint32_t>(words)}), values.empty() ? nullptr : values.data()});
   }
-  std::span<const PartValue> parts() const { return {value_.data(), count_}; }
+  /// Good until the next `add`.
+  std::span<const PartValue> parts() {
+    const std::byte* from = bytes_.data();
+    for (PartValue& value : std::span(value_).first(count_)) {
+      if (value.row == nullptr) continue;
+      value.row = from;
+      from += 4 * value.part.value;
+    }
+    return {value_.data(), count_};
+  }
 
  private:
+  void add_one(const PartValue& value) {
+    const auto* row = static_cast<const std::byte*>(value.row);
+    if (row != nullptr) bytes_.insert(bytes_.end(), row, row + 4 * value.part.value);
+    value_[count_++] = value;
+  }
+
   std::array<PartValue, 32> value_{};
   std::size_t count_ = 0;
+  std::vector<std::byte> bytes_;  // of those with values, one after the other
+};
+
+/// One leg's.
+struct OfLeg : MuscleChange {
+  Side side;
+  const Belly& belly;
+};
+
+/// What a muscle is about to become.
+struct NextMuscle {
+  PartList list;
+  bool fades;
 };
 
 /// The control points' mesh; nothing where a muscle has no belly.
@@ -53,7 +80,7 @@ bool is_reported(const LegMuscles& choice) {
 
 /// A muscle's line as it is, or as a first tick would write it.
 template <template <class> class End>
-FirstLine<End> present_line(const World& world, const MuscleChange& change, Entity muscle) {
+FirstLine<End> present_line(const World& world, const OfLeg& change, Entity muscle) {
   const MusclePlan& plan = change.belly.plan;
   const BellyTemplate* const shape = change.belly.shape;
   LineOfAction<float> rest{};
@@ -90,8 +117,7 @@ void drive(const EndForce<float>& end, BellyLoad& load) {
 }
 
 /// What the belly begins with. Empty throughout where all goes on as it is.
-Beginning beginning(const World& world, MuscleWork& work, const MuscleChange& change, Entity muscle,
-                    const NextBelly& next) {
+Beginning beginning(const World& world, MuscleWork& work, const OfLeg& change, Entity muscle, const NextBelly& next) {
   if (next.choice.method == Method::none) return {};
   const bool was = world.alive(muscle);
   const auto cells = cells_of(world, muscle);
@@ -112,7 +138,7 @@ Beginning beginning(const World& world, MuscleWork& work, const MuscleChange& ch
 /// Parts that the method calls for; keeps their values.
 class MethodParts {
  public:
-  MethodParts(World& world, const MuscleChange& change, const Beginning& from, PartList& list)
+  MethodParts(World& world, const OfLeg& change, const Beginning& from, PartList& list)
       : world_(world), change_(change), from_(from), list_(list) {
     const LegMuscles& choice = change.choice;
     if (choice.method == Method::none) return;
@@ -165,23 +191,21 @@ class MethodParts {
     list_.add(world_.share(change_.belly.shape->shape));
     list_.add_field<NodalDisplacement>(width, from_.displacement);
     if (from_.fade.empty()) return;
-    list_.add(since_);
+    list_.add(Fade<float>{0});
     list_.add_field<FadeStart>(2 * width, from_.fade);
-    shown_.resize(width);
-    for (std::size_t i = 0; i < width; ++i) shown_[i] = from_.displacement[i] + from_.fade[i];
-    list_.add_field<ShownDisplacement>(width, shown_);
+    std::vector<float> shown(width);
+    for (std::size_t i = 0; i < width; ++i) shown[i] = from_.displacement[i] + from_.fade[i];
+    list_.add_field<ShownDisplacement>(width, shown);
   }
 
   World& world_;
-  const MuscleChange& change_;
+  const OfLeg& change_;
   const Beginning& from_;
   PartList& list_;
-  std::vector<float> shown_;
-  Fade<float> since_{0};
 };
 
 template <template <class> class End>
-void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle) {
+NextMuscle work_out(World& world, MuscleWork& work, const OfLeg& change, Entity muscle) {
   const LegMuscles& choice = change.choice;
   const Belly& belly = change.belly;
   const MusclePlan& plan = belly.plan;
@@ -206,25 +230,17 @@ void make(World& world, MuscleWork& work, const MuscleChange& change, Entity& mu
   PartList list;
   const MuscleOwner<float> owner{change.human.index, change.human.generation, change.side};
   list.add(owner, plan.leg_scale, at.line, at.end, world.share(belly.shape->lines));
-  const MethodParts method(world, change, from, list);
+  MethodParts(world, change, from, list);
   const BellyReport<float> report = world.get<BellyReport>(muscle).value_or(BellyReport<float>{});
   if (is_reported(choice)) list.add(report);
   if (inertia) list.add(inertia->history, inertia->load);
-  LineMotion<float> motion{};
   if (choice.line_motion) {
     const auto before = world.get<LineMotion>(muscle);
-    motion = before ? *before
+    list.add(before ? *before
                     : first_motion(*belly.shape->lines, plan.leg_scale, *world.get<Pose>(change.human), change.side,
-                                   at.line, change.tick_s);
-    list.add(motion);
+                                   at.line, change.tick_s));
   }
-  if (world.alive(muscle)) {
-    world.remake_from(muscle, list.parts());
-  } else {
-    muscle = world.create_from(list.parts());
-  }
-  if (from.fade.empty()) return;
-  work.fading.push_back({muscle, change.tick + fade_ticks(change.tick_s)});
+  return {std::move(list), !from.fade.empty()};
 }
 
 }  // namespace
@@ -233,11 +249,38 @@ std::uint32_t fade_ticks(float tick_s) {
   return static_cast<std::uint32_t>(std::ceil(fade_s / tick_s * (1 - 1e-5F)));
 }
 
-void make_muscle(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle) {
-  if (change.choice.drive == Drive::displacement) {
-    make<EndDisplacement>(world, work, change, muscle);
-  } else {
-    make<EndForce>(world, work, change, muscle);
+void make_muscles(World& world, MuscleWork& work, const MuscleChange& change, std::span<const Belly> bellies,
+                  std::span<OwnMuscle> own) {
+  // All that takes memory comes first. A muscle's rows come from and go to tables of that muscle alone, so that none of
+  // those that go before takes the room of another.
+  std::vector<NextMuscle> next;
+  next.reserve(2 * bellies.size());
+  const bool follows = change.choice.drive == Drive::displacement;
+  for (std::size_t m = 0; m < bellies.size(); ++m) {
+    for (const Side side : {right, left}) {
+      const OfLeg leg{change, side, bellies[m]};
+      next.push_back((follows ? work_out<EndDisplacement> : work_out<EndForce>)(world, work, leg, own[m].entity[side]));
+      world.reserve(next.back().list.parts(), 2);
+    }
+  }
+  world.reserve_entities(next.size());
+  const std::size_t fading = work.fading.size();
+  try {
+    for (std::size_t i = 0; i < next.size(); ++i) {  // only what was there fades
+      if (!next[i].fades) continue;
+      work.fading.push_back({own[i / 2].entity[i % 2], change.tick + fade_ticks(change.tick_s)});
+    }
+  } catch (...) {
+    while (work.fading.size() > fading) work.fading.pop_back();
+    throw;
+  }
+  for (std::size_t i = 0; i < next.size(); ++i) {
+    Entity& muscle = own[i / 2].entity[i % 2];
+    if (world.alive(muscle)) {
+      world.remake_from(muscle, next[i].list.parts());
+    } else {
+      muscle = world.create_from(next[i].list.parts());
+    }
   }
 }
 

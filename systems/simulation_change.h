@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <deque>
+#include <span>
 
 #include "engine/world.h"
 #include "systems/simulation_lines.h"
 #include "systems/simulation_motion.h"
 #include "systems/simulation_muscles.h"
+#include "systems/simulation_people.h"
 
 namespace mobil {
 
@@ -22,12 +24,10 @@ struct MuscleWork {
   std::deque<Fading> fading;
 };
 
-/// What a person's muscle is to be. Where it `goes_on`, so does what is shown, whatever the methods; else full methods
-/// take the fields of one another as they are, and a belly that was not there before begins at rest.
+/// What a person's muscles are to be. Where it `goes_on`, so does what is shown, whatever the methods; else full
+/// methods take the fields of one another as they are, and a belly that was not there before begins at rest.
 struct MuscleChange {
   Entity human;
-  Side side;
-  const Belly& belly;
   const LegMuscles& choice;
   bool goes_on;
   std::uint32_t tick;
@@ -37,7 +37,9 @@ struct MuscleChange {
 /// Whole ticks until nothing is left of what fades, up to rounding.
 std::uint32_t fade_ticks(float tick_s);
 
-/// `muscle` becomes an entity of just the parts that its method needs, or a new one where it is stale.
-void make_muscle(World& world, MuscleWork& work, const MuscleChange& change, Entity& muscle);
+/// The entities of `own`, one for each belly, become ones of just the parts that their method needs, or new ones where
+/// they are stale. Where memory runs out, all is as it was.
+void make_muscles(World& world, MuscleWork& work, const MuscleChange& change, std::span<const Belly> bellies,
+                  std::span<OwnMuscle> own);
 
 }  // namespace mobil

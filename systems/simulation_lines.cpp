@@ -44,9 +44,11 @@ LineMotion<float> first_motion(const MuscleLines& lines, const LegScale<float>& 
 
 void look_back(const World& world, Entity human, std::uint32_t tick, float tick_s, RecentPoses& recent) {
   if (recent.human == human && recent.tick == tick) return;
+  recent.human = {};  // nobody's, should memory run out
+  recent.poses.clear();
+  recent.poses.reserve(4);
   recent.human = human;
   recent.tick = tick;
-  recent.poses.clear();
   const auto state = world.get<GaitState>(human);
   if (!state) {
     recent.poses.push_back(*world.get<Pose>(human));

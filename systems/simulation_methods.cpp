@@ -35,10 +35,7 @@ Result<void> Simulation::set_method(Entity entity, Muscle muscle, const MuscleMe
   choice.reduced = method.reduced;
   const auto belly = bellies_.belly(*make_muscle_plan(*make_body(human->body), muscle), choice, tick_s());
   if (!belly) return fail(fmt::format("set_method: {}: {}", muscle_name(muscle), belly.error().message));
-  for (const Side side : {right, left}) {
-    make_muscle(world_, *work_, {entity, side, *belly, choice, true, tick_, static_cast<float>(tick_s())},
-                own->entity[side]);
-  }
+  make_muscles(world_, *work_, {entity, choice, true, tick_, static_cast<float>(tick_s())}, {&*belly, 1}, {&*own, 1});
   own->method = method;
   return {};
 }

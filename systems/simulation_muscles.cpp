@@ -1,6 +1,9 @@
 // Leg muscles of a simulation: they come, change and go.
 #include "systems/simulation_muscles.h"
 
+#include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "assets/anthropometry.h"
@@ -11,24 +14,23 @@ namespace mobil {
 
 /// Muscles that are there keep their handles, others begin; those that are no longer asked for go.
 void Simulation::set_muscles(PersonRecord& person, const std::vector<Belly>& bellies, const LegMuscles& choice) {
+  const std::uint32_t number = people_.number_of(choice);
   std::vector<OwnMuscle> all;
   all.reserve(bellies.size());
-  for (const Belly& belly : bellies) {
-    OwnMuscle own{belly.plan.muscle, {}, {choice.method, choice.reduced}};
-    for (OwnMuscle& before : person.muscles) {
-      if (before.muscle == own.muscle) std::swap(own.entity, before.entity);
-    }
-    for (const Side side : {right, left}) {
-      make_muscle(world_, *work_, {person.entity, side, belly, choice, false, tick_, static_cast<float>(tick_s())},
-                  own.entity[side]);
-    }
-    all.push_back(own);
-  }
+  for (const Belly& belly : bellies) all.push_back({belly.plan.muscle, {}, {choice.method, choice.reduced}});
+  const auto among_all = [&](Muscle muscle) {
+    return std::find_if(all.begin(), all.end(), [&](const OwnMuscle& own) { return own.muscle == muscle; });
+  };
   for (const OwnMuscle& before : person.muscles) {
+    if (const auto own = among_all(before.muscle); own != all.end()) own->entity = before.entity;
+  }
+  make_muscles(world_, *work_, {person.entity, choice, false, tick_, static_cast<float>(tick_s())}, bellies, all);
+  for (const OwnMuscle& before : person.muscles) {
+    if (among_all(before.muscle) != all.end()) continue;
     for (const Entity muscle : before.entity) world_.destroy(muscle);
   }
   person.muscles = std::move(all);
-  person.choice = people_.number_of(choice);
+  person.choice = number;
 }
 
 Result<void> Simulation::change_leg_muscles(Entity entity, const LegMuscles& choice) {
@@ -44,13 +46,14 @@ Result<void> Simulation::change_leg_muscles(Entity entity, const LegMuscles& cho
 Status Simulation::remove_leg_muscles(Entity entity) {
   PersonRecord* human = find(entity);
   if (human == nullptr) return Status::stale_entity;
-  std::vector<Entity> rows;
+  std::array<Entity, 2 * MuscleSet{}.size()> rows;
+  std::size_t count = 0;
   for (const OwnMuscle& own : human->muscles) {
     for (const Entity muscle : own.entity) {
-      if (world_.alive(muscle)) rows.push_back(muscle);
+      if (world_.alive(muscle)) rows[count++] = muscle;
     }
   }
-  world_.destroy_many(rows, jobs_);
+  world_.destroy_many(std::span(rows).first(count), jobs_);
   human->muscles.clear();
   return Status::ok;
 }

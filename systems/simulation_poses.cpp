@@ -14,7 +14,12 @@ Result<Entity> Simulation::spawn_posed(const BodyRequest& request) {
   Pose<Lanes<float>> standing;
   pose_anatomical(broadcast(size), standing);
   const Entity entity = world_.create(size, first_lane(standing), Publishes<LegPost>{});
-  people_.add({entity, request, true, 0, {}});
+  try {
+    people_.add({entity, request, true, 0, {}});
+  } catch (...) {
+    world_.undo_create({&entity, 1});
+    throw;
+  }
   return entity;
 }
 

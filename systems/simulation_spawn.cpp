@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <memory>
+#include <new>
 #include <string>
 #include <utility>
 
@@ -113,24 +114,21 @@ struct FirstInstants {
 /// What a batch has done so far is undone unless it is `done`.
 class Simulation::Batch {
  public:
-  explicit Batch(Simulation& of) : of_(of) {}
+  Batch(Simulation& of, std::size_t room) : of_(of) { made.reserve(room); }
   ~Batch() {
     if (done) return;
-    for (const Entity muscle : loose) of_.world_.destroy(muscle);
-    for (const Entity human : people) {
-      if (const PersonRecord* const kept = of_.person(human)) {
-        for (const OwnMuscle& own : kept->muscles) {
-          for (const Entity muscle : own.entity) of_.world_.destroy(muscle);
-        }
-        of_.people_.remove(human);
-      }
-      of_.world_.destroy(human);
+    for (const Entity entity : made) {
+      if (of_.people_.find(entity) != nullptr) of_.people_.remove(entity);
     }
+    of_.world_.undo_create(made);
+    of_.work_->recent = {};  // others will have these handles
+    std::fill(entities.begin(), entities.end(), Entity{});
   }
   Batch(const Batch&) = delete;
   Batch& operator=(const Batch&) = delete;
 
-  std::vector<Entity> people, loose;  // muscles that are not yet anybody's
+  std::vector<Entity> made;      // people and muscles as they came; there is room for all that will
+  std::span<Entity> entities{};  // the caller's
   bool done = false;
 
  private:
@@ -169,8 +167,8 @@ tl::expected<void, NotMade> Simulation::spawn_all(std::span<const SpawnRequest> 
     return tl::unexpected(NotMade{i, check(people[i], checked[i], sizes_of(i)).error()});
   }
 
-  Batch batch(*this);
-  batch.people.reserve(people.size());
+  Batch batch(*this, people.size() + 2 * sizes);
+  batch.entities = entities;
   for (std::size_t first = 0; first < people.size(); first += together) {
     const std::size_t count = std::min(together, people.size() - first);
     const auto some = people.subspan(first, count);
@@ -182,7 +180,7 @@ tl::expected<void, NotMade> Simulation::spawn_all(std::span<const SpawnRequest> 
       for (std::size_t b = begin; b < end; ++b) instants.make(b, some, some_checked);
     });
     world_.create_many(instants.parts(), made, jobs_);
-    batch.people.insert(batch.people.end(), made.begin(), made.end());
+    batch.made.insert(batch.made.end(), made.begin(), made.end());
     std::size_t index_end = 0;
     for (const Entity entity : made) index_end = std::max(index_end, std::size_t{entity.index} + 1);
     people_.reserve(count, index_end);
@@ -222,6 +220,8 @@ tl::expected<void, NotMade> Simulation::begin(Batch& batch, std::span<const Enti
       const auto bellies = bellies_.bellies(*make_body(person.body), choice, tick_s());
       if (!bellies) return tl::unexpected(NotMade{i, bellies.error()});
       set_muscles(person, *bellies, choice);
+      for (const OwnMuscle& own : person.muscles)
+        batch.made.insert(batch.made.end(), own.entity.begin(), own.entity.end());
     }
     return {};
   }
@@ -229,26 +229,15 @@ tl::expected<void, NotMade> Simulation::begin(Batch& batch, std::span<const Enti
   std::vector<OwnMuscle> own(people.size() * muscles);
   std::vector<std::vector<OwnMuscle>> theirs(people.size());
   for (auto& one : theirs) one.reserve(muscles);
-  batch.loose.reserve(2 * own.size());
-  struct Keep {  // whatever happens
-    Batch& batch;
-    std::vector<OwnMuscle>& own;
-    ~Keep() {
-      for (const OwnMuscle& one : own) batch.loose.insert(batch.loose.end(), one.entity.begin(), one.entity.end());
-    }
-  };
-  {
-    const Keep keep{batch, own};
-    auto begun = begin_muscles(world_, bellies_, choice, static_cast<float>(tick_s()), jobs_, people, size, own);
-    if (!begun) return begun;
-  }
+  auto begun =
+      begin_muscles(world_, bellies_, choice, static_cast<float>(tick_s()), jobs_, people, size, own, batch.made);
+  if (!begun) return begun;
   for (std::size_t i = 0; i < people.size(); ++i) {
     PersonRecord& person = *find(people[i]);
     theirs[i].assign(own.begin() + static_cast<std::ptrdiff_t>(i * muscles),
                      own.begin() + static_cast<std::ptrdiff_t>((i + 1) * muscles));
     person.muscles = std::move(theirs[i]);
   }
-  batch.loose.clear();
   return {};
 }
 
@@ -280,7 +269,7 @@ Result<void> Simulation::add_leg_muscles(Entity entity, const LegMuscles& choice
   for (std::size_t m = 0; begin_together(choice) && m < choice.muscles.size(); ++m) {
     if (choice.muscles[m]) size.push_back(size_of(*make_muscle_plan(*body, static_cast<Muscle>(m))));
   }
-  Batch batch(*this);
+  Batch batch(*this, 2 * choice.muscles.count());
   if (auto begun = begin(batch, {&entity, 1}, size, choice); !begun) {
     return fail("add_leg_muscles: " + begun.error().error.message);
   }
@@ -290,18 +279,31 @@ Result<void> Simulation::add_leg_muscles(Entity entity, const LegMuscles& choice
 }
 
 Status Simulation::despawn(std::span<const Entity> people) {
-  std::vector<Entity> rows;
+  std::size_t count = people.size();
   for (const Entity entity : people) {
     const PersonRecord* of = person(entity);
     if (of == nullptr) return Status::stale_entity;
-    for (const OwnMuscle& own : of->muscles) {
-      for (const Entity muscle : own.entity) {
-        if (world_.alive(muscle)) rows.push_back(muscle);
-      }
-    }
-    rows.push_back(entity);
+    count += 2 * of->muscles.size();
   }
-  if (const Status status = world_.destroy_many(rows, jobs_); status != Status::ok) return status;
+  if (!world_.alive_once(people)) return Status::stale_entity;
+  const auto each_row = [&](const auto& go) {
+    for (const Entity entity : people) {
+      for (const OwnMuscle& own : find(entity)->muscles) {
+        for (const Entity muscle : own.entity) go(muscle);
+      }
+      go(entity);
+    }
+  };
+  std::vector<Entity> rows;
+  try {
+    rows.reserve(count);
+    each_row([&](Entity row) {
+      if (world_.alive(row)) rows.push_back(row);
+    });
+    world_.destroy_many(rows, jobs_);
+  } catch (const std::bad_alloc&) {  // going needs no memory
+    each_row([&](Entity row) { world_.destroy(row); });
+  }
   for (const Entity entity : people) people_.remove(entity);
   return Status::ok;
 }

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <span>
 #include <tl/expected.hpp>
+#include <vector>
 
 #include "components/leg_frames.h"
 #include "components/muscle.h"
@@ -44,10 +45,11 @@ struct NotMade {
 };
 
 /// People of one choice (checked, of those that begin together) who are in the world and have no muscles. `size` and
-/// `own`: one of each muscle chosen, in the table's order, person after person. Entities are written to `own` as they
-/// come: after an error, or when memory runs out, the caller destroys those that are alive.
+/// `own`: one of each muscle chosen, in the table's order, person after person. Entities are appended to `made` as they
+/// come, for which there is room: after an error, or when memory runs out, the caller undoes them.
 tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice, float tick_s,
                                           const Jobs& jobs, std::span<const Entity> people,
-                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own);
+                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own,
+                                          std::vector<Entity>& made);
 
 }  // namespace mobil

@@ -3,14 +3,16 @@
 
 #include <atomic>
 #include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 
 namespace mobil {
 inline std::atomic<std::size_t> heap_requests = 0;
+inline std::atomic<std::size_t> heap_refuse_at = SIZE_MAX;  // and from that request on
 
 inline void* counted(std::size_t bytes, std::size_t alignment) {
-  ++heap_requests;
+  if (heap_requests++ >= heap_refuse_at) throw std::bad_alloc();
   void* memory = nullptr;
   if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, bytes) != 0)
     throw std::bad_alloc();

@@ -1,7 +1,6 @@
 #include "demo/crowd_report.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -13,15 +12,6 @@ namespace mobil {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-std::size_t heap_bytes() {
-#ifdef __GLIBC__
-  const auto info = mallinfo2();
-  return info.uordblks + info.hblkhd;
-#else
-  return 0;
-#endif
-}
 
 /// The most memory that the process has held.
 std::size_t peak_bytes() {
@@ -75,9 +65,7 @@ std::size_t threads_of(const CrowdRequest& crowd) {
 
 CrowdMemory crowd_memory(const CrowdScene& scene) {
   CrowdMemory memory;
-  const std::size_t heap = heap_bytes();
-  if (!scene.walkers().empty() && heap > scene.bytes_before())
-    memory.per_human = (heap - scene.bytes_before()) / scene.walkers().size();
+  if (!scene.walkers().empty()) memory.per_human = scene.bytes_of_people() / scene.walkers().size();
   memory.far_human = far_bytes(scene);
   memory.peak = peak_bytes();
   return memory;

@@ -2,8 +2,6 @@
 #include "demo/crowd_scene.h"
 
 #include <fmt/format.h>
-#include <malloc.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -22,20 +20,11 @@ constexpr std::uint64_t exchange_stream = 0x30000;
 constexpr std::size_t full_rung = rung_count - 1;
 constexpr float slackest = 0.7F;  // part of a tolerance that a large body's cheaper method must meet
 
-std::size_t heap_bytes() {
-#ifdef __GLIBC__
-  const auto info = mallinfo2();
-  return info.uordblks + info.hblkhd;
-#else
-  return 0;
-#endif
-}
-
 }  // namespace
 
 CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
   due_.fill(-1);
-  simulation_ = std::make_unique<Simulation>(SimulationOptions{.threads = request.threads});
+  simulation_ = std::make_unique<Simulation>(SimulationOptions{.threads = request.threads, .memory = &memory_});
   muscles_ = first_muscles();
 }
 
@@ -58,12 +47,20 @@ LegMuscles CrowdScene::first_muscles() const {
   return choice;
 }
 
+std::size_t CrowdScene::bytes_of_people() const {
+  std::size_t bytes = memory_.lent();
+  for (const PersonRecord& person : simulation_->people().all())
+    bytes += sizeof(person) + person.muscles.capacity() * sizeof(OwnMuscle);
+  return bytes;
+}
+
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request, const Progress& progress) {
   std::unique_ptr<CrowdScene> scene(new CrowdScene(request));
   if (request.effects.muscles) {
     RelevanceOptions options;
     options.switches = 8;  // near ones change every second: spread over it
-    options.stagger = 8;
+    // Who needs otherwise says so once a second: some hundreds looked at each tick are soon enough.
+    options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.humans / 500, 8, 60));
     options.leg_muscles = scene->muscles_;
     if (!request.budget_s) options.machine_factor = 1;
     scene->relevance_ = std::make_unique<Relevance>(*scene->simulation_, options);
@@ -74,7 +71,6 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request
     if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
     if (auto done = scene->prepare(progress); !done) return tl::unexpected(done.error());
   }
-  scene->bytes_before_ = heap_bytes();
   if (auto done = scene->resize(request.humans, progress); !done) return tl::unexpected(done.error());
   return scene;
 }

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <memory_resource>
 #include <optional>
 #include <vector>
 
@@ -54,6 +55,26 @@ struct CrowdWalker {
 
 /// Decisions depend on the seed and the ticks that were: never on threads or clocks. With a budget methods follow the
 /// clock.
+/// The default memory, and how much of it is lent.
+class MeteredMemory : public std::pmr::memory_resource {
+ public:
+  std::size_t lent() const { return lent_; }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* const memory = std::pmr::get_default_resource()->allocate(bytes, alignment);
+    lent_ += bytes;
+    return memory;
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    lent_ -= bytes;
+    std::pmr::get_default_resource()->deallocate(memory, bytes, alignment);
+  }
+  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+
+  std::size_t lent_ = 0;
+};
+
 class CrowdScene {
  public:
   using Progress = std::function<void(const char* what, std::size_t done, std::size_t of)>;
@@ -84,7 +105,8 @@ class CrowdScene {
   /// Muscles by the rung that they are on; the last is of those that were refused another.
   std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
   /// Bytes of heap before anybody was there; 0 where the machine does not tell.
-  std::size_t bytes_before() const { return bytes_before_; }
+  /// What the simulation holds in memory of its people: tables, registers, records.
+  std::size_t bytes_of_people() const;
   std::size_t drawn_again() const { return drawn_again_; }
 
  private:
@@ -107,6 +129,7 @@ class CrowdScene {
 
   CrowdRequest request_;
   double side_m_ = 0;
+  MeteredMemory memory_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Relevance> relevance_;
   LegMuscles muscles_;
@@ -118,7 +141,7 @@ class CrowdScene {
   std::vector<std::pair<float, std::uint32_t>> distance_;
   std::uint64_t next_number_ = 0, exchanges_ = 0;
   double owed_ = 0;  // people that churn is behind
-  std::size_t bytes_before_ = 0, drawn_again_ = 0;
+  std::size_t drawn_again_ = 0;
 };
 
 }  // namespace mobil

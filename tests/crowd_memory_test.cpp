@@ -257,7 +257,7 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
   const double few = grow_to(640), some = grow_to(1280), many = grow_to(2560);
   const double each = (some - few) / 640, each_later = (many - some) / 1280;
   EXPECT_LT(each, 8192);  // at the far tier
-  EXPECT_NEAR(each_later, each, 0.1 * each);
+  EXPECT_NEAR(each_later, each, 0.25 * each);  // tables hold room for some more
   EXPECT_LT(many, 1.25 * each * 2560);  // what there is besides people is little
   while (people.size() > 640) {
     EXPECT_EQ(simulation.despawn(people.back()), Status::ok);

@@ -158,6 +158,7 @@ Result<void> CrowdScene::come(std::size_t slot, std::size_t count) {
     request.z_m = walker.z_m;
     request.heading_rad = walker.heading_rad;
     if (request_.effects.muscles) request.muscles = muscles_;
+    request.managed = relevance_ != nullptr;
   };
   for (std::size_t i = 0; i < count; ++i) {
     CrowdWalker& walker = walkers_[slot + i];

@@ -70,6 +70,8 @@ struct SpawnRequest {
   GaitRequest gait{};
   float x_m = 0, z_m = 0, heading_rad = 0;
   std::optional<LegMuscles> muscles{};
+  /// Of who will be managed by a Relevance: with room for what it decides, so that managing them moves nothing.
+  bool managed = false;
 };
 
 /// What one system cost: wall time, and entities that it worked on.

@@ -176,7 +176,7 @@ class BellyLibrary {
 
 /// Of bellies against their templates, what people of usual build have: across over along, and across times along.
 namespace usual_sizes {
-inline constexpr double least_ratio = 0.76, most_ratio = 1.31, least_product = 0.6, most_product = 1.3;
+inline constexpr double least_ratio = 0.80, most_ratio = 1.26, least_product = 0.6, most_product = 1.3;
 }
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);

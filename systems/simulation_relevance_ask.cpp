@@ -1,6 +1,7 @@
 // What can be asked of Relevance: whose muscles it chooses, by what needs, and why it chose.
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 
@@ -113,8 +114,8 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     row.looked_at = *needs.looked_at ? 1 : 0;
   }
   World& world = simulation_.world();
-  const bool anew = !world.has<Tiers>(entity);
   auto tiers = world.get<Tiers>(entity).value_or(Tiers<float>{});
+  const bool anew = tiers.relative_size == 0;
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
   tiers.muscles = 0;
   tiers.inertia = !human->muscles.empty() && simulation_.people().choice(*human).inertia ? 1 : 0;
@@ -128,8 +129,9 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     set_rung(tiers.goal, m, rung_of(own.method));
     set_bit(tiers.points, m, own.method.method != Method::none && own.method.reduced.control_points);
   }
-  if (world.set(entity, row) != Status::ok) world.add(entity, row);
-  if (world.set(entity, tiers) != Status::ok) world.add(entity, tiers);
+  world.add_parts(entity, std::array{part_value(row), part_value(tiers)});
+  world.set(entity, row);
+  world.set(entity, tiers);
   return {};
 }
 

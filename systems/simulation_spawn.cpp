@@ -15,6 +15,7 @@
 
 #include "assets/anthropometry.h"
 #include "components/leg_frames.h"
+#include "components/relevance.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/simulation.h"
@@ -87,16 +88,20 @@ struct FirstInstants {
     centre_of_mass(size[b], pose[b], centre[b]);
   }
 
-  std::array<PartValue, 9> parts() const {
-    return {{{component_part<BodySize>(), size.get()},
-             {component_part<Gait>(), gait.get()},
-             {component_part<StepPlan>(), plan.get()},
-             {component_part<GaitState>(), state.get()},
-             {component_part<Pose>(), pose.get()},
-             {component_part<JointAngles>(), angles.get()},
-             {component_part<Feet>(), feet.get()},
-             {component_part<CentreOfMass>(), centre.get()},
-             part_value(Publishes<LegPost>{})}};
+  /// Those at the end are of people who are `managed`.
+  std::span<const PartValue> parts(bool managed) {
+    parts_ = {{{component_part<BodySize>(), size.get()},
+               {component_part<Gait>(), gait.get()},
+               {component_part<StepPlan>(), plan.get()},
+               {component_part<GaitState>(), state.get()},
+               {component_part<Pose>(), pose.get()},
+               {component_part<JointAngles>(), angles.get()},
+               {component_part<Feet>(), feet.get()},
+               {component_part<CentreOfMass>(), centre.get()},
+               part_value(Publishes<LegPost>{}),
+               {component_part<Needs>(), nullptr},
+               {component_part<Tiers>(), nullptr}}};
+    return std::span(parts_).first(managed ? parts_.size() : parts_.size() - 2);
   }
 
   std::unique_ptr<BodySize<Lanes<float>>[]> size;
@@ -107,6 +112,9 @@ struct FirstInstants {
   std::unique_ptr<JointAngles<Lanes<float>>[]> angles;
   std::unique_ptr<Feet<Lanes<float>>[]> feet;
   std::unique_ptr<CentreOfMass<Lanes<float>>[]> centre;
+
+ private:
+  std::array<PartValue, 11> parts_{};
 };
 
 }  // namespace
@@ -169,8 +177,11 @@ tl::expected<void, NotMade> Simulation::spawn_all(std::span<const SpawnRequest> 
 
   Batch batch(*this, people.size() + 2 * sizes);
   batch.entities = entities;
-  for (std::size_t first = 0; first < people.size(); first += together) {
-    const std::size_t count = std::min(together, people.size() - first);
+  for (std::size_t first = 0, count = 0; first < people.size(); first += count) {
+    const bool managed = people[first].managed;
+    for (count = 1; count < std::min(together, people.size() - first); ++count) {
+      if (people[first + count].managed != managed) break;
+    }
     const auto some = people.subspan(first, count);
     const auto some_checked = std::span<const Checked>(checked).subspan(first, count);
     const auto made = entities.subspan(first, count);
@@ -179,7 +190,7 @@ tl::expected<void, NotMade> Simulation::spawn_all(std::span<const SpawnRequest> 
     in_parallel(jobs_, blocks, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) instants.make(b, some, some_checked);
     });
-    world_.create_many(instants.parts(), made, jobs_);
+    world_.create_many(instants.parts(managed), made, jobs_);
     batch.made.insert(batch.made.end(), made.begin(), made.end());
     std::size_t index_end = 0;
     for (const Entity entity : made) index_end = std::max(index_end, std::size_t{entity.index} + 1);

@@ -174,9 +174,11 @@ class BellyLibrary {
   std::vector<Basis> bases_;
 };
 
-/// Of bellies against their templates, what people of usual build have: across over along, and across times along.
+/// Of bellies against their templates, what people of usual build have: across over along, and across times along. One
+/// person in a thousand is beyond; with vectors of the usual mesh those are prepared for too.
 namespace usual_sizes {
 inline constexpr double least_ratio = 0.80, most_ratio = 1.26, least_product = 0.6, most_product = 1.3;
+inline constexpr double rare_ratio = 1.05;  // times more or less
 }
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);

@@ -43,8 +43,10 @@ BellyLibrary::BasisKey BellyLibrary::basis_key(const LegMuscles& choice, double 
 
 std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& choice) {
   std::vector<BasisKey> keys;
-  for (double ratio = usual_sizes::least_ratio;; ratio *= ratio_step) {
-    const double at_ratio = std::min(ratio, usual_sizes::most_ratio);
+  const bool fine = choice.reduced.cells[2] > ReducedChoice{}.cells[2];  // a basis takes half a second and more
+  const double beyond = fine ? 1 : usual_sizes::rare_ratio, most_ratio = usual_sizes::most_ratio * beyond;
+  for (double ratio = usual_sizes::least_ratio / beyond;; ratio *= ratio_step) {
+    const double at_ratio = std::min(ratio, most_ratio);
     for (double product = usual_sizes::least_product;; product *= product_step) {
       const double at_product = std::min(product, usual_sizes::most_product);
       const BasisKey key = basis_key(choice, at_ratio, at_product);

@@ -74,7 +74,7 @@ struct SpawnRequest {
   bool managed = false;
 };
 
-/// What one system cost: wall time, and entities that it worked on.
+/// What one system cost: time of all threads together, and entities that it worked on.
 struct SystemReport {
   std::string_view name;  // good as long as the simulation
   double seconds = 0;     // in the last tick

@@ -88,9 +88,10 @@ Result<void> BenchScene::change(const LegMuscles& choice) {
 }
 
 double BenchScene::bytes_per_human() const {
-  double words = 0;
-  for (const Table& table : simulation_.world().tables()) words += double{1.0} * table.row_count() * table.words();
-  return 4 * words / static_cast<double>(size());
+  std::size_t bytes = 0;
+  for (const Table& table : simulation_.world().tables())
+    bytes += table.row_count() * (table.block_bytes() / lane_count);
+  return static_cast<double>(bytes) / static_cast<double>(size());
 }
 
 void BenchScene::measure(int threads, int ticks, BenchTick& best) {

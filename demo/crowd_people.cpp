@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "engine/row_hash.h"
+
 namespace mobil {
 namespace {
 
@@ -10,22 +12,15 @@ namespace {
 constexpr std::uint64_t place_stream = 0x10000, change_stream = 0x20000;
 constexpr float turning_deg = 50, turn_part = 0.5F, stop_part = 0.125F;
 
-/// The last step of SplitMix64.
-constexpr std::uint64_t mixed(std::uint64_t z) {
-  z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-  z = (z ^ z >> 27) * 0x94d049bb133111eb;
-  return z ^ z >> 31;
-}
-
 }  // namespace
 
 CrowdRandom::CrowdRandom(std::uint64_t seed, std::uint64_t person, std::uint64_t stream)
-    : state_(mixed(mixed(mixed(seed) ^ person) ^ stream)) {
+    : state_(mix64(mix64(mix64(seed) ^ person) ^ stream)) {
   next();
 }
 
 std::uint64_t CrowdRandom::next() {
-  return mixed(state_ += 0x9e3779b97f4a7c15);
+  return mix64(state_ += 0x9e3779b97f4a7c15);
 }
 
 float CrowdRandom::unit() {

@@ -66,7 +66,7 @@ Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
 
 std::size_t row_bytes(const World& world, Entity entity) {
   const auto place = world.find(entity);
-  return place ? std::size_t{4} * place.table->words() + sizeof(Entity) : 0;
+  return place ? place.table->block_bytes() / lane_count + sizeof(Entity) : 0;
 }
 
 }  // namespace
@@ -116,9 +116,9 @@ std::size_t far_bytes(const CrowdScene& scene) {
   for (const CrowdWalker& walker : scene.walkers()) {
     if (walker.near && scene.request().near < scene.walkers().size()) continue;
     std::size_t bytes = sizeof(CrowdWalker) + row_bytes(simulation.world(), walker.entity);
-    const auto human = simulation.human(walker.entity);
-    bytes += sizeof(PersonRecord) + human->muscles.size() * sizeof(OwnMuscle);
-    for (const HumanMuscle& own : human->muscles) {
+    const PersonRecord& person = *simulation.person(walker.entity);
+    bytes += sizeof(PersonRecord) + person.muscles.size() * sizeof(OwnMuscle);
+    for (const OwnMuscle& own : person.muscles) {
       for (const Entity muscle : own.entity) bytes += row_bytes(simulation.world(), muscle);
     }
     return bytes;

@@ -2,6 +2,7 @@
 #include "demo/crowd_scene.h"
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 

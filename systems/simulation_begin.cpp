@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "components/pose.h"
+#include "engine/access.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
@@ -90,6 +91,7 @@ Result<void> begin_block(const Beginners& all, Group<End>& group, std::size_t b)
   LineOfAction<Lanes<float>> rest{};
   std::array<BellyScale<float>, lane_count> scale;
   std::array<LegFrames<Lanes<float>>, 2> leg;
+  const Lookup<Pose> poses(all.world);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const MuscleSize& size = all.size[person(lane) * all.muscles + group.muscle];
     const Entity human = all.people[person(lane)];
@@ -100,9 +102,7 @@ Result<void> begin_block(const Beginners& all, Group<End>& group, std::size_t b)
     rest.stiffness_n_per_m[lane] = static_cast<float>(axial_stiffness(
         group.shape->axial, static_cast<double>(size.scale.across), static_cast<double>(size.scale.along)));
     scale[lane] = size.scale;
-    const auto place = all.world.find(human);
-    const float* pose = place.table->block(place.row / lane_count) +
-                        place.table->column(type_id<Pose<float>>()) * lane_count + place.row % lane_count;
+    const float* const pose = poses.find(human);
     for (const Side side : {right, left}) {
       gather_leg(pose, side, leg[side], lane);
       MuscleOwner<Lanes<float>>& owner = group.side[side].owner[b];

@@ -223,25 +223,8 @@ TEST(CrowdMemory, GoingTakesNone) {
   EXPECT_EQ(rows(simulation.world()), 0U);
 }
 
-/// Knows how many bytes it has lent.
-class WeighingMemory : public std::pmr::memory_resource {
- public:
-  std::size_t bytes = 0;
-
- private:
-  void* do_allocate(std::size_t size, std::size_t alignment) override {
-    bytes += size;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
-  }
-  void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
-    bytes -= size;
-    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
-
 TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
-  WeighingMemory memory;
+  CountingMemory memory;
   Simulation simulation({.memory = &memory});
   LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};
   std::vector<Entity> people;
@@ -252,19 +235,19 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
       people.push_back(human);
     }
     simulation.tick();
-    return static_cast<double>(memory.bytes);
+    return static_cast<double>(memory.lent_bytes());
   };
   const double few = grow_to(640), some = grow_to(1280), many = grow_to(2560);
   const double each = (some - few) / 640, each_later = (many - some) / 1280;
-  EXPECT_LT(each, 8192);  // at the far tier
+  EXPECT_LT(each, 8192);                       // at the far tier
   EXPECT_NEAR(each_later, each, 0.25 * each);  // tables hold room for some more
-  EXPECT_LT(many, 1.25 * each * 2560);  // what there is besides people is little
+  EXPECT_LT(many, 1.25 * each * 2560);         // what there is besides people is little
   while (people.size() > 640) {
     EXPECT_EQ(simulation.despawn(people.back()), Status::ok);
     people.pop_back();
   }
   simulation.tick();
-  EXPECT_LT(static_cast<double>(memory.bytes), few + 0.5 * (some - few));
+  EXPECT_LT(static_cast<double>(memory.lent_bytes()), few + 0.5 * (some - few));
 }
 
 }  // namespace

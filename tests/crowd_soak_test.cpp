@@ -15,6 +15,7 @@
 
 #include "tests/crowd_play.h"
 #include "tests/crowd_pool.h"
+#include "tests/engine_counting_memory.h"
 
 namespace mobil {
 namespace {
@@ -23,22 +24,6 @@ using play::mixed;
 
 constexpr int a_minute = 3600;  // ticks
 constexpr std::size_t crowd_size = 200, stayers = 8, kinds = 64;
-
-class WeighingMemory : public std::pmr::memory_resource {
- public:
-  std::size_t bytes = 0;
-
- private:
-  void* do_allocate(std::size_t size, std::size_t alignment) override {
-    bytes += size;
-    return std::pmr::new_delete_resource()->allocate(size, alignment);
-  }
-  void do_deallocate(void* memory, std::size_t size, std::size_t alignment) override {
-    bytes -= size;
-    std::pmr::new_delete_resource()->deallocate(memory, size, alignment);
-  }
-  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
-};
 
 /// What a whole process has from the heap.
 std::size_t heap_bytes() {
@@ -150,7 +135,7 @@ class Soak {
     return most;
   }
 
-  std::size_t bytes() const { return memory_.bytes; }
+  std::size_t bytes() const { return memory_.lent_bytes(); }
   double worst_foot_m() const { return worst_foot_m_; }
 
  private:
@@ -163,7 +148,7 @@ class Soak {
     return *human;
   }
 
-  WeighingMemory memory_;
+  CountingMemory memory_;
   Simulation simulation_;
   std::vector<Entity> people_;
   Entity gone_{};

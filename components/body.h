@@ -28,7 +28,7 @@ struct BodyRequest {
 };
 
 /// What a request had to give way in: bits of BodyComposition::notes, in words by `body_notes`
-/// (assets/body_composition.h).
+/// (assets/body/body_composition.h).
 enum class BodyNote : std::uint8_t {
   ectomorphy = 1,   // was asked otherwise than height and mass make it; what they make is taken
   fat_raised = 2,   // the endomorphy asked would leave more lean mass than anybody has at that height
@@ -36,7 +36,7 @@ enum class BodyNote : std::uint8_t {
   muscle = 8,       // constitution and mesomorphy ask for more muscle than the lean mass holds
 };
 
-/// What a body is made of, from its request; assets/body_composition.h says how and after whom.
+/// What a body is made of, from its request; assets/body/body_composition.h says how and after whom.
 struct BodyComposition {
   float body_mass_index = 0;             // mass over height², kg/m²
   float height_over_cube_root_mass = 0;  // HWR, cm over kg^(1/3)
@@ -49,7 +49,7 @@ constexpr bool has_note(const BodyComposition& composition, BodyNote note) {
   return (composition.notes & static_cast<std::uint8_t>(note)) != 0;
 }
 
-/// One individual's skeleton, host side: made once at spawn by `make_body` (assets/anthropometry.h).
+/// One individual's skeleton, host side: made once at spawn by `make_body` (assets/body/anthropometry.h).
 /// Frames: every segment's origin is its proximal joint (thigh: hip centre, shank: knee, foot: ankle, toes: ball of
 /// the foot, pelvis: midpoint of the hip centres, patella: its centre); in the anatomical position all rotations are
 /// identity, +Y up, +Z forward, +X left.

@@ -13,8 +13,8 @@
 
 namespace mobil {
 
-/// One of the table's muscles (assets/muscle_table.h): a group of muscles that act alike, or one muscle on its own.
-/// Groups have names here; the others are numbered as the table's rows and found by `find_muscle("soleus")`.
+/// One of the table's muscles (assets/muscles/muscle_table.h): a group of muscles that act alike, or one muscle on its
+/// own. Groups have names here; the others are numbered as the table's rows and found by `find_muscle("soleus")`.
 enum class Muscle : std::uint8_t { hamstrings, quadriceps, triceps_surae, tibialis_anterior };
 inline constexpr std::size_t muscle_group_count = 4;
 
@@ -55,7 +55,7 @@ struct MuscleOwner {
 
 /// Size of a belly against its template: x and y are S = `across` times the template's, z is l = `along` times it. With
 /// r = S / l the stiffness is K = S·(A/r + B + r·C) and the lumped mass S²·l·M₁, where A, B, C and M₁ are the
-/// template's (assets/stiffness_terms.h).
+/// template's (assets/fem/stiffness_terms.h).
 template <class F>
 struct BellyScale {
   F across, along;

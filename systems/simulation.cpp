@@ -5,14 +5,14 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "assets/anthropometry.h"
+#include "assets/body/anthropometry.h"
 #include "components/fade.h"
 #include "components/leg_frames.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/simulation_change.h"
-#include "systems/simulation_rows.h"
+#include "systems/muscles/simulation_change.h"
+#include "systems/people/simulation_rows.h"
 
 namespace mobil {
 namespace {

@@ -22,8 +22,8 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/muscle_plan.h"
-#include "assets/muscle_template.h"
+#include "assets/fem/muscle_template.h"
+#include "assets/muscles/muscle_plan.h"
 #include "components/body.h"
 #include "components/gait.h"
 #include "components/muscle.h"
@@ -33,8 +33,8 @@
 #include "engine/jobs.h"
 #include "engine/schedule.h"
 #include "engine/world.h"
-#include "systems/simulation_muscles.h"
-#include "systems/simulation_people.h"
+#include "systems/muscles/simulation_muscles.h"
+#include "systems/people/simulation_people.h"
 
 namespace mobil {
 
@@ -96,10 +96,10 @@ struct NodalView {
   std::uint32_t nodes = 0;
 };
 
-struct MuscleWork;  // systems/simulation_change.h
-struct MuscleSize;  // systems/simulation_spawn.h
+struct MuscleWork;  // systems/muscles/simulation_change.h
+struct MuscleSize;  // systems/people/simulation_spawn.h
 struct NotMade;
-struct SnapshotWork;  // systems/simulation_snapshot_work.h
+struct SnapshotWork;  // systems/snapshot/simulation_snapshot_work.h
 
 class Simulation {
  public:

@@ -11,7 +11,7 @@
 
 #include "assets/export/gltf_buffers.h"
 #include "assets/export/mesh_shading.h"
-#include "assets/output_file.h"
+#include "assets/files/output_file.h"
 
 namespace mobil {
 namespace {

@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "assets/hexahedral_mesh.h"
+#include "assets/fem/hexahedral_mesh.h"
 #include "engine/error.h"
 
 namespace mobil {

@@ -7,7 +7,7 @@
 #include "assets/export/morph_targets.h"
 #include "assets/export/recording_check.h"
 #include "assets/export/skeleton_keys.h"
-#include "assets/output_file.h"
+#include "assets/files/output_file.h"
 
 namespace mobil {
 namespace {

@@ -11,7 +11,7 @@
 #include "assets/import/anatomy_manifest.h"
 #include "assets/import/mesh_file.h"
 #include "assets/import/simplify_surface.h"
-#include "assets/surface_mesh.h"
+#include "assets/surfaces/surface_mesh.h"
 
 namespace mobil {
 namespace {

@@ -13,8 +13,8 @@
 #include <tuple>
 #include <utility>
 
-#include "assets/csv_table.h"
-#include "assets/muscle_table.h"
+#include "assets/files/csv_table.h"
+#include "assets/muscles/muscle_table.h"
 
 namespace mobil {
 namespace {

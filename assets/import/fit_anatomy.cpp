@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "assets/import/bone_maps.h"
-#include "assets/surface_mesh.h"
+#include "assets/surfaces/surface_mesh.h"
 
 namespace mobil {
 namespace {

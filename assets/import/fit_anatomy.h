@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "assets/import/anatomy_folder.h"
-#include "assets/surface_binding.h"
+#include "assets/surfaces/surface_binding.h"
 #include "components/body.h"
 #include "components/muscle.h"
 #include "components/surface.h"

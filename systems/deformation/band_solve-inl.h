@@ -8,7 +8,7 @@
 #define MOBIL_SYSTEMS_DEFORMATION_BAND_SOLVE_INL_H_
 #endif
 
-#include "assets/belly_solver.h"
+#include "assets/fem/belly_solver.h"
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -12,13 +12,13 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "assets/muscle_template.h"
+#include "assets/fem/muscle_template.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
 
 namespace mobil {
 
-struct BellySolver;  // assets/belly_solver.h
+struct BellySolver;  // assets/fem/belly_solver.h
 
 /// Whose stiffness a block of bellies has: each lane that of its own scales, or every lane the template's own (then
 /// S = l = 1 must hold in all lanes; three quarters of the arithmetic). A property of a table, not of a lane's values.

@@ -6,7 +6,7 @@
 
 #include <numbers>
 
-#include "assets/belly_solver.h"
+#include "assets/fem/belly_solver.h"
 #include "engine/wide-inl.h"
 #include "systems/deformation/band_solve-inl.h"
 #include "systems/deformation/elastic-inl.h"

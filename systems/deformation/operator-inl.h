@@ -10,7 +10,7 @@
 
 #include <algorithm>
 
-#include "assets/belly_solver.h"
+#include "assets/fem/belly_solver.h"
 #include "systems/deformation/band_solve-inl.h"
 #include "systems/deformation/elastic-inl.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// Bellies that move along a few vectors (assets/reduced_basis.h), sixteen individuals a block. Motion j of an
+// Bellies that move along a few vectors (assets/reduction/reduced_basis.h), sixteen individuals a block. Motion j of an
 // individual, z̈ + α·ż + ω²·z = ω²·s(t) with s = Σ P·input linear over the tick, is integrated exactly, at any tick.
 // Kept are X = ω·(z − s) and W = ż, both continuous. With ṡ over the tick, Y = X + g·ṡ and V = W − ṡ swing freely,
 //   Y ← a·Y + b·V,   V ← −b·Y + (a − g·b)·V,   g = α/ω,
@@ -7,8 +7,8 @@
 // (hyperbolic where ω_d² < 0). Three numbers a motion are all that a tick reads besides its state. Unconditionally
 // stable, without period error.
 
-#include "assets/muscle_template.h"
-#include "assets/reduced_basis.h"
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
 #include "systems/deformation/deformation.h"

@@ -7,14 +7,14 @@
 #include <span>
 #include <vector>
 
-#include "assets/reduced_basis.h"
+#include "assets/reduction/reduced_basis.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
 #include "engine/error.h"
 
 namespace mobil {
 
-/// What ReducedBelly (assets/reduced_basis.h) has of one body; lanes past the bodies hold whatever.
+/// What ReducedBelly (assets/reduction/reduced_basis.h) has of one body; lanes past the bodies hold whatever.
 struct ReducedBellies {
   std::uint32_t vectors = 0, inputs = 0, count = 0;
   std::vector<Lanes<double>> words{}, scratch{};

@@ -6,9 +6,9 @@
 #include <memory>
 #include <span>
 
-#include "assets/critical_step.h"
-#include "assets/hexahedral_mesh.h"
-#include "assets/stiffness_terms.h"
+#include "assets/fem/critical_step.h"
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/fem/stiffness_terms.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
 #include "engine/error.h"

@@ -2,7 +2,7 @@
 #define HWY_TARGET_INCLUDE "systems/forces/forces.cpp"
 #include <hwy/foreach_target.h>
 
-#include "assets/anthropometry.h"
+#include "assets/body/anthropometry.h"
 #include "engine/wide_geometry-inl.h"
 #include "systems/forces/forces.h"
 #include "systems/forces/leg_model.h"

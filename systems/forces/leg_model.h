@@ -1,7 +1,7 @@
 #pragma once
 // What a leg weighs, and the numbers of the rules in systems/forces/forces.h.
 
-#include "assets/anthropometry.h"
+#include "assets/body/anthropometry.h"
 #include "components/segments.h"
 
 namespace mobil::forces {

@@ -9,7 +9,7 @@
 #define MOBIL_SYSTEMS_GAIT_LEG_INL_H_
 #endif
 
-#include "assets/anthropometry.h"
+#include "assets/body/anthropometry.h"
 #include "components/gait.h"
 #include "engine/wide_curve-inl.h"
 

@@ -1,5 +1,5 @@
 // The body over its support leg from one heel strike to the next, sixteen walkers at a time: the forces that bring it
-// from the state at the one to the state at the other. Model and equations as systems/gait/step_dynamics.h has them in
+// from the state at the one to the state at the other. Model and equations as tests/gait/step_dynamics.h has them in
 // double precision. Include it as engine/wide-inl.h says.
 
 #if defined(MOBIL_SYSTEMS_GAIT_SUPPORT_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,7 +1,7 @@
 // The swing of one leg from toe-off to heel strike, sixteen walkers at a time. The knee bends and stretches, and the
 // leg's centre of mass goes forward, each with the least mean square change of acceleration between its boundary
 // conditions: so the hip feels no jerk either. The torques that it takes follow from the equations that
-// systems/gait/step_dynamics.h has in double precision. Include it as engine/wide-inl.h says.
+// tests/gait/step_dynamics.h has in double precision. Include it as engine/wide-inl.h says.
 
 #if defined(MOBIL_SYSTEMS_GAIT_SWING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_SWING_INL_H_

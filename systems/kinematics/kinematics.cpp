@@ -4,7 +4,7 @@
 
 #include <hwy/cache_control.h>
 
-#include "assets/anthropometry.h"
+#include "assets/body/anthropometry.h"
 #include "engine/wide_curve-inl.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/kinematics_wide-inl.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "assets/muscle_path.h"
+#include "assets/muscles/muscle_path.h"
 #include "engine/geometry.h"
 
 namespace mobil {

@@ -4,12 +4,12 @@
 #include <cstddef>
 #include <vector>
 
-#include "assets/muscle_table.h"
+#include "assets/muscles/muscle_table.h"
 
 namespace mobil {
 
 /// The paths of a muscle's members: the table's rows in single precision, at the published leg's size. Immutable, the
-/// same for everybody. How they run: assets/muscle_table.h.
+/// same for everybody. How they run: assets/muscles/muscle_table.h.
 struct MuscleLines {
   struct Point {
     LegBone bone;
@@ -18,7 +18,7 @@ struct MuscleLines {
     /// Of an edge: which of the member's points (their number: the path's end) closes the straight line that it bends.
     std::size_t straight_to = 0;
   };
-  /// A track over knee flexion as assets/muscle_path.h has its spline.
+  /// A track over knee flexion as assets/muscles/muscle_path.h has its spline.
   struct Track {
     Vec3<float> at_zero, slope, cubic[knee_knots];
   };

@@ -1,0 +1,154 @@
+#include "assets/body/body_composition.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "assets/muscles/muscle_plan.h"
+
+namespace mobil {
+namespace {
+
+constexpr double least_mass_index = 12, most_lean_index = 36;
+constexpr double least_fat = 0.03, most_fat = 0.61;
+constexpr double least_lean_index = least_mass_index * (1 - least_fat);
+constexpr double most_mass_index = 92;
+static_assert(most_mass_index < most_lean_index / (1 - most_fat));
+
+constexpr double muscle_in_lean = 0.5, most_muscle_in_lean = 0.65, legs_in_muscle = 0.52, muscle_kg_per_cm3 = 1.06e-3;
+/// Heath and Carter's ratings go by halves; two who rate the same body seldom differ by more than this.
+constexpr double rating_tolerance = 1.5;
+
+double endomorphy_of_folds(double mm) {
+  return -0.7182 + mm * (0.1451 + mm * (-0.00068 + mm * 0.0000014));
+}
+
+/// The folds (triceps, subscapular, supraspinale; mm, at a stature of 170.18 cm) of an endomorphy: the polynomial rises
+/// throughout.
+double folds_of_endomorphy(double endomorphy) {
+  double low = 1, high = 400;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    (endomorphy_of_folds(middle) < endomorphy ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+constexpr double density_at_1_mm = 1.1631, density_per_decade = 0.0632, fold_sum_per_three = 4.0 / 3;
+
+/// Handsfield's 35 muscles of one leg.
+double limb_volume_cm3(double height_m, double mass_kg) {
+  return 47 * mass_kg * height_m + 1285;
+}
+
+/// x, bent smoothly from nine tenths of `most` on so that it never reaches it: what asks for more still gets more.
+double saturated(double x, double most) {
+  const double knee = 0.9 * most, room = most - knee;
+  return x <= knee ? x : most - room * room / (x - knee + room);
+}
+
+}  // namespace
+
+MassRange living_mass_kg(double height_m) {
+  const double square = height_m * height_m;
+  return {std::max(30.0, least_mass_index * square), std::min(200.0, most_mass_index * square)};
+}
+
+double height_weight_ratio(double height_m, double mass_kg) {
+  return 100 * height_m / std::cbrt(mass_kg);
+}
+
+double ectomorphy(double ratio) {
+  const double rated = ratio >= 40.75 ? 0.732 * ratio - 28.58 : 0.463 * ratio - 17.63;
+  return std::max(0.1, rated);
+}
+
+double fat_share_of_endomorphy(double endomorphy) {
+  const double folds_mm = fold_sum_per_three * folds_of_endomorphy(endomorphy);
+  const double density = density_at_1_mm - density_per_decade * std::log10(folds_mm);
+  return std::max(least_fat, 4.95 / density - 4.5);
+}
+
+double endomorphy_of_fat_share(double fat_share) {
+  const double density = 4.95 / (fat_share + 4.5);
+  const double folds_mm = std::pow(10, (density_at_1_mm - density) / density_per_decade) / fold_sum_per_three;
+  return std::clamp(endomorphy_of_folds(folds_mm), 0.1, 12.0);
+}
+
+double fat_share_of_mass_index(double body_mass_index) {
+  constexpr double age = 25;
+  const double percent = 64.5 - 848 / body_mass_index + 0.079 * age - 16.4 + 0.05 * age + 39.0 / body_mass_index;
+  return std::clamp(0.01 * percent, least_fat, most_fat);
+}
+
+BodyComposition body_composition(const BodyRequest& request) {
+  const auto height = static_cast<double>(request.height_m), mass = static_cast<double>(request.mass_kg);
+  const double square = height * height, mass_index = mass / square;
+  const Biotype usual;
+  const bool asked = request.biotype.endo != usual.endo || request.biotype.ecto != usual.ecto;
+  BodyComposition made;
+  const auto note = [&made](BodyNote n) { made.notes = static_cast<std::uint8_t>(made.notes | static_cast<int>(n)); };
+
+  const double ratio = height_weight_ratio(height, mass), slender = ectomorphy(ratio);
+  if (asked && std::abs(static_cast<double>(request.biotype.ecto) - slender) > rating_tolerance) {
+    note(BodyNote::ectomorphy);
+  }
+
+  const double wanted = physique_factor(request);
+  double lean = 0;
+  if (asked) {
+    lean = (1 - fat_share_of_endomorphy(static_cast<double>(request.biotype.endo))) * mass;
+  } else {
+    lean = (1 - fat_share_of_mass_index(mass_index)) * mass * (1 + muscle_in_lean * (wanted - 1));
+  }
+  const double fewest = std::max(least_lean_index * square, (1 - most_fat) * mass);
+  const double most = std::max(fewest, std::min(most_lean_index * square, (1 - least_fat) * mass));
+  if (lean > most && most == most_lean_index * square) note(BodyNote::fat_raised);
+  if (lean < fewest && asked) note(BodyNote::fat_lowered);
+  lean = std::clamp(lean, fewest, most);
+
+  const double leg_muscle = 2 * muscle_kg_per_cm3 * limb_volume_cm3(height, mass);
+  const double fits = most_muscle_in_lean * lean * legs_in_muscle / leg_muscle, taken = saturated(wanted, fits);
+  if (taken < 0.98 * wanted) note(BodyNote::muscle);
+
+  made.body_mass_index = static_cast<float>(mass_index);
+  made.height_over_cube_root_mass = static_cast<float>(ratio);
+  made.lean_kg = static_cast<float>(lean);
+  made.fat_kg = request.mass_kg - made.lean_kg;
+  made.biotype = {static_cast<float>(endomorphy_of_fat_share(1 - lean / mass)), request.biotype.meso,
+                  static_cast<float>(slender)};
+  made.muscle_factor = static_cast<float>(taken);
+  return made;
+}
+
+std::vector<std::string> body_notes(const Body& body) {
+  const BodyRequest& asked = body.request;
+  const BodyComposition& made = body.composition;
+  const double fat = 100 * static_cast<double>(made.fat_kg / asked.mass_kg);
+  const std::string who = fmt::format("{:.2f} m and {:.1f} kg", asked.height_m, asked.mass_kg);
+  std::vector<std::string> notes;
+  if (has_note(made, BodyNote::ectomorphy)) {
+    notes.push_back(fmt::format("ectomorphy {:.1f} does not go with {}, which make {:.1f}; {:.1f} is taken",
+                                asked.biotype.ecto, who, made.biotype.ecto, made.biotype.ecto));
+  }
+  if (has_note(made, BodyNote::fat_raised)) {
+    notes.push_back(
+        fmt::format("nobody of {:.2f} m has more than {:.0f} kg without fat; {:.0f} % of {:.1f} kg are taken as fat",
+                    asked.height_m, made.lean_kg, fat, asked.mass_kg));
+  }
+  if (has_note(made, BodyNote::fat_lowered)) {
+    notes.push_back(fmt::format("endomorphy {:.1f} would leave a body of {} too little else; fat is taken as {:.0f} %",
+                                asked.biotype.endo, who, fat));
+  }
+  if (has_note(made, BodyNote::muscle)) {
+    notes.push_back(
+        fmt::format("muscles are {:.2f} times what height and mass alone give, not {:.2f}: more would not fit into "
+                    "{:.1f} kg of lean mass",
+                    made.muscle_factor, physique_factor(asked), made.lean_kg));
+  }
+  return notes;
+}
+
+}  // namespace mobil

@@ -1,0 +1,125 @@
+#include "assets/fem/axial_stiffness.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "assets/fem/critical_step.h"
+
+namespace mobil {
+namespace {
+
+using Vector = std::vector<double>;
+
+/// y = K·x over all displacements, constrained ones too.
+void multiply(const StiffnessTerms& terms, double across, double along, const Vector& x, Vector& y) {
+  const Cells& cells = terms.cells;
+  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const std::uint32_t n = node_index(cells, i, j, k);
+    double f[3] = {0, 0, 0};
+    for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
+      const auto b = stiffness_block(terms.pair[n * stencil_size + slot], across, along);
+      for (std::size_t r = 0; r < 3; ++r) {
+        f[r] += b[3 * r] * x[3 * m] + b[3 * r + 1] * x[3 * m + 1] + b[3 * r + 2] * x[3 * m + 2];
+      }
+    });
+    for (std::size_t r = 0; r < 3; ++r) y[3 * n + r] = f[r];
+  });
+}
+
+double dot(const Vector& a, const Vector& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// u such that K·u = `load` where it is free to move, from a u that has the prescribed ends.
+void solve(const StiffnessTerms& terms, FarEnd end, double across, double along, const Vector& load, Vector& u) {
+  const Cells& cells = terms.cells;
+  const auto hold = [&](Vector& v) {  // zero where the displacement is prescribed
+    for (std::uint32_t n = 0; n < node_count(cells); ++n) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (!moves(cells, end, n, c)) v[3 * n + c] = 0;
+      }
+    }
+  };
+  const std::size_t size = u.size();
+  Vector r(size), q(size);
+  multiply(terms, across, along, u, r);
+  for (std::size_t i = 0; i < size; ++i) r[i] = load[i] - r[i];
+  hold(r);
+  Vector p = r;
+  double rr = dot(r, r);
+  const double enough = 1e-20 * rr;
+  for (std::size_t step = 0; step < 4 * size && rr > enough; ++step) {
+    multiply(terms, across, along, p, q);
+    hold(q);
+    const double alpha = rr / dot(p, q);
+    for (std::size_t i = 0; i < size; ++i) {
+      u[i] += alpha * p[i];
+      r[i] -= alpha * q[i];
+    }
+    const double next = dot(r, r);
+    for (std::size_t i = 0; i < size; ++i) p[i] = r[i] + next / rr * p[i];
+    rr = next;
+  }
+}
+
+}  // namespace
+
+StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along) {
+  const Cells& cells = terms.cells;
+  const std::size_t size = 3 * std::size_t{node_count(cells)};
+  // The uniform stretch already has the prescribed ends.
+  Vector u(size, 0.0), force(size);
+  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    u[3 * node_index(cells, i, j, k) + 2] = static_cast<double>(k) / cells[2];
+  });
+  solve(terms, FarEnd::held, across, along, Vector(size, 0.0), u);
+  multiply(terms, across, along, u, force);
+  StaticStretch stretch{std::move(u), 0};
+  for (std::uint32_t n = first_insertion_node(cells); n < node_count(cells); ++n) {
+    stretch.stiffness_n_per_m += force[3 * n + 2];
+  }
+  return stretch;
+}
+
+double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double across, double along) {
+  const std::size_t size = 3 * std::size_t{node_count(terms.cells)};
+  const std::size_t far = first_insertion_node(terms.cells);
+  Vector u(size, 0.0), load(size, 0.0);
+  for (std::size_t i = 0; i < far_share.size(); ++i) load[3 * (far + i) + 2] = static_cast<double>(far_share[i]);
+  solve(terms, FarEnd::sliding, across, along, load, u);
+  return 1 / dot(load, u);
+}
+
+AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,
+                                        double highest) {
+  const auto steps =
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::log(highest / lowest) / std::log(1.2))));
+  AxialStiffness table;
+  for (std::size_t i = 0; i <= steps; ++i) {
+    const double r = lowest * std::pow(highest / lowest, static_cast<double>(i) / static_cast<double>(steps));
+    table.ratio.push_back(r);
+    table.per_ratio.push_back(pulled_stiffness(terms, far_share, r, 1.0) / (r * r));
+  }
+  return table;
+}
+
+double axial_stiffness(const AxialStiffness& table, double across, double along) {
+  const double r = across / along;
+  const auto above = std::upper_bound(table.ratio.begin(), table.ratio.end(), r);
+  double per_ratio = 0;
+  if (above == table.ratio.begin()) {
+    per_ratio = table.per_ratio.front();
+  } else if (above == table.ratio.end()) {
+    per_ratio = table.per_ratio.back();
+  } else {
+    const auto i = static_cast<std::size_t>(above - table.ratio.begin());
+    const double t = (r - table.ratio[i - 1]) / (table.ratio[i] - table.ratio[i - 1]);
+    per_ratio = table.per_ratio[i - 1] + t * (table.per_ratio[i] - table.per_ratio[i - 1]);
+  }
+  return across * r * per_ratio;
+}
+
+}  // namespace mobil

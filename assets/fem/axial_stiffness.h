@@ -1,0 +1,39 @@
+#pragma once
+// How stiff a belly is along its line: the k of equations 2 and 3, taken from the mesh itself.
+
+#include <span>
+#include <vector>
+
+#include "assets/fem/stiffness_terms.h"
+
+namespace mobil {
+
+/// A belly whose far face is held one metre out, statically: every node's displacement (three a node, m per m) and the
+/// total force along z on that face (N per m).
+struct StaticStretch {
+  std::vector<double> displacement;
+  double stiffness_n_per_m = 0;
+};
+
+/// In a body scaled by `across` and `along`; the origin face is fixed, the far face is held sideways and moves as one.
+/// By conjugate gradients to 1e-10; the same bits on every machine.
+StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along);
+
+/// How stiff the same belly is where its far face may warp: the total of a uniform traction along z over the mean
+/// displacement along z that it makes, N/m. `far_share`: part of the traction on each node of the far face, sum 1.
+double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double across, double along);
+
+/// That stiffness of every individual of a template: `across` · κ(r), r = across / along, with κ(r) / r tabulated.
+struct AxialStiffness {
+  std::vector<double> ratio;      // ascending
+  std::vector<double> per_ratio;  // κ(r) / r there, N/m
+};
+
+/// Tabulates r from `lowest` to `highest` (0 < lowest ≤ highest) in steps of at most 20 %.
+AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,
+                                        double highest);
+
+/// N/m; ratios outside the table take its end.
+double axial_stiffness(const AxialStiffness& table, double across, double along);
+
+}  // namespace mobil

@@ -1,0 +1,81 @@
+#pragma once
+// The largest stable step of explicit central differences for a belly of any size.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "assets/fem/stiffness_terms.h"
+#include "components/muscle.h"
+
+namespace mobil {
+
+/// What the insertion face may do; the origin face is always fixed. `held`: every displacement of it is prescribed.
+/// `sliding`: held sideways, free along z. `free`: free in all directions.
+enum class FarEnd : std::uint8_t { held, sliding, free };
+
+/// Whether a component (0 x, 1 y, 2 z) of a node moves freely.
+constexpr bool moves(const Cells& cells, FarEnd end, std::uint32_t node, std::size_t component) {
+  if (node < plane_nodes(cells)) return false;
+  if (node < first_insertion_node(cells)) return true;
+  return end == FarEnd::free || (end == FarEnd::sliding && component == 2);
+}
+
+/// What limits the step of explicit central differences besides the body itself. `stiffness_damping_s` is β of the
+/// damping C = β·K, whose force is taken half a step late (mass damping, taken implicitly, leaves the limit as it is).
+/// `foundation_1_s` is ω_f of a lateral foundation: ω_f² times the mass (the one named by `mass`) is added to the
+/// stiffness in x and y. Both 0 or more and finite.
+struct StepCase {
+  // NOLINTNEXTLINE(google-explicit-constructor): most callers know of nothing but the end
+  constexpr StepCase(FarEnd far_end = FarEnd::held, Mass mass_kind = Mass::lumped, double beta_s = 0,
+                     double omega_f_1_s = 0)
+      : end(far_end), mass(mass_kind), stiffness_damping_s(beta_s), foundation_1_s(omega_f_1_s) {}
+
+  FarEnd end;
+  Mass mass;
+  double stiffness_damping_s;
+  double foundation_1_s;
+};
+
+/// Largest stable step (s) where no free vibration has ω² above `top_1_s2`: (2/ω)·(√(1 + ξ²) − ξ), ξ = β·ω/2
+/// (Belytschko, Liu and Moran, Nonlinear Finite Elements, 2000, section 6.2). Infinite for 0.
+double central_difference_limit(double top_1_s2, double stiffness_damping_s);
+
+/// The limit (s) of the belly scaled by `across` and `along`: never above the exact one, and within 0.1 % below it
+/// (0.2 % where β dominates; 1 % and 2 % beyond some 12000 nodes: top_eigenvalue.h says what is promised there).
+/// Deterministic.
+double critical_step(const StiffnessTerms& terms, double across, double along, const StepCase& step_case);
+
+/// 2 / max ω_e over the elements with lumped mass (s): no free vibration of an assembly is faster than its fastest
+/// element (Irons), so this is safe under any constraints, and some quarter too careful on a 3×3×9-node block. 0 where
+/// `assemble` would fail.
+double element_critical_step(const HexahedralMesh& mesh, const Material& material, double across, double along,
+                             Element element = Element::full);
+
+/// The critical step of every individual of a template, from a table over r = across / along. With q = S²·ω_f²,
+/// h(r, q) = S²·ω_max² is the largest eigenvalue of A + r·B + r²·C + q·P·M₁·P against M₁, P picking x and y. C is
+/// positive semidefinite and the largest eigenvalue convex, so interpolating h linearly in r and in q never falls below
+/// it: the step is safe between the entries too.
+struct CriticalSteps {
+  static constexpr double braced_across = 2;  // S at which braced_top stands
+
+  std::vector<double> ratio;       // ascending
+  std::vector<double> top;         // h(r, 0), 1/s²
+  std::vector<double> braced_top;  // h(r, braced_across²·ω_f²); empty without a foundation
+  double stiffness_damping_s = 0;
+  double foundation_1_s2 = 0;  // ω_f²
+};
+
+/// Tabulates r from `lowest` to `highest` (0 < lowest ≤ highest) in steps of at most 12 %, finer where another
+/// shape of vibration takes over.
+CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCase& step_case, double lowest,
+                                      double highest);
+
+/// Critical step (s) of a body scaled by `across` and `along`; fails, naming the range, where their ratio is outside
+/// the table. At most 1 % below the exact one, 2 % where β dominates or a foundation is as stiff as the tissue.
+Result<double> critical_step(const CriticalSteps& table, double across, double along);
+
+/// Smallest number of equal substeps of a tick that keeps each within 0.9 of the critical step; both s, positive.
+std::uint32_t substeps_within(double critical_step_s, double tick_s);
+
+}  // namespace mobil

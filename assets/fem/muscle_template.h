@@ -1,0 +1,52 @@
+#pragma once
+// What all bellies of one shape share: mesh, operators, and the same once more as the kernels read it. Immutable.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "assets/fem/critical_step.h"
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/fem/kernel_arrays.h"
+#include "assets/fem/stiffness_terms.h"
+#include "components/muscle.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// Damping is Rayleigh's, C = α·M + β·K: `damping_per_s` is α (0–1000), `stiffness_damping_s` β (0–1). Fascia and
+/// neighbours hold a belly sideways as an elastic foundation (2π·`foundation_hz`)²·M in x and y (0–1000 Hz). The
+/// critical step, that of `mass`, is tabulated for individuals with across / along between `lowest_ratio` and
+/// `highest_ratio` (0.1–10).
+struct MuscleOptions {
+  FarEnd far_end = FarEnd::held;
+  double damping_per_s = 8;
+  double lowest_ratio = 0.5, highest_ratio = 2;
+  Element element = Element::full;
+  Mass mass = Mass::lumped;  // for which the critical step is
+  double stiffness_damping_s = 0;
+  double foundation_hz = 0;
+};
+
+struct MuscleTemplate {
+  HexahedralMesh mesh;
+  Material material;
+  MuscleOptions options;
+  StiffnessTerms terms;
+  CriticalSteps critical_steps;
+  KernelArrays kernel;
+};
+
+/// What a template's critical step depends on.
+StepCase step_case(const MuscleOptions& options);
+
+/// Number of floats that one individual's displacement (or velocity) takes.
+constexpr std::size_t nodal_width(const Cells& cells) {
+  return 3 * std::size_t{node_count(cells)};
+}
+
+/// Fails on an inverted element, a bad material, damping or range of ratios.
+Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material,
+                                            const MuscleOptions& options);
+
+}  // namespace mobil

@@ -1,0 +1,60 @@
+#pragma once
+// How the muscles of the leg are built inside: fibres, pennation, belly and tendon as published, and in a body of ours.
+// The simulation does not read these figures yet; `mobil body` writes them.
+//
+// Sources.
+//   Fibres, pennation, belly: Ward, Eng, Smallwood & Lieber: Are current measurements of lower extremity muscle
+//     architecture accurate? Clin. Orthop. Relat. Res. 467, 2009; 21 cadavers of 1.684 m. Fibre lengths are at a
+//     sarcomere length of 2.7 µm; the belly goes from its first fibre to its last.
+//   Tendon and the fibre length that belongs to it: the gait2392 model of OpenSim (Delp et al. 1990), with the length
+//     of the muscle's path there in the anatomical position. The tendon includes what of it lies within the belly. The
+//     model's quadriceps end on the kneecap.
+//   Plantaris is in neither: fibres, pennation and belly of Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop.
+//     Relat. Res. 179, 1983; its tendon is what the path leaves beside the fibres.
+//   Density 1060 kg/m³: Mendez & Keys, Metabolism 9, 1960. Volumes: assets/muscles/muscle_table.h.
+
+#include <string_view>
+#include <vector>
+
+#include "assets/muscles/muscle_table.h"
+#include "components/body.h"
+
+namespace mobil {
+
+/// One member as it was published, m and degrees. `model_…`: gait2392's; 0 where it has none.
+struct MuscleArchitecture {
+  std::string_view name;
+  double fibre_m, pennation_deg, belly_m;
+  double model_fibre_m, model_tendon_m, model_path_m;
+};
+inline constexpr double cadaver_stature_m = 1.684, muscle_density_kg_m3 = 1060;
+
+/// The row of a member of the table.
+const MuscleArchitecture& muscle_architecture(const MemberMuscle& member);
+
+/// A muscle of one leg of one body in the anatomical position. Of a group: sums of volume, mass and both sections, and
+/// means of the lengths and the angle by the members' volumes in the reference body.
+struct MuscleParameters {
+  double volume_m3 = 0, mass_kg = 0;
+  double muscle_tendon_m = 0;  // along the path, L₀
+  double belly_m = 0, fibre_m = 0, pennation_deg = 0;
+  double model_fibre_m = 0, tendon_m = 0;  // the model's pair: slack tendon and the fibres that go with it
+  double section_m2 = 0;                   // volume over belly
+  double physiological_section_m2 = 0;     // volume · cos(pennation) over fibre length
+};
+
+/// Belly and fibres grow with stature, tendon and its fibres with the muscle's path, as OpenSim scales its models;
+/// the volume is member_volume_m3's (assets/muscles/muscle_plan.h).
+MuscleParameters member_parameters(const Body& body, const MemberMuscle& member);
+MuscleParameters muscle_parameters(const Body& body, Muscle muscle);
+
+/// A point that a muscle is fixed to or bends round, right leg in the anatomical position, m.
+struct PathPlace {
+  LegBone bone;
+  Vec3<double> in_bone_m, world_m;  // in the bone's frame (muscle_table.h); the body standing at x = z = 0
+};
+/// From origin to insertion, without what the path is free of in this position. What ends on the kneecap ends there in
+/// the shank's frame.
+std::vector<PathPlace> member_places(const Body& body, const MemberMuscle& member);
+
+}  // namespace mobil

@@ -1,0 +1,203 @@
+#include "assets/muscles/muscle_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "assets/body/anthropometry.h"
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr double degree = std::numbers::pi / 180;
+
+Vec scaled(const PathPoint& p, const LegScale<double>& scale) {
+  const double along = p.bone == LegBone::thigh ? scale.thigh : p.bone == LegBone::shank ? scale.shank : scale.across;
+  return {scale.across * p.at_m.x, along * p.at_m.y, scale.across * p.at_m.z};
+}
+
+/// The edge's direction where the edge is of that bone.
+Vec edge_axis(LegBone bone, const LegFrames<double>& leg) {
+  return rotated(bone == LegBone::thigh ? leg.thigh : leg.shank, {1, 0, 0});
+}
+
+/// Where the shortest path from a to b over the edge through p touches it, relative to p; nothing where the straight
+/// line is free of it.
+std::optional<Vec> touch(const Vec& a, const Vec& b, const Vec& axis, PathHold side) {
+  const double turn = dot(cross(a, b), axis);
+  if (side == PathHold::front ? turn >= 0 : turn <= 0) return std::nullopt;
+  // Unfolded into one plane the path is straight.
+  const double from = dot(a, axis), to = dot(b, axis);
+  const double near = length(a - from * axis), far = length(b - to * axis);
+  return ((from * far + to * near) / (near + far)) * axis;
+}
+
+}  // namespace
+
+KneeSpline knee_spline(const KneeTrack& track) {
+  constexpr std::size_t n = knee_knots;
+  // Second derivatives m: m₀ = mₙ₋₁ = 0, mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (tᵢ₋₁ − 2tᵢ + tᵢ₊₁), by elimination.
+  std::array<Vec, n> m{}, right{};
+  std::array<double, n> diagonal{};
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    right[i] = 6.0 * (track[i - 1] - 2.0 * track[i] + track[i + 1]);
+    diagonal[i] = 4;
+    if (i == 1) continue;
+    diagonal[i] -= 1 / diagonal[i - 1];
+    right[i] = right[i] - (1 / diagonal[i - 1]) * right[i - 1];
+  }
+  for (std::size_t i = n - 2; i > 0; --i) m[i] = (1 / diagonal[i]) * (right[i] - m[i + 1]);
+  KneeSpline s{track[0], track[1] - track[0] - (1.0 / 6) * m[1], {}};
+  // The third derivative of piece k is mₖ₊₁ − mₖ; its jumps are the cubics' coefficients.
+  Vec before{};
+  for (std::size_t k = 0; k < n; ++k) {
+    const Vec third = k + 1 < n ? m[k + 1] - m[k] : Vec{};
+    s.cubic[k] = (1.0 / 6) * (third - before);
+    before = third;
+  }
+  return s;
+}
+
+Vec track_at(const KneeTrack& track, double flexion_deg) {
+  if (flexion_deg == 0) return track[0];  // what all of the below comes to there
+  const KneeSpline s = knee_spline(track);
+  const double u = flexion_deg / knee_knot_deg;
+  Vec at = s.at_zero + u * s.slope;
+  for (std::size_t k = 0; k < knee_knots; ++k) {
+    const double d = std::max(u - static_cast<double>(k), 0.0);
+    at = at + d * d * d * s.cubic[k];
+  }
+  return at;
+}
+
+LegScale<double> leg_scale(double thigh_m, double shank_m) {
+  return {thigh_m / published_leg::thigh_m, shank_m / published_leg::shank_m,
+          (thigh_m + shank_m) / published_leg::leg_m};
+}
+
+LegScale<double> leg_scale(const Body& body) {
+  return leg_scale(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
+}
+
+Vec path_point(const PathPoint& p, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const Vec at = scaled(p, scale);
+  switch (p.bone) {
+    case LegBone::pelvis:
+      return leg.hip_m + rotated(leg.pelvis, at);
+    case LegBone::thigh:
+      return leg.hip_m + rotated(leg.thigh, at);
+    case LegBone::shank:
+      return leg.knee_m + rotated(leg.shank, at);
+    case LegBone::foot:
+      break;
+  }
+  return leg.ankle_m + rotated(leg.foot, at);
+}
+
+PathPoint path_end(const MemberMuscle& muscle, double flexion_deg) {
+  if (muscle.kneecap == nullptr) return muscle.path.back();
+  return {LegBone::shank, track_at(*muscle.kneecap, flexion_deg)};
+}
+
+LegFrames<double> anatomical_leg(const Body& body) {
+  const Vec hip = to_double(body.joint_offset_m[index(Segment::pelvis)]) +
+                  to_double(body.joint_offset_m[index(Segment::thigh_right)]);
+  const Vec knee = hip + to_double(body.joint_offset_m[index(Segment::shank_right)]);
+  const Vec ankle = knee + to_double(body.joint_offset_m[index(Segment::foot_right)]);
+  const Quat<double> identity{0, 0, 0, 1};
+  return {hip, knee, ankle, identity, identity, identity, identity};
+}
+
+double knee_flexion(const LegFrames<double>& leg) {
+  const Quat<double> q = product(conjugate(leg.thigh), leg.shank);
+  return 2 * std::atan2(q.w < 0 ? -q.x : q.x, std::abs(q.w));
+}
+
+LegFrames<double> rolled(const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const Vec by = rotated(leg.shank, scale.across * track_at(knee_rolling(), knee_flexion(leg) / degree));
+  LegFrames<double> there = leg;
+  there.knee_m = leg.knee_m + by;
+  there.ankle_m = leg.ankle_m + by;
+  return there;
+}
+
+namespace {
+
+/// A leg as all its members' paths need it.
+struct BentLeg {
+  const LegScale<double>& scale;
+  const LegFrames<double>& leg;
+  LegFrames<double> there = rolled(scale, leg);
+  double flexion_deg = knee_flexion(leg) / degree;
+};
+
+/// The corners of a member's path one after the other.
+template <class Visit>
+void follow_path(const MemberMuscle& muscle, const BentLeg& bent, Visit visit) {
+  const PathPoint end = path_end(muscle, bent.flexion_deg);
+  const std::size_t own = muscle.path.size(), all = own + (muscle.kneecap != nullptr ? 1 : 0);
+  const auto point = [&](std::size_t i) -> const PathPoint& { return i < own ? muscle.path[i] : end; };
+  Vec before{};
+  for (std::size_t i = 0; i < all; ++i) {
+    const PathPoint& p = point(i);
+    Vec at = path_point(p, bent.scale, bent.there);
+    if (p.hold != PathHold::fixed) {
+      std::size_t next = i;
+      while (point(next).hold != PathHold::fixed) ++next;
+      const Vec straight_to = path_point(point(next), bent.scale, bent.there);
+      const auto touched = touch(before - at, straight_to - at, edge_axis(p.bone, bent.leg), p.hold);
+      if (!touched) continue;
+      at = at + *touched;
+    }
+    visit(PathCorner{at, p.bone});
+    before = at;
+  }
+}
+
+double path_length(const MemberMuscle& muscle, const BentLeg& bent) {
+  double sum = 0;
+  std::optional<Vec> before;
+  follow_path(muscle, bent, [&](const PathCorner& corner) {
+    if (before) sum += length(corner.at - *before);
+    before = corner.at;
+  });
+  return sum;
+}
+
+double reference_volume_cm3(const MemberMuscle& muscle) {
+  return handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg);
+}
+
+}  // namespace
+
+std::vector<PathCorner> member_path(const MemberMuscle& muscle, const LegScale<double>& scale,
+                                    const LegFrames<double>& leg) {
+  std::vector<PathCorner> corners;
+  follow_path(muscle, {scale, leg}, [&](const PathCorner& corner) { corners.push_back(corner); });
+  return corners;
+}
+
+double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  return path_length(muscle, {scale, leg});
+}
+
+double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle) {
+  double all = 0;
+  for (const auto& m : members) all += reference_volume_cm3(m);
+  return reference_volume_cm3(muscle) / all;
+}
+
+double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  const auto members = members_of(muscle);
+  const BentLeg bent{scale, leg};
+  double all = 0, sum = 0;
+  for (const auto& m : members) all += reference_volume_cm3(m);
+  for (const auto& m : members) sum += reference_volume_cm3(m) / all * path_length(m, bent);
+  return sum;
+}
+
+}  // namespace mobil

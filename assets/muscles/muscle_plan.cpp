@@ -1,0 +1,106 @@
+#include "assets/muscles/muscle_plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "assets/body/anthropometry.h"
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+/// The muscle frame: z along the unit vector, y the bone's anterior axis carried from the bone's −y to z by the
+/// smallest rotation.
+Quat<double> muscle_rotation(const Quat<double>& bone, const Vec& z) {
+  const Vec down = rotated(bone, {0, -1, 0});
+  const Vec axis = cross(down, z);
+  const double w = 1 + dot(down, z), length = std::sqrt(dot(axis, axis) + w * w);
+  const Quat<double> swing{axis.x / length, axis.y / length, axis.z / length, w / length};
+  const double half = std::numbers::sqrt2 / 2;
+  return product(swing, product(bone, {half, 0, 0, half}));
+}
+
+double along_scale(const DrawnLine& line, const LegScale<double>& scale) {
+  return line.along == LegBone::shank ? scale.shank : scale.thigh;
+}
+
+double reference_volume_m3(Muscle row) {
+  double cm3 = 0;
+  for (const auto& muscle : members_of(row)) {
+    cm3 += handsfield_volume_cm3(muscle, reference_body_height_m, reference_body_mass_kg);
+  }
+  return 1e-6 * cm3;
+}
+
+}  // namespace
+
+double reference_belly_m(Muscle muscle) {
+  constexpr double height = reference_body_height_m;
+  const DrawnLine& line = muscle_row(muscle).drawn;
+  return line.belly_m * along_scale(line, leg_scale(fraction::thigh * height, fraction::shank * height));
+}
+
+double physique_factor(const BodyRequest& request) {
+  constexpr std::array<double, 4> constitution = {0.85, 1.0, 1.20, 1.08};
+  const double meso = 1 + 0.06 * (static_cast<double>(request.biotype.meso) - 4);
+  return constitution[static_cast<std::size_t>(request.constitution)] * meso;
+}
+
+double member_volume_m3(const Body& body, const MemberMuscle& member) {
+  const double regressed = handsfield_volume_cm3(member, static_cast<double>(body.request.height_m),
+                                                 static_cast<double>(body.request.mass_kg));
+  const double limb_part = regressed - member.offset_cm3;
+  return 1e-6 * (static_cast<double>(body.composition.muscle_factor) * limb_part + member.offset_cm3);
+}
+
+double bar_stiffness(const Material& material, double section_m2, double rest_length_m) {
+  return material.young_pa * section_m2 / rest_length_m;
+}
+
+Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
+  const BodyRequest& request = body.request;
+  if (!(body.thigh_length_m > 0 && body.shank_length_m > 0 && request.height_m > 0 && request.mass_kg > 0)) {
+    return fail(fmt::format(
+        "muscles: a body with thigh {} m, shank {} m, height {} m and mass {} kg; all must be positive, use make_body",
+        body.thigh_length_m, body.shank_length_m, request.height_m, request.mass_kg));
+  }
+  if (static_cast<std::size_t>(muscle) >= muscles().size() || request.constitution > Constitution::heavy) {
+    return fail("muscles: no such muscle or constitution; choose a row of the table and one of the named values");
+  }
+  const MuscleRow& row = muscle_row(muscle);
+  const DrawnLine& line = row.drawn;
+  const LegScale<double> scale = leg_scale(body);
+  const LegFrames<double> leg = anatomical_leg(body);
+  const Vec anchor = path_point(line.anchor, scale, leg);
+  const MemberMuscle& towards = row.members[line.towards];
+  const Vec end =
+      path_point(line.point < towards.path.size() ? towards.path[line.point] : path_end(towards, 0), scale, leg);
+  const Vec z = normalised(end - anchor);
+
+  MusclePlan plan;
+  plan.muscle = muscle;
+  plan.rest_length_m = muscle_length(muscle, scale, leg);
+  plan.belly_length_m = line.belly_m * along_scale(line, scale);
+  const double start = line.start_m * along_scale(line, scale);
+  plan.tendon_length_m = std::max(0.0, length(end - anchor) - start - plan.belly_length_m);
+  for (const auto& member : row.members) plan.volume_m3 += member_volume_m3(body, member);
+  plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
+  plan.start_m = anchor + start * z;
+  plan.rotation = muscle_rotation({0, 0, 0, 1}, z);
+  plan.origin = line.origin;
+  plan.insertion = line.insertion;
+
+  const double belly = reference_belly_m(muscle);
+  const double section = reference_volume_m3(muscle) / belly;
+  plan.scale = {static_cast<float>(std::sqrt(plan.section_m2 / section)),
+                static_cast<float>(plan.belly_length_m / belly)};
+  plan.leg_scale = {static_cast<float>(scale.thigh), static_cast<float>(scale.shank), static_cast<float>(scale.across)};
+  return plan;
+}
+
+}  // namespace mobil

@@ -1,0 +1,137 @@
+#pragma once
+// The muscles of a leg as published figures: where each one runs, how large it is, what it looks like. To add a muscle
+// is to add rows.
+//
+// Sources. Paths: the gait2392 model of OpenSim (CC BY 3.0; Delp, Loan, Hoy, Zajac, Topp, Rosen: An interactive
+// graphics-based model of the lower extremity, IEEE Trans. Biomed. Eng. 37, 1990). Volumes: regression of Handsfield,
+// Meyer, Hart, Abel, Blemker: Relationships of 35 lower limb muscles to height and body mass, J. Biomech. 47, 2014.
+// Sections: measured for this project from the surfaces of BodyParts3D 3.0 (© The Database Center for Life Science,
+// licensed under CC Attribution-Share Alike 2.1 Japan), a man of about 1.69 m.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/muscles/leg_sections.h"
+#include "components/lanes.h"
+#include "components/muscle.h"
+#include "components/segments.h"
+
+namespace mobil {
+
+/// The bones of one leg that a path is fixed to. Their frames have mobil's axes and these origins: pelvis the hip
+/// centre, thigh the hip centre, shank the knee, foot the ankle.
+enum class LegBone : std::uint8_t { pelvis, thigh, shank, foot };
+
+/// Sizes of the leg that the paths were published for, m. Its segments end at the pin that fits its rolling knee best
+/// from 0° to 100°; where the knee rolls to besides (0.6 mm rms there, 4 mm at 120°) see knee_rolling().
+namespace published_leg {
+inline constexpr double thigh_m = 0.40846, shank_m = 0.41736, leg_m = thigh_m + shank_m;
+}  // namespace published_leg
+
+/// How a path keeps to a point: it goes through it; or the point lies on an edge across its bone (parallel to the
+/// bone's x axis) that the path must pass in front of, or behind. Over an edge it slides to where it is shortest, as a
+/// taut string without friction, and where the straight line is free of it, it is that line: so the length has a
+/// continuous derivative, and no angle at which to switch needs to be given.
+enum class PathHold : std::uint8_t { fixed, front, back };
+
+/// One point of a path, right side, in its bone's frame at the published leg's size, m. In a body: y of thigh and shank
+/// times that segment's length over the published one, all else times the leg's. Edges are of thigh and shank, and
+/// neither first nor last.
+struct PathPoint {
+  LegBone bone;
+  Vec3<double> at_m;
+  PathHold hold = PathHold::fixed;
+};
+
+/// A place that moves in the shank's frame, at knee flexions of 0°, 20°, … 120°: a natural cubic spline, straight
+/// beyond its ends.
+inline constexpr std::size_t knee_knots = 7;
+inline constexpr double knee_knot_deg = 20;
+using KneeTrack = std::array<Vec3<double>, knee_knots>;
+
+/// One muscle of the leg as it was published.
+struct MemberMuscle {
+  std::string_view name;
+  Muscle group;
+  std::span<const PathPoint> path;  // origin first
+  const KneeTrack* kneecap;         // what a path ends on after its last point, or null
+  /// Volume (cm³) = limb_share · (47 · mass · height + 1285) + offset_cm3, in kg and m.
+  double limb_share, offset_cm3;
+  Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
+  /// The muscle's shape, upper end first, tendon included: see assets/muscles/leg_sections.h for what a section means.
+  std::span<const LegSection> sections;
+};
+
+inline constexpr std::size_t member_muscle_count = 13;
+
+/// How far the published knee carries shank and foot from where the pin has them, with all that is fixed to them: along
+/// the shank's axes, m, at the published leg's size. Nothing in the anatomical position.
+const KneeTrack& knee_rolling();
+
+/// All published muscles, groups one after the other in the order of Muscle.
+std::span<const MemberMuscle> member_muscles();
+
+/// The muscle of that name, or null.
+const MemberMuscle* find_member_muscle(std::string_view name);
+
+/// Volume of a member in a body of that height and mass, cm³ (Handsfield et al. 2014).
+double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double mass_kg);
+
+/// Where a muscle is drawn, at the published leg's size: from `anchor` towards point `point` of the path of member
+/// `towards` of its row. The belly's mesh begins `start_m` from the anchor and is `belly_m` long; both scale as y of
+/// the bone `along` does.
+struct DrawnLine {
+  PathPoint anchor;
+  std::size_t towards = 0, point = 0;
+  LegBone along{};
+  double start_m = 0, belly_m = 0;
+  Segment origin{}, insertion{};  // right side: what the surface beyond the belly's ends follows
+};
+/// Instead of a point's number: what the path ends on.
+inline constexpr std::size_t end_of_path = static_cast<std::size_t>(-1);
+
+/// What can be simulated: a group, or a single muscle. The group's line of action is as long as its members' are in the
+/// mean, by volume. Hamstrings and triceps surae are drawn along their largest member, semimembranosus and soleus, the
+/// latter from the middle of the calf under the knee, because soleus' published origin is the centroid of a long one;
+/// the quadriceps from the middle of its bellies to the middle of the kneecap: its largest member's line would leave
+/// the other three aside. Single muscles: assets/muscles/drawn_line.h.
+struct MuscleRow {
+  std::string_view name;
+  std::span<const MemberMuscle> members;
+  DrawnLine drawn;
+};
+
+/// All rows, numbered as Muscle: groups first, then the members of groups that have several.
+std::span<const MuscleRow> muscles();
+inline const MuscleRow& muscle_row(Muscle muscle) {
+  return muscles()[static_cast<std::size_t>(muscle)];
+}
+inline std::span<const MemberMuscle> members_of(Muscle muscle) {
+  return muscle_row(muscle).members;
+}
+std::string_view muscle_name(Muscle muscle);
+/// The muscle of that name, or nothing.
+std::optional<Muscle> find_muscle(std::string_view name);
+
+/// The groups; and the single muscles, which are tibialis anterior and the others' members.
+MuscleSet muscle_groups();
+MuscleSet muscle_members();
+
+/// The body that templates are made for: 1.80 m, 80 kg, average.
+inline constexpr double reference_body_height_m = 1.80, reference_body_mass_kg = 80;
+
+/// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
+/// follow the surface as it is drawn in that body. A single muscle's mesh has the muscle's volume; a group's encloses
+/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle.
+inline constexpr std::size_t cage_station_count = 9;
+using CageStations = std::array<CageStation, cage_station_count>;
+const CageStations& muscle_cage(Muscle muscle);
+/// How the elements of templates are graded: finer towards the ends, where bellies taper and are held.
+inline constexpr Grading belly_grading{.across = 1, .along = 1.5};
+
+}  // namespace mobil

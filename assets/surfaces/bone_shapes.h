@@ -1,0 +1,48 @@
+#pragma once
+// The single bones that make_bone_surfaces puts together, in mm of a man of reference_height_mm, in the frame of their
+// segment, right side.
+
+#include <array>
+#include <initializer_list>
+
+#include "assets/muscles/leg_sections.h"
+#include "assets/surfaces/tube.h"
+#include "components/body.h"
+
+namespace mobil::bones {
+
+/// A body's lengths in mm of the measured man, so that shapes can be drawn in his numbers.
+struct Proportions {
+  std::array<Vec3<double>, segment_count> joint, tip;  // origin in the parent's frame, end in its own
+  std::array<Vec3<double>, segment_count> world;       // origin in the world, standing
+  LegFrame leg;                                        // hip at the origin, unit 1
+};
+Proportions proportions(const Body& body);
+
+/// A station drawn as centre x y z, semi-axes, angle in degrees.
+struct Station {
+  double x, y, z, semi_u, semi_v, angle_deg = 0, bow = 0;
+};
+
+void add_tube(SurfaceMesh& mesh, std::initializer_list<Station> stations, const TubeShape& shape);
+void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<double>& semi, int rings = 5,
+                   int segments = 9);
+/// Adds `part` and its mirror image.
+void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part);
+
+SurfaceMesh pelvis();
+SurfaceMesh vertebra(const Proportions& p, Segment segment);  // with its ribs, T4 with the sternum
+SurfaceMesh skull();
+SurfaceMesh femur(const Proportions& p);
+SurfaceMesh patella();
+SurfaceMesh tibia_and_fibula(const Proportions& p);
+SurfaceMesh foot(const Proportions& p);
+SurfaceMesh toes(const Proportions& p);
+SurfaceMesh clavicle_and_scapula(const Proportions& p);
+SurfaceMesh humerus(const Proportions& p);
+SurfaceMesh radius_and_ulna(const Proportions& p);
+SurfaceMesh hand(const Proportions& p);
+SurfaceMesh fingers(const Proportions& p);
+SurfaceMesh thumb(const Proportions& p);
+
+}  // namespace mobil::bones

@@ -1,0 +1,290 @@
+#include "assets/surfaces/muscle_surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+
+#include "assets/muscles/muscle_plan.h"
+#include "assets/muscles/muscle_shapes.h"
+#include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/surface_mesh.h"
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr int rings = 36, segments = 18;
+constexpr TubeShape muscle_shape{
+    .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = rings, .segments = segments, .cap = 0.5};
+
+/// What a muscle must stay out of: the femur with its condyles, the tibia and the fibula.
+struct Bone {
+  std::vector<LegSection> sections;
+};
+
+std::array<Bone, 3> hard_bones() {
+  std::array<Bone, 3> bones;
+  bones[0].sections.assign(femur_sections().begin(), femur_sections().end());
+  bones[0].sections.push_back({1.020F, 0.5F, 4, 41, 26, 86});
+  bones[0].sections.push_back({1.050F, 0, 0, 38, 21, 86});
+  bones[1].sections.assign(tibia_sections().begin(), tibia_sections().end());
+  bones[2].sections.assign(fibula_sections().begin(), fibula_sections().end());
+  return bones;
+}
+
+/// (lateral, anterior) in mm.
+struct Point {
+  double l, a;
+};
+
+double reach(const LegSection& s, Point direction) {
+  const double t = static_cast<double>(s.angle_deg) * std::numbers::pi / 180;
+  const double p = static_cast<double>(s.semi_1) * (std::cos(t) * direction.a + std::sin(t) * direction.l);
+  const double q = static_cast<double>(s.semi_2) * (std::cos(t) * direction.l - std::sin(t) * direction.a);
+  return std::hypot(p, q);
+}
+
+double area(const LegSection& s) {
+  return static_cast<double>(s.semi_1) * static_cast<double>(s.semi_2);
+}
+
+/// How much of the belly a section is: 0 in the tendon, 1 where it is thick.
+double belly(const LegSection& s, double largest_area) {
+  return smoothstep(0.08, 0.45, area(s) / largest_area);
+}
+
+/// The bone that a muscle grows away from at a level.
+Point bone_centre(const std::array<Bone, 3>& bones, double level) {
+  const auto& sections = bones[level < 1.06 ? 0 : 1].sections;
+  const double low = static_cast<double>(sections.front().level), high = static_cast<double>(sections.back().level);
+  const LegEllipse e = *leg_ellipse(sections, std::clamp(level, low, high));
+  return {e.lateral, e.anterior};
+}
+
+/// A muscle's sections on this body, in mm of the measured man: girth times `girth` in the belly, moved out of the way
+/// of the muscle beneath, the quadriceps led to where this body's kneecap is.
+struct Fitting {
+  const LegFrame& leg;
+  const std::array<Bone, 3>& bones;
+  Point patella;         // where the kneecap's centre is, mm
+  double patella_shift;  // of its upper edge's level against the measured man's
+};
+
+double growth(const MuscleShape& shape, double girth, double level, Point direction) {
+  std::size_t i = 0;
+  while (i + 2 < shape.sections.size() && level > static_cast<double>(shape.sections[i + 1].level)) ++i;
+  const LegSection &a = shape.sections[i], &b = shape.sections[i + 1];
+  if (level < static_cast<double>(a.level) || level > static_cast<double>(b.level)) return 0;
+  const double w = (level - static_cast<double>(a.level)) / static_cast<double>(b.level - a.level);
+  double largest = 0;
+  for (const auto& s : shape.sections) largest = std::max(largest, area(s));
+  const auto at = [&](const LegSection& s) { return reach(s, direction) * (girth - 1) * belly(s, largest); };
+  return (1 - w) * at(a) + w * at(b);
+}
+
+/// `beneath`: the muscle that it lies on, or null.
+std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, double girth, const MuscleShape* beneath,
+                               double girth_beneath) {
+  double largest = 0;
+  for (const auto& s : shape.sections) largest = std::max(largest, area(s));
+  std::vector<LegSection> out(shape.sections.begin(), shape.sections.end());
+  for (LegSection& s : out) {
+    const auto level = static_cast<double>(s.level);
+    const Point bone = bone_centre(f.bones, level);
+    Point away{static_cast<double>(s.lateral) - bone.l, static_cast<double>(s.anterior) - bone.a};
+    const double distance = std::max(std::hypot(away.l, away.a), 1e-6);
+    away = {away.l / distance, away.a / distance};
+    const double thick = belly(s, largest);
+    double shift = reach(s, away) * (girth - 1) * thick;
+    if (beneath != nullptr) shift += 2 * growth(*beneath, girth_beneath, level, away) * thick;
+    const double factor = 1 + (girth - 1) * thick;
+    Point moved{static_cast<double>(s.lateral) + shift * away.l, static_cast<double>(s.anterior) + shift * away.a};
+    if (shape.group == Muscle::quadriceps) {
+      const double w = smoothstep(0.45, measured_patella_top, level);
+      moved.l += w * (f.patella.l - measured_patella_lateral);
+      moved.a += w * (f.patella.a - measured_patella_anterior);
+      s.level = static_cast<float>(level + w * f.patella_shift);
+    }
+    s.lateral = static_cast<float>(moved.l);
+    s.anterior = static_cast<float>(moved.a);
+    s.semi_1 *= static_cast<float>(factor);
+    s.semi_2 *= static_cast<float>(factor);
+  }
+  return out;
+}
+
+/// Cuts a ring of vertices back to the bone: each along its ray from the ring's middle, which is moved out first where
+/// it lies in the bone.
+void keep_out(const Fitting& f, const Bone& bone, std::span<Vec3<float>> ring) {
+  constexpr double skin_mm = 1.5, middle_outside = 1.12;
+  const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
+  const auto e = leg_ellipse(bone.sections, level);
+  if (!e) return;
+  const double aa = e->aa + skin_mm, ll = e->ll + skin_mm, al = e->al, det = aa * ll - al * al;
+  const Vec axis = leg_point(f.leg, level, 0, 0);
+  // to the circle that the bone's section is the image of, and back
+  const auto inward = [&](double l, double a) { return Point{(aa * l - al * a) / det, (ll * a - al * l) / det}; };
+  const auto outward = [&](Point p) { return Point{al * p.a + ll * p.l, aa * p.a + al * p.l}; };
+  const auto local = [&](const Vec3<float>& p) {
+    return inward((axis.x - static_cast<double>(p.x)) / f.leg.unit - e->lateral,
+                  (static_cast<double>(p.z) - axis.z) / f.leg.unit - e->anterior);
+  };
+  Point middle{0, 0};
+  std::vector<Point> points;
+  for (const auto& p : ring) {
+    points.push_back(local(p));
+    middle.l += points.back().l / static_cast<double>(ring.size());
+    middle.a += points.back().a / static_cast<double>(ring.size());
+  }
+  const double distance = std::hypot(middle.l, middle.a);
+  Point moved = middle;
+  if (distance < middle_outside) {
+    const double factor = middle_outside / std::max(distance, 1e-6);
+    moved = {middle.l * factor, middle.a * factor};
+  }
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point d{points[i].l - middle.l, points[i].a - middle.a};
+    const double dd = d.l * d.l + d.a * d.a, md = moved.l * d.l + moved.a * d.a;
+    const double mm = moved.l * moved.l + moved.a * moved.a - 1, root = md * md - dd * mm;
+    double s = 1;
+    if (md < 0 && root > 0) s = std::min(1.0, (-md - std::sqrt(root)) / dd);
+    const Point q = outward({moved.l + s * d.l, moved.a + s * d.a});
+    ring[i].x = static_cast<float>(axis.x - (q.l + e->lateral) * f.leg.unit);
+    ring[i].z = static_cast<float>(axis.z + (q.a + e->anterior) * f.leg.unit);
+  }
+}
+
+SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections) {
+  std::vector<TubeStation> stations;
+  for (const auto& s : sections) stations.push_back(leg_station(f.leg, s));
+  SurfaceMesh mesh = loft(stations, muscle_shape);
+  const std::size_t ring_count = (mesh.position.size() - 2) / segments;
+  for (std::size_t r = 0; r < ring_count; ++r) {
+    for (const auto& bone : f.bones) keep_out(f, bone, std::span(mesh.position).subspan(1 + r * segments, segments));
+  }
+  for (const auto& bone : f.bones) {
+    keep_out(f, bone, std::span(mesh.position).first(1));
+    keep_out(f, bone, std::span(mesh.position).last(1));
+  }
+  return mesh;
+}
+
+/// 0 in the belly, 1 in the tendons, by the area of the measured section at each vertex's level.
+std::vector<float> tendon_shares(const LegFrame& leg, std::span<const LegSection> fitted_sections,
+                                 std::span<const LegSection> measured, const SurfaceMesh& mesh) {
+  double largest = 0;
+  for (const auto& s : measured) largest = std::max(largest, area(s));
+  std::vector<float> share;
+  for (const auto& p : mesh.position) {
+    const double level = leg_level(leg, static_cast<double>(p.y));
+    std::size_t i = 0;
+    while (i + 2 < measured.size() && level > static_cast<double>(fitted_sections[i + 1].level)) ++i;
+    const auto from = static_cast<double>(fitted_sections[i].level),
+               to = static_cast<double>(fitted_sections[i + 1].level);
+    const double w = std::clamp((level - from) / (to - from), 0.0, 1.0);
+    const double here = (1 - w) * area(measured[i]) + w * area(measured[i + 1]);
+    share.push_back(static_cast<float>(1 - smoothstep(0.10, 0.32, here / largest)));
+  }
+  return share;
+}
+
+GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
+  const double unit = f.leg.unit;
+  const Vec patella = f.leg.hip + to_double(body.joint_offset_m[index(Segment::patella_right)]);
+  const Vec top = patella + Vec{0, -16 * unit, -1 * unit}, bottom = leg_point(f.leg, 1.185, 5, 40);
+  const auto at = [&](double t) { return top + t * (bottom - top); };
+  const std::array<TubeStation, 4> line = {TubeStation{at(0), 3 * unit, 12 * unit},
+                                           {at(0.3), 2.6 * unit, 13 * unit},
+                                           {at(0.7), 2.6 * unit, 12 * unit},
+                                           {at(1), 3 * unit, 9 * unit}};
+  GroupSurface s{Muscle::quadriceps, Muscle::quadriceps, {}, {}, {to_float(top), to_float(bottom)}, true};
+  s.surface.mesh =
+      loft(line, {.reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = 10, .segments = 12, .cap = 0.6});
+  s.surface.mesh.name = "patellar_ligament_right";
+  s.surface.origin = Segment::patella_right;
+  s.surface.insertion = Segment::shank_right;
+  s.tendon.assign(s.surface.mesh.position.size(), 1.0F);
+  return s;
+}
+
+}  // namespace
+
+std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle) {
+  const auto has = [&](Muscle m) { return simulated[static_cast<std::size_t>(m)]; };
+  if (has(muscle)) return muscle;
+  if (has(group)) return group;
+  if (muscle != group) return std::nullopt;
+  std::optional<Muscle> largest;
+  double most = 0;
+  for (const MemberMuscle& m : members_of(group)) {
+    const double volume = handsfield_volume_cm3(m, reference_body_height_m, reference_body_mass_kg);
+    const auto own = find_muscle(m.name);
+    if (!own || !has(*own) || volume <= most) continue;
+    largest = own;
+    most = volume;
+  }
+  return largest;
+}
+
+std::vector<double> member_volumes_m3(const Body& body) {
+  std::vector<double> volume;
+  for (const MemberMuscle& m : member_muscles()) {
+    volume.push_back(member_volume_m3(body, m));
+  }
+  return volume;
+}
+
+std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
+  const LegFrame leg = leg_frame(body);
+  const auto bones = hard_bones();
+  const Vec patella = to_double(body.joint_offset_m[index(Segment::patella_right)]);
+  const double top_mm = 18;  // from the kneecap's centre to its upper edge
+  const Fitting f{leg,
+                  bones,
+                  {-patella.x / leg.unit, patella.z / leg.unit},
+                  -(patella.y + top_mm * leg.unit) / leg.thigh_length - measured_patella_top};
+  const auto shapes = muscle_shapes();
+  const auto volumes = member_volumes_m3(body);
+
+  std::vector<double> girth(shapes.size(), 1.0);
+  const auto surface_of = [&](std::size_t m, double g) {
+    const std::size_t n = shapes[m].lies_on;
+    return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
+  };
+  for (const bool covering : {false, true}) {
+    for (std::size_t m = 0; m < volumes.size(); ++m) {
+      if ((shapes[m].lies_on != no_muscle) != covering) continue;
+      double low = 0.25, high = 2.5;
+      for (int i = 0; i < 14; ++i) {
+        const double middle = 0.5 * (low + high);
+        (enclosed_volume(build(f, surface_of(m, middle))) < volumes[m] ? low : high) = middle;
+      }
+      girth[m] = 0.5 * (low + high);
+    }
+  }
+  std::vector<GroupSurface> all;
+  for (std::size_t m = 0; m < shapes.size(); ++m) {
+    const auto sections = surface_of(m, girth[m]);
+    GroupSurface s{shapes[m].group, find_muscle(shapes[m].name).value_or(shapes[m].group), {}, {}, {}, false};
+    s.surface.mesh = build(f, sections);
+    s.surface.mesh.name = std::string(shapes[m].name) + "_right";
+    s.surface.origin = shapes[m].origin;
+    s.surface.insertion = shapes[m].insertion;
+    s.tendon = tendon_shares(leg, sections, shapes[m].sections, s.surface.mesh);
+    if (m >= volumes.size()) s.tendon.assign(s.tendon.size(), 1.0F);
+    s.attachments = {s.surface.mesh.position.front(), s.surface.mesh.position.back()};
+    all.push_back(std::move(s));
+  }
+  for (std::size_t m = 0; m < shapes.size(); ++m) {
+    if (shapes[m].ends_in != no_muscle) all[m].attachments.insertion_m = all[shapes[m].ends_in].attachments.insertion_m;
+  }
+  all.push_back(patellar_ligament(body, f));
+  return all;
+}
+
+}  // namespace mobil

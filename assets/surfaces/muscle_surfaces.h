@@ -1,0 +1,39 @@
+#pragma once
+// The muscles of the right leg as lofted surfaces, from measured sections and the body's own volumes.
+
+#include <optional>
+#include <vector>
+
+#include "assets/surfaces/surface_binding.h"
+#include "components/body.h"
+#include "components/muscle.h"
+#include "components/surface.h"
+
+namespace mobil {
+
+/// A muscle surface with the meshes that can drive it: its own muscle's where that is simulated, else its group's
+/// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in
+/// the tendon. A ligament follows its two bones alone: bind it with bind_ligament, the others with bind_muscle
+/// (surface_binding.h).
+struct GroupSurface {
+  Muscle group, muscle;
+  MuscleSurface surface;
+  std::vector<float> tendon;
+  Attachments attachments{};
+  bool ligament = false;
+};
+
+/// The one of the `simulated` muscles whose mesh a surface follows: its own, else its group's, or of a tendon, which
+/// has none of its own, that of the group's largest member; nothing where none of them is simulated.
+std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, Muscle muscle);
+
+/// The members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament; right side, world
+/// axes, the body standing in the anatomical position at x = z = 0, m; closed, wound outwards, not bound yet. Each
+/// follows its measured path (muscle_shapes.h) on this body's bones; its girth is set so that it encloses the member's
+/// volume, growing away from the bone, and it is cut back where it would enter the femur or the tibia.
+std::vector<GroupSurface> make_muscle_surfaces(const Body& body);
+
+/// Volume of each member in this body, its physique included, m³, in the order of member_muscles().
+std::vector<double> member_volumes_m3(const Body& body);
+
+}  // namespace mobil

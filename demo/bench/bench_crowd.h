@@ -1,0 +1,63 @@
+#pragma once
+// A crowd in which everybody is someone else, and how long its systems take.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "demo/bench/bench_measure.h"
+#include "demo/crowd/crowd_people.h"
+#include "engine/error.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+/// The people of demo/crowd/crowd_people.h.
+class BenchCrowd {
+ public:
+  static constexpr std::uint64_t seed = 1;
+
+  /// Spawns one after the other, with a bar on a terminal; who cannot walk as drawn is drawn again. Errors: the last
+  /// refusal, when twenty draws in a row were refused.
+  static Result<std::shared_ptr<BenchCrowd>> make(std::size_t humans);
+
+  Simulation& simulation() { return simulation_; }
+  const std::vector<Entity>& people() const { return people_; }
+  std::size_t size() const { return people_.size(); }
+  const Measured& spawn() const { return spawn_; }  // of one person; `best_s` is the mean
+  std::size_t drawn_again() const { return drawn_again_; }
+
+  /// Each system's time for one steady tick over the whole crowd, by name; measured when first asked for.
+  const std::map<std::string, Measured, std::less<>>& steady_ticks();
+  /// Bytes that a system reads and bytes that it writes for one human and tick, as its signature says, each once; 0 for
+  /// a system that is not there or has nobody to work on.
+  std::size_t bytes_per_human(std::string_view system);
+
+  /// Seconds that each system, in the order of the schedule, had a processor for while `work` ran. Resets the
+  /// schedule's timings.
+  std::vector<double> cpu_of(const std::function<void()>& work);
+
+  /// Asks everybody for another speed, drawn as the first one was. Errors: the first refusal.
+  Result<void> change_speeds(std::uint32_t round);
+
+ private:
+  BenchCrowd() = default;
+  BenchCrowd(const BenchCrowd&) = delete;
+  BenchCrowd& operator=(const BenchCrowd&) = delete;
+  Result<void> spawn(std::size_t humans);
+  const Table* table_of(const System& system) const;
+
+  Simulation simulation_;
+  std::vector<Entity> people_;
+  std::vector<CrowdPerson> asked_;
+  Measured spawn_;
+  std::size_t drawn_again_ = 0;
+  std::map<std::string, Measured, std::less<>> steady_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,82 @@
+#pragma once
+// People with leg muscles, more and more of them in one world, ticked by one thread or by two.
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demo/bench/bench_measure.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+/// Twelve vectors of the fine mesh, their control points placed or nobody looking; and the paper's 81 nodes.
+LegMuscles bench_reduced_muscles(bool seen);
+LegMuscles bench_paper_muscles();
+
+/// One tick: by the wall's clock, by this process' processor time, and of the latter each system's part in the order of
+/// the schedule; the least of all ticks measured, and the median.
+struct BenchTick {
+  double wall_s = 0, wall_median_s = 0, cpu_s = 0, cpu_median_s = 0;
+  std::vector<double> system_s;
+};
+
+class BenchScene {
+ public:
+  static constexpr std::uint64_t seed = 1;
+
+  explicit BenchScene(const LegMuscles& choice);
+  BenchScene(const BenchScene&) = delete;
+  BenchScene& operator=(const BenchScene&) = delete;
+
+  /// Until there are so many, the people of demo/crowd/crowd_people.h, and until they walk steadily. Errors: what the
+  /// simulation refuses.
+  Result<void> grow_to(std::size_t humans);
+  /// Everybody's muscles otherwise.
+  Result<void> change(const LegMuscles& choice);
+
+  std::size_t size() const { return people_.size(); }
+  Simulation& simulation() { return simulation_; }
+  /// Seconds of processor time that the last people took to spawn, each.
+  double spawn_s() const { return spawn_s_; }
+  /// Bytes of the tables' rows, each.
+  double bytes_per_human() const;
+
+  /// By so many threads, one or two. Adds to what was measured before.
+  void measure(int threads, int ticks, BenchTick& best);
+
+  /// Bytes that a system reads and writes for one human and tick, by its signature, each once (what it looks up of
+  /// others not counted); 0 where it has nobody to work on.
+  double bytes_moved(const System& system) const;
+  /// Rows that it works on for one human.
+  double rows_of(const System& system) const;
+
+ private:
+  /// Hands the work on to whoever's turn it is.
+  struct Turn {
+    Threads two{2};
+    bool alone = true;
+  };
+  Jobs jobs();
+
+  LegMuscles choice_;
+  Turn turn_;
+  Simulation simulation_;
+  std::vector<Entity> people_;
+  std::size_t drawn_ = 0;
+  double spawn_s_ = 0;
+  struct Series {
+    std::vector<double> wall, cpu;
+  };
+  Series series_[2];
+};
+
+/// This process' processor time, s.
+double process_cpu_now_s();
+
+}  // namespace mobil

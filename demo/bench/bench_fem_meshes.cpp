@@ -1,0 +1,43 @@
+// Explicit central differences on finer meshes of the paper's body.
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "demo/bench/bench_fem.h"
+
+namespace mobil {
+namespace {
+
+struct Mesh {
+  const char* name;
+  Cells cells;
+};
+constexpr std::array meshes = {Mesh{"fem.ecd99", {2, 2, 10}}, Mesh{"fem.ecd425", {4, 4, 16}},
+                               Mesh{"fem.ecd525", {4, 4, 20}}, Mesh{"fem.ecd2673", {8, 8, 32}},
+                               Mesh{"fem.ecd3321", {8, 8, 40}}};
+
+}  // namespace
+
+Result<void> bench_fem_meshes(BenchRun& run) {
+  for (const Mesh& mesh : meshes) {
+    const auto muscle = paper_block(mesh.cells);
+    if (!muscle) return tl::unexpected(muscle.error());
+    const double limit_s = paper_limit_s(*muscle);
+    const auto tick_s = static_cast<float>(0.6 * limit_s * steps_a_tick);  // slim individuals have less
+    for (const Stiffness stiffness : {Stiffness::shared, Stiffness::individual}) {
+      BenchBellies bellies(*muscle, stiffness, node_count(mesh.cells) > 1000 ? 1 : 4);
+      Rounds rounds;
+      for (int round = 0; round < run.rounds(3); ++round) {
+        rounds.add(measure(run.rounds(15), [&] { bellies.tick(steps_a_tick, tick_s); }));
+      }
+      if (!bellies.finite()) return fail(fmt::format("{}: a displacement is not a number", mesh.name));
+      add_step_time(run, fmt::format("{}.{}", mesh.name, stiffness == Stiffness::shared ? "shared" : "individual"),
+                    rounds.all(), static_cast<double>(bellies.muscles()), steps_a_tick, mesh.cells)
+          .bound += fmt::format("; limit {:.3g} ms", limit_s * 1e3);
+    }
+  }
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,80 @@
+// `mobil body`: what follows from height, mass and build, with its sources, and what it looks like.
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "assets/body/anthropometry.h"
+#include "assets/files/output_file.h"
+#include "demo/body/body_json.h"
+#include "demo/body/body_picture.h"
+#include "demo/program/body_options.h"
+#include "demo/program/commands.h"
+#include "systems/capture/png.h"
+
+namespace mobil {
+namespace {
+
+struct BodyCommand {
+  BodyText body;
+  std::string out = "out";
+  bool json = false;
+};
+
+Result<void> write_body(const Body& body, const std::filesystem::path& out) {
+  const bool folder_was_there = std::filesystem::exists(out);
+  if (auto made = make_output_folder(out); !made) return made;
+  const auto picture = body_picture(body);
+  auto done = picture ? write_png((out / "body.png").string(), *picture) : Result<void>{};
+  if (done) done = write_file(out / "body.json", body_json(body));
+  std::error_code ignored;
+  if (!done) {
+    if (!folder_was_there) std::filesystem::remove(out, ignored);  // if it is empty
+    return done;
+  }
+  if (!picture) std::filesystem::remove(out / "body.png", ignored);  // another body's
+  fmt::print("{}\nlook at {}: body.json{}\n", body_table(body), out.string(), picture ? " body.png" : "");
+  if (!picture) fmt::print(stderr, "mobil body: no picture: {}\n", picture.error().message);
+  return {};
+}
+
+Result<void> run_body(const BodyCommand& text) {
+  const auto request = read_body_options(text.body);
+  if (!request) return tl::unexpected(request.error());
+  const auto body = make_body(*request);
+  if (!body) return tl::unexpected(body.error());
+  if (!text.json) return write_body(*body, text.out);
+  fmt::print("{}", body_json(*body));
+  return {};
+}
+
+}  // namespace
+
+void add_body_command(CLI::App& app, int& exit_status) {
+  auto* command = app.add_subcommand("body", "What height, mass and build make of a body: body.json and a picture");
+  command->footer(
+      "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make "
+      "muscles\n"
+      "larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between themselves:\n"
+      "where a request contradicts itself, what gave way is said in a note. What no living body weighs at that height\n"
+      "is refused.\n"
+      "body.json holds 48 segments (joint, length, mass, centre, inertia), the joints' limits and the leg's muscles\n"
+      "(attachments, belly, fibres, pennation, tendon, section, volume), each with its source; body.png shows the "
+      "body\n"
+      "from the front and from its right in the anatomical position.\n"
+      "\nExamples: mobil body --height 1.80 --mass 80 --out out\n"
+      "          mobil body --height 165cm --mass 58 --biotype 2-3-4 --constitution thin --json | less");
+  auto text = std::make_shared<BodyCommand>();
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
+  add_body_options(*command, text->body);
+  command->add_flag("--json", text->json, "Print the JSON, and write and draw nothing");
+  command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
+  refuse_empty_values(*command);
+  command->callback([text, &exit_status] { exit_status = exit_status_of("body", run_body(*text)); });
+}
+
+}  // namespace mobil

@@ -1,0 +1,162 @@
+// `mobil compare`: walks at the speeds of measured people, and is held against them.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "assets/body/anthropometry.h"
+#include "assets/files/output_file.h"
+#include "demo/compare/compare_plots.h"
+#include "demo/compare/compare_report.h"
+#include "demo/program/commands.h"
+#include "demo/walk/walk_options.h"
+
+namespace mobil {
+namespace {
+
+struct CompareText {
+  WalkText walk;
+  std::string reference, out = "out";
+  bool check = false;
+};
+
+constexpr float varied_speed = 5 / 3.6F;     // the paper's natural step
+constexpr float varied_height_speed = 1.3F;  // within every height's published range
+constexpr float slowest = 0.7F, fastest = 1.9F, shortest = 1.5F, tallest = 1.9F;
+
+/// What is common to all walks of a comparison.
+struct Walker {
+  BodyRequest body;
+  GaitStyle style;
+
+  Result<WalkedStride> at(float speed_m_s) const { return walk(body, speed_m_s); }
+  Result<WalkedStride> walk(const BodyRequest& who, float speed_m_s, std::optional<float> step_length_m = {}) const {
+    GaitRequest gait;
+    gait.speed_m_s = speed_m_s;
+    gait.step_length_m = step_length_m;
+    gait.style = style;
+    return walk_stride(who, gait);
+  }
+};
+
+/// Adds a walk, or says which one failed.
+Result<void> add(std::vector<VariedWalk>& walks, double value, const Result<WalkedStride>& stride) {
+  if (!stride) return tl::unexpected(stride.error());
+  walks.push_back({value, *stride});
+  return {};
+}
+
+Result<void> walk_reference_speeds(const Walker& walker, Comparison& comparison) {
+  const auto body = make_body(walker.body);
+  if (!body) return tl::unexpected(body.error());
+  for (std::size_t s = 0; s < comparison.reference.sets.size(); ++s) {
+    for (std::size_t c = 0; c < speed_class_count; ++c) {
+      const double speed = comparison.reference.sets[s].speed_m_s(c, static_cast<double>(body->hip_height_m));
+      const auto stride = walker.at(static_cast<float>(speed));
+      if (!stride) return tl::unexpected(stride.error());
+      comparison.walks.push_back({s, c, speed, *stride});
+    }
+  }
+  return {};
+}
+
+Result<void> walk_variations(const Walker& walker, Comparison& comparison) {
+  for (int i = 0; i <= 6; ++i) {
+    const float speed = slowest + (fastest - slowest) * static_cast<float>(i) / 6;
+    if (auto ok = add(comparison.by_speed, static_cast<double>(speed), walker.at(speed)); !ok) return ok;
+  }
+  for (int i = 0; i <= 4; ++i) {
+    BodyRequest body = walker.body;
+    body.height_m = shortest + (tallest - shortest) * static_cast<float>(i) / 4;
+    const float ratio = body.height_m / walker.body.height_m;
+    body.mass_kg = std::clamp(walker.body.mass_kg * ratio * ratio, 30.0F, 200.0F);  // the same body mass index
+    const auto stride = walker.walk(body, varied_height_speed);
+    if (auto ok = add(comparison.by_height, static_cast<double>(body.height_m), stride); !ok) return ok;
+  }
+  const auto natural = walker.at(varied_speed);
+  if (!natural) return tl::unexpected(natural.error());
+  for (const float times : {0.9F, 1.0F, 1.1F}) {
+    const float length = times * static_cast<float>(natural->step_length_m);
+    const auto stride = walker.walk(walker.body, varied_speed, length);
+    if (auto ok = add(comparison.by_step_length, static_cast<double>(length), stride); !ok) return ok;
+  }
+  for (const float mass : {65.0F, 80.0F, 120.0F}) {
+    BodyRequest body = walker.body;
+    body.mass_kg = mass;
+    const auto stride = walker.walk(body, varied_speed);
+    if (auto ok = add(comparison.by_mass, static_cast<double>(mass), stride); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> write_all(const std::filesystem::path& out, const Comparison& comparison,
+                       const std::vector<Verdict>& verdicts) {
+  if (auto done = make_output_folder(out); !done) return done;
+  if (auto done = write_file(out / "compare.json", comparison_json(comparison, verdicts)); !done) return done;
+  for (const auto& plot : comparison_plots(comparison)) {
+    if (auto done = write_file(out / plot.file, plot.text); !done) return done;
+  }
+  return {};
+}
+
+/// True where every bound held.
+Result<bool> run_compare(const CompareText& text) {
+  const auto options = read_walk_options(text.walk);
+  if (!options) return tl::unexpected(options.error());
+  const auto folder = text.reference.empty() ? std::nullopt : std::optional<std::filesystem::path>(text.reference);
+  auto reference = read_gait_reference(folder);
+  if (!reference) return tl::unexpected(reference.error());
+  Comparison comparison{options->body, std::move(*reference), {}, {}, {}, {}, {}};
+  const Walker walker{options->body, options->gait.style};
+  if (auto done = walk_reference_speeds(walker, comparison); !done) return tl::unexpected(done.error());
+  if (auto done = walk_variations(walker, comparison); !done) return tl::unexpected(done.error());
+  const auto verdicts = judge(comparison);
+  if (auto done = write_all(text.out, comparison, verdicts); !done) return tl::unexpected(done.error());
+  fmt::print("{}", comparison_text(comparison, verdicts));
+  fmt::print("look at {}: compare.json angles.svg ground_reaction.svg moments.svg steps.svg centre_of_mass.svg\n",
+             text.out);
+  return std::ranges::all_of(verdicts, [](const Verdict& verdict) { return verdict.held.value_or(false); });
+}
+
+}  // namespace
+
+void add_compare_command(CLI::App& app, int& exit_status) {
+  auto* command = app.add_subcommand("compare", "Walk at the speeds of measured people and be held against them");
+  command->footer(
+      "Writes compare.json and plots of ours over the measured bands (SVG). The program carries the curves of\n"
+      "Schwartz et al. 2008 and the steps of Lencioni et al. 2019.\n"
+      "Example: mobil compare --height 1.75 --mass 75 --check --out out");
+  auto text = std::make_shared<CompareText>();
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
+  WalkText& walk = text->walk;
+  add_body_options(*command, walk.body);
+  command
+      ->add_option("--set", walk.set, "NAME=VALUE: any gait parameter of mobil walk --list-parameters; again for more")
+      ->expected(1)
+      ->allow_extra_args(false)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
+      ->group("Gait");
+  command->add_option("--reference", text->reference,
+                      "Folder with winter_joint_angles.csv, _moments.csv, winter_grf.csv (and others that replace what "
+                      "the program carries)");
+  command->add_flag("--check", text->check, "Exit status 1 where a bound does not hold or is not simulated");
+  command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
+  command->callback([text, &exit_status] {
+    const auto held = run_compare(*text);
+    if (!held) {
+      fmt::print(stderr, "mobil compare: {}\n", held.error().message);
+      exit_status = 2;
+    } else if (text->check && !*held) {
+      exit_status = 1;
+    }
+  });
+}
+
+}  // namespace mobil

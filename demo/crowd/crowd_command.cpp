@@ -1,0 +1,156 @@
+// `mobil crowd`: thousands of people who are all different, turn, stop, come and go; what a tick of them takes.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "assets/files/output_file.h"
+#include "demo/crowd/crowd_options.h"
+#include "demo/crowd/crowd_picture.h"
+#include "demo/crowd/crowd_report.h"
+#include "demo/crowd/crowd_run.h"
+#include "demo/crowd/crowd_scene.h"
+#include "demo/program/commands.h"
+#include "systems/capture/png.h"
+
+namespace mobil {
+namespace {
+
+constexpr double picture_s = 1.0 / 30;
+
+bool on_terminal() {
+  return isatty(STDERR_FILENO) != 0;
+}
+
+void show(const std::string& what) {
+  if (!on_terminal()) return;
+  fmt::print(stderr, "\r\033[K{}", what);
+  std::fflush(stderr);
+}
+
+void show_progress(const char* what, std::size_t done, std::size_t of) {
+  if (on_terminal()) show(fmt::format("{} [{:<40}] {}/{}", what, std::string(40 * done / of, '='), done, of));
+}
+
+Result<void> write_report(const CrowdOptions& options, const std::string& json) {
+  if (options.report.empty()) return {};
+  if (auto done = write_file(options.report, json); !done) return fail("--report " + done.error().message);
+  fmt::print("written {}\n", options.report.string());
+  return {};
+}
+
+/// Of the crowd as it is, and as it goes on.
+Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
+  if (options.capture.empty()) return {};
+  if (options.frames > 0) {
+    if (auto done = make_output_folder(options.capture); !done) return fail("--capture " + done.error().message);
+  }
+  auto camera = CrowdCamera::create();
+  if (!camera) return tl::unexpected(camera.error());
+  const std::size_t pictures = std::max<std::size_t>(options.frames, 1);
+  const auto ticks_a_picture = static_cast<int>(std::lround(picture_s / scene.simulation().tick_s()));
+  Image image;
+  for (std::size_t i = 0; i < pictures; ++i) {
+    for (int tick = 0; i > 0 && tick < ticks_a_picture; ++tick) {
+      if (auto done = scene.decide(); !done) return tl::unexpected(done.error());
+      scene.choose_methods();
+      scene.tick();
+    }
+    if (auto done = camera->take(scene, image); !done) return done;
+    const auto file = options.frames > 0 ? options.capture / fmt::format("frame_{:04}.png", i) : options.capture;
+    const PngEffort effort = options.frames > 0 ? PngEffort::quick : PngEffort::small;
+    if (auto done = write_png(file.string(), image, effort); !done) return fail("--capture " + done.error().message);
+    show_progress("pictures", i + 1, pictures);
+  }
+  show("");
+  fmt::print("written {}\n", options.capture.string());
+  return {};
+}
+
+Result<void> run(const CrowdOptions& options) {
+  auto made = CrowdScene::make(options.crowd, show_progress);
+  if (!made) return tl::unexpected(made.error());
+  CrowdScene& scene = **made;
+  const auto ticks = static_cast<std::size_t>(std::max(1L, std::lround(options.seconds / scene.simulation().tick_s())));
+  if (options.raise) {
+    const auto told = [](const CrowdLimit::Tried& tried) {
+      show("");
+      fmt::print("{}\n", tried_line(tried));
+      std::fflush(stdout);
+    };
+    const auto limit = raise_crowd(scene, ticks, most_crowd, told, show_progress);
+    show("");
+    if (!limit) return tl::unexpected(limit.error());
+    fmt::print("{}", limit_text(*limit));
+    return write_report(options, limit_json(*limit, options));
+  }
+  if (auto done = scene.settle(show_progress); !done) return done;
+  const CrowdMemory memory = crowd_memory(scene);
+  const CrowdLive live = [](const CrowdRun& so_far, std::size_t of) { show(crowd_live_line(so_far, of)); };
+  const auto measured = run_crowd(scene, ticks, true, on_terminal() ? live : CrowdLive{});
+  show("");
+  if (!measured) return tl::unexpected(measured.error());
+  fmt::print("{}", crowd_text(*measured, memory, scene));
+  if (auto done = take_pictures(options, scene); !done) return done;
+  return write_report(options, crowd_json(*measured, memory, scene, options));
+}
+
+/// Before minutes of work are done for nothing.
+Result<void> check_places(const CrowdOptions& options) {
+  const auto folder_of = [](const std::filesystem::path& file) {
+    return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
+  };
+  if (!options.report.empty() && !std::filesystem::is_directory(folder_of(options.report)))
+    return fail(fmt::format("--report {}: there is no folder {}; make it first", options.report.string(),
+                            folder_of(options.report).string()));
+  if (options.frames == 0 && !options.capture.empty() && !std::filesystem::is_directory(folder_of(options.capture)))
+    return fail(fmt::format("--capture {}: there is no folder {}; make it first", options.capture.string(),
+                            folder_of(options.capture).string()));
+  return {};
+}
+
+int run_command(const CrowdText& text) {
+  const auto options = read_crowd_options(text);
+  if (!options) return exit_status_of("crowd", tl::unexpected(options.error()));
+  if (auto done = check_places(*options); !done) return exit_status_of("crowd", done);
+  const auto done = run(*options);
+  if (!done) show("");
+  return exit_status_of("crowd", done);
+}
+
+}  // namespace
+
+void add_crowd_command(CLI::App& app, int& exit_status) {
+  auto* command = app.add_subcommand("crowd", "A crowd walks, turns, comes and goes; what a tick of it takes");
+  command->footer(
+      "People differ in height (1.72 m, deviation 0.09), body mass index (24, 3), build, speed (1.35 m/s, 0.15) and\n"
+      "style, begin anywhere on a square of 2.5 m2 each, and turn, change speed or stop and go on four times a "
+      "minute.\n"
+      "Who they are and what they do follows from --seed and a person's number alone: the same seed gives the same\n"
+      "state_hash for any number of threads (not with --budget, where methods follow the clock).\n"
+      "The --near nearest to the middle of one edge are looked at: their muscles' control points are placed, within\n"
+      "--near-tolerance; the others move on within --tolerance, along the vectors of their muscles alone.\n"
+      "A tick as measured is what the host decides, the choosing of methods and the simulation; missed is one that "
+      "took\n"
+      "longer than it simulates, by the wall's clock. It is a measurement: exit status 0 also where ticks were "
+      "missed.\n"
+      "Before it, not measured: spawning, and at least two seconds until methods have settled. heap requests are "
+      "those\n"
+      "of malloc and its kin on all threads. Of a picture's people those near the camera show bones and muscles.\n"
+      "\nExamples: mobil crowd\n"
+      "          mobil crowd --humans 10000 --churn 100 --report crowd.json\n"
+      "          mobil crowd --humans 10000 --seconds 5 --raise\n"
+      "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png");
+  auto text = std::make_shared<CrowdText>();
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  add_crowd_options(*command, *text);
+  command->callback([text, &exit_status] { exit_status = run_command(*text); });
+}
+
+}  // namespace mobil

@@ -1,0 +1,152 @@
+#include "demo/crowd/crowd_options.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+
+#include "demo/program/body_options.h"
+#include "demo/program/nearest_name.h"
+#include "demo/program/units.h"
+
+namespace mobil {
+namespace {
+
+/// A number without a unit has this one.
+std::string with_unit(const std::string& text, std::string_view unit) {
+  const bool bare = !text.empty() && (std::isdigit(static_cast<unsigned char>(text.back())) != 0 || text.back() == '.');
+  return bare ? text + std::string(unit) : text;
+}
+
+Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
+                                 std::uint64_t most) {
+  const bool digits =
+      !text.empty() && text.size() <= 18 && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+  const std::uint64_t count = digits ? std::stoull(text) : 0;
+  if (!digits || count < least || count > most)
+    return fail(fmt::format("{} {}: give a whole number of {} to {}", option, text, least, most));
+  return count;
+}
+
+struct NamedEffect {
+  std::string_view name;
+  bool CrowdEffects::*on;
+};
+constexpr NamedEffect effects[] = {{"muscles", &CrowdEffects::muscles},
+                                   {"forces", &CrowdEffects::forces},
+                                   {"inertia", &CrowdEffects::inertia},
+                                   {"line-motion", &CrowdEffects::line_motion}};
+
+Result<CrowdEffects> read_effects(const std::string& text) {
+  CrowdEffects chosen{.muscles = false};
+  if (text == "none") return chosen;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string name = text.substr(from, comma - from);
+    from = comma + 1;
+    const auto found = std::ranges::find(effects, name, &NamedEffect::name);
+    if (found == std::end(effects)) {
+      return fail(
+          fmt::format("--effects '{}': '{}' is none of muscles, forces, inertia, line-motion; or give none "
+                      "alone",
+                      text, name));
+    }
+    chosen.*found->on = true;
+  }
+  if ((chosen.inertia || chosen.line_motion) && !chosen.muscles)
+    return fail(fmt::format("--effects '{}': inertia and line-motion are of muscles; add muscles", text));
+  return chosen;
+}
+
+}  // namespace
+
+void add_crowd_options(CLI::App& command, CrowdText& text) {
+  const auto option = [&](const char* name, std::string& value, const std::string& what, const char* group) {
+    command.add_option(name, value, what)->capture_default_str()->group(group);
+  };
+  option("--humans", text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), "Crowd");
+  option("--seconds", text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", "Crowd");
+  option("--threads", text.threads, "Threads that work, 1 to 256; 0: as many as the machine has", "Crowd");
+  option("--seed", text.seed, "Who they are and what they do", "Crowd");
+  option("--churn", text.churn, "How many leave and as many come each second, spread over its ticks", "Crowd");
+  option("--burst", text.burst, "How many leave and as many come in a single tick of each second", "Crowd");
+  option("--effects", text.effects, "LIST of muscles, forces, inertia, line-motion; or none: they only walk",
+         "Muscles");
+  option("--tolerance", text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", "Muscles");
+  option("--near", text.near, "How many of the nearest are looked at (half of them in small crowds)", "Muscles");
+  option("--near-tolerance", text.near_tolerance, "The same of those", "Muscles");
+  command.add_flag("--all-seen", text.all_seen, "Place everybody's control points, not only of those near")
+      ->group("Muscles");
+  option("--budget", text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", "Muscles");
+  command
+      .add_flag("--raise", text.raise,
+                "Raise the number of people from --humans until ticks are missed, in runs of --seconds each")
+      ->group("Results");
+  option("--report", text.report, "JSON FILE for all figures", "Results");
+  option("--capture", text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", "Results");
+  option("--frames", text.frames, "So many pictures, 30 a second from the end on, into the folder", "Results");
+  refuse_empty_values(command);
+}
+
+Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
+  CrowdOptions options;
+  CrowdRequest& crowd = options.crowd;
+  const auto count = [](std::string_view option, const std::string& given, std::uint64_t least, std::uint64_t most,
+                        auto& into) -> Result<void> {
+    const auto value = read_count(option, given, least, most);
+    if (!value) return tl::unexpected(value.error());
+    into = static_cast<std::remove_reference_t<decltype(into)>>(*value);
+    return {};
+  };
+  const auto quantity = [](std::string_view option, const std::string& given, std::string_view unit, Quantity kind,
+                           double low, double high, double& into) -> Result<void> {
+    const auto value = read_value(option, with_unit(given, unit), kind, low, high);
+    if (!value) return tl::unexpected(value.error());
+    into = *value;
+    return {};
+  };
+  if (auto done = count("--humans", text.humans, 1, most_crowd, crowd.humans); !done)
+    return tl::unexpected(done.error());
+  if (auto done = quantity("--seconds", text.seconds, "s", Quantity::time, 0.1, 3600, options.seconds); !done)
+    return tl::unexpected(done.error());
+  if (auto done = count("--threads", text.threads, 0, 256, crowd.threads); !done) return tl::unexpected(done.error());
+  if (auto done = count("--seed", text.seed, 0, 999'999'999'999'999'999, crowd.seed); !done)
+    return tl::unexpected(done.error());
+  if (auto done = quantity("--churn", text.churn, "", Quantity::rate, 0, 100'000, crowd.churn_per_s); !done)
+    return tl::unexpected(done.error());
+  if (auto done = count("--burst", text.burst, 0, crowd.humans, crowd.burst); !done)
+    return tl::unexpected(done.error());
+  const auto chosen = read_effects(text.effects);
+  if (!chosen) return tl::unexpected(chosen.error());
+  crowd.effects = *chosen;
+  if (auto done = quantity("--tolerance", text.tolerance, "mm", Quantity::length, 1e-5, 1, crowd.tolerance_m); !done)
+    return tl::unexpected(done.error());
+  if (auto done =
+          quantity("--near-tolerance", text.near_tolerance, "mm", Quantity::length, 1e-5, 1, crowd.near_tolerance_m);
+      !done)
+    return tl::unexpected(done.error());
+  if (auto done = count("--near", text.near, 0, most_crowd, crowd.near); !done) return tl::unexpected(done.error());
+  if (text.near == CrowdText{}.near) crowd.near = std::min(crowd.near, crowd.humans / 2);
+  if (!text.budget.empty()) {
+    double budget_s = 0;
+    if (auto done = quantity("--budget", text.budget, "ms", Quantity::time, 1e-6, 10, budget_s); !done)
+      return tl::unexpected(done.error());
+    crowd.budget_s = budget_s;
+    if (!crowd.effects.muscles) return fail("--budget: is of muscles; add muscles to --effects");
+  }
+  if (auto done = count("--frames", text.frames, 0, 100'000, options.frames); !done)
+    return tl::unexpected(done.error());
+  crowd.all_seen = text.all_seen;
+  options.raise = text.raise;
+  options.report = text.report;
+  options.capture = text.capture;
+  if (options.frames > 0 && options.capture.empty()) return fail("--frames: name a folder by --capture");
+  if (options.frames == 0 && !options.capture.empty() && options.capture.extension() != ".png")
+    return fail(
+        fmt::format("--capture {}: a picture's name must end in .png; for a folder give --frames too", text.capture));
+  if (options.raise && !options.capture.empty()) return fail("--raise: measures alone; leave --capture out");
+  return options;
+}
+
+}  // namespace mobil

@@ -1,0 +1,37 @@
+#pragma once
+// What `mobil crowd` was asked for, checked.
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "demo/crowd/crowd_scene.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+struct CrowdOptions {
+  CrowdRequest crowd;
+  double seconds = 10;
+  std::filesystem::path report, capture;  // empty: none
+  std::size_t frames = 0;                 // pictures in a folder; 0: one file
+  bool raise = false;
+};
+
+/// The options as text, as the command line hands them over; bound by `add_crowd_options`.
+struct CrowdText {
+  std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
+  std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0";
+  bool all_seen = false, raise = false;
+};
+
+inline constexpr std::size_t most_crowd = 200'000;
+
+void add_crowd_options(CLI::App& command, CrowdText& text);
+
+/// Reads and checks every option. Errors name the option, the valid range and the mend.
+Result<CrowdOptions> read_crowd_options(const CrowdText& text);
+
+}  // namespace mobil

@@ -1,0 +1,129 @@
+#include "demo/crowd/crowd_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "assets/export/walk_recording.h"
+#include "demo/crowd/crowd_mannequin.h"
+#include "demo/walk/figure.h"
+#include "demo/walk/recorded_scene.h"
+#include "systems/capture/renderer.h"
+
+namespace mobil {
+namespace {
+
+constexpr int width = 1920, height = 1080;
+constexpr std::size_t most_figures = 64;
+constexpr float person_m = 1;  // half the height of the box that a person is taken for
+
+/// Bones and muscles of one person.
+struct Shown {
+  Figure figure;
+  WalkRecording recording;
+  RecordedScene drawn;
+};
+
+/// From behind and above who looks, over the crowd.
+Camera crowd_camera(const CrowdScene& scene) {
+  const Vec3<float> eye = scene.viewer_m();
+  Camera camera;
+  camera.eye = {eye.x, 3.3F, eye.z - 4.5F};
+  camera.target = {eye.x, 0.55F, eye.z + 5.5F};
+  camera.vertical_fov_deg = 33;
+  return camera;
+}
+
+bool in_picture(const Camera& camera, const Vec3<float>& pelvis) {
+  const Vec3<float> at = project(camera, width, height, pelvis);
+  const Vec3<float> above = project(camera, width, height, {pelvis.x, pelvis.y + person_m, pelvis.z});
+  const float margin = 2 * std::abs(above.y - at.y) + 50;
+  return at.z > 1 && at.x > -margin && at.x < width + margin && at.y > -margin && at.y < height + margin;
+}
+
+}  // namespace
+
+struct CrowdCamera::Parts {
+  explicit Parts(Renderer made) : renderer(std::move(made)) {}
+
+  Renderer renderer;
+  Mannequins mannequins;
+  std::map<std::uint64_t, Shown> figures;  // by person
+  std::vector<DrawMesh> meshes;
+
+  Result<Shown*> figure_of(const CrowdScene& scene, const CrowdWalker& walker);
+};
+
+CrowdCamera::CrowdCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
+CrowdCamera::CrowdCamera(CrowdCamera&&) noexcept = default;
+CrowdCamera& CrowdCamera::operator=(CrowdCamera&&) noexcept = default;
+CrowdCamera::~CrowdCamera() = default;
+
+Result<CrowdCamera> CrowdCamera::create() {
+  auto renderer = Renderer::create(width, height);
+  if (!renderer) return tl::unexpected(renderer.error());
+  return CrowdCamera(std::make_unique<Parts>(std::move(*renderer)));
+}
+
+Result<Shown*> CrowdCamera::Parts::figure_of(const CrowdScene& scene, const CrowdWalker& walker) {
+  const auto human = scene.simulation().human(walker.entity);
+  if (!human) return fail("a person who is to be drawn has left");
+  auto found = figures.find(walker.number);
+  if (found == figures.end()) {
+    auto figure = make_figure(scene.simulation(), *human, std::nullopt);
+    if (!figure) return tl::unexpected(figure.error());
+    found = figures.emplace(walker.number, Shown{std::move(*figure), {}, {}}).first;
+  }
+  Shown& shown = found->second;
+  shown.recording = begin_recording(shown.figure, 1.0F / 30);
+  record_frame(shown.figure, scene.simulation(), *human, shown.recording);
+  shown.drawn = {};
+  add_bones(shown.recording, 0, {0, 0, 0}, 0, shown.drawn);
+  if (!human->muscles.empty()) add_muscles(shown.recording, 0, {0, 0, 0}, shown.drawn);
+  return &shown;
+}
+
+Result<void> CrowdCamera::take(const CrowdScene& scene, Image& image) {
+  const Camera camera = crowd_camera(scene);
+  const Simulation& simulation = scene.simulation();
+  struct Seen {
+    float distance_m;
+    const CrowdWalker* walker;
+    Pose<float> pose;
+  };
+  std::vector<Seen> seen;
+  for (const CrowdWalker& walker : scene.walkers()) {
+    const auto pose = simulation.get<Pose>(walker.entity);
+    if (!pose || !in_picture(camera, pose->position_m[0])) continue;
+    const float distance = project(camera, width, height, pose->position_m[0]).z;
+    seen.push_back({distance, &walker, *pose});
+  }
+  std::ranges::sort(seen, [](const Seen& a, const Seen& b) {
+    if (a.walker->near != b.walker->near) return a.walker->near;
+    return a.distance_m < b.distance_m;
+  });
+  Parts& parts = *parts_;
+  parts.mannequins.clear();
+  parts.meshes.clear();
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const CrowdWalker& walker = *seen[i].walker;
+    if (i < most_figures && walker.near) {
+      const auto shown = parts.figure_of(scene, walker);
+      if (!shown) return tl::unexpected(shown.error());
+      parts.meshes.insert(parts.meshes.end(), (*shown)->drawn.meshes.begin(), (*shown)->drawn.meshes.end());
+      continue;
+    }
+    const auto size = *simulation.get<BodySize>(walker.entity);
+    parts.mannequins.add(seen[i].pose, size.height_m, size.mass_kg, walker.number);
+  }
+  parts.mannequins.draw(parts.meshes);
+  Scene drawn;
+  drawn.camera = camera;
+  drawn.meshes = parts.meshes;
+  drawn.light = {-0.55F, 0.80F, -0.35F};
+  return parts.renderer.render(drawn, image);
+}
+
+}  // namespace mobil

@@ -1,0 +1,31 @@
+#pragma once
+// A crowd as pictures: bones and muscles of those in front, smooth bodies of everybody else.
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "demo/crowd/crowd_scene.h"
+#include "engine/error.h"
+#include "systems/capture/image.h"
+
+namespace mobil {
+
+class CrowdCamera {
+ public:
+  /// Pictures of 1920×1080. Errors: no driver.
+  static Result<CrowdCamera> create();
+  CrowdCamera(CrowdCamera&&) noexcept;
+  CrowdCamera& operator=(CrowdCamera&&) noexcept;
+  ~CrowdCamera();
+
+  /// The crowd as it is. Errors: a driver that gives up.
+  Result<void> take(const CrowdScene& scene, Image& image);
+
+ private:
+  struct Parts;
+  explicit CrowdCamera(std::unique_ptr<Parts> parts);
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace mobil

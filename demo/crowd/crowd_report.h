@@ -1,0 +1,30 @@
+#pragma once
+// A crowd's figures: on the terminal and as JSON.
+
+#include <string>
+
+#include "demo/crowd/crowd_options.h"
+#include "demo/crowd/crowd_run.h"
+#include "demo/crowd/crowd_scene.h"
+
+namespace mobil {
+
+/// Heap and resident memory, bytes; 0 where the machine does not tell.
+struct CrowdMemory {
+  std::size_t per_human = 0, far_human = 0, peak = 0;
+};
+/// Of a settled crowd as it is now.
+CrowdMemory crowd_memory(const CrowdScene& scene);
+
+/// One line for a terminal while it runs.
+std::string crowd_live_line(const CrowdRun& run, std::size_t of);
+
+std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene);
+std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene,
+                       const CrowdOptions& options);
+
+std::string tried_line(const CrowdLimit::Tried& tried);
+std::string limit_text(const CrowdLimit& limit);
+std::string limit_json(const CrowdLimit& limit, const CrowdOptions& options);
+
+}  // namespace mobil

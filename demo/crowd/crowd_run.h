@@ -1,0 +1,68 @@
+#pragma once
+// A crowd at work, measured.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "demo/crowd/crowd_scene.h"
+#include "engine/error.h"
+#include "systems/relevance/accuracy_table.h"
+
+namespace mobil {
+
+/// One tick as it was measured, ms: what the host decides, the choosing of methods, the simulation; the wall's clock,
+/// and the processor time of all threads.
+struct CrowdTick {
+  double wall_ms = 0, cpu_ms = 0, host_ms = 0, relevance_ms = 0;
+  bool steady = false;  // nobody came, went, changed method or was done with that
+};
+
+struct CrowdSystem {
+  std::string name;
+  double mean_ms = 0;  // a tick
+};
+
+struct CrowdRun {
+  std::vector<CrowdTick> ticks;
+  std::vector<CrowdSystem> systems;   // in the order of running
+  std::vector<std::uint64_t> hashes;  // every 60 ticks, of everybody's state
+  std::array<std::size_t, rung_count + 1> muscles_by_rung{};
+  std::size_t missed = 0, spawned = 0, despawned = 0, switched = 0, refused = 0, turned = 0, changed_speed = 0;
+  std::size_t steady_ticks = 0, steady_allocations = 0;
+  double tick_s = 0;
+};
+
+/// Of all ticks: the part (0–1) that took no longer, ms.
+double percentile_ms(const std::vector<CrowdTick>& ticks, double part, double CrowdTick::*what = &CrowdTick::wall_ms);
+double mean_ms(const std::vector<CrowdTick>& ticks, double CrowdTick::*what);
+
+using CrowdLive = std::function<void(const CrowdRun&, std::size_t of)>;
+
+/// Runs a settled crowd for so many ticks; `live` is told now and then, outside of what is measured. A tick is missed
+/// when the wall's clock says that it took longer than it simulates. Errors: what the simulation refuses.
+Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, const CrowdLive& live = {});
+
+/// What one of those far away takes of the tables, all muscles included, and of the host's records; bytes.
+std::size_t far_bytes(const CrowdScene& scene);
+
+/// The most people that no tick is missed with.
+struct CrowdLimit {
+  std::size_t humans = 0, missed_with = 0;  // the least that was tried and missed; 0: none did
+  struct Tried {
+    std::size_t humans, missed, ticks;
+    double p50_ms, p99_ms, max_ms, cpu_p50_ms;
+  };
+  std::vector<Tried> tried;
+};
+
+/// Doubles the crowd until ticks are missed, then halves the difference a few times; a number of people is missed with
+/// when each of three runs of so many ticks missed one. Errors: what the simulation refuses.
+Result<CrowdLimit> raise_crowd(CrowdScene& scene, std::size_t ticks, std::size_t most,
+                               const std::function<void(const CrowdLimit::Tried&)>& told,
+                               const CrowdScene::Progress& progress);
+
+}  // namespace mobil

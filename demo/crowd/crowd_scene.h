@@ -1,0 +1,147 @@
+#pragma once
+// A crowd on a square: who is there, where they turn and how fast they walk, who is near enough to be looked at, who
+// leaves and who comes.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <memory_resource>
+#include <optional>
+#include <vector>
+
+#include "demo/crowd/crowd_people.h"
+#include "engine/error.h"
+#include "systems/relevance/simulation_relevance.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+struct CrowdEffects {
+  bool muscles = true, forces = false, inertia = false, line_motion = false;
+};
+
+/// Lengths in m, times in s.
+struct CrowdRequest {
+  std::size_t humans = 1000, near = 500;
+  int threads = 0;  // 0: as many as the machine has
+  double tolerance_m = 0.005, near_tolerance_m = 0.001;
+  std::optional<double> budget_s{};  // a tick, of all deformation
+  CrowdEffects effects{};
+  double churn_per_s = 0;
+  std::size_t burst = 0;  // leave and come in one tick of each second
+  bool all_seen = false;
+  std::uint64_t seed = 1;
+};
+
+/// What the host decided in one tick.
+struct CrowdDecisions {
+  std::size_t spawned = 0, despawned = 0, turned = 0, changed_speed = 0, near_changed = 0;
+  bool structural() const { return spawned + despawned + near_changed > 0; }
+};
+
+/// One who walks. What there is besides is drawn from the number, and lies in the simulation.
+struct CrowdWalker {
+  Entity entity;
+  std::uint64_t number = 0;
+  float x_m = 0, z_m = 0, heading_rad = 0;  // where they were a second ago at most; where they are to go
+  std::uint32_t changes = 0;                // of theirs that have been
+  std::int32_t next = -1, before = -1;      // whose change comes in the same tick
+  std::uint16_t due = 0;                    // that tick's place in the ring
+  std::uint8_t draw = 0;
+  bool near = false, stopped = false, returning = false;
+};
+
+/// Decisions depend on the seed and the ticks that were: never on threads or clocks. With a budget methods follow the
+/// clock.
+/// The default memory, and how much of it is lent.
+class MeteredMemory : public std::pmr::memory_resource {
+ public:
+  std::size_t lent() const { return lent_; }
+
+ private:
+  void* do_allocate(std::size_t bytes, std::size_t alignment) override {
+    void* const memory = std::pmr::get_default_resource()->allocate(bytes, alignment);
+    lent_ += bytes;
+    return memory;
+  }
+  void do_deallocate(void* memory, std::size_t bytes, std::size_t alignment) override {
+    lent_ -= bytes;
+    std::pmr::get_default_resource()->deallocate(memory, bytes, alignment);
+  }
+  bool do_is_equal(const std::pmr::memory_resource& other) const noexcept override { return this == &other; }
+
+  std::size_t lent_ = 0;
+};
+
+class CrowdScene {
+ public:
+  using Progress = std::function<void(const char* what, std::size_t done, std::size_t of)>;
+
+  /// Spawns everybody and lets methods settle. Errors: what the simulation refuses.
+  static Result<std::unique_ptr<CrowdScene>> make(const CrowdRequest& request, const Progress& progress = {});
+  CrowdScene(const CrowdScene&) = delete;
+  CrowdScene& operator=(const CrowdScene&) = delete;
+
+  /// Another number of people from here on.
+  Result<void> resize(std::size_t humans, const Progress& progress = {});
+  /// Runs on until methods have been chosen and what that excited has died away.
+  Result<void> settle(const Progress& progress = {});
+
+  /// The parts of a tick, in this order: who turns, comes and goes; which methods; the simulation.
+  Result<CrowdDecisions> decide();
+  RelevanceReport choose_methods();
+  void tick();
+
+  const CrowdRequest& request() const { return request_; }
+  Simulation& simulation() { return *simulation_; }
+  const Simulation& simulation() const { return *simulation_; }
+  const std::vector<CrowdWalker>& walkers() const { return walkers_; }
+  double side_m() const { return side_m_; }
+  /// Where who looks stands: in the middle of the square's edge at −z.
+  Vec3<float> viewer_m() const { return {0, 0, static_cast<float>(-0.5 * side_m_)}; }
+
+  /// Muscles by the rung that they are on; the last is of those that were refused another.
+  std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
+  /// Bytes of heap before anybody was there; 0 where the machine does not tell.
+  /// What the simulation holds in memory of its people: tables, registers, records.
+  std::size_t bytes_of_people() const;
+  std::size_t drawn_again() const { return drawn_again_; }
+
+ private:
+  explicit CrowdScene(const CrowdRequest& request);
+
+  Result<void> prepare(const Progress& progress);
+  Result<void> come(std::size_t slot, std::size_t count);
+  void leave(std::size_t slot, std::size_t count);
+  Result<void> exchange(std::size_t count, CrowdDecisions& decisions);
+  Result<void> carry_out(CrowdWalker& walker, CrowdDecisions& decisions);
+  void plan(std::size_t slot);
+  void forget_plan(std::size_t slot);
+  Result<void> look_round(CrowdDecisions& decisions);
+  void read_places();
+  Result<void> turn_back(CrowdDecisions& decisions);
+  Result<void> choose_near(CrowdDecisions& decisions);
+  LegMuscles first_muscles() const;
+
+  static constexpr std::size_t ring = 2048;  // ticks ahead that a change may lie
+
+  CrowdRequest request_;
+  double side_m_ = 0;
+  MeteredMemory memory_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Relevance> relevance_;
+  LegMuscles muscles_;
+  std::vector<CrowdWalker> walkers_;
+  std::vector<SpawnRequest> requests_;  // kept for their memory
+  std::vector<Entity> entities_;
+  std::vector<std::uint32_t> slot_of_;    // by entity index
+  std::array<std::int32_t, ring> due_{};  // first walker whose change comes in that tick
+  std::vector<std::pair<float, std::uint32_t>> distance_;
+  std::uint64_t next_number_ = 0, exchanges_ = 0;
+  double owed_ = 0;  // people that churn is behind
+  std::size_t drawn_again_ = 0;
+};
+
+}  // namespace mobil

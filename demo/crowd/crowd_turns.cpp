@@ -1,0 +1,132 @@
+// Who turns, walks faster or slower, stops and goes on; who is near.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "demo/crowd/crowd_scene.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::uint64_t return_stream = 0x40000;
+constexpr float whole_turn = 2 * std::numbers::pi_v<float>;
+constexpr float aims = 0.2F;   // rad off at most where who returns is to go
+constexpr float stays = 0.9F;  // part of the squared distance by which who is near counts as nearer
+
+}  // namespace
+
+/// When the next change of who walks there comes.
+void CrowdScene::plan(std::size_t slot) {
+  CrowdWalker& walker = walkers_[slot];
+  const float after_s = crowd_change(request_.seed, walker.number, walker.changes, walker.stopped).after_s;
+  const auto ticks = static_cast<std::uint32_t>(std::lround(static_cast<double>(after_s) / simulation_->tick_s()));
+  walker.due =
+      static_cast<std::uint16_t>((simulation_->ticks() + std::clamp<std::uint32_t>(ticks, 1, ring - 1)) % ring);
+  walker.before = -1;
+  walker.next = due_[walker.due];
+  if (walker.next >= 0) walkers_[static_cast<std::size_t>(walker.next)].before = static_cast<std::int32_t>(slot);
+  due_[walker.due] = static_cast<std::int32_t>(slot);
+}
+
+void CrowdScene::forget_plan(std::size_t slot) {
+  const CrowdWalker& walker = walkers_[slot];
+  (walker.before >= 0 ? walkers_[static_cast<std::size_t>(walker.before)].next : due_[walker.due]) = walker.next;
+  if (walker.next >= 0) walkers_[static_cast<std::size_t>(walker.next)].before = walker.before;
+}
+
+/// A speed that the body cannot walk at in its own style is left alone.
+Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decisions) {
+  const CrowdChange change = crowd_change(request_.seed, walker.number, walker.changes++, walker.stopped);
+  if (change.speed_m_s >= 0) {
+    GaitRequest gait = crowd_person(request_.seed, walker.number, walker.draw).gait;
+    const float usual_m_s = *gait.speed_m_s;
+    gait.speed_m_s = change.speed_m_s;
+    if (!simulation_->change_gait(walker.entity, gait)) {
+      gait.speed_m_s = usual_m_s;
+      if (auto done = simulation_->change_gait(walker.entity, gait); !done) return done;
+    }
+    walker.stopped = change.speed_m_s == 0;
+    ++decisions.changed_speed;
+  }
+  if (change.turn_rad != 0 && !walker.returning) {
+    walker.heading_rad = std::remainder(walker.heading_rad + change.turn_rad, whole_turn);
+    if (auto done = simulation_->turn_to(walker.entity, walker.heading_rad); !done) return done;
+    ++decisions.turned;
+  }
+  return {};
+}
+
+/// Once a second.
+Result<void> CrowdScene::look_round(CrowdDecisions& decisions) {
+  read_places();
+  if (auto done = turn_back(decisions); !done) return done;
+  return choose_near(decisions);
+}
+
+/// Block by block, which takes a tenth of the time that asking for one after the other would.
+void CrowdScene::read_places() {
+  for (const Table& table : simulation_->world().tables()) {
+    const std::uint32_t column = table.column(type_id<Pose<float>>());
+    if (column == Table::no_column) continue;
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      const float* const pelvis = table.block(b) + std::size_t{column} * lane_count;
+      const Entity* const who = table.entities(b);
+      for (std::uint32_t lane = 0; lane < table.live(b); ++lane) {
+        CrowdWalker& walker = walkers_[slot_of_[who[lane].index]];
+        walker.x_m = pelvis[lane];
+        walker.z_m = pelvis[2 * lane_count + lane];
+      }
+    }
+  }
+}
+
+/// Who is outside of the square heads for a point of their own in its inner half, and goes on aiming at it: a turn
+/// takes steps, and those lead elsewhere.
+Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
+  const auto half_m = static_cast<float>(0.5 * side_m_);
+  for (CrowdWalker& walker : walkers_) {
+    const bool outside = std::max(std::abs(walker.x_m), std::abs(walker.z_m)) > half_m;
+    if (!outside) {
+      walker.returning = false;
+      continue;
+    }
+    CrowdRandom random(request_.seed, walker.number, return_stream);
+    const float x_m = random.even(-0.5F, 0.5F) * half_m, z_m = random.even(-0.5F, 0.5F) * half_m;
+    const float heading_rad = std::atan2(x_m - walker.x_m, z_m - walker.z_m);
+    if (walker.returning && std::abs(std::remainder(heading_rad - walker.heading_rad, whole_turn)) < aims) continue;
+    decisions.turned += walker.returning ? 0 : 1;
+    walker.returning = true;
+    walker.heading_rad = heading_rad;
+    if (auto done = simulation_->turn_to(walker.entity, heading_rad); !done) return done;
+  }
+  return {};
+}
+
+/// Those nearest to who looks, the present ones a little preferred.
+Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
+  if (!relevance_) return {};
+  const std::size_t near = std::min(request_.near, walkers_.size());
+  const Vec3<float> eye = viewer_m();
+  distance_.clear();
+  for (std::uint32_t i = 0; i < walkers_.size(); ++i) {
+    const float x = walkers_[i].x_m - eye.x, z = walkers_[i].z_m - eye.z;
+    distance_.emplace_back((x * x + z * z) * (walkers_[i].near ? stays : 1), i);
+  }
+  std::nth_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(near), distance_.end());
+  for (std::size_t k = 0; k < distance_.size(); ++k) {
+    CrowdWalker& walker = walkers_[distance_[k].second];
+    const bool is_near = k < near;
+    if (is_near == walker.near) continue;
+    walker.near = is_near;
+    ++decisions.near_changed;
+    PersonNeeds needs;
+    if (is_near) {
+      needs.tolerance_m = static_cast<float>(request_.near_tolerance_m);
+      needs.looked_at = true;
+    }
+    if (auto done = relevance_->manage(walker.entity, needs); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,122 @@
+// `mobil effects`: what can be simulated, what each effect costs, and what a scene that asks for little pays.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "assets/files/output_file.h"
+#include "demo/effects/accuracy_measure.h"
+#include "demo/effects/effects.h"
+#include "demo/effects/relevance_show.h"
+#include "demo/program/commands.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t most_humans = 100000, least_shown = 100;
+
+struct EffectsCommand {
+  std::size_t humans = 300, crowd = 0;
+  std::string json;
+  bool measure = false;
+};
+
+void show(const std::string& what) {
+  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", what);
+}
+
+Result<void> list_effects(const EffectsCommand& text) {
+  const auto account = measure_effects(text.humans, show);
+  show("");
+  if (!account) return tl::unexpected(account.error());
+  fmt::print("{}", effects_table(*account));
+  if (text.json.empty()) return {};
+  if (auto ok = write_file(std::filesystem::path(text.json), effects_json(*account)); !ok)
+    return fail("--json " + ok.error().message);
+  fmt::print("written {}\n", text.json);
+  return {};
+}
+
+/// The rows of systems/relevance/accuracy_table.cpp.
+Result<void> measure_table() {
+  std::vector<AccuracyRow> rows;
+  std::array<RungCost, 2> costs;
+  for (const bool inertia : {false, true}) {
+    AccuracyPlan plan = accuracy_plan();
+    plan.progress = [&](double part) {
+      show(fmt::format("errors {} inertia: {:.0f} %", inertia ? "with" : "without", 100 * part));
+    };
+    const auto errors = measure_errors(plan, inertia);
+    if (!errors) return tl::unexpected(errors.error());
+    rows.insert(rows.end(), errors->begin(), errors->end());
+    show("costs");
+    const auto cost = measure_costs(1024, inertia);
+    if (!cost) return tl::unexpected(cost.error());
+    costs[inertia ? 1 : 0] = *cost;
+  }
+  show("");
+  fmt::print("{}", accuracy_source(rows, costs));
+  return {};
+}
+
+int run_effects(const EffectsCommand& text) {
+  if (text.humans < 1 || text.humans > most_humans)
+    return exit_status_of("effects", fail(fmt::format("--humans {}: give 1 to {}", text.humans, most_humans)));
+  if (text.measure) return exit_status_of("effects", measure_table());
+  if (text.crowd == 0) return exit_status_of("effects", list_effects(text));
+  if (text.crowd < least_shown || text.crowd > most_humans)
+    return exit_status_of("effects",
+                          fail(fmt::format("--crowd {}: give {} to {}", text.crowd, least_shown, most_humans)));
+  CrowdShow asked;
+  asked.humans = text.crowd;
+  asked.switching_muscles = text.crowd;
+  asked.progress = show;
+  const auto figures = show_crowd(asked);
+  show("");
+  if (!figures) return exit_status_of("effects", tl::unexpected(figures.error()));
+  fmt::print("{}", figures_table(*figures));
+  return std::ranges::all_of(*figures, &ShownFigure::held) ? 0 : 1;
+}
+
+}  // namespace
+
+void add_effects_command(CLI::App& app, int& exit_status) {
+  auto* command = app.add_subcommand("effects", "What can be simulated, and what each effect costs here");
+  command->footer(
+      "Every effect is switched on in a crowd of its own and its systems' time read off the simulation's report: what "
+      "a\n"
+      "scene does not ask for costs nothing. Columns: microseconds a human and tick of 1/60 s on one core (of the "
+      "least\n"
+      "busy moment), what it adds to what one sees, what it needs. Muscles come in rungs: a few vectors of a fine "
+      "mesh\n"
+      "(reduced-N), their static answer alone, or the paper's explicit mesh (full); `mobil frontier` shows how far "
+      "off\n"
+      "each is. A Relevance (systems/relevance/simulation_relevance.h) chooses among them: from a tolerance in metres, "
+      "a\n"
+      "camera and a tolerance in pixels, or a time budget a tick; its why() tells for each muscle what was chosen and "
+      "why.\n"
+      "--crowd N shows that: N people with eight muscles each, near and far; a camera's flight under a budget; "
+      "methods\n"
+      "changed at random. Exit status 1 where a bound did not hold. --measure prints the table of errors and costs "
+      "that\n"
+      "choices are made by, as systems/relevance/accuracy_table.cpp has it: minutes.\n"
+      "\nExamples: mobil effects\n"
+      "          mobil effects --json effects.json\n"
+      "          mobil effects --crowd 10000");
+  auto text = std::make_shared<EffectsCommand>();
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  command->add_option("--humans", text->humans, "How many walk while effects are measured")->capture_default_str();
+  command->add_option("--json", text->json, "File for the figures");
+  auto* crowd = command->add_option("--crowd", text->crowd, "Show what relevance makes of a crowd of that many");
+  command->add_flag("--measure", text->measure, "Print the accuracy table, measured anew")->excludes(crowd);
+  command->callback([text, &exit_status] { exit_status = run_effects(*text); });
+}
+
+}  // namespace mobil

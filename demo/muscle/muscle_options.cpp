@@ -1,0 +1,342 @@
+#include "demo/muscle/muscle_options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "assets/fem/element_size.h"
+#include "demo/program/units.h"
+
+namespace mobil {
+namespace {
+
+constexpr double longest_run_steps = 2e6;
+
+/// Without --dt: static writes a row for every picture of a display; CAA steps eight times as often, so that the beat
+/// of the default block's first stretch (12 Hz) is a fifth of a per cent long.
+constexpr double static_step_s = 1.0 / 60, caa_step_s = 1.0 / 480;
+
+/// Pulled by 1 N along z within 0.1 s, held, let go at 0.5 s.
+ForceHistory default_load() {
+  return {{{0, {0, 0, 0}}, {0.1, {0, 0, 1}}, {0.5, {0, 0, 1}}, {0.5, {0, 0, 0}}}};
+}
+
+Result<Cells> parse_cells(const std::string& text) {
+  Cells cells{};
+  char end = 0;
+  // at most three digits each, so that nothing overflows
+  const int read = std::sscanf(text.c_str(), "%3ux%3ux%3u%c", &cells[0], &cells[1], &cells[2], &end);
+  if (read != 3 || text.find_first_not_of("0123456789x") != std::string::npos) {
+    return fail(fmt::format("--cells '{}' must be three counts from 1 to 256 as in 2x2x8", text));
+  }
+  return cells;
+}
+
+/// Numbers from `low` to `high` between commas; nothing where there are more, fewer or others.
+template <std::size_t N>
+std::optional<std::array<double, N>> parse_list(const std::string& text, double low, double high) {
+  std::array<double, N> list{};
+  std::size_t from = 0;
+  for (std::size_t c = 0; c < N; ++c) {
+    const std::size_t comma = c + 1 < N ? text.find(',', from) : text.size();
+    if (comma == std::string::npos) return std::nullopt;
+    const auto value = parse_quantity(text.substr(from, comma - from), Quantity::ratio);
+    if (!value || *value < low || *value > high) return std::nullopt;
+    list[c] = *value;
+    from = comma + 1;
+  }
+  return list;
+}
+
+Result<Vec3<double>> parse_gravity(const std::string& text) {
+  const auto list = parse_list<3>(text, -1000, 1000);
+  if (list) return Vec3<double>{(*list)[0], (*list)[1], (*list)[2]};
+  return fail(fmt::format("--gravity '{}' must be three accelerations from -1000 to 1000 m/s2, as in 0,-9.81,0",
+                          text.substr(0, 60)));
+}
+
+Result<Grading> parse_grading(const std::string& text) {
+  const auto list = parse_list<2>(text, 0.01, 100);
+  if (list) return Grading{(*list)[0], (*list)[1]};
+  return fail(fmt::format("--grading '{}' must be two ratios from 0.01 to 100, across and along, as in 1,2",
+                          text.substr(0, 60)));
+}
+
+/// The place of `text` among the names of an enumeration.
+template <class E, class Names>
+Result<E> choose(std::string_view option, const std::string& text, const Names& names) {
+  const auto found = std::find(names.begin(), names.end(), text);
+  if (found != names.end()) return static_cast<E>(found - names.begin());
+  return fail(
+      fmt::format("{} '{}' is not available; choose one of {}", option, text.substr(0, 60), fmt::join(names, ", ")));
+}
+
+/// The mass that a method takes, where nothing or the right thing was asked for.
+Result<Mass> choose_mass(Method method, const std::string& text) {
+  const Mass own = method == Method::icd || method == Method::caa ? Mass::consistent : Mass::lumped;
+  if (text.empty()) return own;
+  const auto mass = choose<Mass>("--mass", text, mass_name);
+  if (!mass) return mass;
+  if (method == Method::ecd && *mass == Mass::consistent) {
+    return fail(
+        "--mass consistent would need a solve at every explicit step, which is --method icd; --method ecd takes --mass "
+        "lumped");
+  }
+  if (method == Method::icd && *mass == Mass::lumped) {
+    return fail(
+        "--mass lumped needs no solve, which is --method ecd; --method icd (central differences that solve with the "
+        "mass) takes --mass consistent");
+  }
+  return mass;
+}
+
+struct Choices {
+  Method method;
+  Mass mass;
+  Element element;
+  bool in_double;
+};
+
+Result<Choices> read_choices(const MuscleText& text) {
+  const auto moving = std::span(method_name).first(static_cast<std::size_t>(Method::none));
+  const auto method = choose<Method>("--method", text.method, moving);
+  if (!method) return tl::unexpected(method.error());
+  const auto mass = choose_mass(*method, text.mass);
+  if (!mass) return tl::unexpected(mass.error());
+  const auto element = choose<Element>("--element", text.element, element_name);
+  if (!element) return tl::unexpected(element.error());
+  static constexpr std::array<std::string_view, 2> precisions = {"single", "double"};
+  const auto precision = choose<std::size_t>("--precision", text.precision, precisions);
+  if (!precision) return tl::unexpected(precision.error());
+  if (*method == Method::reduced && *precision == 1) {
+    return fail("--precision double has no reduced method; its steps are exact, leave the option out");
+  }
+  if (*method != Method::reduced && !text.glb.empty()) {
+    return fail("--glb writes the vectors of --method reduced; add that, or leave --glb out");
+  }
+  return Choices{*method, *mass, *element, *precision == 1};
+}
+
+/// Whether a factorised operator is needed.
+bool solves(const Choices& choices) {
+  return !choices.in_double && choices.method != Method::ecd && choices.method != Method::reduced;
+}
+
+Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choices) {
+  const auto cells = parse_cells(text.cells);
+  if (!cells) return tl::unexpected(cells.error());
+  if (solves(choices)) {
+    if (auto ok = check_belly_solver(*cells, choices.method); !ok) {
+      return fail(ok.error().message + "; --precision double has no such limit");
+    }
+  }
+  const auto size = read_value("--cell-size", text.cell_size, Quantity::length, 1e-4, 1);
+  if (!size) return tl::unexpected(size.error());
+  const auto young = read_value("--young", text.young, Quantity::pressure);
+  if (!young) return tl::unexpected(young.error());
+  const auto poisson = read_value("--poisson", text.poisson, Quantity::ratio);
+  if (!poisson) return tl::unexpected(poisson.error());
+  const auto density = read_value("--density", text.density, Quantity::density);
+  if (!density) return tl::unexpected(density.error());
+  const auto damping = read_value("--damping", text.damping, Quantity::rate, 0, 1000);
+  if (!damping) return tl::unexpected(damping.error());
+  const auto stiffness_damping = read_value("--stiffness-damping", text.stiffness_damping, Quantity::time, 0, 1);
+  if (!stiffness_damping) return tl::unexpected(stiffness_damping.error());
+  const auto foundation = read_value("--foundation", text.foundation, Quantity::frequency, 0, 1000);
+  if (!foundation) return tl::unexpected(foundation.error());
+  const auto grading = parse_grading(text.grading);
+  if (!grading) return tl::unexpected(grading.error());
+  auto mesh = make_block(*cells, *size, *grading);
+  if (!mesh) return tl::unexpected(mesh.error());
+  MuscleOptions options;
+  options.far_end = FarEnd::free;
+  options.damping_per_s = *damping;
+  options.lowest_ratio = options.highest_ratio = 1;
+  options.element = choices.element;
+  options.mass = choices.mass;
+  options.stiffness_damping_s = *stiffness_damping;
+  options.foundation_hz = *foundation;
+  return make_muscle_template(std::move(*mesh), Material{*density, *young, *poisson}, options);
+}
+
+double limit_of(const MuscleTemplate& muscle) {
+  const MuscleOptions& o = muscle.options;
+  return critical_step(muscle.terms, 1, 1,
+                       StepCase{FarEnd::free, o.mass, o.stiffness_damping_s, 2 * std::numbers::pi * o.foundation_hz});
+}
+
+std::string warn_of_coarse_elements(const MuscleTemplate& muscle) {
+  const double longest = longest_edge_m(muscle.mesh), allowed = largest_element_m(muscle.material);
+  if (longest <= allowed * (1 + 1e-9)) return "";
+  return fmt::format(
+      "warning: elements of {:.4g} m are longer than {:.4g} m, a tenth of this material's compression wave at {:.3g} "
+      "Hz; "
+      "fast loads are carried coarsely: take smaller cells",
+      longest, allowed, highest_load_hz);
+}
+
+struct Stepping {
+  std::optional<double> critical_step_s;
+  double dt_s;
+  std::size_t steps;
+};
+
+Result<Stepping> choose_step(const MuscleText& text, const MuscleTemplate& muscle, Method method) {
+  const auto seconds = read_value("--seconds", text.seconds, Quantity::time, 1e-6, 3600);
+  if (!seconds) return tl::unexpected(seconds.error());
+  std::optional<double> dt;
+  if (!text.dt.empty()) {
+    const auto given = read_value("--dt", text.dt, Quantity::time, 1e-9, 1000);
+    if (!given) return tl::unexpected(given.error());
+    dt = *given;
+  }
+  std::optional<double> limit;
+  double longest = method == Method::statics ? static_step_s : caa_step_s;
+  if (method == Method::ecd || method == Method::icd) {
+    limit = limit_of(muscle);
+    longest = 0.9 * *limit;
+    if (dt && *dt > *limit) {
+      const double rounded = std::floor(longest * 1e6) / 1e6;
+      return fail(fmt::format(
+          "--dt {} s is above the critical step {:.4g} s of this mesh, material and mass; use at most {:.3g} s (0.9 of "
+          "it), leave --dt out, or take --method caa, which is stable at any step",
+          *dt, *limit, rounded > 0 ? rounded : longest));
+    }
+  }
+  // without --dt the run ends on a step: seconds / n with the smallest n that stays within the longest step
+  const double step = dt.value_or(*seconds / std::ceil(*seconds / longest));
+  const double steps = std::floor(*seconds / step * (1 + 1e-9));
+  if (steps > longest_run_steps) {
+    return fail(fmt::format("{} s in steps of {:.3g} s are {:.3g} steps; at most {:.0e} are run: shorten --seconds{}",
+                            *seconds, step, steps, longest_run_steps, dt ? " or lengthen --dt" : ""));
+  }
+  return Stepping{limit, step, static_cast<std::size_t>(steps)};
+}
+
+}  // namespace
+
+void add_muscle_options(CLI::App& command, MuscleText& text) {
+  const auto add = [&](const char* group, const char* name, std::string& value, const char* help) {
+    CLI::Option* option = command.add_option(name, value, help)->group(group);
+    if (!value.empty()) option->capture_default_str();
+  };
+  const char* block = "Block";
+  add(block, "--cells", text.cells, "Elements along x, y, z, 1 to 256 each");
+  add(block, "--cell-size", text.cell_size, "Edge of a cubic element, 0.0001 to 1 m");
+  add(block, "--element", text.element,
+      "full (2x2x2 points), bbar (mean dilatation: for Poisson's ratios near 0.5) or one-point (hourglass control)");
+  add(block, "--young", text.young, "Young's modulus, Pa");
+  add(block, "--poisson", text.poisson, "Poisson's ratio, above -1 and below 0.5");
+  add(block, "--density", text.density, "Density, kg/m3");
+  add(block, "--foundation", text.foundation,
+      "Held sideways as fascia would, at this frequency, 0 to 1000 Hz: (2 pi f)^2 times the mass, in x and y");
+  add(block, "--grading", text.grading,
+      "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each");
+  const char* time = "Time";
+  add(time, "--method", text.method, "static, ecd, icd, caa or reduced, see below");
+  add(time, "--vectors", text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32");
+  add(time, "--mass", text.mass,
+      "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)");
+  add(time, "--dt", text.dt,
+      "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa and reduced "
+      "1/480, static 1/60)");
+  add(time, "--seconds", text.seconds, "How long, up to 3600 s");
+  add(time, "--damping", text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most");
+  add(time, "--stiffness-damping", text.stiffness_damping,
+      "beta, 0 to 1 s: damps fast motion most, and shortens the critical step");
+  add(time, "--precision", text.precision,
+      "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time");
+  const char* load = "Load and result";
+  add(load, "--load", text.load,
+      "CSV time_s,force_x_n,force_y_n,force_z_n: total force, linear between rows, zero before the "
+      "first, held after the last (default: 1 N along +z from 0.1 s, let go at 0.5 s)");
+  add(load, "--gravity", text.gravity, "Acceleration of every mass in the block's frame, X,Y,Z, m/s2");
+  add(load, "--out", text.out, "CSV time_s,u_x_m,u_y_m,u_z_m of the far face's centre, one row a step from t = 0");
+  add(load, "--glb", text.glb,
+      "Of reduced: the block as GLB, its vectors as morph targets whose weights are the reduced coordinates; with up "
+      "to 8 vectors every viewer shows it");
+}
+
+/// Vectors of the block itself, so that 32 of them come close to its full model.
+Result<ReducedBasis> make_block_basis(const MuscleText& text, const MuscleTemplate& muscle, bool weighed) {
+  const auto vectors = read_value("--vectors", text.vectors, Quantity::ratio, 1, most_vectors);
+  if (!vectors) return tl::unexpected(vectors.error());
+  if (*vectors != std::floor(*vectors)) return fail(fmt::format("--vectors {} must be a whole number", text.vectors));
+  const MuscleOptions& o = muscle.options;
+  if (o.stiffness_damping_s > 0) {
+    return fail("--method reduced is damped by --damping alone; leave --stiffness-damping out, or take --method caa");
+  }
+  ReducedOptions options;
+  options.vectors = static_cast<std::uint32_t>(*vectors);
+  options.far_end = o.far_end;
+  options.frame_loads = weighed;
+  options.corrected = false;
+  options.foundation_hz = o.foundation_hz;
+  options.damping_per_s = o.damping_per_s;
+  options.middle_product = options.ratio_width = 1;
+  options.control_cells = muscle.mesh.cells;
+  return make_reduced_basis(muscle.mesh, muscle.material, o.element, options);
+}
+
+Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
+  const auto choices = read_choices(text);
+  if (!choices) return tl::unexpected(choices.error());
+  const auto gravity = parse_gravity(text.gravity);
+  if (!gravity) return tl::unexpected(gravity.error());
+  auto load = text.load.empty() ? Result<ForceHistory>(default_load()) : read_force_history(text.load);
+  if (!load) return fail(fmt::format("--load {}", load.error().message));
+  auto muscle = make_template(text, *choices);
+  if (!muscle) return tl::unexpected(muscle.error());
+  const auto stepping = choose_step(text, *muscle, choices->method);
+  if (!stepping) return tl::unexpected(stepping.error());
+  std::optional<BellySolver> solver;
+  if (solves(*choices)) {
+    auto made = make_belly_solver(*muscle, choices->method, choices->mass, stepping->dt_s);
+    if (!made) return tl::unexpected(made.error());
+    solver = std::move(*made);
+  }
+  std::optional<ReducedBasis> basis;
+  if (choices->method == Method::reduced) {
+    auto made = make_block_basis(text, *muscle, gravity->x != 0 || gravity->y != 0 || gravity->z != 0);
+    if (!made) return tl::unexpected(made.error());
+    basis = std::move(*made);
+  }
+  std::string warning = warn_of_coarse_elements(*muscle);
+  return MuscleRequest{.muscle = std::move(*muscle),
+                       .method = choices->method,
+                       .in_double = choices->in_double,
+                       .solver = std::move(solver),
+                       .basis = std::move(basis),
+                       .critical_step_s = stepping->critical_step_s,
+                       .dt_s = stepping->dt_s,
+                       .steps = stepping->steps,
+                       .load = std::move(*load),
+                       .gravity_m_s2 = *gravity,
+                       .out = text.out,
+                       .glb = text.glb,
+                       .warning = std::move(warning)};
+}
+
+std::string describe_method(const MuscleRequest& request) {
+  static constexpr std::array<std::string_view, 5> long_name = {
+      "static solution", "explicit central differences", "implicit central differences",
+      "constant average acceleration", "a few vectors, each integrated exactly"};
+  const auto at = static_cast<std::size_t>(request.method);
+  const MuscleOptions& o = request.muscle.options;
+  return fmt::format("{}: {}{}, {} elements, {} precision", method_name[at], long_name[at],
+                     request.basis ? fmt::format(", {} vectors", request.basis->vectors)
+                     : request.method == Method::statics
+                         ? ""
+                         : fmt::format(", {} mass", mass_name[static_cast<std::size_t>(o.mass)]),
+                     element_name[static_cast<std::size_t>(o.element)], request.in_double ? "double" : "single");
+}
+
+}  // namespace mobil

@@ -1,0 +1,51 @@
+#pragma once
+// The command line of `mobil muscle`, read and checked.
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
+#include "demo/muscle/force_history.h"
+
+namespace mobil {
+
+/// As typed; empty means left out.
+struct MuscleText {
+  std::string cells = "2x2x8", cell_size = "0.015", grading = "1,1", element = "full", young = "10666.7",
+              poisson = "0.3333", density = "1000";
+  std::string method = "ecd", mass, dt, seconds = "1", precision = "single", damping = "0", stiffness_damping = "0",
+              foundation = "0", vectors = "16";
+  std::string load, gravity = "0,0,0", out = "disp.csv", glb;
+};
+
+struct MuscleRequest {
+  MuscleTemplate muscle;  // free far face; its options hold element, mass and damping
+  Method method;
+  bool in_double;
+  std::optional<BellySolver> solver;      // of ICD, CAA and static in single precision
+  std::optional<ReducedBasis> basis;      // of the reduced method
+  std::optional<double> critical_step_s;  // of ECD and ICD
+  double dt_s;
+  std::size_t steps;
+  ForceHistory load;
+  Vec3<double> gravity_m_s2;
+  std::filesystem::path out;
+  std::filesystem::path glb;  // of the reduced method, or empty
+  std::string warning;        // one line, or empty
+};
+
+void add_muscle_options(CLI::App& command, MuscleText& text);
+
+/// Fails, naming the option, the valid range and the mend: on values out of range, a mass that the method does not
+/// take, a step above the critical one, or too many steps.
+Result<MuscleRequest> read_muscle_request(const MuscleText& text);
+
+/// "ecd: explicit central differences, lumped mass".
+std::string describe_method(const MuscleRequest& request);
+
+}  // namespace mobil

@@ -1,0 +1,127 @@
+// `mobil paper`: the paper's figures 14 to 17 and its four questions, each by one name.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assets/files/output_file.h"
+#include "demo/paper/paper.h"
+#include "demo/program/body_options.h"
+#include "demo/program/commands.h"
+#include "demo/program/named_entries.h"
+
+namespace mobil {
+namespace {
+
+struct Entry {
+  std::string_view name, about;
+  Result<void> (*make)(PaperRun&);
+  bool needs_anatomy = false;
+};
+
+constexpr std::array entries = {
+    Entry{"figure14", "hamstring mesh of 525 nodes at three moments, force in, displacement out (svg, csv)",
+          &paper_figure14},
+    Entry{"figure15", "muscle lengths over the cycle against published ones (svg, csv)", &paper_figure15},
+    Entry{"figure16", "skeleton with hamstrings: a still and a sequence over a cycle (png)", &paper_figure16},
+    Entry{"figure17", "hamstrings as mesh, as surface, and both (png)", &paper_figure17},
+    Entry{"weight", "How do persons of different weights walk at the same speed? (svg, csv, png)", &paper_weight},
+    Entry{"step-length", "How does the centre of mass's path change with step length? (svg, csv)", &paper_step_length},
+    Entry{"quadriceps", "How does a walker's quadriceps deform, at other steps too? (svg, csv, png)",
+          &paper_quadriceps},
+    Entry{"stature", "What if the person is taller or thinner? (svg, csv, png)", &paper_stature},
+    Entry{"anatomy", "real meshes beside built-in ones over a cycle (png; needs --anatomy)", &paper_anatomy, true},
+};
+
+struct PaperText {
+  std::vector<std::string> names;
+  std::string out = "out", anatomy;
+};
+
+std::string help_footer() {
+  std::string text = "Entries:\n";
+  for (const Entry& entry : entries) text += fmt::format("  {:<12} {}\n", entry.name, entry.about);
+  return text +
+         "\nThe paper: S. Baldassarri, F. Seron, Coordinated System for Real Time Muscle Deformation during\n"
+         "Locomotion. Unless an entry says otherwise a man of 1.80 m and 80 kg walks at 5 km/h. Cycles are the right\n"
+         "leg's, from heel strike to heel strike; forces are the paper's visual ones (equations 2 and 3), not\n"
+         "physiological. Files are named for their entries; pictures need a graphics device or a software driver, and "
+         "are\nleft out without.\n"
+         "Examples: mobil paper\n"
+         "          mobil paper figure15 weight --out gallery\n"
+         "          mobil paper anatomy --anatomy DIR";
+}
+
+/// Names all that can be made where none was named.
+Result<std::vector<Entry>> choose(const PaperText& text) {
+  auto chosen = choose_named(entries, text.names, "entry");
+  if (!chosen || !text.anatomy.empty()) return chosen;
+  if (!text.names.empty()) {
+    const auto lacking = std::ranges::find(*chosen, true, &Entry::needs_anatomy);
+    if (lacking == chosen->end()) return chosen;
+    return fail(fmt::format("{} needs --anatomy DIR, a folder of real meshes with manifest.csv and landmarks.csv",
+                            lacking->name));
+  }
+  std::erase_if(*chosen, [](const Entry& entry) { return entry.needs_anatomy; });
+  return chosen;
+}
+
+Result<void> make(const Entry& entry, PaperRun& run) {
+  run.entry = entry.name;
+  run.text.clear();
+  run.written.clear();
+  run.progress("walking", 0);
+  const auto done = entry.make(run);
+  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+  if (!done) return fail(fmt::format("{}: {}", entry.name, done.error().message));
+  fmt::print("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
+  if (!run.written.empty()) fmt::print("written: {}\n", fmt::join(run.written, " "));
+  fmt::print("\n");
+  return {};
+}
+
+Result<void> run_paper(const PaperText& text) {
+  const auto chosen = choose(text);
+  if (!chosen) return tl::unexpected(chosen.error());
+  std::optional<std::filesystem::path> anatomy;
+  if (!text.anatomy.empty()) anatomy = text.anatomy;
+  if (anatomy && !std::filesystem::exists(*anatomy / "manifest.csv")) {
+    return fail(fmt::format("--anatomy {}: there is no manifest.csv; name a folder with manifest.csv and landmarks.csv",
+                            anatomy->string()));
+  }
+  if (auto made = make_output_folder(text.out); !made) return made;
+  PaperRun run(text.out, anatomy);
+  for (const Entry& entry : *chosen) {
+    if (auto done = make(entry, run); !done) return done;
+  }
+  fmt::print("look at {}\n", text.out);
+  return {};
+}
+
+}  // namespace
+
+void add_paper_command(CLI::App& app, int& exit_status) {
+  auto text = std::make_shared<PaperText>();
+  CLI::App* command = app.add_subcommand("paper", "The paper's figures 14 to 17 and its four questions");
+  command->footer(help_footer());
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
+  command
+      ->add_option("name", text->names,
+                   fmt::format("What to make, of {}; all by default", fmt::join(names_of(entries), ", ")))
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
+  command->add_option("--anatomy", text->anatomy, "Folder of real meshes with manifest.csv and landmarks.csv");
+  refuse_empty_values(*command);
+  command->callback([text, &exit_status] { exit_status = exit_status_of("paper", run_paper(*text)); });
+}
+
+}  // namespace mobil

@@ -1,0 +1,65 @@
+#pragma once
+// One steady gait cycle of one person with leg muscles, as `mobil paper` tells and shows it.
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "assets/export/walk_recording.h"
+#include "components/body.h"
+#include "components/gait.h"
+#include "demo/compare/compare_judge.h"
+#include "engine/error.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+/// `shown_at`: where in the cycle (0–1, ascending) pictures are to be made.
+struct CycleRequest {
+  BodyRequest body{};
+  GaitRequest gait{};
+  std::optional<LegMuscles> muscles{};
+  std::vector<double> shown_at{};
+  std::optional<std::filesystem::path> anatomy{};
+};
+
+/// A muscle of the right leg. Thickness: the diameter of a round bar of the muscle's volume and belly length, which
+/// grows and shrinks as the widest of its mesh's sections does.
+struct MuscleCycle {
+  MusclePlan plan;
+  double rest_length_m = 0, rest_thickness_m = 0;
+  /// Of the line of action; the pull on the belly's far end, positive when longer than at rest; and the belly's own.
+  CycleCurve length_m{}, pull_n{}, elongation_m{}, volume_ratio{}, thickness_m{};
+};
+
+/// What pictures take: as many frames as places in the cycle were asked for.
+struct ShownWalk {
+  WalkRecording recording;                          // surfaces of the simulated muscles alone
+  std::vector<std::vector<Vec3<float>>> mesh_edge;  // of the right leg by frame, two ends an edge, m, world
+};
+
+/// Over the right leg's cycle; heights over the ground, sideways positive to the left of the line walked along.
+struct PaperCycle {
+  Body body;
+  Gait<float> gait{};
+  double cycle_s = 0, stance_s = 0;
+  CycleCurve com_height_m{}, com_sideways_m{}, pelvis_height_m{}, knee_flexion_deg{};
+  CycleCurve ground_n{};  // vertical, under the right foot
+  std::vector<MuscleCycle> muscles;
+  ShownWalk shown;
+
+  const MuscleCycle& muscle(Muscle muscle) const;  // must have been asked for
+};
+
+/// Walks until steady and then one cycle more, in ticks of 1/240 s. Errors: a body, gait or choice of muscles out of
+/// range; an anatomy folder that cannot be read.
+Result<PaperCycle> walk_cycle(const CycleRequest& request);
+
+struct CycleRange {
+  double low, high, low_percent, high_percent;
+  double span() const { return high - low; }
+};
+CycleRange range_of(const CycleCurve& curve);
+double mean_of(const CycleCurve& curve);
+
+}  // namespace mobil

@@ -1,0 +1,51 @@
+#pragma once
+// What commands share that run the entries of a list, `mobil bench` and `mobil stress`: choosing them by name, and the
+// file that their figures go to.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "demo/program/nearest_name.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// The names of entries, each of which has a `name`.
+template <class Entries>
+std::vector<std::string> names_of(const Entries& entries) {
+  std::vector<std::string> names;
+  names.reserve(entries.size());
+  for (const auto& entry : entries) names.emplace_back(entry.name);
+  return names;
+}
+
+/// Those that were named, in the list's order; all where none was. Fails on an unknown name. `kind` is for the message.
+template <class Entries>
+Result<std::vector<typename Entries::value_type>> choose_named(const Entries& entries,
+                                                               const std::vector<std::string>& names,
+                                                               std::string_view kind) {
+  using Entry = typename Entries::value_type;
+  for (const std::string& name : names) {
+    if (std::ranges::find(entries, name, &Entry::name) == entries.end()) {
+      const auto known = names_of(entries);
+      return fail(fmt::format("there is no {} '{}'{}; there are: {}", kind, name, suggestion(name, known),
+                              fmt::join(known, ", ")));
+    }
+  }
+  std::vector<Entry> chosen;
+  std::ranges::copy_if(entries, std::back_inserter(chosen), [&](const Entry& entry) {
+    return names.empty() || std::ranges::find(names, entry.name) != names.end();
+  });
+  return chosen;
+}
+
+/// Fails where --json names no file that could be written: so that nobody waits minutes for figures that then cannot
+/// be.
+Result<void> check_json_place(const std::string& text);
+
+}  // namespace mobil

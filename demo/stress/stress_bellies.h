@@ -1,0 +1,64 @@
+#pragma once
+// Sixteen bellies of one template by any method, as the rows of `mobil stress` shake, load and poison them.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
+#include "components/muscle.h"
+#include "engine/error.h"
+#include "systems/deformation/deformation.h"
+#include "systems/deformation/reference.h"
+
+namespace mobil {
+
+struct Bellies {
+  MuscleTemplate muscle;
+  std::optional<BellySolver> solver{};  // none: ECD
+  Stiffness stiffness = Stiffness::individual;
+  BellyScale<Lanes<float>> scale{};
+  std::vector<Lanes<float>> displacement, velocity, scratch;
+  BellyReport<Lanes<float>> report{};
+  std::optional<FrameLoad<Lanes<float>>> frame{};
+
+  /// At rest, all of the template's own size.
+  explicit Bellies(MuscleTemplate shape);
+
+  /// Fails as make_belly_solver does, for bodies of the template's own size.
+  Result<void> solve_by(Method method, Mass mass, double dt_s);
+
+  /// One tick in `substeps` equal steps.
+  void tick(const EndDrive& end, std::uint32_t substeps, float tick_s);
+
+  /// Kinetic and strain energy of a lane after the last tick, J.
+  double energy_j(std::size_t lane) const;
+  /// Whether all of a lane's displacements and velocities are numbers.
+  bool finite(std::size_t lane) const;
+  /// Largest displacement of a lane, m.
+  double reach_m(std::size_t lane) const;
+};
+
+/// Across 0.8–1.25, along 0.85–1.15: sixteen different ones.
+void make_sixteen_sizes(Bellies& bellies);
+
+/// Random displacements up to `size_m` of what moves, the same in every lane.
+void shake(Bellies& bellies, float size_m, std::uint32_t seed = 1);
+void shake(ReferenceBelly& belly, const Cells& cells, FarEnd end, double size_m, std::uint32_t seed = 1);
+
+/// Substeps that keep every lane within its critical step. Errors: critical_step's.
+Result<std::uint32_t> substeps_of(const Bellies& bellies, double tick_s);
+
+/// Words that differ between two blocks of one template in displacement and velocity, but for `but_lane`.
+std::size_t different_words(const Bellies& a, const Bellies& b, std::size_t but_lane = lane_count);
+
+/// A spindle of a length of 0.12 m, bent a little to one side. The mesh of most rows.
+HexahedralMesh spindle(const Cells& cells);
+
+/// Uniform between `low` and `high`, the same on every machine.
+double uniform(std::mt19937& random, double low, double high);
+
+}  // namespace mobil

@@ -1,0 +1,226 @@
+// `mobil walk`: one person from parameters to motion, muscles, pictures and a scene file.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "assets/body/body_composition.h"
+#include "assets/files/output_file.h"
+#include "demo/program/commands.h"
+#include "demo/walk/figure.h"
+#include "demo/walk/gait_parameters.h"
+#include "demo/walk/walk_lines.h"
+#include "demo/walk/walk_options.h"
+#include "demo/walk/walk_pictures.h"
+#include "demo/walk/walk_script.h"
+#include "demo/walk/walk_summary.h"
+#include "demo/walk/walk_tables.h"
+
+namespace mobil {
+namespace {
+
+constexpr int ticks_per_frame = 2;  // 30 pictures a second
+
+using SteadyClock = std::chrono::steady_clock;
+double seconds_since(SteadyClock::time_point start) {
+  return std::chrono::duration<double>(SteadyClock::now() - start).count();
+}
+
+/// A bar on a terminal, nothing elsewhere.
+void show_progress(const char* what, std::size_t done, std::size_t of) {
+  if (isatty(STDERR_FILENO) == 0) return;
+  const int full = static_cast<int>(40 * done / of);
+  fmt::print(stderr, "\r{} [{:<40}] {}/{}{}", what, std::string(static_cast<std::size_t>(full), '='), done, of,
+             done == of ? "\n" : "");
+}
+
+/// Leaves the line of a bar that was not filled, so that a message stands alone.
+void end_progress() {
+  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+}
+
+struct Walked {
+  MotionTable motion;
+  MuscleTable muscles;
+  WalkRecording recording;
+  std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
+  WalkOutcome outcome;
+};
+
+MotionRow motion_row(const Simulation& simulation, Entity entity) {
+  return {simulation.time_s(), simulation.get<GaitState>(entity)->heading_rad, *simulation.get<JointAngles>(entity),
+          *simulation.get<Feet>(entity), *simulation.get<CentreOfMass>(entity)};
+}
+
+/// Those of the tick before, where they are simulated. A walker never leaves the ground, so that no force at all means
+/// that none is known yet.
+std::optional<WalkForces> forces_before(const Simulation& simulation, Entity entity) {
+  const auto ground = simulation.get<GroundReaction>(entity);
+  const auto moments = simulation.get<JointMoments>(entity);
+  if (!ground || !moments || (ground->force_n[right].y == 0 && ground->force_n[left].y == 0)) return std::nullopt;
+  return WalkForces{*ground, *moments};
+}
+
+void add_muscle_rows(const Simulation& simulation, const Human& human, std::string_view method, MuscleTable& table) {
+  for (const Side side : {right, left}) {
+    for (const HumanMuscle& own : human.muscles) {
+      const Entity muscle = own.entity[side];
+      const auto belly = simulation.get<BellyReport>(muscle);
+      table.add(simulation.time_s(), side, own.plan.muscle, *simulation.get<LineOfAction>(muscle),
+                *simulation.get<LineMotion>(muscle), belly ? std::optional(*belly) : std::nullopt, method);
+    }
+  }
+}
+
+/// Hands over the changes that are due. Errors name the script's line.
+Result<void> apply_changes(const std::vector<GaitChange>& changes, const std::string& script, Entity entity,
+                           Simulation& simulation, std::size_t& applied) {
+  const double due = simulation.time_s() + 1e-9;
+  for (; applied < changes.size() && changes[applied].time_s <= due; ++applied) {
+    const GaitChange& change = changes[applied];
+    if (change.gait) {
+      const auto done = simulation.change_gait(entity, *change.gait);
+      if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
+    }
+    if (change.heading_rad) {
+      const auto done = simulation.turn_to(entity, *change.heading_rad);
+      if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
+    }
+  }
+  return {};
+}
+
+Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
+                    const std::vector<GaitChange>& changes) {
+  Walked walked;
+  WalkOutcome& outcome = walked.outcome;
+  outcome.gait = human.gait;
+  walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
+  const std::string method = method_label(options.muscles);
+  const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
+  simulation.schedule().reset_timings();
+  std::uint32_t steps_before = 0;
+  std::optional<MotionRow> held;  // until the forces of its tick are known
+  for (std::uint32_t i = 0; i < total; ++i) {
+    if (options.script) {
+      auto done = apply_changes(changes, options.script->path, human.entity, simulation, outcome.changes);
+      if (!done) return tl::unexpected(done.error());
+    }
+    const auto start = SteadyClock::now();
+    simulation.tick();
+    outcome.simulation_s += seconds_since(start);
+    const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
+    if (steps != steps_before) outcome.clamped_steps += simulation.get<StepPlan>(human.entity)->clamped;
+    steps_before = steps;
+    if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
+    held = motion_row(simulation, human.entity);
+    add_muscle_rows(simulation, human, method, walked.muscles);
+    if (i % ticks_per_frame == 0) {
+      show_progress("walking", i + std::size_t{1}, total);
+      record_frame(figure, simulation, human, walked.recording);
+      if (options.view == View::stick) walked.action_line.push_back(action_lines(simulation, human));
+      if (options.view == View::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
+    }
+  }
+  outcome.ticks = simulation.ticks();
+  outcome.simulated_s = simulation.time_s();
+  const auto timings = simulation.schedule().timings();
+  outcome.stages.assign(timings.begin(), timings.end());
+  if (forces_before(simulation, human.entity)) simulation.tick();  // one more, for the forces of the last row
+  if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
+  show_progress("walking", total, total);
+  return walked;
+}
+
+/// Everything that is written, in an order that leaves nothing behind when pictures cannot be made.
+Result<void> write_results(const Walked& walked, const Simulation& simulation, const Human& human,
+                           const WalkOptions& options, SteadyClock::time_point start) {
+  if (options.frames || options.video) {  // first, as they may lack a driver or a program
+    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
+    const std::size_t frames = walked.recording.frames.size();
+    auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
+    if (!done) return done;
+  }
+  if (auto done = write_file(options.out / "motion.csv", walked.motion.text); !done) return done;
+  if (auto done = write_file(options.out / "muscles.csv", walked.muscles.text); !done) return done;
+  const auto exported = write_glb(options.out / "walk.glb", walked.recording);
+  if (!exported) return tl::unexpected(exported.error());
+  WalkOutcome outcome = walked.outcome;
+  outcome.wall_s = seconds_since(start);
+  const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
+  if (auto done = write_file(options.out / "summary.json", summary); !done) return done;
+
+  for (const std::string& note : body_notes(human.body)) fmt::print("note: {}\n", note);
+  fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
+             outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
+  fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
+             1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
+  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}\n", options.out.string(),
+             options.frames ? " frame_*.png" : "", options.video ? " walk.mp4" : "");
+  return {};
+}
+
+Result<void> run_walk(const WalkOptions& options) {
+  const auto start = SteadyClock::now();
+  Simulation simulation;
+  const auto entity = simulation.spawn(options.body, options.gait);
+  if (!entity) return tl::unexpected(entity.error());
+  std::vector<GaitChange> changes;
+  if (options.script) {
+    auto planned = plan_changes(*options.script, simulation.human(*entity)->body, options.gait);
+    if (!planned) return fail(fmt::format("--script {}", planned.error().message));
+    changes = std::move(*planned);
+  }
+  const auto added = simulation.add_leg_muscles(*entity, options.muscles);
+  if (!added) return added;
+  if (options.forces) simulation.add_forces(*entity);
+  const Human human = *simulation.human(*entity);
+  const auto figure = make_figure(simulation, human, options.anatomy);
+  if (!figure) return tl::unexpected(figure.error());
+  const bool folder_was_there = std::filesystem::exists(options.out);
+  if (auto made = make_output_folder(options.out); !made) return made;
+
+  const auto walked = walk(simulation, human, *figure, options, changes);
+  auto done =
+      walked ? write_results(*walked, simulation, human, options, start) : Result<void>(tl::unexpected(walked.error()));
+  if (!done) end_progress();
+  std::error_code ignored;
+  if (!done && !folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
+  if (done && changes.size() > walked->outcome.changes) {
+    fmt::print("script: {} of {} changes lie after the end; lengthen --seconds to see them\n",
+               changes.size() - walked->outcome.changes, changes.size());
+  }
+  return done;
+}
+
+}  // namespace
+
+void add_walk_command(CLI::App& app, int& exit_status) {
+  auto* command =
+      app.add_subcommand("walk", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures");
+  command->footer(std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) +
+                  "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
+                  "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
+                  "          mobil walk --method caa --inertia --view wireframe --video");
+  auto text = std::make_shared<WalkText>();
+  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
+  add_walk_options(*command, *text);
+  command->callback([text, &exit_status] {
+    if (text->list_parameters) {
+      fmt::print("{}", gait_parameter_table());
+      return;
+    }
+    const auto options = read_walk_options(*text);
+    exit_status = exit_status_of("walk", options ? run_walk(*options) : tl::unexpected(options.error()));
+  });
+}
+
+}  // namespace mobil

@@ -1,0 +1,80 @@
+#include "demo/walk/walk_lines.h"
+
+#include <algorithm>
+#include <array>
+
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+/// A point of a muscle's frame in the world; a left muscle's is reflected.
+Vec3<float> to_world(const LineOfAction<float>& line, Side side, const Vec3<float>& p) {
+  const Vec3<float> world = line.start_m + rotated(line.rotation, p);
+  return side == left ? mirrored(world) : world;
+}
+
+/// Each edge of the boundary once.
+std::vector<std::array<std::uint32_t, 2>> boundary_edges(const Cells& cells) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  for (const Quad& quad : boundary_quads(cells)) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto [low, high] = std::minmax(quad[i], quad[(i + 1) % 4]);
+      edges.push_back({low, high});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  return edges;
+}
+
+/// Calls f(plan, entity, side, line) for every muscle that is there.
+template <class F>
+void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
+  for (const HumanMuscle& own : human.muscles) {
+    for (const Side side : {right, left}) {
+      const auto line = simulation.get<LineOfAction>(own.entity[side]);
+      if (line) f(own.plan, own.entity[side], side, *line);
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human& human) {
+  std::vector<Vec3<float>> ends;
+  for_each_muscle(simulation, human, [&](const MusclePlan& plan, Entity, Side side, const LineOfAction<float>& line) {
+    const float rest = static_cast<float>(plan.belly_length_m);
+    ends.push_back(to_world(line, side, {0, 0, 0}));
+    ends.push_back(to_world(line, side, {0, 0, rest + line.length_m - line.rest_length_m}));
+  });
+  return ends;
+}
+
+std::vector<Vec3<float>> mesh_edges(const Simulation& simulation, const Human& human) {
+  std::vector<Vec3<float>> ends;
+  for_each_muscle(simulation, human,
+                  [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
+                    const auto* shape = simulation.world().shared<MuscleTemplate>(muscle);
+                    const NodalView moved = simulation.nodal_displacement(muscle);
+                    if (moved.first == nullptr) return;  // a line alone
+                    const BellyScale<float> scale = plan.scale;
+                    const auto node = [&](std::uint32_t n) {
+                      const auto& rest = shape->mesh.node[n];
+                      const float* u = moved.first + std::size_t{3} * n * lane_count;
+                      return to_world(line, side,
+                                      {scale.across * static_cast<float>(rest.x) + u[0],
+                                       scale.across * static_cast<float>(rest.y) + u[lane_count],
+                                       scale.along * static_cast<float>(rest.z) + u[2 * lane_count]});
+                    };
+                    for (const auto& [from, to] : boundary_edges(shape->mesh.cells)) {
+                      ends.push_back(node(from));
+                      ends.push_back(node(to));
+                    }
+                  });
+  return ends;
+}
+
+}  // namespace mobil

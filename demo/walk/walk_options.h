@@ -1,0 +1,54 @@
+#pragma once
+// What `mobil walk` was asked for, checked.
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "demo/program/body_options.h"
+#include "demo/walk/walk_script.h"
+#include "engine/error.h"
+#include "systems/muscles/simulation_muscles.h"
+
+namespace mobil {
+
+enum class View { stick, wireframe, surface };
+
+struct WalkOptions {
+  BodyRequest body;
+  GaitRequest gait;
+  std::optional<WalkScript> script;
+  double seconds = 5;
+  LegMuscles muscles;
+  bool forces = true;  // ground reactions and joint moments
+  std::optional<std::filesystem::path> anatomy;
+  View view = View::surface;
+  bool frames = false, video = false, stereo = false;
+  std::filesystem::path out = "out";
+};
+
+/// The options as text, as the command line hands them over; bound by `add_walk_options`.
+struct WalkText {
+  BodyText body;
+  std::string speed, step_length, step_frequency, seconds = "5";
+  std::string muscles = "groups", drive = "displacement", method = "ecd", element = "full", anatomy, view = "surface",
+              out = "out";
+  std::vector<std::string> set;
+  std::string script;
+  bool list_parameters = false, no_forces = false, members = false, inertia = false;
+  bool frames = false, video = false, stereo = false;
+};
+
+void add_walk_options(CLI::App& command, WalkText& text);
+
+/// What the options above mean for muscles, for the end of --help.
+extern const char* const walk_muscles_help;
+
+/// Reads and checks every option. Errors name the option, the valid range and the mend.
+Result<WalkOptions> read_walk_options(const WalkText& text);
+
+}  // namespace mobil

@@ -1,0 +1,28 @@
+#pragma once
+// A recorded walk as pictures: frame_*.png, walk.mp4.
+
+#include <cstddef>
+#include <functional>
+#include <vector>
+
+#include "assets/export/walk_recording.h"
+#include "components/body.h"
+#include "demo/walk/walk_options.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// What pictures show beyond the recording, by frame, two ends a line, in the world (m): lines of action (the stick
+/// view needs them), edges of the finite-element meshes (the wireframe view).
+struct WalkDrawing {
+  const WalkRecording* recording = nullptr;
+  const Body* body = nullptr;
+  std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
+};
+
+/// Renders every frame at 1280×720 with the camera following, as PNGs and/or a video, as `options` says; `progress` is
+/// called with the number of frames done. Errors: no driver, no ffmpeg, an unwritable folder.
+Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options,
+                            const std::function<void(std::size_t)>& progress);
+
+}  // namespace mobil

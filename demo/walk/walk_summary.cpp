@@ -1,0 +1,117 @@
+#include "demo/walk/walk_summary.h"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "assets/body/body_composition.h"
+
+namespace mobil {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The shortest decimal that reads as this number: 0.1, not 0.10000000149.
+double decimal(float value) {
+  return std::stod(fmt::format("{}", value));
+}
+
+Json muscles_json(const Simulation& simulation, const Human& human) {
+  Json muscles = Json::array();
+  for (const HumanMuscle& own : human.muscles) {
+    for (const Side side : {right, left}) {
+      const Entity entity = own.entity[side];
+      const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
+      const BellyScale<float>& scale = own.plan.scale;
+      const auto line = simulation.get<LineOfAction>(entity);
+      if (!line) continue;
+      const Method method = own.method.method;
+      const bool stepped = method == Method::ecd || method == Method::icd || method == Method::caa;
+      const bool limited = method == Method::ecd || method == Method::icd;
+      const std::uint64_t steps =
+          simulation.world().get<Substeps>(entity).value_or(simulation.world().get<SolvedSteps>(entity).value_or(1));
+      const double critical = limited ? critical_step(shape->critical_steps, static_cast<double>(scale.across),
+                                                      static_cast<double>(scale.along))
+                                            .value_or(0.0)
+                                      : 0.0;
+      const MusclePlan& plan = own.plan;
+      muscles.push_back({{"group", muscle_name(plan.muscle)},
+                         {"side", side == right ? "right" : "left"},
+                         {"method", method_name[static_cast<std::size_t>(method)]},
+                         {"nodes", shape == nullptr ? 0 : node_count(shape->mesh.cells)},
+                         {"vectors", method == Method::reduced ? Json(own.method.reduced.vectors) : Json()},
+                         {"rest_length_m", line->rest_length_m},
+                         {"belly_length_m", plan.belly_length_m},
+                         {"section_m2", plan.section_m2},
+                         {"stiffness_n_per_m", line->stiffness_n_per_m},
+                         {"dt_s", stepped ? Json(simulation.tick_s() / static_cast<double>(steps)) : Json()},
+                         {"critical_dt_s", limited ? Json(critical) : Json()},
+                         {"substeps_per_tick", stepped ? Json(steps) : Json()}});
+    }
+  }
+  return muscles;
+}
+
+}  // namespace
+
+std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
+                         const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported) {
+  const BodyRequest& body = human.body.request;
+  Json summary;
+  summary["body"] = {{"height_m", decimal(body.height_m)},
+                     {"mass_kg", decimal(body.mass_kg)},
+                     {"biotype", {decimal(body.biotype.endo), decimal(body.biotype.meso), decimal(body.biotype.ecto)}},
+                     {"constitution", constitution_name[static_cast<std::size_t>(body.constitution)]},
+                     {"hip_height_m", decimal(human.body.hip_height_m)},
+                     {"notes", body_notes(human.body)}};
+  Json parameters = Json::object();
+  for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(options.gait.style.*p.value);
+  summary["gait"] = {{"speed_m_s", decimal(outcome.gait.speed_m_s)},
+                     {"step_length_m", decimal(outcome.gait.step_length_m)},
+                     {"clamped_steps", outcome.clamped_steps},
+                     {"step_frequency_hz", decimal(outcome.gait.step_frequency_hz)},
+                     {"double_support_cycle", decimal(outcome.gait.double_support_cycle)},
+                     {"parameters", parameters}};
+  if (options.script) summary["script"] = {{"file", options.script->path}, {"changes", outcome.changes}};
+  summary["drive"] = options.muscles.drive == Drive::force ? "force" : "displacement";
+  summary["method"] = method_name[static_cast<std::size_t>(options.muscles.method)];
+  summary["element"] = element_name[static_cast<std::size_t>(options.muscles.element)];
+  summary["inertia"] = options.muscles.inertia;
+  summary["anatomy"] = options.anatomy ? Json(options.anatomy->string()) : Json("built-in");
+
+  const double simulated = outcome.simulated_s;
+  const double ticks = outcome.ticks;
+  Json stages = Json::object(), cost = Json::array();
+  const auto systems = simulation.schedule().systems();
+  const auto& timings = outcome.stages;
+  for (std::size_t i = 0; i < systems.size(); ++i) {
+    const bool ran = timings[i].seconds > 0;
+    stages[systems[i].name] = {{"us_per_tick", 1e6 * timings[i].seconds / ticks},
+                               {"times_faster_than_real_time", ran ? Json(simulated / timings[i].seconds) : Json()}};
+    cost.push_back({{"name", systems[i].name},
+                    {"ms_per_tick", 1e3 * timings[i].seconds / ticks},
+                    {"entities", static_cast<double>(timings[i].rows) / ticks}});
+  }
+  summary["time"] = {{"simulated_s", simulated},
+                     {"ticks", outcome.ticks},
+                     {"tick_s", simulation.tick_s()},
+                     {"simulation_wall_s", outcome.simulation_s},
+                     {"us_per_tick", 1e6 * outcome.simulation_s / ticks},
+                     {"times_faster_than_real_time", simulated / outcome.simulation_s},
+                     {"command_wall_s", outcome.wall_s},
+                     {"stages", stages}};
+  summary["systems"] = cost;
+  summary["muscles"] = muscles_json(simulation, human);
+  Json glb = Json::array();
+  for (const auto& muscle : exported) {
+    glb.push_back({{"name", muscle.name},
+                   {"morph_targets", muscle.morph_targets},
+                   {"max_error_m", muscle.max_error_m},
+                   {"rms_error_m", muscle.rms_error_m}});
+  }
+  summary["glb"] = glb;
+  return summary.dump(2) + "\n";
+}
+
+}  // namespace mobil

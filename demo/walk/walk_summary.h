@@ -1,0 +1,28 @@
+#pragma once
+// summary.json: what was asked for, what came of it, and what it cost.
+
+#include <string>
+#include <vector>
+
+#include "assets/export/gltf_writer.h"
+#include "demo/walk/walk_options.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+struct WalkOutcome {
+  decltype(Human::gait) gait{};     // at the start
+  std::size_t changes = 0;          // of the script that fell within the walk
+  std::uint32_t clamped_steps = 0;  // that no forces within bounds make as asked
+  std::uint32_t ticks = 0;
+  double simulated_s = 0;
+  std::vector<Timing> stages;  // one a system
+  double simulation_s = 0;     // wall time of the ticks alone
+  double wall_s = 0;           // of the whole command
+};
+
+/// The whole file as text.
+std::string summary_json(const WalkOptions& options, const Simulation& simulation, const Human& human,
+                         const WalkOutcome& outcome, const std::vector<MuscleFidelity>& exported);
+
+}  // namespace mobil

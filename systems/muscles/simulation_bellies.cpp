@@ -1,0 +1,254 @@
+// Templates and solvers of leg muscles.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "systems/deformation/deformation.h"
+#include "systems/deformation/reduced_bellies.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/muscles/simulation_muscles.h"
+
+namespace mobil {
+namespace {
+
+constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
+constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
+constexpr double most_steps = 1e6;                         // a tick
+
+bool same(const Material& a, const Material& b) {
+  return a.density_kg_m3 == b.density_kg_m3 && a.young_pa == b.young_pa && a.poisson == b.poisson;
+}
+
+/// Of the critical step: the consistent mass is lighter where it matters.
+Mass stepped_mass(const LegMuscles& choice) {
+  return choice.method == Method::icd ? Mass::consistent : Mass::lumped;
+}
+
+bool same_template(const LegMuscles& a, const LegMuscles& b) {
+  return same_tissue(a, b) && a.drive == b.drive && stepped_mass(a) == stepped_mass(b) &&
+         a.damping_per_s == b.damping_per_s && a.stiffness_damping_s == b.stiffness_damping_s &&
+         foundation_of(a) == foundation_of(b);
+}
+
+/// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
+std::uint32_t steps_of(double tick_s, double dt_s) {
+  return static_cast<std::uint32_t>(std::max(1.0, std::ceil(tick_s / dt_s * (1 - 1e-12))));
+}
+
+Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choice, const BellyScale<float>& scale,
+                            double tick_s) {
+  if (choice.method == Method::statics) return 1U;
+  if (choice.method == Method::caa) return choice.dt_s ? steps_of(tick_s, *choice.dt_s) : 1U;
+  const auto critical =
+      critical_step(shape.critical_steps, static_cast<double>(scale.across), static_cast<double>(scale.along));
+  if (!critical) return tl::unexpected(critical.error());
+  if (!choice.dt_s) return substeps_within(*critical, tick_s);
+  if (*choice.dt_s > *critical) {
+    return fail(
+        fmt::format("a step of {:.6g} s is above this belly's critical step of {:.6g} s; give a shorter one,"
+                    " leave it out, or take caa",
+                    *choice.dt_s, *critical));
+  }
+  return steps_of(tick_s, *choice.dt_s);
+}
+
+Error of_muscle(Muscle muscle, const Error& error) {
+  return {fmt::format("{}: {}", muscle_name(muscle), error.message)};
+}
+
+}  // namespace
+
+Result<void> check_choice(const LegMuscles& choice, double tick_s) {
+  if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
+      choice.mass > Mass::consistent) {
+    return fail("a drive, method, element or mass is none of those named; take one of the enumerations' values");
+  }
+  if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
+    return fail(
+        fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
+                    " muscle_members() or find_muscle(name)",
+                    muscles().size()));
+  }
+  if (!choice.dt_s) return {};
+  const double least = tick_s / most_steps;
+  if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {
+    return fail(fmt::format("a step of {} s must be finite and at least {:.3g} s; give another or leave it out",
+                            *choice.dt_s, least));
+  }
+  return {};
+}
+
+double foundation_of(const LegMuscles& choice) {
+  return choice.foundation_hz.value_or(choice.inertia ? braced_hz : 0);
+}
+
+bool same_tissue(const LegMuscles& a, const LegMuscles& b) {
+  return same(a.material, b.material) && a.element == b.element && a.cells == b.cells;
+}
+
+double middle_of_range(double value, double width) {
+  const double step = width * width;
+  double at = 1;
+  while (at * width < value) at *= step;
+  while (at > value * width) at /= step;
+  return at;
+}
+
+bool has_control_points(const LegMuscles& choice) {
+  return choice.method != Method::none && (choice.method != Method::reduced || choice.reduced.control_points);
+}
+
+bool feels_frame(const LegMuscles& choice) {
+  const bool moves = choice.method == Method::reduced && choice.reduced.moving;
+  return choice.inertia && (moves || has_control_points(choice));
+}
+
+std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(Muscle muscle,
+                                                                               const LegMuscles& choice) const {
+  const BellyTemplate* alike = nullptr;
+  for (const auto& made : templates_) {
+    if (made->muscle != muscle || !same_tissue(made->choice, choice)) continue;
+    if (same_template(made->choice, choice)) return {made.get(), made.get()};
+    alike = made.get();
+  }
+  return {nullptr, alike};
+}
+
+Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, const LegMuscles& choice,
+                                                                const BellyTemplate* alike) {
+  auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
+  if (!mesh) return tl::unexpected(mesh.error());
+  MuscleOptions options;
+  options.far_end = choice.drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;
+  options.damping_per_s = choice.damping_per_s;
+  options.lowest_ratio = lowest_ratio;
+  options.highest_ratio = highest_ratio;
+  options.element = choice.element;
+  options.mass = stepped_mass(choice);
+  options.stiffness_damping_s = choice.stiffness_damping_s;
+  options.foundation_hz = foundation_of(choice);
+  auto shape = make_muscle_template(std::move(*mesh), choice.material, options);
+  if (!shape) return tl::unexpected(shape.error());
+  auto made = std::make_unique<BellyTemplate>();
+  made->choice = choice;
+  made->muscle = muscle;
+  made->axial = alike ? alike->axial
+                      : tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
+  made->stretch = alike ? alike->stretch : static_stretch(shape->terms, 1, 1);
+  made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
+  made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));
+  return made;
+}
+
+Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles& choice) {
+  const auto [found, alike] = find_shape(muscle, choice);
+  if (found != nullptr) return found;
+  auto made = make_shape(muscle, choice, alike);
+  if (!made) return tl::unexpected(made.error());
+  templates_.push_back(std::move(*made));
+  return templates_.back().get();
+}
+
+Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTemplate& shape, Method method, Mass mass,
+                                                                double dt_s, const BellyScale<float>& scale) {
+  // The operator over S depends on S / l and, where there is mass in it, on S·l; ICD's is the mass alone.
+  const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
+  const bool massive = method == Method::caa || shape.shape->options.foundation_hz > 0;
+  const double ratio =
+      method == Method::icd ? 1 : std::clamp(middle_of_range(across / along, 1.06), lowest_ratio, highest_ratio);
+  const double product = method == Method::icd || !massive ? 1 : middle_of_range(across * along, 1.12);
+  const double middle_across = std::sqrt(product * ratio), middle_along = std::sqrt(product / ratio);
+  const double step_s = method == Method::statics ? 0 : dt_s;
+  for (const Solver& made : solvers_) {
+    const BellySolver& s = *made.solver;
+    const bool same_mass = method != Method::caa || s.mass == mass;
+    if (made.shape == &shape && s.method == method && same_mass && s.dt_s == step_s && s.across == middle_across &&
+        s.along == middle_along) {
+      return made.solver;
+    }
+  }
+  auto solver = make_belly_solver(*shape.shape, method, mass, dt_s, middle_across, middle_along);
+  if (!solver) return tl::unexpected(solver.error());
+  solvers_.push_back({&shape, std::make_shared<const BellySolver>(std::move(*solver))});
+  return solvers_.back().solver;
+}
+
+Result<BellyLibrary::Common> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice,
+                                                  const BellyScale<float>& scale) {
+  const auto made = shape(muscle, choice);
+  if (!made) return tl::unexpected(made.error());
+  Common common{*made, nullptr};
+  if (choice.method != Method::reduced) return common;
+  auto along = basis(muscle, choice, scale);
+  if (!along) return tl::unexpected(along.error());
+  common.basis = std::move(*along);
+  return common;
+}
+
+Result<std::vector<Belly>> BellyLibrary::bellies(const Body& body, const LegMuscles& choice, double tick_s) {
+  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
+  std::vector<Belly> all;
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (!choice.muscles[m]) continue;
+    const auto muscle = static_cast<Muscle>(m);
+    const auto plan = make_muscle_plan(body, muscle);
+    if (!plan) return tl::unexpected(of_muscle(muscle, plan.error()));
+    auto made = belly(*plan, choice, tick_s);
+    if (!made) return tl::unexpected(of_muscle(muscle, made.error()));
+    all.push_back(std::move(*made));
+  }
+  return all;
+}
+
+Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s) {
+  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
+  Belly belly;
+  belly.plan = plan;
+  const auto made = shape(plan.muscle, choice);
+  if (!made) return tl::unexpected(made.error());
+  belly.shape = *made;
+  if (choice.method == Method::none) return belly;
+  if (choice.method == Method::reduced) {
+    auto along = basis(plan.muscle, choice, plan.scale);
+    if (!along) return tl::unexpected(along.error());
+    ReducedBellies one;
+    if (auto solved = solve_bellies(**along, {&plan.scale, 1}, one); !solved) return tl::unexpected(solved.error());
+    const double damping = (*along)->options.damping_per_s;
+    std::vector<Lanes<float>> words(
+        std::max(reduced_motion_width(one.vectors, one.inputs), reduced_shape_width(one.vectors, one.inputs)));
+    const auto first_lanes = [&](std::size_t width) {
+      std::vector<float> row(width);
+      for (std::size_t w = 0; w < width; ++w) row[w] = words[w][0];
+      return row;
+    };
+    write_motions(one, damping, static_cast<double>(static_cast<float>(tick_s)), words[0].lane);
+    belly.motion = first_lanes(reduced_motion_width(one.vectors, one.inputs));
+    if (choice.reduced.control_points) {
+      write_shapes(one, damping, words[0].lane);
+      belly.rest_shape = first_lanes(reduced_shape_width(one.vectors, one.inputs));
+    }
+    belly.basis = std::move(*along);
+    belly.motions = std::make_shared<const ReducedBelly>(belly_of(one, 0));
+    return belly;
+  }
+  const auto count = steps(*belly.shape->shape, choice, plan.scale, tick_s);
+  if (!count) return tl::unexpected(count.error());
+  belly.steps = *count;
+  const auto solve_with = [&](Method method, std::shared_ptr<const BellySolver>& to) -> Result<void> {
+    auto found = solver(*belly.shape, method, choice.mass, tick_s / belly.steps, plan.scale);
+    if (!found) return tl::unexpected(found.error());
+    to = std::move(*found);
+    return {};
+  };
+  if (choice.method != Method::ecd) {
+    if (auto ok = solve_with(choice.method, belly.solver); !ok) return tl::unexpected(ok.error());
+  }
+  if (choice.inertia) {
+    if (auto ok = solve_with(Method::statics, belly.resting); !ok) return tl::unexpected(ok.error());
+  }
+  return belly;
+}
+
+}  // namespace mobil

@@ -1,0 +1,193 @@
+// Who is seen, what their muscles need, and which method each gets.
+#include "systems/relevance/simulation_relevance.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "systems/relevance/simulation_relevance_rows.h"
+
+namespace mobil {
+namespace {
+
+constexpr float person_radius_m = 1, closest_m = 0.3F;
+constexpr float leave_m = 0.5F;  // how much farther out somebody seen must be to be seen no more
+constexpr float reference_height = static_cast<float>(reference_body_height_m);
+constexpr std::uint32_t first_speed_word = 0;
+constexpr auto from_speed_word = static_cast<std::uint32_t>(offsetof(StepPlan<float>, from) / 4);
+constexpr auto to_speed_word = static_cast<std::uint32_t>(offsetof(StepPlan<float>, to) / 4);
+static_assert(offsetof(Strike<float>, speed_m_s) == 0 && offsetof(Gait<float>, speed_m_s) == 0);
+
+struct Sight {
+  View view;
+  float tolerance_m;  // by distance; 0 without a camera
+};
+
+Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, View before) {
+  const Vec3<float> v = {at.x - camera.position_m.x, at.y - camera.position_m.y, at.z - camera.position_m.z};
+  const Vec3<float>& f = camera.forward;
+  const float distance = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+  const float along = (v.x * f.x + v.y * f.y + v.z * f.z) / std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
+  const float aside = std::sqrt(std::max(distance * distance - along * along, 0.0F));
+  const float outside_m = aside * std::cos(camera.half_angle_rad) - along * std::sin(camera.half_angle_rad);
+  const float grace = before == View::seen ? leave_m : 0.0F;
+  const bool reached = distance <= camera.reach_m + grace, in_cone = outside_m <= person_radius_m + grace;
+  const bool near = distance <= camera.near_m + (before == View::near ? leave_m : 0.0F);
+  const View view = reached && in_cone ? View::seen
+                    : near             ? View::near
+                    : reached          ? View::out_of_sight
+                                       : View::out_of_reach;
+  const float nearest = std::max(view == View::near ? camera.near_m : distance - person_radius_m, closest_m);
+  return {view, tolerance_px * camera.radians_per_pixel * nearest};
+}
+
+}  // namespace
+
+Relevance::Relevance(Simulation& simulation, const RelevanceOptions& options)
+    : simulation_(simulation),
+      options_(options),
+      ladder_(options.table != nullptr ? *options.table : accuracy_table()),
+      machine_(options.machine_factor.value_or(1)) {
+  if (!(options.slack > 0 && options.slack <= 1) || options.stagger == 0 || !positive(double{options.margin}) ||
+      !positive(options.machine_factor.value_or(1))) {
+    throw std::invalid_argument(
+        "Relevance: slack must be within 0 and 1, stagger at least 1, margin and machine_factor positive");
+  }
+}
+
+/// Tables come and stay.
+void Relevance::find_tables() {
+  World& world = simulation_.world();
+  for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
+    Table& table = world.tables()[tables_seen_];
+    const Columns at = {table.column(type_id<Needs<float>>()), table.column(type_id<Tiers<float>>()),
+                        table.column(type_id<Pose<float>>()),  table.column(type_id<BodySize<float>>()),
+                        table.column(type_id<Gait<float>>()),  table.column(type_id<StepPlan<float>>())};
+    if (at.needs == Table::no_column || at.tiers == Table::no_column || at.pose == Table::no_column ||
+        at.size == Table::no_column) {
+      continue;
+    }
+    tables_.emplace_back(&table, at);
+  }
+}
+
+RelevanceState Relevance::state() const {
+  return {crowd_, counting_, machine_, cost_ps_, counted_ps_, budget_ps_, factor_, turn_, last_tick_};
+}
+
+void Relevance::set_state(const RelevanceState& state) {
+  crowd_ = state.crowd;
+  counting_ = state.counting;
+  machine_ = state.machine;
+  cost_ps_ = state.cost_ps;
+  counted_ps_ = state.counted_ps;
+  budget_ps_ = state.budget_ps;
+  factor_ = state.factor;
+  turn_ = state.turn % options_.stagger;
+  last_tick_ = state.last_tick;
+}
+
+RelevanceReport Relevance::update() {
+  RelevanceReport report;
+  find_tables();
+  observe_machine();
+  dearer_.clear();
+  cheaper_.clear();
+  for (auto& [table, columns] : tables_) {
+    for (std::size_t b = turn_; b < table->block_count(); b += options_.stagger) {
+      report.evaluated += evaluate(*table, columns, b);
+    }
+  }
+  if (++turn_ >= options_.stagger) {
+    turn_ = 0;
+    crowd_ = counting_;
+    cost_ps_ = counted_ps_;
+    counting_.clear();
+    counted_ps_ = 0;
+  }
+  carry_out(report);
+  report.factor = factor_;
+  report.machine = machine_.pessimistic();
+  report.predicted_s = 1e-12 * static_cast<double>(cost_ps_) * machine_.mean();
+  return report;
+}
+
+std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b) {
+  const float* const block = table.block(b);
+  const std::uint32_t live = table.live(b);
+  for (std::uint32_t lane = 0; lane < live; ++lane) {
+    const auto word = [&](std::uint32_t w) { return block[w * lane_count + lane]; };
+    const auto row = static_cast<std::uint32_t>(b * lane_count) + lane;
+    Needs<float> needs;
+    Tiers<float> tiers;
+    table.read(row, at.needs, ComponentLayout<Needs>::words, &needs);
+    table.read(row, at.tiers, ComponentLayout<Tiers>::words, &tiers);
+    const float height = word(at.size);
+    float speed = INFINITY;
+    if (at.gait != Table::no_column && at.plan != Table::no_column) {
+      speed =
+          std::max({word(at.gait + first_speed_word), word(at.plan + from_speed_word), word(at.plan + to_speed_word)});
+    }
+    tiers.speed_step = RungLadder::speed_step(speed, height);
+    tiers.relative_size = options_.margin * height / reference_height;
+
+    tiers.tolerance_m = scene_.tolerance_m.value_or(default_tolerance_m);
+    View view = scene_.looked_at ? View::seen : View::near;
+    if (scene_.camera) {
+      const Vec3<float> pelvis = {word(at.pose), word(at.pose + 1), word(at.pose + 2)};
+      const Sight of = sight(*scene_.camera, scene_.tolerance_px, pelvis, static_cast<View>(tiers.view));
+      view = of.view;
+      tiers.tolerance_m = of.tolerance_m;
+    }
+    if ((needs.own & own_look) != 0) view = needs.looked_at != 0 ? View::seen : View::near;
+    if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
+    tiers.view = static_cast<std::uint32_t>(view);
+
+    decide(table.entities(b)[lane], tiers, wanted(needs));
+    table.write(row, at.tiers, ComponentLayout<Tiers>::words, &tiers);
+  }
+  return live;
+}
+
+std::uint32_t Relevance::wanted(const Needs<float>& needs) const {
+  return (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(scene_.muscles.to_ulong());
+}
+
+void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles) {
+  const auto view = static_cast<View>(tiers.view);
+  const bool looked_at = view == View::seen, simulated = view <= View::near;
+  const float size = tiers.relative_size / tiers.tolerance_m;  // errors as parts of the tolerance, over the table's
+  const float limit = factor_ / size;
+  const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
+  for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
+    const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
+    const std::uint32_t now = rung_at(tiers.rung, m);
+    if (now >= refused_rung) continue;
+    const bool points = bit_at(tiers.points, m);
+    const RungCase as_is = {m, tiers.speed_step, tiers.inertia != 0, points};
+    RungCase as_seen = as_is;
+    as_seen.points = looked_at;
+    const std::int64_t cost = ladder_.cost_ps(as_is, now);
+    counted_ps_ += cost;
+    std::uint32_t goal = 0;
+    if (simulated && bit_at(wanted_muscles, m)) {
+      if (scene_.budget_s) counting_.add(ladder_, as_seen, size);
+      goal = ladder_.from(now, as_seen, limit, over ? 1.0F : options_.slack);
+    }
+    const bool shown = looked_at && goal != 0;
+    set_rung(tiers.goal, m, goal);
+    set_bit(tiers.goal_points, m, shown);
+    const bool reduced = rungs[goal].method == Method::reduced;
+    if (goal == now && (points == shown || !reduced)) continue;
+    const std::int64_t more = ladder_.cost_ps(as_seen, goal) - cost;
+    const bool lit = shown && !points;  // until then there is nothing to be seen of it
+    const std::uint32_t worst = more > 0 ? (lit ? 0 : now) : goal;
+    (more > 0 ? dearer_ : cheaper_)
+        .push_back({ladder_.error_m(as_seen, worst) * size, human, static_cast<std::uint8_t>(m),
+                    static_cast<std::uint8_t>(goal), shown, more});
+  }
+}
+
+}  // namespace mobil

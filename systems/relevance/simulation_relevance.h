@@ -1,0 +1,214 @@
+#pragma once
+// Which method each muscle gets, from what a scene needs. A scene says what is good enough: metres for everybody or for
+// one person, pixels of a camera, or a time a tick for all deformation together; Relevance gives each muscle the
+// cheapest method that keeps to it, as measured (systems/relevance/accuracy_table.h), and may be told otherwise every
+// tick.
+//
+//   Simulation simulation;
+//   Relevance relevance(simulation);
+//   relevance.manage(human);                                 // with leg muscles of its own, or as options say
+//   relevance.set_scene({.camera = Viewpoint{.position_m = eye, .forward = gaze}, .tolerance_px = 1});
+//   relevance.update();                                      // before a tick: chooses and switches
+//   simulation.tick();
+//   relevance.why(human, Muscle::hamstrings)->text;          // "reduced-8: 0.9 mm of 1.2 mm allowed; …"
+//
+// It works on a Simulation through its public face: who does not use it pays nothing, and people that it does not
+// manage it does not touch. What it decides lies on the person's row (components/relevance.h): it is state. With
+// `machine_factor` given, decisions depend on that state and the scene alone, not on clocks or threads.
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "components/relevance.h"
+#include "engine/error.h"
+#include "systems/relevance/accuracy_table.h"
+#include "systems/relevance/simulation_ladder.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+/// Who looks. Who is in the cone and no further than `reach_m` is seen; who is not in it but within `near_m` of the
+/// camera moves on unseen, without control points; everybody else is out of sight or reach, and their muscles are not
+/// simulated. People count as balls of 1 m round the pelvis.
+struct Viewpoint {
+  Vec3<float> position_m{};
+  Vec3<float> forward{0, 0, 1};  // any length
+  float half_angle_rad = 0.7F;   // of the cone round the picture's corners
+  float radians_per_pixel = 0.001F;
+  float near_m = 3;
+  float reach_m = 200;
+};
+
+/// What everybody needs who has no need of their own.
+struct SceneNeeds {
+  MuscleSet muscles = muscle_groups();
+  /// How far a control point may be from where it belongs, m. Of a camera: pixels, from which distance makes metres.
+  std::optional<float> tolerance_m{};
+  std::optional<Viewpoint> camera{};
+  float tolerance_px = 1;
+  bool looked_at = true;  // control points are placed; with a camera those seen are
+  /// Processor time a tick for everybody's deformation, s. Where tolerances cost more, all are missed by one factor,
+  /// the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the factor may be below 1: all of
+  /// the budget is spent.
+  std::optional<double> budget_s{};
+};
+
+/// What one person needs otherwise than the scene says.
+struct PersonNeeds {
+  std::optional<MuscleSet> muscles{};
+  std::optional<float> tolerance_m{};
+  std::optional<bool> looked_at{};  // of one whom the camera does not see: moves on all the same
+};
+
+struct RelevanceOptions {
+  /// A cheaper method is taken only where it meets this part of the tolerance; a dearer one at once. 0–1.
+  float slack = 0.7F;
+  /// Methods changed in one update, at most. Who misses most comes first, then who has the lower entity index.
+  std::uint32_t switches = 256;
+  /// Everybody is looked at every so many updates.
+  std::uint32_t stagger = 4;
+  /// What predicted errors are multiplied by, for what bodies and walks differ from those that were measured. Set by
+  /// 13 other bodies at 0.8 to 1.9 m/s, with inertia and without (relevance_show_test): with 1.25 at least 99.7 % of
+  /// ticks kept to a promised tolerance; and at up to 2 m/s of the reference body's height errors were at most 1.93
+  /// times the table's, where 2.5 would still be within twice the tolerance. It speaks of muscles that have been
+  /// simulated for two seconds: one that is taken up begins at rest, and what that excites falls by e⁻⁴ a second.
+  float margin = 1.25F;
+  /// How much slower the machine is than the one of the table; left out, it is measured as the simulation runs.
+  std::optional<double> machine_factor{};
+  /// Seconds that the last tick's deformation took; left out: of Simulation::report() what deforms.
+  std::function<double(const Simulation&)> measured_s{};
+  /// Of people who get muscles by being managed: all but muscles and method, which are chosen.
+  LegMuscles leg_muscles{};
+  /// Another table than the library's; must live as long as the Relevance.
+  const AccuracyTable* table = nullptr;
+};
+
+/// What an update did: people looked at; methods changed, and left for later; refusals.
+struct RelevanceReport {
+  std::size_t evaluated = 0, switched = 0, waiting = 0, refused = 0;
+  float factor = 1;        // by which tolerances are missed under the budget; 1 without
+  double machine = 1;      // measured over predicted time, as planned by
+  double predicted_s = 0;  // a tick's deformation, as methods now are
+  std::string refusal{};   // the last that Simulation gave, in one line
+};
+
+enum class Reason : std::uint8_t {
+  tolerance,  // the cheapest that meets it (or one dearer, within the hysteresis)
+  best,       // none meets it
+  budget,     // better would cost more than there is
+  out_of_sight,
+  out_of_reach,
+  not_wanted,
+  forced,          // by Relevance::force
+  refused,         // Simulation refused what was chosen; left as it is until asked again by `manage`
+  switch_pending,  // another is chosen, and waits for its turn
+};
+inline constexpr std::array<std::string_view, 9> reason_name = {"tolerance",    "best there is", "budget",
+                                                                "out of sight", "out of reach",  "not wanted",
+                                                                "forced",       "refused",       "switch pending"};
+
+/// Why a muscle has the method that it has. `rung` is of the table; costs are of one leg's muscle, a tick.
+struct Choice {
+  MuscleMethod method;
+  std::size_t rung = 0;
+  float predicted_error_m = 0, tolerance_m = 0;
+  double predicted_cost_us = 0;
+  Reason reason = Reason::tolerance;
+  std::string text;
+};
+
+/// A rung as Simulation takes it.
+MuscleMethod rung_method(std::size_t rung, bool control_points);
+
+/// Whether a system of that name is part of what a budget is for: bellies, their control points, and what fades after
+/// changes of method.
+bool is_deformation(std::string_view system);
+
+/// What choosing remembers from one update to the next besides people's rows: plain data, to be kept beside a snapshot
+/// of the simulation.
+struct RelevanceState {
+  CostSpectrum crowd, counting;
+  MachineFactor machine;
+  std::int64_t cost_ps = 0, counted_ps = 0, budget_ps = 0;
+  float factor = 1;
+  std::uint32_t turn = 0, last_tick = 0;
+};
+
+class Relevance {
+ public:
+  /// Works on `simulation`, which must outlive it. Throws std::invalid_argument on options out of range.
+  explicit Relevance(Simulation& simulation, const RelevanceOptions& options = {});
+  Relevance(const Relevance&) = delete;
+  Relevance& operator=(const Relevance&) = delete;
+
+  /// From the next update on. Errors: a tolerance, budget or camera that is not finite and positive; all is as it was.
+  Result<void> set_scene(const SceneNeeds& needs);
+  const SceneNeeds& scene() const { return scene_; }
+
+  /// From the next update on this person's muscles are chosen; asked again, by other needs. Whoever has no muscles gets
+  /// them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles refuses.
+  Result<void> manage(Entity human, const PersonNeeds& needs = {});
+  /// No more; muscles stay as they are.
+  Status release(Entity human);
+
+  /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
+  /// refuses.
+  Result<void> force(Entity human, Muscle muscle, const MuscleMethod& method);
+  Status unforce(Entity human, Muscle muscle);
+
+  /// Looks at a part of the crowd, and changes methods. Call it before each tick, or less often. Takes memory only as
+  /// crowds grow and methods change.
+  RelevanceReport update();
+
+  /// As it is; and as it was, with the simulation restored to what it was then: choosing goes on with the same bits,
+  /// scene and machine_factor being the same.
+  RelevanceState state() const;
+  void set_state(const RelevanceState& state);
+
+  /// Errors: Status as for components; `missing` where the person is not managed or has no such muscle.
+  tl::expected<Choice, Status> why(Entity human, Muscle muscle) const;
+
+ private:
+  /// Where a table of people keeps what is needed: first words in a block.
+  struct Columns {
+    std::uint32_t needs, tiers, pose, size, gait, plan;
+  };
+  struct Switch {
+    float excess;  // error over tolerance: as it is, to be dearer; as it will be, to be cheaper
+    Entity human;
+    std::uint8_t muscle, rung;
+    bool points;
+    std::int64_t cost_ps;  // more than now
+  };
+
+  void find_tables();
+  std::uint32_t evaluate(Table& table, const Columns& at, std::size_t block);
+  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);
+  void observe_machine();
+  void plan_budget();
+  void carry_out(RelevanceReport& report);
+  void change(const Switch& one, RelevanceReport& report);
+  std::uint32_t wanted(const Needs<float>& needs) const;
+
+  Simulation& simulation_;
+  RelevanceOptions options_;
+  SceneNeeds scene_;
+  RungLadder ladder_;
+  MachineFactor machine_;
+  CostSpectrum crowd_, counting_;              // of the last round, and of the one under way
+  std::int64_t cost_ps_ = 0, counted_ps_ = 0;  // of methods as they are; of those counted in this round
+  std::int64_t budget_ps_ = 0;
+  float factor_ = 1;
+  std::uint32_t turn_ = 0, last_tick_ = 0;
+  std::size_t tables_seen_ = 0;
+  std::vector<std::pair<Table*, Columns>> tables_;
+  std::vector<Switch> dearer_, cheaper_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,205 @@
+// What can be asked of Relevance: whose muscles it chooses, by what needs, and why it chose.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/simulation_relevance_rows.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::uint32_t full_rung = rung_count - 1;
+
+/// The rung that a method is, or the one that it costs about as much as.
+std::uint32_t rung_of(const MuscleMethod& method) {
+  if (method.method == Method::none) return 0;
+  if (method.method != Method::reduced) return full_rung;
+  for (std::uint32_t r = 1; r < full_rung; ++r) {
+    const Rung& rung = rungs[r];
+    if (!method.reduced.moving && !rung.moving) return r;
+    if (method.reduced.moving && rung.moving && method.reduced.cells == rung.cells &&
+        method.reduced.vectors <= rung.vectors) {
+      return r;
+    }
+  }
+  return full_rung - 1;
+}
+
+std::string explain(const Choice& choice, View view, const std::string& goal) {
+  const std::string_view name = rungs[choice.rung].name;
+  const double error_mm = 1e3 * static_cast<double>(choice.predicted_error_m);
+  const double allowed_mm = 1e3 * static_cast<double>(choice.tolerance_m);
+  const std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm,
+                                          allowed_mm, choice.predicted_cost_us);
+  switch (choice.reason) {
+    case Reason::tolerance:
+      return figures + "; the cheapest that keeps to it";
+    case Reason::best:
+      return figures + "; there is none better";
+    case Reason::budget:
+      return figures + "; better costs more than the budget";
+    case Reason::out_of_sight:
+    case Reason::out_of_reach:
+      return fmt::format("{}: {}", name, view_name[static_cast<std::size_t>(view)]);
+    case Reason::not_wanted:
+      return fmt::format("{}: the scene does not want this muscle", name);
+    case Reason::forced:
+      return "forced by the caller";
+    case Reason::refused:
+      return "left as it was: the simulation refused what was chosen";
+    case Reason::switch_pending:
+      return figures + fmt::format("; {} is chosen and waits for its turn", goal);
+  }
+  return figures;
+}
+
+}  // namespace
+
+MuscleMethod rung_method(std::size_t rung, bool control_points) {
+  const Rung& of = rungs[rung];
+  MuscleMethod method{of.method, {}};
+  if (of.method == Method::reduced) {
+    method.reduced = {of.vectors, of.moving, true, of.cells, control_points, false};
+  }
+  return method;
+}
+
+Result<void> Relevance::set_scene(const SceneNeeds& needs) {
+  if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
+    return fail(fmt::format("set_scene: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
+  if (!positive(static_cast<double>(needs.tolerance_px)))
+    return fail(fmt::format("set_scene: a tolerance of {} pixels is not finite and positive", needs.tolerance_px));
+  if (needs.budget_s && !positive(*needs.budget_s))
+    return fail(fmt::format("set_scene: a budget of {} s a tick is not finite and positive", *needs.budget_s));
+  if (needs.camera) {
+    const Viewpoint& c = *needs.camera;
+    const Vec3<float>&f = c.forward, &p = c.position_m;
+    const bool sound = positive(static_cast<double>(f.x * f.x + f.y * f.y + f.z * f.z)) &&
+                       std::isfinite(p.x + p.y + p.z) && positive(static_cast<double>(c.radians_per_pixel)) &&
+                       c.half_angle_rad > 0 && c.half_angle_rad <= 1.6F && c.near_m >= 0 && c.reach_m >= 0;
+    if (!sound)
+      return fail(
+          "set_scene: a camera needs a finite place, a direction, radians per pixel above 0, half an angle of 0 to 1.6"
+          " rad, and distances of 0 or more");
+  }
+  scene_ = needs;
+  return {};
+}
+
+Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
+  const PersonRecord* human = simulation_.person(entity);
+  if (human == nullptr) return fail("manage: that person is not there (a stale handle); spawn one first");
+  if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
+    return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
+  if (human->muscles.empty()) {
+    LegMuscles choice = options_.leg_muscles;
+    choice.muscles = needs.muscles.value_or(scene_.muscles);
+    choice.method = Method::none;
+    if (auto done = simulation_.add_leg_muscles(entity, choice); !done) return done;
+  }
+  Needs<float> row{};
+  if (needs.muscles) {
+    row.own |= own_muscles;
+    row.muscles = static_cast<std::uint32_t>(needs.muscles->to_ulong());
+  }
+  if (needs.tolerance_m) {
+    row.own |= own_tolerance;
+    row.tolerance_m = *needs.tolerance_m;
+  }
+  if (needs.looked_at) {
+    row.own |= own_look;
+    row.looked_at = *needs.looked_at ? 1 : 0;
+  }
+  World& world = simulation_.world();
+  auto tiers = world.get<Tiers>(entity).value_or(Tiers<float>{});
+  const bool anew = tiers.relative_size == 0;
+  if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
+  tiers.muscles = 0;
+  tiers.inertia = !human->muscles.empty() && simulation_.people().choice(*human).inertia ? 1 : 0;
+  tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
+  tiers.relative_size = options_.margin;
+  for (const OwnMuscle& own : human->muscles) {
+    const auto m = static_cast<std::uint32_t>(own.muscle);
+    set_bit(tiers.muscles, m, true);
+    if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
+    set_rung(tiers.rung, m, rung_of(own.method));
+    set_rung(tiers.goal, m, rung_of(own.method));
+    set_bit(tiers.points, m, own.method.method != Method::none && own.method.reduced.control_points);
+  }
+  world.add_parts(entity, std::array{part_value(row), part_value(tiers)});
+  world.set(entity, row);
+  world.set(entity, tiers);
+  return {};
+}
+
+Status Relevance::release(Entity human) {
+  World& world = simulation_.world();
+  if (const Status status = world.remove<Needs>(human); status != Status::ok) return status;
+  return world.remove<Tiers>(human);
+}
+
+Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& method) {
+  auto tiers = simulation_.world().get<Tiers>(human);
+  const auto m = static_cast<std::uint32_t>(muscle);
+  if (!tiers || m >= most_muscles || !bit_at(tiers->muscles, m))
+    return fail("force: that person, or that muscle of theirs, is not managed; manage it first");
+  if (auto done = simulation_.set_method(human, muscle, method); !done) return done;
+  set_rung(tiers->rung, m, forced_rung);
+  simulation_.world().set(human, *tiers);
+  return {};
+}
+
+Status Relevance::unforce(Entity human, Muscle muscle) {
+  auto tiers = simulation_.world().get<Tiers>(human);
+  if (!tiers) return tiers.error();
+  const auto m = static_cast<std::uint32_t>(muscle);
+  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return Status::missing;
+  const MuscleMethod method = simulation_.method(human, muscle);
+  set_rung(tiers->rung, m, rung_of(method));
+  set_bit(tiers->points, m, method.method != Method::none && method.reduced.control_points);
+  return simulation_.world().set(human, *tiers);
+}
+
+tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
+  const auto tiers = simulation_.world().get<Tiers>(human);
+  if (!tiers) return tl::unexpected(tiers.error());
+  const auto needs = *simulation_.world().get<Needs>(human);
+  const auto m = static_cast<std::uint32_t>(muscle);
+  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return tl::unexpected(Status::missing);
+  Choice choice;
+  choice.method = simulation_.method(human, muscle);
+  const std::uint32_t marked = rung_at(tiers->rung, m), goal = rung_at(tiers->goal, m);
+  choice.rung = marked >= refused_rung ? rung_of(choice.method) : marked;
+  const RungCase of = {m, tiers->speed_step, tiers->inertia != 0, bit_at(tiers->points, m)};
+  const auto rung = static_cast<std::uint32_t>(choice.rung);
+  choice.predicted_error_m = ladder_.error_m(of, rung) * tiers->relative_size;
+  choice.tolerance_m = tiers->tolerance_m;
+  choice.predicted_cost_us = 0.5e-6 * static_cast<double>(ladder_.cost_ps(of, rung)) * machine_.mean();
+  const auto view = static_cast<View>(tiers->view);
+  const bool shown_differs =
+      bit_at(tiers->points, m) != bit_at(tiers->goal_points, m) && rungs[choice.rung].method == Method::reduced;
+  if (marked == forced_rung) {
+    choice.reason = Reason::forced;
+  } else if (marked == refused_rung) {
+    choice.reason = Reason::refused;
+  } else if (goal != marked || shown_differs) {
+    choice.reason = Reason::switch_pending;
+  } else if (!bit_at(wanted(needs), m)) {
+    choice.reason = Reason::not_wanted;
+  } else if (view == View::out_of_sight) {
+    choice.reason = Reason::out_of_sight;
+  } else if (view == View::out_of_reach) {
+    choice.reason = Reason::out_of_reach;
+  } else if (choice.predicted_error_m <= choice.tolerance_m) {
+    choice.reason = Reason::tolerance;
+  } else {
+    choice.reason = scene_.budget_s && factor_ > 1 ? Reason::budget : Reason::best;
+  }
+  choice.text = explain(choice, view, std::string(goal < rung_count ? rungs[goal].name : "another"));
+  return choice;
+}
+
+}  // namespace mobil

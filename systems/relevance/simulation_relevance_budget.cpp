@@ -1,0 +1,93 @@
+// What is afforded, and whose method changes now.
+#include <algorithm>
+
+#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/simulation_relevance_rows.h"
+
+namespace mobil {
+namespace {
+
+constexpr float easing = 0.97F;  // how fast tolerances come back when there is time again, an update
+
+double deformation_s(const Simulation& simulation) {
+  double sum = 0;
+  for (const SystemReport& system : simulation.report().systems) {
+    if (is_deformation(system.name)) sum += system.seconds;
+  }
+  return sum;
+}
+
+}  // namespace
+
+bool is_deformation(std::string_view system) {
+  return system.starts_with("deformation") || system.starts_with("control points") || system.starts_with("report") ||
+         system == "fade";
+}
+
+void Relevance::observe_machine() {
+  if (!scene_.budget_s) {
+    factor_ = 1;
+    return;
+  }
+  if (!options_.machine_factor && simulation_.ticks() != last_tick_) {
+    last_tick_ = simulation_.ticks();
+    const double measured = options_.measured_s ? options_.measured_s(simulation_) : deformation_s(simulation_);
+    machine_.observe(measured, 1e-12 * static_cast<double>(cost_ps_));
+  }
+  plan_budget();
+}
+
+void Relevance::plan_budget() {
+  budget_ps_ = static_cast<std::int64_t>(std::min(*scene_.budget_s / machine_.pessimistic() * 1e12, 9e18));
+  const float least = scene_.tolerance_m || scene_.camera ? 1.0F : CostSpectrum::least_factor;
+  const float afforded = std::max(crowd_.factor_within(budget_ps_), least);
+  factor_ = afforded > factor_ ? afforded : std::max(afforded, easing * factor_);
+}
+
+/// Cheaper ones get half of the turns, or what dearer ones leave, or under too high a cost all.
+void Relevance::carry_out(RelevanceReport& report) {
+  const auto first = [](const Switch& a, const Switch& b, bool most) {
+    if (a.excess != b.excess) return most ? a.excess > b.excess : a.excess < b.excess;
+    if (a.human.index != b.human.index) return a.human.index < b.human.index;
+    return a.muscle < b.muscle;
+  };
+  const auto arrange = [&](std::vector<Switch>& all, std::size_t count, bool most) {
+    const auto before = [&](const Switch& a, const Switch& b) { return first(a, b, most); };
+    if (count < all.size())
+      std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count), all.end(), before);
+    std::sort(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(std::min(count, all.size())), before);
+  };
+  const std::size_t turns = options_.switches;
+  const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
+  const std::size_t left = turns > dearer_.size() ? turns - dearer_.size() : 0;
+  const std::size_t down = std::min(cheaper_.size(), over ? turns : std::max(turns / 2, left));
+  const std::size_t up = std::min(dearer_.size(), turns - down);
+  arrange(cheaper_, down, false);
+  arrange(dearer_, up, true);
+  for (std::size_t i = 0; i < down; ++i) change(cheaper_[i], report);
+  for (std::size_t i = 0; i < up; ++i) {
+    if (scene_.budget_s && cost_ps_ + dearer_[i].cost_ps > budget_ps_) continue;
+    change(dearer_[i], report);
+  }
+  report.waiting = cheaper_.size() + dearer_.size() - report.switched - report.refused;
+}
+
+void Relevance::change(const Switch& one, RelevanceReport& report) {
+  auto tiers = *simulation_.world().get<Tiers>(one.human);
+  const auto done =
+      simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), rung_method(one.rung, one.points));
+  if (done) {
+    set_rung(tiers.rung, one.muscle, one.rung);
+    set_bit(tiers.points, one.muscle, one.points);
+    cost_ps_ += one.cost_ps;
+    counted_ps_ += one.cost_ps;
+    ++report.switched;
+  } else {
+    set_rung(tiers.rung, one.muscle, refused_rung);
+    ++report.refused;
+    report.refusal = done.error().message;
+  }
+  simulation_.world().set(one.human, tiers);
+}
+
+}  // namespace mobil

@@ -1,0 +1,260 @@
+#include "systems/snapshot/simulation_resources.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/row_hash.h"
+#include "systems/lines/muscle_lines.h"
+
+namespace mobil {
+namespace {
+
+/// Takes numbers in.
+class Fingerprint {
+ public:
+  template <class T>
+  void add(const std::vector<T>& values) {
+    static_assert(std::is_same_v<T, float> || std::is_same_v<T, double> || std::is_same_v<T, std::uint32_t> ||
+                  std::is_same_v<T, Vec3<double>> || std::is_same_v<T, StencilPair>);  // no padding
+    hash_ = mix64(hash_ ^ hash_bytes(values.data(), values.size() * sizeof(T)));
+  }
+  void add(double value) { hash_ = mix64(hash_ ^ std::bit_cast<std::uint64_t>(value)); }
+  void add(const Vec3<float>& v) {
+    for (const float value : {v.x, v.y, v.z}) add(static_cast<double>(value));
+  }
+  void add(const MuscleLines::Point& point) {
+    add(static_cast<double>(point.bone));
+    add(point.at_m);
+    add(static_cast<double>(point.hold));
+    add(static_cast<double>(point.straight_to));
+  }
+  void add(const MuscleLines::Track& track) {
+    add(track.at_zero);
+    add(track.slope);
+    for (const Vec3<float>& knot : track.cubic) add(knot);
+  }
+  std::uint64_t hash() const { return hash_; }
+
+ private:
+  std::uint64_t hash_ = 0;
+};
+
+std::uint64_t fingerprint(const MuscleTemplate& shape) {
+  Fingerprint print;
+  const KernelArrays& k = shape.kernel;
+  print.add(shape.mesh.node);
+  print.add(shape.terms.pair);
+  for (const auto* values : {&shape.critical_steps.ratio, &shape.critical_steps.top, &shape.critical_steps.braced_top})
+    print.add(*values);
+  for (const auto* values :
+       {&k.individual, &k.shared, &k.consistent_mass_kg, &k.mass_kg, &k.inverse_mass, &k.far_share, &k.rest_m}) {
+    print.add(*values);
+  }
+  return print.hash();
+}
+
+std::uint64_t fingerprint(const MuscleLines& lines) {
+  Fingerprint print;
+  for (const MuscleLines::Member& member : lines.members) {
+    for (const MuscleLines::Point& point : member.path) print.add(point);
+    print.add(static_cast<double>(member.weight));
+    print.add(member.on_kneecap ? 1.0 : 0.0);
+    if (member.on_kneecap) print.add(member.kneecap);
+  }
+  print.add(lines.rolling);
+  print.add(lines.anchor);
+  print.add(static_cast<double>(lines.towards));
+  print.add(static_cast<double>(lines.start_m));
+  return print.hash();
+}
+
+std::uint64_t fingerprint(const BellySolver& solver) {
+  Fingerprint print;
+  for (const double value : {solver.dt_s, solver.across, solver.along, static_cast<double>(solver.sweeps),
+                             static_cast<double>(solver.refinements), static_cast<double>(solver.correction)}) {
+    print.add(value);
+  }
+  print.add(solver.factor.before);
+  print.add(solver.factor.after);
+  for (const auto* values : {&solver.factor.forward, &solver.factor.backward, &solver.factor.inverse_diagonal,
+                             &solver.moment_kg_m, &solver.far_mass_kg}) {
+    print.add(*values);
+  }
+  return print.hash();
+}
+
+std::uint64_t fingerprint(const ReducedBasis& basis) {
+  Fingerprint print;
+  for (const double value :
+       {1.0 * basis.vectors, 1.0 * basis.inputs, basis.foundation_1_s2, basis.lift_energy_a, basis.lift_energy_b,
+        basis.lift_energy_c, basis.lift_energy_foundation, basis.lift_kinetic}) {
+    print.add(value);
+  }
+  for (const auto* values : {&basis.a, &basis.b, &basis.c, &basis.foundation, &basis.lift_a, &basis.lift_b,
+                             &basis.lift_c, &basis.lift_foundation, &basis.lift_mass, &basis.traction, &basis.frame,
+                             &basis.lift_frame, &basis.control_weight, &basis.fit}) {
+    print.add(*values);
+  }
+  print.add(basis.shape);
+  return print.hash();
+}
+
+/// Only what the tissue depends on, and who is driven how.
+LegMuscles tissue_of(const LegMuscles& choice) {
+  LegMuscles tissue;
+  tissue.material = choice.material;
+  tissue.element = choice.element;
+  tissue.cells = choice.cells;
+  return tissue;
+}
+LegMuscles driven(const LegMuscles& choice) {
+  LegMuscles alike = tissue_of(choice);
+  alike.drive = choice.drive;
+  alike.damping_per_s = choice.damping_per_s;
+  alike.foundation_hz = foundation_of(choice);
+  return alike;
+}
+
+Recipe recipe_of(ResourceKind kind, Muscle muscle, const LegMuscles& choice) {
+  Recipe recipe{};
+  recipe.kind = kind;
+  recipe.muscle = static_cast<std::uint32_t>(muscle);
+  recipe.choice = pack(choice);
+  return recipe;
+}
+Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
+  LegMuscles alike = driven(made.choice);
+  alike.stiffness_damping_s = made.choice.stiffness_damping_s;
+  alike.method = made.choice.method == Method::icd ? Method::icd : Method::ecd;  // whose critical step it tells
+  return recipe_of(kind, made.muscle, alike);
+}
+
+BellyScale<float> scale_of(double across, double along) {
+  return {static_cast<float>(across), static_cast<float>(along)};
+}
+double number(std::uint64_t bits) {
+  return std::bit_cast<double>(bits);
+}
+
+}  // namespace
+
+std::uint64_t resource_type(ResourceKind kind) {
+  switch (kind) {
+    case ResourceKind::shape:
+      return type_id<MuscleTemplate>();
+    case ResourceKind::lines:
+      return type_id<MuscleLines>();
+    case ResourceKind::solver:
+      return type_id<BellySolver>();
+    case ResourceKind::basis:
+      return type_id<ReducedBasis>();
+    default:
+      return 0;
+  }
+}
+
+void ResourceList::learn(const World& world, const BellyLibrary& library) {
+  for (std::size_t number = known_.size(); number < world.resource_count(); ++number) {
+    const void* resource = world.resource(number);
+    Known known;
+    for (const auto& made : library.templates_) {
+      if (made->shape.get() == resource) {
+        known = {shape_recipe(ResourceKind::shape, *made), fingerprint(*made->shape)};
+      } else if (made->lines.get() == resource) {
+        known = {recipe_of(ResourceKind::lines, made->muscle, tissue_of(made->choice)), fingerprint(*made->lines)};
+      }
+    }
+    for (const auto& made : library.solvers_) {
+      if (made.solver.get() != resource) continue;
+      const BellySolver& solver = *made.solver;
+      known = {shape_recipe(ResourceKind::solver, *made.shape), fingerprint(solver)};
+      known.recipe.method = static_cast<std::uint32_t>(solver.method);
+      known.recipe.mass = static_cast<std::uint32_t>(solver.method == Method::caa ? solver.mass : Mass::lumped);
+      known.recipe.dt = std::bit_cast<std::uint64_t>(solver.dt_s);
+      known.recipe.across = std::bit_cast<std::uint64_t>(solver.across);
+      known.recipe.along = std::bit_cast<std::uint64_t>(solver.along);
+    }
+    for (const auto& made : library.bases_) {
+      const ReducedBasis* basis = made.whole.get() == resource ? made.whole.get() : nullptr;
+      for (const auto& cut : made.cut) basis = cut.get() == resource ? cut.get() : basis;
+      if (basis == nullptr) continue;
+      LegMuscles alike = driven(made.choice);
+      alike.inertia = made.choice.inertia;
+      alike.reduced.cells = made.choice.reduced.cells;
+      alike.reduced.corrected = made.choice.reduced.corrected;
+      alike.reduced.vectors = basis->vectors;
+      known = {recipe_of(ResourceKind::basis, made.muscle, alike), fingerprint(*basis)};
+      known.recipe.vectors = basis->vectors;
+      known.recipe.across = std::bit_cast<std::uint64_t>(made.middle_ratio);
+      known.recipe.along = std::bit_cast<std::uint64_t>(made.middle_product);
+    }
+    known_.push_back(known);
+  }
+}
+
+Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World& world, BellyLibrary& library) {
+  const auto is = [&](std::size_t i) {
+    return known_[i].fingerprint == saved.fingerprint && known_[i].recipe == saved.recipe;
+  };
+  const auto find = [&]() -> std::optional<std::uint64_t> {
+    if (saved.number < known_.size() && is(saved.number)) return saved.number;
+    for (std::size_t i = 0; i < known_.size(); ++i) {
+      if (is(i)) return i;
+    }
+    return std::nullopt;
+  };
+  if (saved.recipe.kind == ResourceKind::unknown || saved.recipe.kind > ResourceKind::basis)
+    return fail("the snapshot does not agree with itself (a recipe); give one that `save` made");
+  if (const auto there = find()) return *there;
+  if (auto made = make(saved.recipe, world, library); !made)
+    return fail("the snapshot needs a muscle's mesh, solver or basis that cannot be made again: " +
+                made.error().message);
+  learn(world, library);
+  if (const auto there = find()) return *there;
+  return fail(
+      fmt::format("a mesh, solver or basis of {} comes out otherwise here than where the snapshot was made;"
+                  " restore it with the program that made it, on a machine of the same kind",
+                  muscle_name(static_cast<Muscle>(saved.recipe.muscle))));
+}
+
+Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary& library) {
+  const auto choice = unpack(recipe.choice);
+  if (!choice || recipe.muscle >= muscles().size()) return fail("its recipe is damaged");
+  const auto muscle = static_cast<Muscle>(recipe.muscle);
+  const double across = number(recipe.across), along = number(recipe.along);
+  const auto sound = [](double value) { return value >= 1e-2 && value <= 1e2; };
+  if (recipe.kind == ResourceKind::basis) {
+    // The ranges that these are the middles of are found again from any size within.
+    if (!sound(across) || !sound(along)) return fail("its recipe is damaged");
+    auto basis = library.basis(muscle, *choice, scale_of(std::sqrt(along * across), std::sqrt(along / across)));
+    if (!basis) return tl::unexpected(basis.error());
+    world.share(std::move(*basis));
+    return {};
+  }
+  const auto shape = library.shape(muscle, *choice);
+  if (!shape) return tl::unexpected(shape.error());
+  switch (recipe.kind) {
+    case ResourceKind::shape:
+      world.share((*shape)->shape);
+      return {};
+    case ResourceKind::lines:
+      world.share((*shape)->lines);
+      return {};
+    case ResourceKind::solver: {
+      if (!sound(across) || !sound(along) || recipe.method > static_cast<std::uint32_t>(Method::none) ||
+          recipe.mass > static_cast<std::uint32_t>(Mass::consistent)) {
+        return fail("its recipe is damaged");
+      }
+      auto solver = library.solver(**shape, static_cast<Method>(recipe.method), static_cast<Mass>(recipe.mass),
+                                   number(recipe.dt), scale_of(across, along));
+      if (!solver) return tl::unexpected(solver.error());
+      world.share(std::move(*solver));
+      return {};
+    }
+    default:
+      return fail("its recipe is damaged");
+  }
+}
+
+}  // namespace mobil

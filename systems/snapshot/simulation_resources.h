@@ -1,0 +1,40 @@
+#pragma once
+// What a world's shared resources are made from, and the same made again from that. Part of the front door.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/world.h"
+#include "systems/snapshot/simulation_snapshot_records.h"
+
+namespace mobil {
+
+/// The part's id of shared resources of that kind; 0 of unknown ones.
+std::uint64_t resource_type(ResourceKind kind);
+
+/// Of each resource of a world, by number: what it is made from, and a hash of its numbers. Others than those of the
+/// library are unknown.
+class ResourceList {
+ public:
+  struct Known {
+    Recipe recipe{};
+    std::uint64_t fingerprint = 0;
+  };
+
+  /// Learns of resources that came since; takes memory for those alone.
+  void learn(const World& world, const BellyLibrary& library);
+  const std::vector<Known>& known() const { return known_; }
+
+  /// The number of that resource in this world, found or made again and shared. Errors: a
+  /// recipe that the library refuses, or numbers that come out otherwise.
+  Result<std::uint64_t> number_of(const SavedResource& saved, World& world, BellyLibrary& library);
+
+ private:
+  Result<void> make(const Recipe& recipe, World& world, BellyLibrary& library);
+
+  std::vector<Known> known_;
+};
+
+}  // namespace mobil

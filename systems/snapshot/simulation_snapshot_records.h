@@ -1,0 +1,75 @@
+#pragma once
+// What of the front door goes into a snapshot, as plain records without padding; numbers that a compiler may lay out as
+// it likes are words of their own. Part of the front door.
+
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+
+#include "engine/entity.h"
+#include "systems/muscles/simulation_muscles.h"
+
+namespace mobil {
+
+struct FrontHeader {
+  std::int64_t tick_units, remainder_units;
+  std::uint32_t tick, people, muscles, choices, fading, resources;
+};
+
+struct SavedMethod {
+  std::uint32_t method, vectors, moving, corrected, cells[3], control_points, reported;
+};
+
+struct SavedChoice {
+  std::uint64_t density, young, poisson, damping, stiffness_damping, foundation, dt;  // doubles, bit by bit
+  std::uint32_t muscles, drive, element, mass, inertia, line_motion, cells[3], has_foundation, has_dt;
+  SavedMethod method;
+
+  friend bool operator==(const SavedChoice& a, const SavedChoice& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
+};
+
+struct SavedPerson {
+  std::uint32_t index, generation;
+  std::uint32_t height, mass, endo, meso, ecto;  // floats, bit by bit
+  std::uint32_t constitution, posed, choice, muscles;
+};
+
+struct SavedMuscle {
+  std::uint32_t muscle;
+  Entity entity[2];
+  SavedMethod method;
+};
+
+struct SavedFading {
+  Entity muscle;
+  std::uint32_t ends;
+};
+
+enum class ResourceKind : std::uint32_t { unknown, shape, lines, solver, basis };
+
+/// What a shared resource is made from, in one form: what it does not depend on is as in a LegMuscles{}.
+struct Recipe {
+  ResourceKind kind;
+  std::uint32_t muscle;
+  SavedChoice choice;
+  std::uint64_t dt, across, along;             // of a solver: doubles; of a basis across / along and their product
+  std::uint32_t method, mass, vectors, spare;  // of a solver; of a basis
+
+  friend bool operator==(const Recipe& a, const Recipe& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
+};
+
+/// A resource that a table with rows has, by its number in the world that was saved; these ascend.
+struct SavedResource {
+  Recipe recipe;
+  std::uint64_t fingerprint;  // of its numbers
+  std::uint32_t number, spare;
+};
+
+SavedMethod pack(const MuscleMethod& method);
+SavedChoice pack(const LegMuscles& choice);
+/// Nothing where an enumeration or a truth value is none.
+std::optional<MuscleMethod> unpack(const SavedMethod& saved);
+std::optional<LegMuscles> unpack(const SavedChoice& saved);
+
+}  // namespace mobil

@@ -1,0 +1,297 @@
+// Bodies from height and mass: the parts add up to the whole.
+#include "assets/body/anthropometry.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "assets/body/joint_limits.h"
+#include "assets/body/segment_inertia.h"
+#include "components/gait_style.h"
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+BodyRequest any_request() {
+  BodyRequest r;
+  r.height_m = static_cast<float>(*rc::gen::inRange(12000, 22001) * 1e-4);
+  r.mass_kg = living_mass(r.height_m, *rc::gen::inRange(0, 10001) * 1e-4);
+  return r;
+}
+
+RC_GTEST_PROP(Anthropometry, MassesAddUpWithoutRoundingInAnyOrder, ()) {
+  const BodyRequest r = any_request();
+  const auto body = make_body(r);
+  RC_ASSERT(body.has_value());
+  float up = 0, down = 0;
+  for (std::size_t i = 0; i < segment_count; ++i) {
+    RC_ASSERT(body->mass_kg[i] > 0.0F);
+    up += body->mass_kg[i];
+    down += body->mass_kg[segment_count - 1 - i];
+  }
+  RC_ASSERT(up == r.mass_kg);
+  RC_ASSERT(down == r.mass_kg);
+}
+
+RC_GTEST_PROP(Anthropometry, TheColumnReachesTheStatureAndTheLegsTheGround, ()) {
+  const BodyRequest r = any_request();
+  const auto body = make_body(r);
+  RC_ASSERT(body.has_value());
+  double height = body->joint_offset_m[index(Segment::pelvis)].y;
+  for (std::size_t i = index(Segment::L5); i <= index(Segment::head); ++i) height += body->joint_offset_m[i].y;
+  height += body->tip_m[index(Segment::head)].y;
+  RC_ASSERT(std::fabs(height - r.height_m) < 1e-6 * r.height_m);
+  const double ankle = -body->heel_m.y;
+  const double hip = body->thigh_length_m + body->shank_length_m + ankle;
+  RC_ASSERT(std::fabs(hip - body->hip_height_m) < 1e-6);
+  RC_ASSERT(std::fabs(hip - 0.530 * r.height_m) < 1e-6);
+  RC_ASSERT(std::fabs(ankle + body->ball_m.y) < 1e-7);
+}
+
+RC_GTEST_PROP(Anthropometry, LeftMirrorsRight, ()) {
+  const auto body = make_body(any_request());
+  RC_ASSERT(body.has_value());
+  for (Segment s : {Segment::thigh_right, Segment::patella_right, Segment::shank_right, Segment::foot_right,
+                    Segment::toes_right, Segment::clavicle_right, Segment::upper_arm_right, Segment::forearm_right,
+                    Segment::hand_right, Segment::fingers_right, Segment::thumb_right}) {
+    const std::size_t a = index(s), b = index(on_side(s, left));
+    for (const auto* field : {&body->joint_offset_m, &body->centre_of_mass_m, &body->tip_m}) {
+      RC_ASSERT((*field)[a].x == -(*field)[b].x);
+      RC_ASSERT((*field)[a].y == (*field)[b].y);
+      RC_ASSERT((*field)[a].z == (*field)[b].z);
+    }
+    RC_ASSERT(body->mass_kg[a] == body->mass_kg[b]);
+  }
+}
+
+TEST(Anthropometry, GroupsOfSegmentsCarryDempstersFractions) {
+  auto sum = [](Segment from, Segment to) {
+    double m = 0;
+    for (std::size_t i = index(from); i <= index(to); ++i) m += unit_body.mass_fraction[i];
+    return m;
+  };
+  using enum Segment;
+  EXPECT_NEAR(sum(thigh_right, toes_right), 0.161, 1e-12);
+  EXPECT_NEAR(sum(upper_arm_left, thumb_left), 0.050, 1e-12);
+  EXPECT_NEAR(sum(foot_right, toes_right), 0.0145, 1e-12);
+  EXPECT_NEAR(sum(C7, head), 0.081, 1e-12);
+  EXPECT_NEAR(sum(pelvis, head) + 2 * unit_body.mass_fraction[index(clavicle_right)] + 2 * 0.050, 0.678, 1e-12);
+  EXPECT_NEAR(sum(pelvis, thumb_left), 1.0, 1e-12);
+}
+
+TEST(Anthropometry, StandingCentreOfMassIsWhereItIsMeasured) {
+  // Over the foot, a little over half the height: 0.54–0.57 is measured, Dempster's own segments give 0.58.
+  std::array<Vec3<double>, segment_count> place{};
+  double y = 0, z = 0, x = 0;
+  for (std::size_t i = 0; i < segment_count; ++i) {
+    const Vec3<double>& o = unit_body.joint_offset[i];
+    const Vec3<double>& p = place[index(segment_parent[i])];
+    place[i] = i == 0 ? o : Vec3<double>{p.x + o.x, p.y + o.y, p.z + o.z};
+    y += unit_body.mass_fraction[i] * (place[i].y + unit_body.centre_of_mass[i].y);
+    z += unit_body.mass_fraction[i] * (place[i].z + unit_body.centre_of_mass[i].z);
+    x += unit_body.mass_fraction[i] * (place[i].x + unit_body.centre_of_mass[i].x);
+  }
+  EXPECT_NEAR(x, 0.0, 1e-12);
+  EXPECT_GT(y, 0.54);
+  EXPECT_LT(y, 0.582);
+  EXPECT_GT(z, -fraction::heel_back);
+  EXPECT_LT(z, fraction::ball_forward);
+}
+
+TEST(Anthropometry, RefusesBodiesOutsideTheRangeInOneLine) {
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const float inf = std::numeric_limits<float>::infinity();
+  auto refused = [](BodyRequest r, const char* what) {
+    const auto body = make_body(r);
+    ASSERT_FALSE(body.has_value()) << what;
+    EXPECT_NE(body.error().message.find(what), std::string::npos) << body.error().message;
+    EXPECT_EQ(body.error().message.find('\n'), std::string::npos);
+  };
+  for (float height : {1.19F, 2.21F, 0.0F, -1.8F, nan, inf}) refused({.height_m = height}, "1.2–2.2 m");
+  for (float mass : {29.9F, 200.1F, -70.0F, nan, inf}) refused({.mass_kg = mass}, "30–200 kg");
+  for (float part : {0.0F, 12.1F, nan}) refused({.biotype = {3, part, 3}}, "mesomorphy");
+}
+
+TEST(Anthropometry, RefusesWhatNoLivingBodyWeighsAndNamesWhatItMay) {
+  auto message = [](float height, float mass) {
+    const auto body = make_body({.height_m = height, .mass_kg = mass});
+    EXPECT_FALSE(body.has_value()) << height << " m, " << mass << " kg";
+    return body ? std::string() : body.error().message;
+  };
+  EXPECT_NE(message(2.2F, 30).find("58.1–200.0 kg"), std::string::npos);
+  EXPECT_NE(message(1.2F, 200).find("30.0–132.4 kg"), std::string::npos);
+  for (const auto& [height, mass] : {std::array{2.2F, 58.1F}, {2.2F, 200.0F}, {1.2F, 30.0F}, {1.2F, 132.4F}}) {
+    EXPECT_TRUE(make_body({.height_m = height, .mass_kg = mass}).has_value()) << height << " m, " << mass << " kg";
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------- published
+// tables
+
+/// Winter's table 4.1 after Dempster: mass, the centre from the proximal end and the radius of gyration about it in
+/// parts of the length, which lies between the two joints' heights; lengths of Drillis & Contini in parts of stature.
+struct WinterSegment {
+  std::vector<Segment> segments;
+  double mass, centre, gyration, length;
+};
+
+TEST(Anthropometry, LimbsOfTheReferenceBodyAreWintersSegments) {
+  using enum Segment;
+  const Body body = make_body({.height_m = 1.80F, .mass_kg = 80}).value();
+  const WinterSegment table[] = {
+      {{thigh_right, patella_right}, 0.100, 0.433, 0.323, 0.245},
+      {{shank_right}, 0.0465, 0.433, 0.302, 0.246},
+      {{shank_right, foot_right, toes_right}, 0.061, 0.606, 0.416, 0.246},
+      {{thigh_right, patella_right, shank_right, foot_right, toes_right}, 0.161, 0.447, 0.326, 0.491},
+      {{upper_arm_right}, 0.028, 0.436, 0.322, 0.186},
+      {{forearm_right}, 0.016, 0.430, 0.303, 0.146},
+      {{forearm_right, hand_right, fingers_right, thumb_right}, 0.022, 0.682, 0.468, 0.146},
+      {{upper_arm_right, forearm_right, hand_right, fingers_right, thumb_right}, 0.050, 0.530, 0.368, 0.332}};
+  for (const WinterSegment& row : table) {
+    SCOPED_TRACE(segment_name[index(row.segments.front())]);
+    const RigidSum sum = rigid_sum(body, row.segments);
+    const double length = 1.80 * row.length, from = joint_centre_m(body, row.segments.front()).y;
+    EXPECT_NEAR(sum.mass_kg, 80 * row.mass, 1e-4);
+    EXPECT_NEAR((from - sum.centre_m.y) / length, row.centre, 0.03);
+    EXPECT_NEAR(std::sqrt(sum.inertia_kg_m2.x / sum.mass_kg) / length / row.gyration, 1, 0.08);
+    EXPECT_NEAR(std::sqrt(sum.inertia_kg_m2.z / sum.mass_kg) / length / row.gyration, 1, 0.08);
+  }
+  // The foot's length runs from the ankle to the second toe's head, forward as well as down.
+  const RigidSum foot = rigid_sum(body, std::array{foot_right, toes_right});
+  const double length = std::hypot(static_cast<double>(body.tip_m[index(foot_right)].y),
+                                   static_cast<double>(body.tip_m[index(foot_right)].z));
+  EXPECT_NEAR(foot.mass_kg, 80 * 0.0145, 1e-4);
+  EXPECT_NEAR(std::sqrt(foot.inertia_kg_m2.x / foot.mass_kg) / length, 0.475, 0.005);
+}
+
+TEST(Anthropometry, TrunkHeadAndHandTurnLikeThePublishedWholes) {
+  using enum Segment;
+  const Body body = make_body({.height_m = 1.80F, .mass_kg = 80}).value();
+  auto run = [](Segment from, Segment to, std::vector<Segment> more = {}) {
+    for (std::size_t s = index(from); s <= index(to); ++s) more.push_back(static_cast<Segment>(s));
+    return more;
+  };
+  auto close = [&](const std::vector<Segment>& segments, const de_leva::Part& part, double within) {
+    const RigidSum sum = rigid_sum(body, segments);
+    const double unit = 1.80 * part.length_m / de_leva::stature_m;
+    EXPECT_NEAR(std::sqrt(sum.inertia_kg_m2.x / sum.mass_kg) / unit / part.x, 1, within);
+    EXPECT_NEAR(std::sqrt(sum.inertia_kg_m2.z / sum.mass_kg) / unit / part.z, 1, within);
+    return std::sqrt(sum.inertia_kg_m2.y / sum.mass_kg) / unit / part.y;
+  };
+  EXPECT_NEAR(close(run(pelvis, T1, {clavicle_right, clavicle_left}), de_leva::whole_trunk, 0.02), 1, 0.02);
+  EXPECT_NEAR(close(run(C7, head), de_leva::head_and_neck, 0.06), 1, 0.06);
+  close(run(hand_right, thumb_right), de_leva::hand, 0.1);
+  // Winter has one radius for head, arms and trunk, in parts of the trunk's length from hip to shoulder.
+  const RigidSum upper = rigid_sum(body, run(clavicle_right, thumb_left, run(pelvis, head)));
+  EXPECT_NEAR(upper.mass_kg, 80 * 0.678, 1e-3);
+  for (const double inertia : {upper.inertia_kg_m2.x, upper.inertia_kg_m2.z}) {
+    EXPECT_NEAR(std::sqrt(inertia / upper.mass_kg) / (1.80 * 0.288) / winter::head_arms_trunk, 1, 0.06);
+  }
+}
+
+RC_GTEST_PROP(Anthropometry, InertiasAreThoseOfSolidsAndGrowWithTheBody, ()) {
+  const BodyRequest r = any_request();
+  const Body body = make_body(r).value();
+  const Body taller = make_body({.height_m = r.height_m + 0.01F, .mass_kg = r.mass_kg}).value_or(body);
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const Vec3<double> i = segment_inertia_kg_m2(body, static_cast<Segment>(s));
+    RC_ASSERT(i.x > 0 && i.y > 0 && i.z > 0);
+    RC_ASSERT(i.x <= i.y + i.z && i.y <= i.x + i.z && i.z <= i.x + i.y);
+    const double far = static_cast<double>(body.mass_kg[s]) * std::pow(0.15 * static_cast<double>(r.height_m), 2);
+    RC_ASSERT(i.x < far && i.y < far && i.z < far);
+    RC_ASSERT(segment_inertia_kg_m2(taller, static_cast<Segment>(s)).x >= i.x);
+  }
+}
+
+// --------------------------------------------------------------------------------------------------------- joint
+// limits
+
+TEST(JointLimits, HoldEveryPostureThatAGaitMayAskFor) {
+  const auto holds = [](std::string_view joint, std::string_view motion, std::string_view name, double sign = 1) {
+    const JointLimit* limit = find_joint_limit(joint, motion);
+    ASSERT_NE(limit, nullptr) << joint << ' ' << motion;
+    for (const GaitParameter& p : gait_parameters) {
+      if (p.name != name) continue;
+      for (const float value : {p.low, p.high}) {
+        EXPECT_GE(sign * static_cast<double>(value), limit->low_deg) << name;
+        EXPECT_LE(sign * static_cast<double>(value), limit->high_deg) << name;
+      }
+      return;
+    }
+    FAIL() << name;
+  };
+  for (const char* knee : {"strike_knee_deg", "stance_knee_deg", "toe_off_knee_deg", "swing_knee_deg"}) {
+    holds("knee", "flexion-extension", knee);
+  }
+  holds("ankle", "dorsiflexion-plantarflexion", "swing_ankle_deg");
+  holds("hip", "internal-external rotation", "toe_out_deg", -1);
+  holds("shoulder", "flexion-extension", "arm_forward_deg");
+  holds("shoulder", "flexion-extension", "arm_back_deg", -1);
+  holds("shoulder", "abduction-adduction", "arm_abduction_deg");
+  holds("elbow", "flexion-extension", "elbow_back_deg");
+  holds("elbow", "flexion-extension", "elbow_forward_deg");
+  holds("forearm", "pronation", "forearm_pronation_deg");
+  holds("metacarpophalangeal", "flexion-extension", "finger_flexion_deg");
+}
+
+TEST(JointLimits, HoldAWalkAtEverySpeedOfEveryBody) {
+  struct Angle {
+    const JointLimit* limit;
+    float (JointAngles<float>::*angle)[2];
+    const char* name;
+  };
+  const Angle table[] = {
+      {find_joint_limit("hip", "flexion-extension"), &JointAngles<float>::hip_flexion, "hip"},
+      {find_joint_limit("knee", "flexion-extension"), &JointAngles<float>::knee_flexion, "knee"},
+      {find_joint_limit("ankle", "dorsiflexion-plantarflexion"), &JointAngles<float>::ankle_dorsiflexion, "ankle"},
+      {find_joint_limit("shoulder", "flexion-extension"), &JointAngles<float>::shoulder_flexion, "shoulder"},
+      {find_joint_limit("elbow", "flexion-extension"), &JointAngles<float>::elbow_flexion, "elbow"}};
+  Simulation simulation;
+  std::vector<Entity> people;
+  for (const float height : {1.2F, 1.75F, 2.2F}) {
+    for (const float speed : {0.8F, 1.1F, 1.4F, 1.8F}) {
+      const float froude = std::sqrt(height / 1.75F);
+      people.push_back(
+          *simulation.spawn({.height_m = height, .mass_kg = living_mass(height, 0.35)}, {.speed_m_s = speed * froude}));
+    }
+  }
+  for (int tick = 0; tick < 180; ++tick) {
+    simulation.tick();
+    for (const Entity person : people) {
+      const auto angles = *simulation.get<JointAngles>(person);
+      for (const Angle& joint : table) {
+        for (std::size_t side = 0; side < 2; ++side) {
+          const double deg = static_cast<double>((angles.*joint.angle)[side]) * 180 / std::numbers::pi;
+          ASSERT_GE(deg, joint.limit->low_deg) << joint.name << " at tick " << tick;
+          ASSERT_LE(deg, joint.limit->high_deg) << joint.name << " at tick " << tick;
+        }
+      }
+    }
+  }
+}
+
+TEST(JointLimits, TheColumnBendsAndTurnsAsMuchAsRegionsAreSaidTo) {
+  // White & Panjabi's regions: neck, chest, loins; flexion with extension, and rotation to one side.
+  auto sum = [](Segment from, Segment to, double VertebraLimit::*part) {
+    double all = 0;
+    for (std::size_t s = index(from); s <= index(to); ++s) all += vertebra_limits[s - index(Segment::L5)].*part;
+    return all;
+  };
+  using enum Segment;
+  EXPECT_NEAR(sum(L5, L1, &VertebraLimit::flexion_extension), 75, 15);
+  EXPECT_NEAR(sum(T12, T1, &VertebraLimit::flexion_extension), 76, 10);
+  EXPECT_NEAR(sum(C7, C1, &VertebraLimit::flexion_extension), 110, 15);
+  EXPECT_LT(sum(L5, L1, &VertebraLimit::rotation), 13);
+  EXPECT_NEAR(sum(C7, C1, &VertebraLimit::rotation), 80, 15);
+  for (const JointLimit& limit : limb_limits) EXPECT_LT(limit.low_deg, limit.high_deg) << limit.joint;
+}
+
+}  // namespace
+}  // namespace mobil

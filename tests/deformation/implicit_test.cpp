@@ -1,0 +1,294 @@
+// The implicit methods' sixteen-lane kernels against a dense double-precision model, and what must hold of each method.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/deformation/implicit_oracle.h"
+#include "tests/engine/instruction_sets.h"
+
+namespace mobil {
+namespace {
+
+using namespace oracle;  // NOLINT(google-build-using-namespace)
+
+/// Smallest stable number of central-difference substeps of all lanes with the consistent mass.
+std::uint32_t icd_substeps(const Block& block) {
+  double top = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const Dense dense(block, l, 1e-3);
+    const Matrix k = (dense.elastic + dense.foundation)(dense.moving, dense.moving),
+                 m = dense.mass(dense.moving, dense.moving);
+    top = std::max(top, oracle::eigenvalues(k, m).maxCoeff());
+  }
+  const double xi = block.muscle.options.stiffness_damping_s * std::sqrt(top) / 2;
+  return substeps_within(2 / std::sqrt(top) * (std::sqrt(1 + xi * xi) - xi), static_cast<double>(tick_s));
+}
+
+constexpr std::array<FarEnd, 3> far_ends = {FarEnd::held, FarEnd::sliding, FarEnd::free};
+constexpr std::array<const char*, 3> far_end_name = {"held", "sliding", "free"};
+
+struct Physics {
+  double alpha, beta, foundation_hz;
+  bool framed;
+};
+constexpr std::array<Physics, 4> physics = {
+    {{8, 0, 0, false}, {0, 0, 0, true}, {8, 3e-4, 7, true}, {0, 2e-3, 0, false}}};
+
+void follows(Method method, Mass mass, bool alike, const Cells& cells, int ticks) {
+  for (const FarEnd end : far_ends) {
+    for (const Physics& p : physics) {
+      MuscleOptions options;
+      options.far_end = end;
+      options.damping_per_s = p.alpha;
+      options.stiffness_damping_s = p.beta;
+      options.foundation_hz = p.foundation_hz;
+      const MuscleTemplate muscle = make(spindle(cells), options);
+      Block block(muscle, make_solver(muscle, method, mass, static_cast<double>(tick_s)), 0.06, 0.12);
+      if (alike) block.be_all_alike();
+      const std::uint32_t n = method == Method::icd ? icd_substeps(block) : 1;
+      const Distance distance = distance_from_oracle(block, p.framed, ticks, n);
+      const std::string where = std::string(far_end_name[static_cast<std::size_t>(end)]) + ", alpha " +
+                                std::to_string(p.alpha) + ", beta " + std::to_string(p.beta) + ", foundation " +
+                                std::to_string(p.foundation_hz) + (p.framed ? ", framed" : "");
+      const double swept = method == Method::caa && !alike ? 3 : 1;
+      EXPECT_LT(distance.displacement, swept * 1e-4) << where;
+      EXPECT_LT(distance.report, swept * 4e-4) << where;
+    }
+  }
+}
+
+TEST(Implicit, MeanAccelerationOfOneBodyFollowsTheDenseModel) {
+  follows(Method::caa, Mass::lumped, true, {2, 2, 8}, 12);
+  follows(Method::caa, Mass::consistent, true, {2, 1, 4}, 60);
+}
+
+TEST(Implicit, MeanAccelerationOfIndividualsFollowsTheDenseModel) {
+  follows(Method::caa, Mass::lumped, false, {2, 2, 8}, 12);
+  follows(Method::caa, Mass::consistent, false, {2, 1, 4}, 60);
+}
+
+TEST(Implicit, CentralDifferencesWithConsistentMassFollowTheDenseModel) {
+  follows(Method::icd, Mass::consistent, false, {2, 1, 4}, 30);
+  follows(Method::icd, Mass::consistent, true, {1, 2, 3}, 30);
+}
+
+TEST(Implicit, StaticAnswersFollowTheDenseModel) {
+  follows(Method::statics, Mass::lumped, false, {2, 2, 8}, 5);
+  follows(Method::statics, Mass::consistent, false, {2, 1, 4}, 5);
+  follows(Method::statics, Mass::lumped, true, {2, 2, 8}, 5);
+}
+
+TEST(Implicit, SolverForAnotherBodyServesThoseAboutIt) {
+  const MuscleTemplate muscle = make(spindle({1, 2, 4}), {FarEnd::free, 2});
+  for (const Method method : {Method::caa, Method::statics}) {
+    Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s), 1.3, 0.9), 0.06, 0.12);
+    EXPECT_LT(distance_from_oracle(block, true, 20, 1).displacement, 1e-4);
+  }
+}
+
+TEST(Implicit, MoreSweepsComeCloserInEveryMethodThatSweeps) {
+  const MuscleTemplate muscle = make(spindle({2, 2, 4}), {FarEnd::free, 2});
+  for (const Method method : {Method::caa, Method::statics}) {
+    std::vector<double> distance;
+    for (const std::uint32_t sweeps : {2U, 4U, 6U}) {
+      Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s)), 0.12, 0.25);
+      block.solver.sweeps = sweeps;
+      distance.push_back(distance_from_oracle(block, false, 20, 1).displacement);
+    }
+    EXPECT_LT(distance[1], 0.2 * distance[0]);
+    EXPECT_LT(distance[2], std::max(0.2 * distance[1], 5e-5));
+  }
+}
+
+TEST(Implicit, OneLayerOfElementsMovesOrIsHeldWhole) {
+  for (const FarEnd end : far_ends) {
+    const MuscleTemplate muscle = make(*make_block({1, 1, 1}, 0.02), {end, 3});
+    for (const Method method : {Method::caa, Method::statics}) {
+      Block block(muscle, make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s)), 0.05, 0.1);
+      EXPECT_LT(distance_from_oracle(block, true, 20, 1).displacement, 1e-4);
+    }
+  }
+}
+
+void shake(Block& block, float size) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<float> any(-size, size);
+  const Cells& cells = block.muscle.mesh.cells;
+  for (std::uint32_t n = plane_nodes(cells); n < node_count(cells); ++n) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const float value = any(random);
+        if (moves(cells, block.muscle.options.far_end, n, c)) block.u[3 * n + c][l] = value;
+      }
+    }
+  }
+}
+
+double energy(const Block& block, std::size_t l) {
+  return static_cast<double>(block.report.kinetic_energy_j[l]) + static_cast<double>(block.report.strain_energy_j[l]);
+}
+
+double largest(const Block& block) {
+  double most = 0;
+  for (const auto& lanes : block.u) {
+    for (const float x : lanes.lane) most = std::isfinite(x) ? std::max(most, std::abs(double{x})) : INFINITY;
+  }
+  return most;
+}
+
+TEST(Implicit, FreeUndampedMotionKeepsItsEnergy) {
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    for (const bool alike : {true, false}) {
+      const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::free, 0});
+      Block block(muscle, make_solver(muscle, Method::caa, mass, static_cast<double>(tick_s)), 0.06, 0.12);
+      block.solver.sweeps = 5;
+      if (alike) block.be_all_alike();
+      shake(block, 0.002F);
+      block.tick(Drive{}, 1);
+      std::vector<double> first(lane_count);
+      for (std::size_t l = 0; l < lane_count; ++l) first[l] = energy(block, l);
+      for (int tick = 0; tick < 300; ++tick) block.tick(Drive{}, 1);
+      for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(energy(block, l) / first[l], 1, 5e-5) << "lane " << l;
+    }
+  }
+}
+
+TEST(Implicit, MeanAccelerationIsStableAtAnyStepAndCentralDifferencesAreNot) {
+  for (const float length_s : {tick_s, 1.0F}) {
+    const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::free, 0});
+    Block block(muscle, make_solver(muscle, Method::caa, Mass::lumped, static_cast<double>(length_s)), 0.06, 0.12);
+    shake(block, 0.001F);
+    for (int tick = 0; tick < 1000; ++tick) block.tick(Drive{}, 1, length_s);
+    EXPECT_LT(largest(block), 0.1);
+
+    Block lost(muscle, make_solver(muscle, Method::icd, Mass::consistent, static_cast<double>(length_s)), 0, 0);
+    shake(lost, 0.001F);
+    for (int tick = 0; tick < 40; ++tick) lost.tick(Drive{}, 1, length_s);
+    EXPECT_GT(largest(lost), 1e6);
+  }
+}
+
+TEST(Implicit, CentralDifferencesWithConsistentMassKeepTheirEnergyAndReachTheirLimit) {
+  const MuscleTemplate muscle = make(spindle({2, 2, 4}), {FarEnd::free, 0});
+  Block block(muscle, make_solver(muscle, Method::icd, Mass::consistent, static_cast<double>(tick_s)), 0.2, 0.2);
+  shake(block, 0.001F);
+  const std::uint32_t n = icd_substeps(block);
+  block.tick(Drive{}, n);
+  std::vector<double> first(lane_count);
+  for (std::size_t l = 0; l < lane_count; ++l) first[l] = energy(block, l);
+  for (int tick = 0; tick < 300; ++tick) block.tick(Drive{}, n);
+  for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(energy(block, l) / first[l], 1, 5e-5) << "lane " << l;
+}
+
+TEST(Implicit, SlenderBelliesBendToTheStaticAnswer) {
+  for (const bool alike : {true, false}) {
+    const MuscleTemplate muscle = make(*make_block({1, 1, 12}, 0.004), {FarEnd::free, 0});  // condition 1.3e5
+    Block block(muscle, make_solver(muscle, Method::statics, Mass::lumped, 0), 0.06, 0.12);
+    if (alike) block.be_all_alike();
+    EXPECT_LT(distance_from_oracle(block, false, 10, 1).displacement, 1e-3);
+  }
+}
+
+TEST(Implicit, RestStaysAtRest) {
+  for (const Method method : {Method::caa, Method::icd, Method::statics}) {
+    const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::held, 8});
+    Block block(muscle, make_solver(muscle, method, Mass::consistent, static_cast<double>(tick_s)), 0.06, 0.12);
+    for (int tick = 0; tick < 3; ++tick) block.tick(Drive{}, 8);
+    for (const auto& column : {block.u, block.v}) {
+      for (const auto& lanes : column) {
+        for (const float x : lanes.lane) ASSERT_EQ(x, 0.0F);
+      }
+    }
+  }
+}
+
+TEST(Implicit, NotANumberStaysInItsLane) {
+  for (const Method method : {Method::caa, Method::icd, Method::statics}) {
+    for (const FarEnd end : far_ends) {
+      const MuscleTemplate muscle = make(spindle({2, 2, 4}), {end, 8});
+      const BellySolver solver = make_solver(muscle, method, Mass::consistent, static_cast<double>(tick_s));
+      for (const std::size_t sick : {std::size_t{0}, std::size_t{11}}) {
+        Block clean(muscle, solver, 0.06, 0.12), dirty(muscle, solver, 0.06, 0.12);
+        for (auto& lanes : dirty.scratch) {
+          for (float& x : lanes.lane) x = std::numeric_limits<float>::quiet_NaN();  // whatever was there before
+        }
+        for (int tick = 0; tick < 6; ++tick) {
+          Drive drive = drive_at(tick * static_cast<double>(tick_s), 1, true);
+          clean.tick(drive, method == Method::icd ? 32 : 1);
+          if (tick == 1) drive.frame.constant_to.x[sick] = std::numeric_limits<float>::quiet_NaN();
+          if (tick == 1) drive.displacement.to_m[sick] = INFINITY;
+          if (tick == 3) dirty.scale.across[sick] = INFINITY;
+          dirty.tick(drive, method == Method::icd ? 32 : 1);
+        }
+        EXPECT_TRUE(same_bits(clean.u, dirty.u, sick));
+        EXPECT_TRUE(same_bits(clean.v, dirty.v, sick));
+        EXPECT_FALSE(std::isfinite(dirty.u[3 * 9 + 2][sick]));
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          EXPECT_TRUE(l == sick || clean.report.strain_energy_j[l] == dirty.report.strain_energy_j[l]) << "lane " << l;
+          EXPECT_LT(clean.report.strain_energy_j[l], 1.0F) << "lane " << l;
+        }
+      }
+    }
+  }
+}
+
+TEST(Implicit, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) {
+  for (const Method method : {Method::caa, Method::icd, Method::statics}) {
+    const MuscleTemplate muscle = make(spindle({2, 2, 8}), {FarEnd::sliding, 8});
+    const BellySolver solver = make_solver(muscle, method, Mass::lumped, static_cast<double>(tick_s));
+    std::vector<Block> results;
+    for_each_fused_instruction_set([&] {
+      Block block(muscle, solver, 0, 0);
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        block.scale.across[l] = 1.02F;
+        block.scale.along[l] = 0.98F;
+      }
+      for (int tick = 0; tick < 20; ++tick) {
+        Drive drive = drive_at(tick * static_cast<double>(tick_s), 1, false);
+        for (std::size_t l = 1; l < lane_count; ++l) {
+          drive.force.from_n[l] = drive.force.from_n[0];
+          drive.force.to_n[l] = drive.force.to_n[0];
+        }
+        block.tick(drive, method == Method::icd ? 32 : 1);
+      }
+      results.push_back(block);
+    });
+    if (results.empty()) GTEST_SKIP() << "no instruction set with fused multiply-add here";
+    for (const Block& block : results) {
+      EXPECT_TRUE(same_bits(block.u, results.front().u, lane_count));
+      for (const auto& lanes : block.u) {
+        for (const float x : lanes.lane) EXPECT_EQ(x, lanes[0]);
+      }
+    }
+  }
+}
+
+TEST(Implicit, NonsenseSolversAreRefusedInOneLine) {
+  const MuscleTemplate muscle = make(*make_block({1, 1, 2}, 0.01), {FarEnd::held, 0, 0.5, 2});
+  const auto refused = [&](Method method, double dt, double across = 1, double along = 1) {
+    const auto made = make_belly_solver(muscle, method, Mass::lumped, dt, across, along);
+    return !made && !made.error().message.empty() && made.error().message.find('\n') == std::string::npos;
+  };
+  EXPECT_FALSE(refused(Method::caa, 0.01));
+  EXPECT_FALSE(refused(Method::statics, -1));
+  EXPECT_TRUE(refused(Method::ecd, 0.01));
+  for (const double bad : {0.0, -0.01, 1e9, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    EXPECT_TRUE(refused(Method::caa, bad));
+    EXPECT_TRUE(refused(Method::icd, bad));
+    EXPECT_TRUE(refused(Method::caa, 0.01, bad, bad));
+  }
+  EXPECT_TRUE(refused(Method::caa, 0.01, 3, 1));
+  EXPECT_TRUE(refused(Method::caa, 0.01, 1, 3));
+  const auto wide = make(*make_block({40, 40, 2}, 0.01), {FarEnd::free, 0, 1, 1});
+  EXPECT_FALSE(make_belly_solver(wide, Method::caa, Mass::lumped, 0.01).has_value());
+}
+
+}  // namespace
+}  // namespace mobil

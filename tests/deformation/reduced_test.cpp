@@ -1,0 +1,302 @@
+// The reduced kernels on motions made up here: against the closed form of each, against sums in double precision, and,
+// with as many vectors as a small mesh has displacements, against the whole model.
+#include "systems/deformation/reduced.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "tests/deformation/reduced_block.h"
+#include "tests/engine/counting_heap.h"
+#include "tests/engine/instruction_sets.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::array far_ends = {FarEnd::held, FarEnd::sliding, FarEnd::free};
+
+struct Kind {
+  std::uint32_t vectors;
+  FarEnd end;
+  bool frame;
+};
+
+/// Every far end with and without frame loads, and numbers of vectors that fit registers well, badly or not at all.
+std::vector<Kind> kinds() {
+  std::vector<Kind> all;
+  for (const FarEnd end : far_ends) {
+    for (const bool frame : {false, true}) {
+      for (const std::uint32_t vectors : {1U, 5U, 12U, 32U}) all.push_back({vectors, end, frame});
+    }
+  }
+  return all;
+}
+
+/// Largest difference of X and W of any motion from the closed form over `ticks` ticks, over the largest of either and
+/// of ṡ (a motion of a whole number of turns a tick hardly moves at all).
+double distance_from_closed_form(ReducedBodies& bodies, int ticks, double tick_s) {
+  bodies.write_motion(tick_s);
+  const std::size_t count = bodies.basis.vectors;
+  std::vector<ClosedForm> exact;
+  for (std::size_t j = 0; j < count; ++j) {
+    for (std::size_t l = 0; l < lane_count; ++l) exact.push_back({bodies.omega[j][l], bodies.damping});
+  }
+  std::vector<double> error(exact.size()), largest(exact.size(), 1e-30);
+  ReducedDrive drive(bodies, 5);
+  for (int tick = 0; tick < ticks; ++tick) {
+    drive.advance();
+    bodies.tick(drive, tick_s);
+    for (std::size_t j = 0; j < count; ++j) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const std::size_t at = j * lane_count + l;
+        const double from = bodies.rest(drive.from, j, l), to = bodies.rest(drive.to, j, l);
+        exact[at].step(from, to, tick_s);
+        const double x = exact[at].omega * (exact[at].z - to), w = exact[at].speed;
+        const auto kept = bodies.kept(j, l);
+        error[at] = std::max({error[at], std::abs(kept[0] - x), std::abs(kept[1] - w)});
+        largest[at] = std::max({largest[at], std::abs(x), std::abs(w), std::abs(to - from) / tick_s});
+      }
+    }
+  }
+  double worst = 0;
+  for (std::size_t at = 0; at < error.size(); ++at) worst = std::max(worst, error[at] / largest[at]);
+  return worst;
+}
+
+TEST(Reduced, EveryMotionIsTheClosedForm) {
+  for (const Kind& kind : kinds()) {
+    for (const double damping : {0.0, 8.0, 60.0, 900.0}) {  // of the slower motions overdamped
+      ReducedBodies bodies(kind.vectors, kind.end, kind.frame, damping);
+      EXPECT_LT(distance_from_closed_form(bodies, 120, 1.0 / 60), 1e-4) << damping;
+    }
+  }
+}
+
+TEST(Reduced, CoarseAndFineTicksAgreeWhereInputsAreLinear) {
+  for (const Kind& kind : kinds()) {
+    ReducedBodies coarse(kind.vectors, kind.end, kind.frame, 8), fine(coarse);
+    constexpr int parts = 4;
+    coarse.write_motion(1.0 / 60);
+    fine.write_motion(1.0 / 60 / parts);
+    ReducedDrive drive(coarse, 7);
+    double error = 0, largest = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      drive.advance();
+      coarse.tick(drive, 1.0 / 60);
+      for (int part = 0; part < parts; ++part) fine.tick(drive.part(part, parts), 1.0 / 60 / parts);
+      for (std::size_t i = 0; i < coarse.state.size(); ++i) {
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          error = std::max(error, std::abs(static_cast<double>(coarse.state[i][l] - fine.state[i][l])));
+          largest = std::max(largest, std::abs(static_cast<double>(coarse.state[i][l])));
+        }
+      }
+    }
+    EXPECT_LT(error, 1e-4 * largest);
+  }
+}
+
+TEST(Reduced, FreeUndampedMotionKeepsItsEnergy) {
+  ReducedBodies bodies(16, FarEnd::held, false, 0);
+  bodies.write_motion(1.0 / 60);
+  bodies.fill(bodies.state, 3, 1);
+  const std::vector<Lanes<float>> before = bodies.state;
+  const ReducedDrive still(bodies, 1);
+  for (int tick = 0; tick < 3600; ++tick) bodies.tick(still, 1.0 / 60);
+  for (std::size_t j = 0; j < 16; ++j) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const auto energy = [&](const std::vector<Lanes<float>>& state) {
+        return std::hypot(static_cast<double>(state[2 * j][l]), static_cast<double>(state[2 * j + 1][l]));
+      };
+      EXPECT_NEAR(energy(bodies.state) / energy(before), 1, 5e-4) << "motion " << j << " lane " << l;
+    }
+  }
+}
+
+TEST(Reduced, ControlPointsAreTheSumsInDoublePrecision) {
+  for (const Kind& kind : kinds()) {
+    for (const Cells& cells : {Cells{2, 2, 8}, Cells{1, 1, 2}, Cells{2, 3, 4}}) {
+      ReducedBodies bodies(kind.vectors, kind.end, kind.frame, 8, cells);
+      bodies.fill(bodies.state, 11, 1);
+      ReducedDrive drive(bodies, 13);
+      drive.advance();
+      for (const bool at_rest : {false, true}) {
+        bodies.place(drive, at_rest);
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          const auto expected = bodies.expected_displacement(drive, l, at_rest);
+          for (std::size_t i = 0; i < expected.size(); ++i) {
+            ASSERT_NEAR(static_cast<double>(bodies.displacement[i][l]), expected[i].value, 1e-6 * expected[i].terms)
+                << "component " << i << " lane " << l;
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(Reduced, WhatIsHeldIsExactlyWhereItIsTold) {
+  ReducedBodies bodies(12, FarEnd::held, true, 8);
+  bodies.fill(bodies.state, 17, 1);
+  bodies.fill(bodies.displacement, 19, 1);
+  ReducedDrive drive(bodies, 23);
+  drive.advance();
+  bodies.place(drive, false);
+  const Cells& cells = bodies.basis.options.control_cells;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    for (std::size_t i = 0; i < 3 * plane_nodes(cells); ++i) EXPECT_EQ(bodies.displacement[i][l], 0.0F);
+    for (std::size_t n = first_insertion_node(cells); n < node_count(cells); ++n) {
+      EXPECT_EQ(bodies.displacement[3 * n][l], 0.0F);
+      EXPECT_EQ(bodies.displacement[3 * n + 1][l], 0.0F);
+      EXPECT_EQ(bodies.displacement[3 * n + 2][l], drive.to[0][l]);
+    }
+  }
+}
+
+TEST(Reduced, WithoutMotionOfItsOwnABellyIsInItsStaticPlace) {
+  for (const Kind& kind : kinds()) {
+    ReducedBodies moving(kind.vectors, kind.end, kind.frame, 8), at_rest(moving);
+    ReducedDrive drive(moving, 29);
+    drive.advance();
+    moving.place(drive, false);
+    at_rest.place(drive, true);
+    EXPECT_TRUE(same_bits(moving.displacement, at_rest.displacement, lane_count));
+  }
+}
+
+TEST(Reduced, HintsAboutMemoryChangeNoBit) {
+  for (const Kind& kind : kinds()) {
+    ReducedBodies plain(kind.vectors, kind.end, kind.frame, 8);
+    plain.write_motion(1.0 / 60);
+    ReducedBodies hinted(plain);
+    hinted.hinted = hinted.streamed = true;
+    ReducedDrive drive(plain, 43);
+    for (int tick = 0; tick < 3; ++tick) {
+      drive.advance();
+      for (ReducedBodies* bodies : {&plain, &hinted}) {
+        bodies->tick(drive, 1.0 / 60);
+        bodies->place(drive, false);
+      }
+    }
+    EXPECT_TRUE(same_bits(plain.state, hinted.state, lane_count));
+    EXPECT_TRUE(same_bits(plain.displacement, hinted.displacement, lane_count));
+  }
+}
+
+TEST(Reduced, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) {
+  for (const Kind& kind : kinds()) {
+    std::vector<ReducedBodies> results;
+    for_each_fused_instruction_set([&] {
+      ReducedBodies bodies(kind.vectors, kind.end, kind.frame, 8);
+      bodies.be_all_alike();
+      bodies.write_motion(1.0 / 60);
+      ReducedDrive drive(bodies, 31);
+      for (int tick = 0; tick < 20; ++tick) {
+        drive.advance();
+        drive.be_all_alike();
+        bodies.tick(drive, 1.0 / 60);
+      }
+      bodies.place(drive, false);
+      results.push_back(bodies);
+    });
+    if (results.empty()) GTEST_SKIP() << "no instruction set with fused multiply-add here";
+    for (const ReducedBodies& bodies : results) {
+      EXPECT_TRUE(same_bits(bodies.state, results.front().state, lane_count));
+      EXPECT_TRUE(same_bits(bodies.displacement, results.front().displacement, lane_count));
+      for (const auto& lanes : bodies.displacement) {
+        for (const float x : lanes.lane) ASSERT_EQ(x, lanes[0]);
+      }
+    }
+  }
+}
+
+TEST(Reduced, NotANumberStaysInItsLane) {
+  for (const Kind& kind : kinds()) {
+    for (const std::size_t sick : {std::size_t{0}, std::size_t{11}}) {
+      ReducedBodies clean(kind.vectors, kind.end, kind.frame, 8);
+      clean.write_motion(1.0 / 60);
+      ReducedBodies dirty(clean);
+      ReducedDrive drive(clean, 37);
+      for (int tick = 0; tick < 4; ++tick) {
+        drive.advance();
+        clean.tick(drive, 1.0 / 60);
+        clean.place(drive, false);
+        ReducedDrive bad = drive;
+        if (tick == 1) bad.to.back()[sick] = std::numeric_limits<float>::quiet_NaN();
+        if (tick == 2) dirty.shape.front()[sick] = INFINITY;
+        dirty.tick(bad, 1.0 / 60);
+        dirty.place(bad, false);
+      }
+      EXPECT_TRUE(same_bits(clean.state, dirty.state, sick));
+      EXPECT_TRUE(same_bits(clean.displacement, dirty.displacement, sick));
+      EXPECT_TRUE(std::isnan(dirty.state[0][sick]));
+      EXPECT_FALSE(std::isfinite(dirty.displacement[3 * plane_nodes({2, 2, 8})][sick]));
+    }
+  }
+}
+
+MuscleTemplate control_of(FarEnd end) {
+  return *make_muscle_template(*make_block({2, 2, 8}, 0.015), Material{}, {.far_end = end});
+}
+
+std::vector<Lanes<float>> figures(const BellyReport<Lanes<float>>& report) {
+  return {report.elongation_m, report.reaction_n, report.volume_ratio, report.kinetic_energy_j, report.strain_energy_j};
+}
+
+TEST(Reduced, ReportsHaveTheSameBitsEverywhereAndKeepANotANumberInItsLane) {
+  for (const Kind& kind : kinds()) {
+    const MuscleTemplate control = control_of(kind.end);
+    constexpr std::size_t sick = 6;
+    std::vector<std::vector<Lanes<float>>> results;
+    const auto run = [&](bool dirty) {
+      ReducedBodies bodies(kind.vectors, kind.end, kind.frame, 8);
+      bodies.write_motion(1.0 / 60);
+      ReducedDrive drive(bodies, 47);
+      drive.advance();
+      bodies.tick(drive, 1.0 / 60);
+      if (dirty) bodies.state.front()[sick] = std::numeric_limits<float>::quiet_NaN();
+      bodies.place(drive, false);
+      results.push_back(figures(bodies.report(drive, control, 1.0 / 60)));
+    };
+    for_each_fused_instruction_set([&] { run(false); });
+    run(true);
+    for (const auto& result : results) EXPECT_TRUE(same_bits(result, results.front(), sick));
+    EXPECT_FALSE(std::isfinite(results.back()[4][sick]));
+  }
+}
+
+TEST(Reduced, ABellyAtRestHasItsVolumeAndNoEnergy) {
+  for (const Kind& kind : kinds()) {
+    ReducedBodies bodies(kind.vectors, kind.end, kind.frame, 8);
+    bodies.write_motion(1.0 / 60);
+    const ReducedDrive still(bodies, 1);
+    bodies.place(still, false);
+    const auto report = bodies.report(still, control_of(kind.end), 1.0 / 60);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      EXPECT_NEAR(static_cast<double>(report.volume_ratio[l]), 1, 1e-5);
+      for (const auto& figure :
+           {report.elongation_m, report.reaction_n, report.kinetic_energy_j, report.strain_energy_j}) {
+        EXPECT_EQ(figure[l], 0.0F);
+      }
+    }
+  }
+}
+
+TEST(Reduced, TicksAndPlacingUseNoHeap) {
+  ReducedBodies bodies(16, FarEnd::held, true, 8);
+  bodies.write_motion(1.0 / 60);
+  ReducedDrive drive(bodies, 41);
+  drive.advance();
+  const MuscleTemplate control = control_of(FarEnd::held);
+  const std::size_t before = heap_requests;
+  bodies.tick(drive, 1.0 / 60);
+  bodies.place(drive, false);
+  bodies.report(drive, control, 1.0 / 60);
+  bodies.place(drive, true);
+  EXPECT_EQ(heap_requests, before);
+}
+
+}  // namespace
+}  // namespace mobil

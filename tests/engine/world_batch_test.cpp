@@ -1,0 +1,199 @@
+// Many entities made and destroyed at once are what they would be one by one.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+#include <new>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "engine/world.h"
+#include "tests/engine/engine_counting_memory.h"
+
+namespace mobil {
+namespace {
+
+template <class F>
+struct Place3 {
+  Vec3<F> at;
+};
+template <class F>
+struct Age {
+  Whole<F> ticks;
+};
+struct Points {};
+struct Kind {};
+
+constexpr std::uint32_t width = 5;
+
+/// A pool that takes the parts of a range last first, one by one.
+Jobs backward() {
+  return {nullptr,
+          [](void*, std::size_t count, Jobs::Body body, void* context) {
+            for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
+          },
+          3};
+}
+
+struct Values {
+  float x;
+  std::uint32_t age;
+  float first_point;
+
+  friend bool operator==(const Values&, const Values&) = default;
+};
+
+Values values_of(int seed) {
+  return {0.5F * static_cast<float>(seed), static_cast<std::uint32_t>(seed) * 7U, static_cast<float>(seed) + 100};
+}
+
+Values read(const World& world, Entity entity) {
+  std::vector<float> points(width);
+  EXPECT_EQ(world.get_field<Points>(entity, points), Status::ok);
+  const auto place = world.get<Place3>(entity);
+  const auto age = world.get<Age>(entity);
+  EXPECT_TRUE(place && age);
+  if (!place || !age) return {};
+  EXPECT_EQ(place->at.y, -place->at.x);
+  for (std::size_t i = 1; i < width; ++i) EXPECT_EQ(points[i], points[0] + static_cast<float>(i));
+  return {place->at.x, age->ticks, points[0]};
+}
+
+/// `count` entities of one kind with the values of first, first + 1, …
+std::vector<Entity> create(World& world, std::uint64_t kind, int first, std::size_t count, const Jobs& jobs) {
+  const std::size_t blocks = (count + lane_count - 1) / lane_count;
+  std::vector<Place3<Lanes<float>>> place(blocks);
+  std::vector<Age<Lanes<float>>> age(blocks);
+  std::vector<Lanes<float>> points(blocks * width);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto [x, ticks, point] = values_of(first + static_cast<int>(i));
+    const std::size_t b = i / lane_count, l = i % lane_count;
+    place[b].at.x[l] = x;
+    place[b].at.y[l] = -x;
+    place[b].at.z[l] = 1;
+    age[b].ticks[l] = ticks;
+    for (std::size_t w = 0; w < width; ++w) points[b * width + w][l] = point + static_cast<float>(w);
+  }
+  const PartValue parts[] = {{component_part<Place3>(), place.data()},
+                             {component_part<Age>(), age.data()},
+                             {key_part(FieldWidth<Points>{width}), points.data()},
+                             part_value(TagValue<Kind>{kind})};
+  std::vector<Entity> made(count);
+  world.create_many(parts, made, jobs);
+  return made;
+}
+
+Entity create_one(World& world, std::uint64_t kind, int seed) {
+  const auto [x, ticks, point] = values_of(seed);
+  const Entity entity =
+      world.create(Place3<float>{{x, -x, 1}}, Age<float>{ticks}, FieldWidth<Points>{width}, TagValue<Kind>{kind});
+  std::vector<float> points(width);
+  std::iota(points.begin(), points.end(), point);
+  EXPECT_EQ(world.set_field<Points>(entity, points), Status::ok);
+  return entity;
+}
+
+/// Rows are dense, everybody is where the register says, and lanes without a row hold the first lane's words.
+void check_tables(const World& world, std::size_t alive) {
+  std::size_t rows = 0;
+  for (const Table& table : world.tables()) {
+    rows += table.row_count();
+    for (std::uint32_t row = 0; row < table.row_count(); ++row) {
+      const Entity entity = table.entities(row / lane_count)[row % lane_count];
+      const auto place = world.find(entity);
+      ASSERT_EQ(place.table, &table);
+      ASSERT_EQ(place.row, row);
+    }
+    if (table.block_count() == 0) continue;
+    const std::size_t last = table.block_count() - 1;
+    for (std::size_t lane = table.live(last); lane < lane_count; ++lane) {
+      ASSERT_EQ(table.entities(last)[lane], table.entities(last)[0]);
+      for (std::size_t w = 0; w < table.words(); ++w) {
+        ASSERT_EQ(std::memcmp(table.block(last) + w * lane_count, table.block(last) + w * lane_count + lane, 4), 0);
+      }
+    }
+  }
+  ASSERT_EQ(rows, alive);
+}
+
+RC_GTEST_PROP(WorldBatch, ManyAreWhatTheyWouldBeOneByOne, ()) {
+  World many, single;
+  std::vector<Entity> in_many, in_single;
+  int seed = 0;
+  const int rounds = *rc::gen::inRange(1, 12);
+  for (int round = 0; round < rounds; ++round) {
+    const auto kind = static_cast<std::uint64_t>(*rc::gen::inRange(0, 3));
+    const auto count = static_cast<std::size_t>(*rc::gen::inRange(0, 60));
+    const Jobs jobs = *rc::gen::arbitrary<bool>() ? backward() : Jobs{};
+    for (const Entity entity : create(many, kind, seed, count, jobs)) in_many.push_back(entity);
+    for (std::size_t i = 0; i < count; ++i) {
+      in_single.push_back(create_one(single, kind, seed + static_cast<int>(i)));
+    }
+    seed += static_cast<int>(count);
+    std::vector<Entity> leave_many;
+    std::vector<std::size_t> stay;
+    const int share = *rc::gen::inRange(0, 101);
+    for (std::size_t i = 0; i < in_many.size(); ++i) {
+      if (*rc::gen::inRange(0, 100) >= share) {
+        stay.push_back(i);
+        continue;
+      }
+      leave_many.push_back(in_many[i]);
+      RC_ASSERT(single.destroy(in_single[i]) == Status::ok);
+    }
+    RC_ASSERT(many.destroy_many(leave_many, jobs) == Status::ok);
+    for (const Entity gone : leave_many) RC_ASSERT(!many.alive(gone));
+    std::vector<Entity> a, b;
+    for (const std::size_t i : stay) {
+      a.push_back(in_many[i]);
+      b.push_back(in_single[i]);
+    }
+    in_many = a;
+    in_single = b;
+    RC_ASSERT(in_many == in_single);  // the same handles
+    for (std::size_t i = 0; i < in_many.size(); ++i) {
+      RC_ASSERT(read(many, in_many[i]) == read(single, in_single[i]));
+    }
+    check_tables(many, in_many.size());
+    RC_ASSERT(!::testing::Test::HasFailure());
+  }
+}
+
+TEST(WorldBatch, WhoIsStaleOrNamedTwiceIsRefusedAndAllStay) {
+  World world;
+  const auto people = create(world, 0, 0, 40, {});
+  const Entity gone = create_one(world, 1, 7);
+  ASSERT_EQ(world.destroy(gone), Status::ok);
+  for (const std::vector<Entity>& wrong :
+       {std::vector<Entity>{people[3], people[5], people[3]}, {people[0], gone}, {Entity{}}}) {
+    EXPECT_EQ(world.destroy_many(wrong), Status::stale_entity);
+    check_tables(world, people.size());
+    for (int i = 0; i < 40; ++i) EXPECT_EQ(read(world, people[static_cast<std::size_t>(i)]), values_of(i));
+  }
+  EXPECT_EQ(world.destroy_many({}), Status::ok);
+}
+
+TEST(WorldBatch, WhereMemoryRunsOutTheWorldIsAsItWas) {
+  bool done = false;
+  for (std::size_t granted = 0; !done; ++granted) {
+    CountingMemory memory;
+    World world(&memory);
+    const auto before = create(world, 0, 0, 21, {});
+    memory.refuse_after = granted;
+    try {
+      create(world, granted % 2, 100, 300, {});
+      done = true;
+    } catch (const std::bad_alloc&) {
+    }
+    memory.refuse_after = SIZE_MAX;
+    check_tables(world, done ? 321 : 21);
+    for (int i = 0; i < 21; ++i) EXPECT_EQ(read(world, before[static_cast<std::size_t>(i)]), values_of(i));
+    ASSERT_LT(granted, 200U);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,78 @@
+#pragma once
+// An independent finite-element model in double precision and dense matrices: Voigt strain-displacement matrices,
+// assembled directly on the mesh it is given. What the kernels are compared with.
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "assets/fem/critical_step.h"
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/fem/stiffness_terms.h"
+#include "components/muscle.h"
+
+namespace mobil::oracle {
+
+using Matrix = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
+
+/// Trilinear shape functions and their gradients in space at a reference point.
+struct Shape {
+  Eigen::Matrix<double, 8, 1> n;
+  Eigen::Matrix<double, 8, 3> dn;
+  double jacobian;
+};
+
+Shape shape_at(const HexahedralMesh& mesh, const Hexahedron& h, double x, double y, double z);
+
+/// Unconstrained stiffness (N/m), consistent and lumped (row-sum) mass (kg, three rows a node).
+struct Model {
+  Matrix stiffness, mass;
+  Vector lumped;
+};
+
+/// One element: stiffness of its 24 displacements, N/m, and consistent mass of its 8 corners, kg.
+struct ElementMatrices {
+  Eigen::Matrix<double, 24, 24> stiffness = Eigen::Matrix<double, 24, 24>::Zero();
+  Eigen::Matrix<double, 8, 8> mass = Eigen::Matrix<double, 8, 8>::Zero();
+};
+
+ElementMatrices element_matrices(const HexahedralMesh& mesh, const Hexahedron& h, const Material& material,
+                                 Element kind = Element::full);
+
+Model assemble(const HexahedralMesh& mesh, const Material& material, Element kind = Element::full);
+
+HexahedralMesh scaled(HexahedralMesh mesh, double across, double along);
+
+/// Numbers of the displacements that move freely.
+std::vector<Eigen::Index> free_components(const Cells& cells, FarEnd end);
+
+/// Exact largest angular frequency of the lumped-mass model, 1/s.
+double highest_frequency(const Model& model, const std::vector<Eigen::Index>& moving);
+
+/// Equal parts of area per node of the far face for a flat structured face of arbitrary cells: ∫N dA / ∫dA.
+Vector far_shares(const HexahedralMesh& mesh);
+
+/// One belly under explicit central differences, written from the difference equation
+///   M·(uₙ₊₁ − 2uₙ + uₙ₋₁)/Δt² + α·M·(uₙ₊₁ − uₙ₋₁)/(2Δt) + K·uₙ = fₙ.
+struct Belly {
+  Model model;
+  std::vector<Eigen::Index> moving;
+  double damping_per_s;
+  Vector before, now;  // uₙ₋₁, uₙ
+
+  Belly(Model m, std::vector<Eigen::Index> free, double damping);
+
+  /// One step under the nodal load `f`; prescribed displacements are overwritten by the caller afterwards.
+  void step(const Vector& f, double dt);
+};
+
+/// x of A·x = `right` for a symmetric A.
+Vector solve(const Matrix& symmetric, const Vector& right);
+/// Of a symmetric matrix, ascending.
+Vector eigenvalues(const Matrix& symmetric);
+/// λ of K·x = λ·M·x, ascending.
+Vector eigenvalues(const Matrix& stiffness, const Matrix& mass);
+
+}  // namespace mobil::oracle

@@ -1,0 +1,329 @@
+// The GLB of a recorded walk, read back and put together again the way a viewer does, against the recording.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "assets/export/gltf_writer.h"
+#include "tests/files/export_fixture.h"
+
+namespace mobil {
+namespace {
+namespace fs = std::filesystem;
+using namespace export_fixture;
+
+struct Folder {
+  fs::path path;
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "mobil-export-XXXXXX").string();
+    path = mkdtemp(name.data());
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder() { fs::remove_all(path); }
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
+  }
+};
+
+std::string bytes_of(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void expect_same_poses(const Viewer& viewer, const std::vector<Pose<float>>& frames) {
+  for (std::size_t f = 0; f < frames.size(); ++f) {
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      const auto world = viewer.world(viewer.node.at(std::string(segment_name[s])), f);
+      ASSERT_LT((world.translation() - widened(frames[f].position_m[s])).norm(), 1e-5)
+          << segment_name[s] << " at " << f;
+      ASSERT_LT(Quaterniond(world.linear()).angularDistance(widened(frames[f].rotation[s]).normalized()), 1e-5)
+          << segment_name[s] << " at " << f;
+    }
+  }
+}
+
+TEST(Export, NodesAreTheSegmentsNestedAsInTheSkeletonWithSurfacesBelowThem) {
+  const Folder folder;
+  const auto walk = small_walk();
+  ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
+  const Viewer viewer(folder.path / "walk.glb");
+  ASSERT_EQ(viewer.model.nodes.size(), segment_count + walk.bones.size() + walk.muscles.size());
+  ASSERT_EQ(viewer.model.scenes.size(), 1U);
+  EXPECT_EQ(viewer.model.scenes[0].nodes, std::vector<int>{static_cast<int>(viewer.node.at("pelvis"))});
+  const auto parent_name = [&](const std::string& name) {
+    return viewer.model.nodes[static_cast<std::size_t>(viewer.parent[viewer.node.at(name)])].name;
+  };
+  for (std::size_t s = 1; s < segment_count; ++s) {
+    EXPECT_EQ(parent_name(std::string(segment_name[s])), segment_name[index(segment_parent[s])]);
+  }
+  for (const auto& bone : walk.bones) EXPECT_EQ(parent_name(bone.mesh.name), segment_name[index(bone.segment)]);
+  for (const auto& m : walk.muscles) EXPECT_EQ(parent_name(m.name), segment_name[index(m.segment)]);
+}
+
+TEST(Export, WorldPosesComeBackAtEveryKeyAndFixedJointsHaveNoTranslationKeys) {
+  const Folder folder;
+  const auto walk = small_walk();
+  ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
+  const Viewer viewer(folder.path / "walk.glb");
+  expect_same_poses(viewer, walk.frames);
+  for (const auto& channel : viewer.model.animations[0].channels) {
+    const auto& name = viewer.model.nodes[static_cast<std::size_t>(channel.target_node)].name;
+    if (channel.target_path == "translation") {
+      EXPECT_TRUE(name == "pelvis" || name == "patella_right") << name;
+    } else if (channel.target_path == "rotation") {
+      EXPECT_TRUE(name == "pelvis" || name == "thigh_right" || name == "shank_right") << name;
+    } else {
+      EXPECT_TRUE(name == "bulging" || name == "travelling") << name;
+    }
+  }
+}
+
+RC_GTEST_PROP(Export, AnySkeletonComesBackEvenWhereNoOffsetIsFixed, ()) {
+  std::mt19937 random(*rc::gen::arbitrary<std::uint32_t>());
+  std::normal_distribution<double> normal;
+  WalkRecording walk;
+  walk.frames.resize(static_cast<std::size_t>(*rc::gen::inRange(1, 6)));
+  for (auto& pose : walk.frames) {
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      const Quaterniond q(normal(random), normal(random), normal(random), normal(random));
+      set_world(pose, s, {normal(random), normal(random), 3 * normal(random)}, q.normalized());
+    }
+  }
+  const Folder folder;
+  RC_ASSERT(write_glb(folder.path / "walk.glb", walk).has_value());
+  expect_same_poses(Viewer(folder.path / "walk.glb"), walk.frames);
+  RC_ASSERT(!testing::Test::HasFatalFailure());
+}
+
+TEST(Export, RotationKeysHaveUnitLengthAndTakeTheShortWay) {
+  const Folder folder;
+  auto walk = small_walk();
+  for (std::size_t f = 0; f < walk.frames.size(); f += 2) {  // the same rotations with the opposite sign
+    for (auto& q : walk.frames[f].rotation) q = {-q.x, -q.y, -q.z, -q.w};
+  }
+  ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
+  const Viewer viewer(folder.path / "walk.glb");
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto n = viewer.node.at(std::string(segment_name[s]));
+    if (viewer.key(n, "rotation", 0).empty()) continue;
+    for (std::size_t f = 0; f < walk.frames.size(); ++f) {
+      const auto key = viewer.key(n, "rotation", f);
+      const Eigen::Map<const Eigen::Vector4d> now(key.data());
+      EXPECT_NEAR(now.norm(), 1.0, 2e-7);
+      if (f == 0) continue;
+      const auto before = viewer.key(n, "rotation", f - 1);
+      EXPECT_GT(now.dot(Eigen::Map<const Eigen::Vector4d>(before.data())), 0.0);
+    }
+  }
+}
+
+TEST(Export, MusclesComeBackWithinTheErrorThatWasReported) {
+  const Folder folder;
+  const auto walk = small_walk();
+  const auto report = write_glb(folder.path / "walk.glb", walk);
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->bytes, fs::file_size(folder.path / "walk.glb"));
+  const Viewer viewer(folder.path / "walk.glb");
+  ASSERT_EQ(report->muscles.size(), walk.muscles.size());
+  for (std::size_t m = 0; m < walk.muscles.size(); ++m) {
+    const auto& recorded = walk.muscles[m];
+    const auto& fidelity = report->muscles[m];
+    EXPECT_EQ(fidelity.name, recorded.name);
+    const auto n = viewer.node.at(recorded.name);
+    double largest = 0, sum = 0;
+    for (std::size_t f = 0; f < walk.frames.size(); ++f) {
+      const auto world = viewer.world(n, f);
+      const auto shape = viewer.morphed(n, "POSITION", f);
+      ASSERT_EQ(shape.size(), recorded.position_m[f].size());
+      for (std::size_t v = 0; v < shape.size(); ++v) {
+        const double error = (world * shape[v] - widened(recorded.position_m[f][v])).norm();
+        largest = std::max(largest, error);
+        sum += error * error;
+      }
+    }
+    const double count = static_cast<double>(walk.frames.size() * recorded.position_m[0].size());
+    EXPECT_NEAR(largest, fidelity.max_error_m, 1e-7) << recorded.name;
+    EXPECT_NEAR(std::sqrt(sum / count), fidelity.rms_error_m, 1e-7) << recorded.name;
+  }
+}
+
+TEST(Export, TheLargestWeightOfEachTargetIsPlusOne) {
+  const Folder folder;
+  const auto walk = small_walk();
+  ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
+  const Viewer viewer(folder.path / "walk.glb");
+  const auto n = viewer.node.at("travelling");
+  std::vector<double> largest(viewer.key(n, "weights", 0).size(), 0.0);
+  ASSERT_EQ(largest.size(), 4U);
+  for (std::size_t f = 0; f < walk.frames.size(); ++f) {
+    const auto weight = viewer.key(n, "weights", f);
+    for (std::size_t k = 0; k < weight.size(); ++k) {
+      if (std::fabs(weight[k]) > std::fabs(largest[k])) largest[k] = weight[k];
+    }
+  }
+  for (const double w : largest) EXPECT_EQ(w, 1.0);
+}
+
+TEST(Export, AMotionOfTwoShapesTakesTwoTargetsAndARigidOneNone) {
+  const Folder folder;
+  const auto report = write_glb(folder.path / "walk.glb", small_walk());
+  ASSERT_TRUE(report);
+  EXPECT_EQ(report->muscles[0].morph_targets, 2);
+  EXPECT_LT(report->muscles[0].max_error_m, 2e-6);
+  EXPECT_EQ(report->muscles[1].morph_targets, 4);
+  EXPECT_EQ(report->muscles[2].morph_targets, 0);
+  EXPECT_LT(report->muscles[2].max_error_m, 2e-6);
+}
+
+TEST(Export, MoreTargetsAreNeverWorseAndToleranceIsKeptWhenReachable) {
+  const Folder folder;
+  auto walk = small_walk();
+  walk.muscles = {walk.muscles[1]};
+  double before = std::numeric_limits<double>::infinity();
+  for (int targets = 0; targets <= 8; ++targets) {
+    const auto report = write_glb(folder.path / "walk.glb", walk, {targets, 0.0F, false});
+    ASSERT_TRUE(report);
+    EXPECT_LE(report->muscles[0].rms_error_m, before * (1 + 1e-6));
+    before = report->muscles[0].rms_error_m;
+    if (targets == 8) {
+      const auto reachable = static_cast<float>(report->muscles[0].max_error_m * 1.01);
+      EXPECT_LE(write_glb(folder.path / "walk.glb", walk, {8, reachable, false})->muscles[0].max_error_m, reachable);
+    }
+  }
+}
+
+TEST(Export, MorphedNormalsFollowTheDeformedSurface) {
+  const Folder folder;
+  const auto walk = small_walk();
+  ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
+  const Viewer viewer(folder.path / "walk.glb");
+  const auto n = viewer.node.at("bulging");
+  const auto& triangle = walk.muscles[0].triangle;
+  double morphed_worst = 0, mean_worst = 0;
+  for (std::size_t f = 0; f < walk.frames.size(); ++f) {
+    const auto position = viewer.morphed(n, "POSITION", f), normal = viewer.morphed(n, "NORMAL", f);
+    const auto mean = viewer.floats(
+        viewer.model.meshes[static_cast<std::size_t>(viewer.model.nodes[n].mesh)].primitives[0].attributes.at(
+            "NORMAL"));
+    std::vector<Vector3d> truth(position.size(), Vector3d::Zero());
+    for (std::size_t t = 0; t < triangle.size(); t += 3) {
+      const auto &a = position[triangle[t]], &b = position[triangle[t + 1]], &c = position[triangle[t + 2]];
+      for (std::size_t i = 0; i < 3; ++i) truth[triangle[t + i]] += (b - a).cross(c - a);
+    }
+    for (std::size_t v = 0; v < truth.size(); ++v) {
+      const Vector3d base = vertex(mean, v);
+      EXPECT_NEAR(base.norm(), 1.0, 1e-6);
+      morphed_worst = std::max(morphed_worst, (truth[v].normalized() - normal[v].normalized()).norm());
+      mean_worst = std::max(mean_worst, (truth[v].normalized() - base).norm());
+    }
+  }
+  EXPECT_LT(morphed_worst, 0.25 * mean_worst);
+}
+
+TEST(Export, TheSameRecordingGivesTheSameBytes) {
+  const Folder folder;
+  ASSERT_TRUE(write_glb(folder.path / "a.glb", small_walk()));
+  ASSERT_TRUE(write_glb(folder.path / "b.glb", small_walk()));
+  EXPECT_EQ(bytes_of(folder.path / "a.glb"), bytes_of(folder.path / "b.glb"));
+}
+
+TEST(Export, AFailureIsOneLineAndLeavesNothingNewAndNothingBroken) {
+  const Folder folder;
+  const auto good = small_walk();
+  const auto expect_failure = [&](const fs::path& path, const WalkRecording& walk, const std::string& says) {
+    const auto result = write_glb(path, walk);
+    ASSERT_FALSE(result) << says;
+    EXPECT_NE(result.error().message.find(says), std::string::npos) << result.error().message;
+    EXPECT_EQ(result.error().message.find('\n'), std::string::npos) << result.error().message;
+  };
+  expect_failure(folder.path / "absent" / "walk.glb", good, "absent");
+  EXPECT_EQ(folder.files(), 0U);
+  fs::create_directories(folder.path / "taken" / "inside");
+  expect_failure(folder.path / "taken", good, "taken");
+  EXPECT_EQ(folder.files(), 1U);
+
+  std::ofstream(folder.path / "walk.glb") << "before";
+  const auto spoilt = [&](const std::function<void(WalkRecording&)>& spoil, const std::string& says) {
+    auto walk = good;
+    spoil(walk);
+    expect_failure(folder.path / "walk.glb", walk, says);
+    EXPECT_EQ(bytes_of(folder.path / "walk.glb"), "before");
+    EXPECT_EQ(folder.files(), 2U);
+  };
+  spoilt([](auto& w) { w.frames.clear(); }, "no frames");
+  spoilt([](auto& w) { w.frame_s = 0; }, "0.001");
+  spoilt([](auto& w) { w.frames[3].position_m[index(Segment::head)].y = NAN; }, "head");
+  spoilt([](auto& w) { w.frames[3].rotation[index(Segment::C4)] = {0, 0, 0, 0}; }, "C4");
+  spoilt([](auto& w) { w.bones[0].mesh.triangle[4] = 4000; }, "4000");
+  spoilt([](auto& w) { w.bones[0].mesh.triangle.pop_back(); }, "femur_right");
+  spoilt([](auto& w) { w.bones[0].mesh.triangle.assign(3, 1); }, "area");
+  spoilt([](auto& w) { w.bones[0].mesh.name = "\xff\xfe"; }, "UTF-8");
+  spoilt([](auto& w) { w.muscles[1].position_m.pop_back(); }, "frames");
+  spoilt([](auto& w) { w.muscles[1].position_m[7].pop_back(); }, "vertices");
+  spoilt([](auto& w) { w.muscles[1].position_m[7][5].x = INFINITY; }, "frame 7");
+  spoilt([](auto& w) { w.muscles[1].colour.x = 255; }, "colour");
+}
+
+struct Ran {
+  int status = -1;
+  std::string output;
+};
+Ran run(const std::string& command) {
+  Ran ran;
+  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
+  if (pipe == nullptr) return ran;
+  for (char line[512]; std::fgets(line, sizeof line, pipe) != nullptr;) ran.output += line;
+  const int status = pclose(pipe);
+  ran.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  return ran;
+}
+
+TEST(Export, KhronosValidatorFindsNoErrorAndNoWarning) {
+  if (run("node --version").status != 0) GTEST_SKIP() << "node is not installed";
+  const Folder folder;
+  std::map<std::string, WalkRecording> walks;
+  walks["whole"] = small_walk();
+  walks["stick_figure"].frames = swinging(10);
+  walks["still"] = walks["whole"];
+  walks["still"].frames.resize(1);
+  for (auto& m : walks["still"].muscles) m.position_m.resize(1);
+  walks["still_stick_figure"].frames = swinging(1);
+  walks["flat_triangles"] = walks["whole"];
+  for (auto* triangle :
+       {&walks["flat_triangles"].bones[0].mesh.triangle, &walks["flat_triangles"].muscles[0].triangle}) {
+    triangle->insert(triangle->end(), {0, 0, 1, 2, 2, 2});
+  }
+  walks["unused_vertices"] = walks["whole"];
+  walks["unused_vertices"].bones[0].mesh.position.push_back({1, 1, 1});
+  walks["many_vertices"].frames = swinging(3);
+  walks["many_vertices"].muscles = {
+      muscle("fine", Segment::thigh_right, walks["many_vertices"].frames, travelling, 4200)};
+  for (const auto& [name, walk] : walks) {
+    const auto file = folder.path / (name + ".glb");
+    const auto written = write_glb(file, walk);
+    ASSERT_TRUE(written) << written.error().message;
+    const Ran ran = run("node '" MOBIL_SOURCE_DIR "/tests/validate_glb.mjs' '" + file.string() + "'");
+    if (ran.status == 77) GTEST_SKIP() << ran.output;
+    EXPECT_EQ(ran.status, 0) << ran.output;
+    EXPECT_NE(ran.output.find("0 errors, 0 warnings"), std::string::npos) << ran.output;
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,472 @@
+// Anatomy folders: what is read, what is refused and with which line, and how the bones of a real leg meet a body's
+// joints.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <unistd.h>
+
+#include <Eigen/Dense>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+
+#include "assets/import/bone_maps.h"
+#include "assets/import/fit_anatomy.h"
+#include "assets/import/mesh_file.h"
+#include "assets/import/simplify_surface.h"
+#include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/surface_mesh.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+using Eigen::Vector3d;
+
+// ---------------------------------------------------------------------------------------------- made-up folders
+
+struct Cube {
+  Vector3d centre;  // mm, anatomy's axes
+  double half = 20;
+};
+
+const std::array<std::array<int, 4>, 6> cube_face = {
+    {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+
+std::array<Vector3d, 8> corners(const Cube& cube, double unit) {
+  std::array<Vector3d, 8> corner;
+  for (unsigned i = 0; i < 8; ++i) {
+    const Vector3d sign((i & 1U) != 0 ? 1 : -1, (i & 2U) != 0 ? 1 : -1, (i & 4U) != 0 ? 1 : -1);
+    corner[i] = unit * (cube.centre + cube.half * sign);
+  }
+  return corner;
+}
+
+std::string obj(const Cube& cube, double unit = 1) {
+  std::string text;
+  for (const auto& c : corners(cube, unit)) text += fmt::format("v {} {} {}\n", c.x(), c.y(), c.z());
+  for (const auto& f : cube_face) text += fmt::format("f {} {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1, f[3] + 1);
+  return text;
+}
+
+std::string ply(const Cube& cube) {
+  std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 8\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 6\nproperty list uchar int vertex_indices\nend_header\n";
+  for (const auto& c : corners(cube, 1)) text += fmt::format("{} {} {}\n", c.x(), c.y(), c.z());
+  for (const auto& f : cube_face) text += fmt::format("4 {} {} {} {}\n", f[0], f[1], f[2], f[3]);
+  return text;
+}
+
+using Facet = std::array<Vector3d, 3>;
+
+std::vector<Facet> facets(const Cube& cube) {
+  const auto c = corners(cube, 1);
+  std::vector<Facet> all;
+  for (const auto& f : cube_face) {
+    const auto at = [&](std::size_t i) { return c[static_cast<std::size_t>(f[i])]; };
+    all.push_back({at(0), at(1), at(2)});
+    all.push_back({at(0), at(2), at(3)});
+  }
+  return all;
+}
+
+std::string stl(const Cube& cube) {
+  std::string text = "solid cube\n";
+  for (const auto& facet : facets(cube)) {
+    const Vector3d n = (facet[1] - facet[0]).cross(facet[2] - facet[0]).normalized();
+    text += fmt::format("facet normal {} {} {}\nouter loop\n", n.x(), n.y(), n.z());
+    for (const auto& p : facet) text += fmt::format("vertex {} {} {}\n", p.x(), p.y(), p.z());
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid cube\n";
+}
+
+std::string binary_stl(const Cube& cube) {
+  std::string bytes(80, ' ');
+  const auto put = [&](const auto& value) { bytes.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  const auto all = facets(cube);
+  put(static_cast<std::uint32_t>(all.size()));
+  for (const auto& facet : all) {
+    for (int i = 0; i < 3; ++i) put(0.0F);
+    for (const auto& p : facet) {
+      for (int i = 0; i < 3; ++i) put(static_cast<float>(p[i]));
+    }
+    put(std::uint16_t{0});
+  }
+  return bytes;
+}
+
+const std::map<std::string, Cube> leg = {
+    {"bones/hip_bone_right", {{-60, -90, 860}, 40}},     {"bones/femur_right", {{-80, -90, 620}, 30}},
+    {"bones/tibia_right", {{-78, -60, 250}, 30}},        {"bones/calcaneus_right", {{-75, -30, 20}, 20}},
+    {"bones/metatarsal_1_right", {{-75, -160, 10}, 10}}, {"bones/phalanx_proximal_1_right", {{-75, -190, 5}, 5}},
+    {"muscles/soleus_right", {{-80, -40, 250}, 40}},     {"muscles/rectus_femoris_right", {{-85, -120, 640}, 40}},
+};
+
+/// A folder of cubes that loads; gone with its owner.
+class Folder {
+ public:
+  explicit Folder(double unit = 1) {
+    static int made = 0;
+    path = fs::temp_directory_path() / fmt::format("mobil_import_{}_{}", ::getpid(), made++);
+    fs::create_directories(path / "bones");
+    fs::create_directories(path / "muscles");
+    const auto row = [&](const char* name, const char* side, double x, double y, double z) {
+      return fmt::format("{},{},{},{},{},made up\n", name, side, x * unit, y * unit, z * unit);
+    };
+    write("landmarks.csv", "name,side,x,y,z,method\n" + row("hip_joint_centre", "right", -82, -93, 820) +
+                               row("knee_joint_centre", "right", -74, -65, 434) +
+                               row("ankle_joint_centre", "right", -80, -54, 60) +
+                               row("hip_joint_centre", "left", 82, -93, 820));
+    for (const auto& [name, cube] : leg) write(name + ".obj", obj(cube, unit));
+    write("manifest.csv", manifest());
+  }
+  ~Folder() {
+    std::error_code ignored;
+    fs::remove_all(path, ignored);
+  }
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  static std::string manifest(const std::string& extension = ".obj") {
+    std::string text = "file,name,side,kind,group,triangles,watertight,origin_bone,insertion_bone\n";
+    for (const auto& [name, cube] : leg) {
+      const bool bone = name.starts_with("bones");
+      text += fmt::format("{}{},\"{}, made up\",right,{},12,yes,{}\n", name, extension, name,
+                          bone                                       ? "bone,"
+                          : name.find("soleus") != std::string::npos ? "muscle,triceps_surae"
+                                                                     : "muscle,quadriceps",
+                          bone                                       ? ","
+                          : name.find("soleus") != std::string::npos ? "fibula+tibia,calcaneus"
+                                                                     : "hip_bone,patella");
+    }
+    return text;
+  }
+  void write(const std::string& name, const std::string& text) const {
+    std::ofstream(path / name, std::ios::binary) << text;
+  }
+  [[nodiscard]] Result<Anatomy> load() const { return load_anatomy(path.string()); }
+
+  fs::path path;
+};
+
+/// One line that holds every given piece.
+void expect_refused(const Folder& folder, const std::vector<std::string>& pieces) {
+  const auto anatomy = folder.load();
+  ASSERT_FALSE(anatomy.has_value());
+  const std::string& line = anatomy.error().message;
+  EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+  for (const auto& piece : pieces)
+    EXPECT_NE(line.find(piece), std::string::npos) << "no '" << piece << "' in: " << line;
+  if (std::getenv("MOBIL_SHOW_ERRORS") != nullptr) fmt::print("{}\n", line);
+}
+
+void expect_equal(const SurfaceMesh& a, const SurfaceMesh& b, float tolerance) {
+  ASSERT_EQ(a.position.size(), b.position.size());
+  ASSERT_EQ(a.triangle.size(), b.triangle.size());
+  // The order of vertices is the format's: every corner must be found.
+  for (std::size_t t = 0; t < a.triangle.size(); ++t) {
+    double nearest = 1;
+    for (const auto& q : b.position) nearest = std::min(nearest, (eigen(a.position[a.triangle[t]]) - eigen(q)).norm());
+    EXPECT_LE(nearest, tolerance);
+  }
+  EXPECT_NEAR(enclosed_volume(a), enclosed_volume(b), 1e-9);
+}
+
+TEST(AnatomyFolder, LoadsCubesClosedAndOutwards) {
+  const Folder folder;
+  const auto anatomy = folder.load();
+  ASSERT_TRUE(anatomy.has_value()) << anatomy.error().message;
+  ASSERT_EQ(anatomy->part.size(), leg.size());
+  for (const auto& part : anatomy->part) {
+    const bool bone = part.kind == AnatomyKind::bone;
+    const double half = leg.at((bone ? "bones/" : "muscles/") + part.mesh.name).half / 1000;
+    EXPECT_EQ(part.mesh.position.size(), 8U);
+    EXPECT_EQ(count_edges(part.mesh).border, 0U);
+    EXPECT_NEAR(enclosed_volume(part.mesh), 8 * half * half * half, 1e-9) << part.mesh.name;
+    EXPECT_EQ(part.group.has_value(), !bone);
+  }
+}
+
+TEST(AnatomyFolder, WhichMuscleAMeshIsFollowsFromItsNameOrItsFiles) {
+  const Folder folder;
+  const auto muscle = [&](const std::string& name, const std::string& file, const std::string& group) {
+    folder.write("muscles/" + file + ".obj", obj(leg.at("muscles/soleus_right")));
+    folder.write("manifest.csv", "file,name,side,kind,group\nbones/femur_right.obj,Femur,right,bone,\nmuscles/" + file +
+                                     ".obj," + name + ",right,muscle," + group + "\n");
+    const auto anatomy = folder.load();
+    EXPECT_TRUE(anatomy.has_value()) << anatomy.error().message;
+    const AnatomyPart* part = anatomy.has_value() && anatomy->part.size() == 2 ? &anatomy->part[1] : nullptr;
+    if (part == nullptr || !part->group) return std::string("none");
+    return std::string(muscle_name(*part->group)) + "/" +
+           (part->muscle ? std::string(muscle_name(*part->muscle)) : "?");
+  };
+  EXPECT_EQ(muscle("Right rectus femoris", "a", "quadriceps"), "quadriceps/rectus_femoris");
+  EXPECT_EQ(muscle("Long head of right biceps femoris", "b", "hamstrings"), "hamstrings/biceps_femoris_long_head");
+  EXPECT_EQ(muscle("m. 12", "Gastrocnemius-Lateral_head_right", "triceps_surae"),
+            "triceps_surae/gastrocnemius_lateral");
+  EXPECT_EQ(muscle("Right tibialis anterior", "c", ""), "tibialis_anterior/tibialis_anterior");
+  EXPECT_EQ(muscle("Right quadriceps", "d", "quadriceps"), "quadriceps/?");
+  EXPECT_EQ(muscle("Right soleus", "e", "hamstrings"), "hamstrings/?");  // the group that is written counts
+  EXPECT_EQ(muscle("Right sartorius", "f", ""), "none");
+}
+
+TEST(AnatomyFolder, MetresAreToldFromMillimetres) {
+  const auto millimetres = Folder(1).load(), metres = Folder(0.001).load();
+  ASSERT_TRUE(millimetres.has_value() && metres.has_value());
+  EXPECT_EQ(metres->metres_per_unit, 1.0);
+  EXPECT_EQ(millimetres->metres_per_unit, 0.001);
+  for (std::size_t i = 0; i < metres->part.size(); ++i) {
+    expect_equal(metres->part[i].mesh, millimetres->part[i].mesh, 1e-6F);
+  }
+  EXPECT_NEAR(metres->landmarks.knee.y, millimetres->landmarks.knee.y, 1e-6);
+}
+
+TEST(AnatomyFolder, EveryFormatGivesTheSameMesh) {
+  const Folder reference;
+  const auto from_obj = reference.load();
+  ASSERT_TRUE(from_obj.has_value());
+  const std::vector<std::pair<std::string, std::function<std::string(const Cube&)>>> formats = {
+      {".ply", ply}, {".stl", stl}, {".STL", binary_stl}};
+  for (const auto& [extension, text] : formats) {
+    const Folder folder;
+    for (const auto& [name, cube] : leg) folder.write(name + extension, text(cube));
+    folder.write("manifest.csv", Folder::manifest(extension));
+    const auto loaded = folder.load();
+    ASSERT_TRUE(loaded.has_value()) << loaded.error().message;
+    ASSERT_EQ(loaded->part.size(), from_obj->part.size());
+    for (std::size_t i = 0; i < loaded->part.size(); ++i) {
+      expect_equal(loaded->part[i].mesh, from_obj->part[i].mesh, 1e-6F);
+    }
+  }
+}
+
+TEST(AnatomyFolder, InwardMeshesAreTurned) {
+  const Folder folder;
+  std::string text = obj(leg.at("bones/femur_right"));
+  std::string turned;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    int a = 0, b = 0, c = 0, d = 0;
+    const bool face = std::sscanf(line.c_str(), "f %d %d %d %d", &a, &b, &c, &d) == 4;
+    turned += face ? fmt::format("f {} {} {} {}\n", d, c, b, a) : line + "\n";
+  }
+  folder.write("bones/femur_right.obj", turned);
+  const auto anatomy = folder.load();
+  ASSERT_TRUE(anatomy.has_value()) << anatomy.error().message;
+  for (const auto& part : anatomy->part) EXPECT_GT(enclosed_volume(part.mesh), 0) << part.mesh.name;
+}
+
+TEST(AnatomyFolder, ThreadCountChangesNothing) {
+  const Folder folder;
+  const auto one = load_anatomy(folder.path.string(), {.threads = 1}),
+             four = load_anatomy(folder.path.string(), {.threads = 4});
+  ASSERT_TRUE(one.has_value() && four.has_value());
+  for (std::size_t i = 0; i < one->part.size(); ++i) {
+    EXPECT_EQ(one->part[i].mesh.triangle, four->part[i].mesh.triangle);
+    EXPECT_EQ(one->part[i].mesh.name, four->part[i].mesh.name);
+  }
+}
+
+TEST(BadAnatomy, MissingFolder) {
+  const auto anatomy = load_anatomy("/nowhere/at/all");
+  ASSERT_FALSE(anatomy.has_value());
+  EXPECT_NE(anatomy.error().message.find("/nowhere/at/all"), std::string::npos);
+}
+
+TEST(BadAnatomy, EmptyFolder) {
+  const Folder folder;
+  fs::remove_all(folder.path);
+  fs::create_directories(folder.path);
+  expect_refused(folder, {folder.path.string(), ".csv", "cannot be read"});
+}
+
+TEST(BadAnatomy, MissingManifest) {
+  const Folder folder;
+  fs::remove(folder.path / "manifest.csv");
+  expect_refused(folder, {"manifest.csv", "cannot be read"});
+}
+
+TEST(BadAnatomy, MissingColumn) {
+  const Folder folder;
+  folder.write("manifest.csv", "file,name,side,kind\nbones/femur_right.obj,Femur,right,bone\n");
+  expect_refused(folder, {"manifest.csv", "'group'"});
+}
+
+TEST(BadAnatomy, RowOfOtherWidth) {
+  const Folder folder;
+  folder.write("manifest.csv", "file,name,side,kind,group\nbones/femur_right.obj,Femur,right,bone\n");
+  expect_refused(folder, {"manifest.csv line 2", "4 cells", "5"});
+}
+
+TEST(BadAnatomy, UnknownKindSideOrBone) {
+  const Folder folder;
+  const auto with_row = [&](const std::string& row) {
+    folder.write("manifest.csv", "file,name,side,kind,group\n" + row + "\n");
+  };
+  with_row("bones/femur_right.obj,Femur,right,stone,");
+  expect_refused(folder, {"line 2", "'stone'", "bone, muscle, tendon, skin"});
+  with_row("bones/femur_right.obj,Femur,upper,bone,");
+  expect_refused(folder, {"line 2", "'upper'", "right, left, mid"});
+  with_row("bones/skull.obj,Skull,mid,bone,");
+  expect_refused(folder, {"line 2", "skull", "femur"});
+}
+
+TEST(BadAnatomy, MissingMesh) {
+  const Folder folder;
+  fs::remove(folder.path / "bones/femur_right.obj");
+  expect_refused(folder, {"bones/femur_right.obj", "manifest.csv line", "no such file"});
+}
+
+TEST(BadAnatomy, TruncatedMesh) {
+  const std::string whole = obj(leg.at("bones/femur_right"));
+  const Folder folder;
+  // Cut after any byte: what is left may still be a fine file for its format, but never the one the manifest tells of.
+  for (std::size_t kept = 0; kept + 1 < whole.size(); kept += 7) {
+    folder.write("bones/femur_right.obj", whole.substr(0, kept));
+    expect_refused(folder, {"bones/femur_right.obj", "manifest.csv line"});
+  }
+  for (const auto& [extension, text] : {std::pair{".ply", ply(leg.at("bones/femur_right"))},
+                                        std::pair{".stl", binary_stl(leg.at("bones/femur_right"))}}) {
+    folder.write(
+        "manifest.csv",
+        fmt::format("file,name,side,kind,group,triangles\nbones/femur_right{},Femur,right,bone,,12\n", extension));
+    for (std::size_t kept = 0; kept + 40 < text.size(); kept += 31) {
+      folder.write(fmt::format("bones/femur_right{}", extension), text.substr(0, kept));
+      expect_refused(folder, {"bones/femur_right", "manifest.csv line 2"});
+    }
+  }
+}
+
+TEST(BadAnatomy, NoTriangles) {
+  const Folder folder;
+  folder.write("bones/femur_right.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 1 1\n");
+  expect_refused(folder, {"bones/femur_right.obj"});
+}
+
+TEST(BadAnatomy, CoordinatesThatAreNotFinite) {
+  for (const std::string bad : {"nan", "inf", "1e60"}) {
+    const Folder folder;
+    std::string text = obj(leg.at("muscles/soleus_right"));
+    text.replace(2, text.find(' ', 2) - 2, bad);
+    folder.write("muscles/soleus_right.obj", text);
+    expect_refused(folder, {"muscles/soleus_right.obj", "manifest.csv line"});
+  }
+}
+
+TEST(BadAnatomy, IndexOutOfRange) {
+  const Folder folder;
+  folder.write("bones/femur_right.obj", obj(leg.at("bones/femur_right")) + "f 1 2 9\n");
+  expect_refused(folder, {"bones/femur_right.obj", "range"});
+  std::string text = ply(leg.at("bones/femur_right"));
+  text.replace(text.rfind("4 "), 9, "4 1 3 7 99");
+  folder.write("bones/femur_right.ply", text);
+  folder.write("manifest.csv", "file,name,side,kind,group\nbones/femur_right.ply,Femur,right,bone,\n");
+  expect_refused(folder, {"bones/femur_right.ply", "manifest.csv line 2"});
+}
+
+TEST(BadAnatomy, EdgesOfMoreThanTwoTriangles) {
+  const Folder folder;
+  folder.write("manifest.csv", "file,name,side,kind,group\nbones/femur_right.obj,Femur,right,bone,\n");
+  folder.write("bones/femur_right.obj", obj(leg.at("bones/femur_right")) + "v -80 -90 700\nf 1 2 9\nf 5 6 9\n");
+  expect_refused(folder, {"bones/femur_right.obj", "2 edges", "more than two triangles", "mesh editor"});
+}
+
+TEST(BadAnatomy, OpenMeshCalledWatertight) {
+  const Folder folder;
+  std::string text = obj(leg.at("bones/femur_right"));
+  text.resize(text.rfind("f "));
+  folder.write("bones/femur_right.obj", text);
+  folder.write("manifest.csv", "file,name,side,kind,group,watertight\nbones/femur_right.obj,Femur,right,bone,,yes\n");
+  expect_refused(folder, {"bones/femur_right.obj", "4 open edges", "watertight"});
+}
+
+TEST(BadAnatomy, OneMeshInOtherUnits) {
+  const Folder folder;
+  folder.write("bones/femur_right.obj", obj(leg.at("bones/femur_right"), 0.001));
+  expect_refused(folder, {"bones/femur_right.obj", "units"});
+  folder.write("bones/femur_right.obj", obj(leg.at("bones/femur_right"), 1000));
+  expect_refused(folder, {"bones/femur_right.obj", "units"});
+}
+
+TEST(BadAnatomy, Landmarks) {
+  const Folder folder;
+  const std::string head = "name,side,x,y,z\n", hip = "hip_joint_centre,right,-82,-93,820\n",
+                    knee = "knee_joint_centre,right,-74,-65,434\n", ankle = "ankle_joint_centre,right,-80,-54,60\n";
+  folder.write("landmarks.csv", head + hip + ankle);
+  expect_refused(folder, {"landmarks.csv", "knee_joint_centre"});
+  folder.write("landmarks.csv", head + hip + knee + "ankle_joint_centre,right,-80,nan,60\n");
+  expect_refused(folder, {"landmarks.csv line 4", "ankle_joint_centre"});
+  folder.write("landmarks.csv", head + hip + knee + "ankle_joint_centre,right,-80,-54,800\n");
+  expect_refused(folder, {"landmarks.csv", "0.4 to 1.3"});
+  folder.write("landmarks.csv", head +
+                                    "hip_joint_centre,right,-82,820,93\nknee_joint_centre,right,-74,434,65\nankle_"
+                                    "joint_centre,right,-80,60,54\n");
+  expect_refused(folder, {"landmarks.csv", "axes"});
+  folder.write("landmarks.csv", "name,x,y,z\nhip,0,0,0\n");
+  expect_refused(folder, {"landmarks.csv", "'side'"});
+}
+
+TEST(BadAnatomy, BodyWithoutLengths) {
+  const auto anatomy = Folder().load();
+  ASSERT_TRUE(anatomy.has_value());
+  const auto fitted = fit_anatomy(*anatomy, Body{});
+  ASSERT_FALSE(fitted.has_value());
+  EXPECT_NE(fitted.error().message.find("thigh length"), std::string::npos);
+}
+
+// ------------------------------------------------------------------------------------------------ simplification
+
+TEST(Simplify, SpecksGoAndTheMainPieceStays) {
+  SurfaceMesh mesh;
+  const auto fan = [&](std::uint32_t triangles, float at) {
+    const auto first = static_cast<std::uint32_t>(mesh.position.size());
+    for (std::uint32_t i = 0; i < triangles + 2; ++i)
+      mesh.position.push_back({at, std::sin(0.01F * static_cast<float>(i)), std::cos(0.01F * static_cast<float>(i))});
+    for (std::uint32_t i = 0; i < triangles; ++i)
+      mesh.triangle.insert(mesh.triangle.end(), {first, first + i + 1, first + i + 2});
+  };
+  fan(1, 0);
+  fan(300, 1);
+  fan(2, 2);
+  EXPECT_EQ(remove_specks(mesh, 0.01), 2U);
+  EXPECT_EQ(mesh.triangle.size(), 900U);
+  EXPECT_EQ(mesh.position.size(), 302U);
+  for (const auto& p : mesh.position) EXPECT_EQ(p.x, 1.0F);
+}
+
+RC_GTEST_PROP(Simplify, ClustersMoveVerticesByLessThanACellAndKeepVolume, ()) {
+  const double cell = *rc::gen::inRange(5, 80) / 1000.0;
+  SurfaceMesh ball;  // radius 0.5
+  constexpr std::uint32_t rings = 40, sectors = 60;
+  for (std::uint32_t r = 0; r <= rings; ++r) {
+    for (std::uint32_t s = 0; s < sectors; ++s) {
+      const double a = M_PI * r / rings, b = 2 * M_PI * s / sectors;
+      ball.position.push_back({static_cast<float>(0.5 * std::sin(a) * std::sin(b)),
+                               static_cast<float>(0.5 * std::cos(a)),
+                               static_cast<float>(0.5 * std::sin(a) * std::cos(b))});
+    }
+  }
+  for (std::uint32_t r = 0; r < rings; ++r) {
+    for (std::uint32_t s = 0; s < sectors; ++s) {
+      const std::uint32_t a = r * sectors + s, b = r * sectors + (s + 1) % sectors;
+      ball.triangle.insert(ball.triangle.end(), {a, a + sectors, b, b, a + sectors, b + sectors});
+    }
+  }
+  const SurfaceMesh light = clustered(ball, cell);
+  RC_ASSERT(light.triangle.size() <= ball.triangle.size());
+  RC_ASSERT(light.triangle.size() > 0U);
+  for (const auto& p : light.position) RC_ASSERT(std::abs(eigen(p).norm() - 0.5) < cell);
+  RC_ASSERT(std::abs(enclosed_volume(light) / enclosed_volume(ball) - 1) < 2 * cell);
+  RC_ASSERT(enclosed_volume(light) > 0);
+  RC_ASSERT(clustered(ball, cell).triangle == light.triangle);
+}
+
+}  // namespace
+}  // namespace mobil

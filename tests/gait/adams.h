@@ -1,0 +1,334 @@
+#pragma once
+// Solves y′ = f(t, y) for few unknowns and smooth forces: Adams–Bashforth predictor and Adams–Moulton corrector of
+// fourth order (PECE, two evaluations a step) with adaptive step, begun by Runge–Kutta steps of fourth order (paper,
+// section 4.1; Burden and Faires, Numerical Analysis, section 5.7).
+//
+// The step is not doubled and halved: the coefficients follow the steps as they come. Hence a changed step costs
+// neither a restart nor interpolated derivatives, steps meet the end and the breaks exactly, and the step follows the
+// tolerance smoothly.
+//
+// Double precision; only additions, multiplications, divisions and square roots, so that the bits depend on neither
+// the C library nor the instruction set. No heap but for the text of an error.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+
+#include "engine/error.h"
+#include "tests/gait/adams_step.h"
+
+namespace mobil::step {
+
+template <std::size_t N>
+constexpr Unknowns<N> alike(double value) {
+  Unknowns<N> all{};
+  for (double& v : all) v = value;
+  return all;
+}
+
+/// How exactly to integrate. Component i may err by absolute[i] + relative[i]·|y_i| over the whole interval: each step
+/// may make the local error that is its share of the interval in time, so the local errors sum to at most that, and
+/// the error at the end follows the tolerance in proportion as far as the equations themselves do not amplify it.
+/// No share is smaller than a thousandth: below 1e-3 of the interval each step may make a thousandth of the tolerance,
+/// which carries it over a jump of the derivative that nobody named.
+template <std::size_t N>
+struct AdamsOptions {
+  Unknowns<N> absolute = alike<N>(1e-9);  // in the component's unit, above 0; infinite: not controlled
+  Unknowns<N> relative = alike<N>(1e-9);  // 0 or more; tolerances below 1e-13·|y_i| ask more than double precision has
+  /// Adds Milne's estimate to the corrected state (local extrapolation), which makes the method one of fifth order.
+  /// Each step, whatever its length, may then err by a tenth of the tolerance before that. The error at the end still
+  /// follows the tolerance in proportion, at about half the evaluations, but its bound is experience and not a sum.
+  bool extrapolate = false;
+  double fixed_step_s = 0.0;  // above 0: no adaption, the greatest even steps not above this, per piece
+  double first_step_s = 0.0;  // 0: chosen from the derivative
+  double least_step_s = 0.0;  // below this it is an error; 0: 16 units in the last place of the times
+  double greatest_step_s = std::numeric_limits<double>::infinity();
+  /// Times, in any order, at which f or a derivative of it jumps. Steps end exactly there and the history begins anew.
+  /// Those outside the interval do nothing.
+  std::span<const double> breaks_s = {};
+  long most_evaluations = 1'000'000;
+};
+
+struct AdamsCounts {
+  long evaluations = 0;                              // of f
+  long accepted = 0, rejected = 0;                   // steps; a rejected start counts as one
+  long starts = 0;                                   // accepted starts, of three Runge–Kutta steps each
+  double least_step_s = 0.0, greatest_step_s = 0.0;  // of the accepted
+};
+
+template <std::size_t N>
+struct AdamsResult {
+  Unknowns<N> state;  // at the end
+  Unknowns<N> error;  // sum of the estimated local errors' magnitudes, before extrapolation
+  AdamsCounts counts;
+};
+
+enum class AdamsFailure { none, interval, options, not_finite, underflow, evaluations };
+
+/// The line for a failure at `time_s` under a step of `step_s`.
+Error adams_error(AdamsFailure why, double time_s, double step_s, const AdamsCounts& counts);
+
+namespace adams {
+
+inline constexpr double last_place = std::numeric_limits<double>::epsilon();
+inline constexpr double least_share = 1e-3, extrapolated_share = 0.1;
+inline constexpr double safety = 0.8, most_growth = 2.0, most_shrinking = 0.2;
+inline constexpr int failures_before_restart = 3;
+
+template <std::size_t N>
+bool finite(const Unknowns<N>& v) {
+  for (double x : v)
+    if (!(std::fabs(x) <= std::numeric_limits<double>::max())) return false;
+  return true;
+}
+
+/// By how much the step may change when its error is `ratio` of what it may be; the ratio goes with the fourth power.
+inline double step_factor(double ratio) {
+  if (!(ratio < 1e12)) return most_shrinking;
+  const double factor = ratio > 1e-12 ? safety / std::sqrt(std::sqrt(ratio)) : most_growth;
+  return std::fmin(std::fmax(factor, most_shrinking), most_growth);
+}
+
+/// One integration under way. A piece is the time between two breaks.
+template <std::size_t N, class Derivative, class Visit>
+struct Run {
+  const AdamsOptions<N>& options;
+  Derivative& derivative;
+  Visit& visit;
+  double span, grain;  // of the whole interval; `grain`: 16 units in the last place of its times
+  Unknowns<N> y, error{};
+  AdamsCounts counts{};
+  double time = 0.0, wish = 0.0;  // `wish`: the step that accuracy alone would take
+  double piece_first = 0.0, piece_last = 0.0;
+  AdamsHistory<N> past{};
+
+  /// At a break f is asked a grain inside the piece: however it compares and rounds, it gives this piece's forces.
+  bool evaluate(double t, const Unknowns<N>& at, Unknowns<N>& f) {
+    ++counts.evaluations;
+    f = derivative(std::fmin(std::fmax(t, piece_first), piece_last), at);
+    return finite(f);
+  }
+
+  void accept(const DenseStep<N>& step) {
+    const double h = step.end_s - step.begin_s;
+    counts.least_step_s = counts.accepted == 0 ? h : std::fmin(counts.least_step_s, h);
+    counts.greatest_step_s = std::fmax(counts.greatest_step_s, h);
+    ++counts.accepted;
+    visit(step);
+  }
+
+  /// The worst component's error over what a step of h may make.
+  double ratio(const Unknowns<N>& local, const Unknowns<N>& there, double h) const {
+    const double share = options.extrapolate ? extrapolated_share : std::fmax(h / span, least_share);
+    double worst = 0.0;
+    for (std::size_t i = 0; i < N; ++i) {
+      const double size = std::fmax(std::fabs(y[i]), std::fabs(there[i]));
+      const double r = std::fabs(local[i]) / ((options.absolute[i] + options.relative[i] * size) * share);
+      if (!(r >= 0.0)) return std::numeric_limits<double>::infinity();
+      worst = std::fmax(worst, r);
+    }
+    return worst;
+  }
+
+  /// The step at which the corrector's error 19/720 h⁵ λ⁴|f| would be a tenth of its share; λ, the pace of change, is
+  /// taken from the derivative a thousandth of the interval on.
+  double guess(const Unknowns<N>& f) {
+    if (options.first_step_s > 0.0) return options.first_step_s;
+    double size = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < N; ++i)
+      size = std::fmax(size, std::fabs(f[i]) / (options.absolute[i] + options.relative[i] * std::fabs(y[i])));
+    const double ahead = std::fmin(1e-3 * span, 0.1 * (piece_last - piece_first));
+    Unknowns<N> at, there;
+    for (std::size_t i = 0; i < N; ++i) at[i] = y[i] + ahead * f[i];
+    if (!evaluate(time + ahead, at, there)) return 1e-6 * span;
+    for (std::size_t i = 0; i < N; ++i)
+      change =
+          std::fmax(change, std::fabs(there[i] - f[i]) / (options.absolute[i] + options.relative[i] * std::fabs(y[i])));
+    if (!(size > 0.0) || !(change > 0.0)) return 1e-2 * span;
+    const double pace = change / (ahead * size);
+    return std::sqrt(std::sqrt(0.1 * 720.0 / 19.0 / (size * span))) / pace;
+  }
+
+  /// Takes over the Runge–Kutta steps; the last ends at `end`.
+  void accept_start(const RungeKuttaStart<N>& s, double h, std::size_t count, double end) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const double begin = time + static_cast<double>(k) * h;
+      auto dense = dense_step<N>(begin, k + 1 == count ? end : time + static_cast<double>(k + 1) * h, s.state[k],
+                                 s.state[k + 1], s.rate[k], s.rate[k + 1]);
+      if (count > 1) bend(dense, s.rate[k == 0 ? 2 : k - 1], k == 0 ? 2.0 : -1.0);
+      accept(dense);
+      past.push(s.rate[k + 1], h);
+    }
+    if (count == 3) {
+      ++counts.starts;
+      const Unknowns<N> local = start_error(s, h);
+      for (std::size_t i = 0; i < N; ++i) error[i] += 3.0 * local[i];
+    }
+    y = s.state[count];
+    time = end;
+  }
+
+  /// A step of the Adams methods to `end`: on success the error ratio, else infinity and whether f was finite.
+  double advance(double h, double end, bool keep_all, bool& was_finite) {
+    constexpr double no = std::numeric_limits<double>::infinity();
+    const AdamsStep<N> step = predict(y, past, h);
+    Unknowns<N> rate, local;
+    was_finite = finite(step.predicted) && evaluate(end, step.predicted, rate);
+    if (!was_finite) return no;
+    Unknowns<N> corrected = correct(y, past, step, rate, local);
+    const double r = ratio(local, corrected, h);
+    if (!(r <= 1.0) && !keep_all) return r;
+    if (options.extrapolate)
+      for (std::size_t i = 0; i < N; ++i) corrected[i] += local[i];
+    was_finite = finite(corrected) && evaluate(end, corrected, rate);
+    if (!was_finite) return no;
+    auto dense = dense_step<N>(time, end, y, corrected, past.rate[0], rate);
+    bend(dense, past.rate[1], -past.step[0] / h);
+    accept(dense);
+    past.push(rate, h);
+    for (std::size_t i = 0; i < N; ++i) error[i] += std::fabs(local[i]);
+    y = corrected;
+    time = end;
+    return r;
+  }
+
+  AdamsFailure fixed_piece(double stop) {
+    const double begin = time, length = stop - begin;
+    const double count = std::ceil(length / options.fixed_step_s * (1.0 - 1e-12)), h = length / count;
+    if (!(2.0 * count < static_cast<double>(options.most_evaluations - counts.evaluations)))
+      return AdamsFailure::evaluations;
+    if (h < grain) return AdamsFailure::underflow;
+    const long steps = static_cast<long>(count), start = steps < 3 ? steps : 3;
+    auto at = [&](long k) { return k == steps ? stop : begin + length * (static_cast<double>(k) / count); };
+    RungeKuttaStart<N> s;
+    s.state[0] = y;
+    auto ask = [&](double t, const Unknowns<N>& there, Unknowns<N>& f) { return evaluate(t, there, f); };
+    if (!evaluate(time, y, s.rate[0])) return AdamsFailure::not_finite;
+    past.rate[0] = s.rate[0];
+    if (!runge_kutta_start(s, time, h, static_cast<std::size_t>(start), ask)) return AdamsFailure::not_finite;
+    accept_start(s, h, static_cast<std::size_t>(start), at(start));
+    for (long k = start; k < steps; ++k) {
+      bool was_finite = true;
+      advance(h, at(k + 1), true, was_finite);
+      if (!was_finite) return AdamsFailure::not_finite;
+    }
+    return AdamsFailure::none;
+  }
+
+  AdamsFailure adaptive_piece(double stop) {
+    const double least = std::fmax(options.least_step_s, grain);
+    auto ask = [&](double t, const Unknowns<N>& there, Unknowns<N>& f) { return evaluate(t, there, f); };
+    Unknowns<N> newest;
+    if (!evaluate(time, y, newest)) return AdamsFailure::not_finite;
+    if (counts.accepted == 0) wish = guess(newest);
+    bool started = false;
+    int failures = 0;
+    while (time < stop) {
+      if (counts.evaluations >= options.most_evaluations) return AdamsFailure::evaluations;
+      const double left = stop - time;
+      double h = std::fmin(std::fmax(wish, least), options.greatest_step_s), r = 0.0;
+      bool was_finite = true;
+      if (!started) {
+        const bool whole = 3.0 * h >= left;
+        if (whole) h = left / 3.0;
+        RungeKuttaStart<N> s;
+        s.state[0] = y, s.rate[0] = newest;
+        past.rate[0] = newest;
+        was_finite = runge_kutta_start(s, time, h, 3, ask);
+        r = was_finite ? ratio(start_error(s, h), s.state[3], h) : std::numeric_limits<double>::infinity();
+        if (r <= 1.0) {
+          accept_start(s, h, 3, whole ? stop : time + 3.0 * h);
+          started = true;
+        }
+      } else {
+        if (h >= left)
+          h = left;
+        else if (2.0 * h > left)
+          h = 0.5 * left;  // no tiny last step
+        r = advance(h, h == left ? stop : time + h, false, was_finite);
+      }
+      if (r <= 1.0) {
+        // A step cut short by the end says little about a longer one.
+        const double next = h * std::fmin(step_factor(r), failures > 0 ? 1.0 : most_growth);
+        wish = h < wish ? std::fmax(wish, next) : next;
+        failures = 0;
+        continue;
+      }
+      ++counts.rejected;
+      wish = h;
+      if (h <= least) return was_finite ? AdamsFailure::underflow : AdamsFailure::not_finite;
+      wish = std::fmax(h * std::fmin(step_factor(r), safety), least);
+      if (++failures >= failures_before_restart && started) {
+        // The past does not foretell what comes: a kink or jump that nobody named.
+        newest = past.rate[0];
+        started = false;
+      }
+    }
+    return AdamsFailure::none;
+  }
+};
+
+template <std::size_t N>
+bool valid(const AdamsOptions<N>& o) {
+  bool good = o.fixed_step_s >= 0.0 && o.first_step_s >= 0.0 && o.least_step_s >= 0.0 && o.greatest_step_s > 0.0 &&
+              o.least_step_s <= o.greatest_step_s && o.most_evaluations > 0;
+  for (std::size_t i = 0; i < N; ++i)
+    good = good && o.absolute[i] > 0.0 && o.relative[i] >= 0.0 && std::fabs(o.relative[i]) < 1.0;
+  return good;
+}
+
+}  // namespace adams
+
+/// Integrates from `state` at begin_s to end_s ≥ begin_s. `derivative(t, y)` gives y′ as Unknowns<N>; `visit(step)` is
+/// called with every accepted DenseStep<N>, in order and without gaps. Breaks nearer to each other than 64 units in the
+/// last place count as one. Fails, naming the time, where the options or the interval are not valid, the derivative
+/// stays not finite however short the step, the step underflows, or the evaluations run out; steps already visited
+/// stay visited.
+template <std::size_t N, class Derivative, class Visit>
+Result<AdamsResult<N>> integrate_adams(Derivative&& derivative, const Unknowns<N>& state, double begin_s, double end_s,
+                                       const AdamsOptions<N>& options, Visit&& visit) {
+  const double size = std::fmax(std::fabs(begin_s), std::fabs(end_s)), grain = 16.0 * adams::last_place * size;
+  auto failed = [](AdamsFailure why, double t, double h, const AdamsCounts& counts) {
+    return tl::unexpected<Error>(adams_error(why, t, h, counts));
+  };
+  if (!(begin_s <= end_s) || !(size <= std::numeric_limits<double>::max()))
+    return failed(AdamsFailure::interval, begin_s, end_s, {});
+  if (!adams::valid(options)) return failed(AdamsFailure::options, begin_s, 0.0, {});
+  if (!adams::finite(state)) return failed(AdamsFailure::not_finite, begin_s, 0.0, {});
+  adams::Run<N, Derivative, Visit> run{options, derivative, visit, end_s - begin_s, grain, state};
+  run.time = begin_s;
+  while (run.time < end_s) {
+    double stop = end_s;
+    for (double b : options.breaks_s)
+      if (b > run.time + 4.0 * grain && b < end_s - 4.0 * grain) stop = std::fmin(stop, b);
+    const double inset = std::fmin(grain, 0.01 * (stop - run.time));
+    run.piece_first = run.time == begin_s ? begin_s : run.time + inset;
+    run.piece_last = stop == end_s ? end_s : stop - inset;
+    const AdamsFailure why = options.fixed_step_s > 0.0 ? run.fixed_piece(stop) : run.adaptive_piece(stop);
+    if (why != AdamsFailure::none) return failed(why, run.time, run.wish, run.counts);
+  }
+  return AdamsResult<N>{run.y, run.error, run.counts};
+}
+
+template <std::size_t N, class Derivative>
+Result<AdamsResult<N>> integrate_adams(Derivative&& derivative, const Unknowns<N>& state, double begin_s, double end_s,
+                                       const AdamsOptions<N>& options = {}) {
+  return integrate_adams<N>(derivative, state, begin_s, end_s, options, [](const DenseStep<N>&) {});
+}
+
+/// A visitor that calls take(i, t, y) at `count` ≥ 2 equal times t from begin_s to end_s, both included. For one
+/// integration from begin_s to end_s; hand it over by reference or value alike.
+template <std::size_t N, class Take>
+auto at_equal_times(double begin_s, double end_s, int count, Take take) {
+  return [begin_s, end_s, count, take, i = 0](const DenseStep<N>& step) mutable {
+    for (; i < count; ++i) {
+      const double t = i + 1 == count ? end_s : begin_s + (end_s - begin_s) * (static_cast<double>(i) / (count - 1));
+      if (t > step.end_s) return;
+      take(i, t, t == step.end_s ? step.last : step.state(t));
+    }
+  };
+}
+
+}  // namespace mobil::step

@@ -1,0 +1,227 @@
+#pragma once
+// A jointed figure in double precision that moves as it is told, as the forces' system sees it and as an oracle does.
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <memory>
+#include <random>
+
+#include "assets/body/anthropometry.h"
+#include "systems/forces/forces.h"
+
+namespace mobil::figure {
+
+using Vector = Eigen::Vector3d;
+using Rotation = Eigen::Quaterniond;
+
+constexpr double gravity = 9.81;
+
+inline Vector of(const Vec3<double>& v) {
+  return {v.x, v.y, v.z};
+}
+inline Vec3<float> row(const Vector& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+inline Rotation turn(double angle, const Vector& axis) {
+  return Rotation(Eigen::AngleAxisd(angle, axis));
+}
+
+/// World place of the pelvis and world rotation of every segment.
+struct Stance {
+  Vector pelvis;
+  std::array<Rotation, segment_count> rotation;
+};
+
+/// The anatomical position at the origin.
+inline Stance upright(double height) {
+  Stance s;
+  s.pelvis = {0, fraction::hip_height * height, 0};
+  s.rotation.fill(Rotation::Identity());
+  return s;
+}
+
+/// Turned about the vertical through the origin, then moved.
+inline Stance moved(Stance s, double heading, const Vector& by) {
+  const Rotation q = turn(heading, Vector::UnitY());
+  s.pelvis = q * s.pelvis + by;
+  for (Rotation& r : s.rotation) r = q * r;
+  return s;
+}
+
+inline std::size_t mirrored_segment(std::size_t i) {
+  const std::size_t legs = index(Segment::thigh_right), arms = index(Segment::clavicle_right);
+  if (i < legs) return i;
+  return i < arms ? legs + (i - legs + 5) % 10 : arms + (i - arms + 6) % 12;
+}
+
+/// Its mirror image in the plane x = 0, right and left changed.
+inline Stance mirrored(const Stance& s) {
+  Stance m;
+  m.pelvis = {-s.pelvis.x(), s.pelvis.y(), s.pelvis.z()};
+  for (std::size_t i = 0; i < segment_count; ++i) {
+    const Rotation& q = s.rotation[mirrored_segment(i)];
+    m.rotation[i] = Rotation(q.w(), q.x(), -q.y(), -q.z());
+  }
+  return m;
+}
+
+inline std::array<Vector, segment_count> places(double height, const Stance& s) {
+  std::array<Vector, segment_count> at;
+  at[0] = s.pelvis;
+  for (std::size_t i = 1; i < segment_count; ++i) {
+    const std::size_t parent = index(segment_parent[i]);
+    at[i] = at[parent] + s.rotation[parent] * (height * of(unit_body.joint_offset[i]));
+  }
+  return at;
+}
+
+inline std::array<Vector, segment_count> centres(double height, const Stance& s) {
+  auto at = places(height, s);
+  for (std::size_t i = 0; i < segment_count; ++i) at[i] += s.rotation[i] * (height * of(unit_body.centre_of_mass[i]));
+  return at;
+}
+
+inline Vector body_centre(double height, const Stance& s) {
+  const auto at = centres(height, s);
+  Vector sum = Vector::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i < segment_count; ++i) {
+    sum += unit_body.mass_fraction[i] * at[i];
+    mass += unit_body.mass_fraction[i];
+  }
+  return sum / mass;
+}
+
+/// One row into one lane of a block, and back: both are nothing but 4-byte words.
+template <class Row, class Block>
+void put(const Row& row, Block& block, std::size_t lane) {
+  static_assert(sizeof(Block) == lane_count * sizeof(Row));
+  for (std::size_t i = 0; i < sizeof(Row) / 4; ++i)
+    std::memcpy(reinterpret_cast<char*>(&block) + 4 * (i * lane_count + lane),
+                reinterpret_cast<const char*>(&row) + 4 * i, 4);
+}
+template <class Row, class Block>
+Row take(const Block& block, std::size_t lane) {
+  static_assert(sizeof(Block) == lane_count * sizeof(Row));
+  Row row;
+  for (std::size_t i = 0; i < sizeof(Row) / 4; ++i)
+    std::memcpy(reinterpret_cast<char*>(&row) + 4 * i,
+                reinterpret_cast<const char*>(&block) + 4 * (i * lane_count + lane), 4);
+  return row;
+}
+
+/// Sixteen people and what `joint_forces` makes of them.
+struct Block {
+  BodySize<Lanes<float>> size{};
+  StepPlan<Lanes<float>> plan{};
+  GaitState<Lanes<float>> state{};
+  Pose<Lanes<float>> pose{};
+  Feet<Lanes<float>> feet{};
+  CentreOfMass<Lanes<float>> centre{};
+  MotionHistory<Lanes<float>> history{};
+  GroundReaction<Lanes<float>> reaction{};
+  JointMoments<Lanes<float>> moments{};
+
+  void stand(std::size_t lane, const Stance& s) {
+    const double height = static_cast<double>(size.height_m[lane]);
+    const auto at = places(height, s);
+    Pose<float> p;
+    for (std::size_t i = 0; i < segment_count; ++i) {
+      p.position_m[i] = row(at[i]);
+      const Rotation& q = s.rotation[i];
+      p.rotation[i] = {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()),
+                       static_cast<float>(q.w())};
+    }
+    Feet<float> f{};
+    for (std::size_t side = 0; side < 2; ++side) {
+      const std::size_t foot = index(on_side(Segment::foot_right, side)), toes = foot + 1;
+      f.heel_m[side] =
+          row(at[foot] + s.rotation[foot] * Vector(0, -fraction::ankle_height, -fraction::heel_back) * height);
+      f.toe_m[side] = row(at[toes] + s.rotation[toes] * Vector(0, -fraction::toe_joint_height, 0) * height);
+    }
+    put(p, pose, lane);
+    put(f, feet, lane);
+    put(CentreOfMass<float>{row(body_centre(height, s))}, centre, lane);
+  }
+  void tick(float tick_s) { joint_forces(size, pose, feet, centre, plan, state, history, reaction, moments, tick_s); }
+  Vector force(std::size_t lane, std::size_t side) const {
+    const auto& f = reaction.force_n[side];
+    return Eigen::Vector3f(f.x[lane], f.y[lane], f.z[lane]).cast<double>();
+  }
+  Vector pressure(std::size_t lane, std::size_t side) const {
+    const auto& c = reaction.centre_m[side];
+    return Eigen::Vector3f(c.x[lane], c.y[lane], c.z[lane]).cast<double>();
+  }
+  Vector joints(std::size_t lane, std::size_t side) const {
+    return {static_cast<double>(moments.hip_nm[side][lane]), static_cast<double>(moments.knee_nm[side][lane]),
+            static_cast<double>(moments.ankle_nm[side][lane])};
+  }
+};
+
+/// A crowd of random sizes, all standing on both feet.
+inline std::unique_ptr<Block> random_people(unsigned seed) {
+  std::mt19937 engine(seed);
+  auto dice = [&](double low, double high) {
+    return static_cast<float>(low + (high - low) * (static_cast<double>(engine()) / 4294967296.0));
+  };
+  auto b = std::make_unique<Block>();
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    b->size.height_m[l] = dice(1.2, 2.2);
+    b->size.mass_kg[l] = dice(30, 200);
+    b->plan.duration_s[l] = 0.5F;
+    b->plan.double_support_s[l] = 0.1F;
+    b->plan.load_from[l] = b->plan.load_to[l] = 0.5F;
+  }
+  return b;
+}
+
+using Motion = std::function<Stance(std::size_t lane, double time)>;
+
+/// Three ticks about time 0 from an empty history: what is written then belongs to time 0.
+inline void three_ticks(Block& b, const Motion& motion, float tick_s) {
+  b.history = {};
+  for (int k = -1; k <= 1; ++k) {
+    for (std::size_t l = 0; l < lane_count; ++l) b.stand(l, motion(l, k * static_cast<double>(tick_s)));
+    b.tick(tick_s);
+  }
+}
+
+/// A body thrown about with every joint in motion.
+struct Thrashing {
+  struct Joint {
+    Vector mean, swing;
+    double rate, phase;
+    Rotation at(double t) const {
+      const Vector v = mean + swing * std::sin(rate * t + phase);
+      const double angle = v.norm();
+      return angle < 1e-12 ? Rotation::Identity() : turn(angle, v / angle);
+    }
+  };
+  std::array<Joint, segment_count> joint;
+  Vector sway;
+  double height;
+
+  Thrashing(unsigned seed, double body_height) : height(body_height) {
+    std::mt19937 engine(seed);
+    auto dice = [&](double size) { return size * (2.0 * static_cast<double>(engine()) / 4294967296.0 - 1.0); };
+    for (std::size_t i = 0; i < segment_count; ++i) {
+      const double size = i >= index(Segment::L5) && i <= index(Segment::head) ? 0.04 : 0.3;
+      joint[i] = {{dice(size), dice(size), dice(size)}, {dice(size), dice(size), dice(size)}, 6 + dice(3), dice(3)};
+    }
+    sway = {dice(0.1), dice(0.05), dice(0.1)};
+  }
+  Stance at(double t) const {
+    Stance s = upright(height);
+    s.pelvis += sway * std::sin(5 * t + 1);
+    s.rotation[0] = joint[0].at(t);
+    for (std::size_t i = 1; i < segment_count; ++i)
+      s.rotation[i] = s.rotation[index(segment_parent[i])] * joint[i].at(t);
+    return s;
+  }
+};
+
+}  // namespace mobil::figure

@@ -1,0 +1,205 @@
+// The rules for load and centre of pressure on one man's measured walk: his angles and the height of his pelvis go in,
+// the ground reactions and moments that were measured and computed of him are to come out.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assets/files/csv_table.h"
+#include "tests/gait/forces_figure.h"
+
+namespace mobil {
+namespace {
+
+using namespace figure;
+
+constexpr double pi = 3.14159265358979;
+constexpr double height = 1.803, mass = 72.6, speed = 1.14, stride_s = 1.235;
+constexpr double double_support = 0.155;  // of the stride, from the measured vertical forces
+constexpr int samples = 100;
+
+std::string path() {
+  return std::string(MOBIL_SOURCE_DIR) + "/../shared/reference/trial_subject01_walk.csv";
+}
+
+/// A measured curve over the stride, 101 points, the moments' last ones missing.
+using Measured = std::vector<std::optional<double>>;
+
+Measured measured(const CsvTable& table, const char* column_name) {
+  Measured m;
+  for (std::size_t r = 0; r < table.row.size(); ++r) m.push_back(number(cell(table, r, column_name)));
+  return m;
+}
+
+/// The first harmonics of a curve over the stride: accelerations of raw angles are noise.
+struct Harmonics {
+  static constexpr int count = 7;
+  std::array<double, count + 1> cosine{}, sine{};
+
+  explicit Harmonics(const std::vector<double>& y) {
+    for (int k = 0; k <= count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      for (int i = 0; i < samples; ++i) {
+        const double angle = 2 * pi * k * i / samples, part = (k == 0 ? 1.0 : 2.0) / samples;
+        cosine[at] += part * y[static_cast<std::size_t>(i)] * std::cos(angle);
+        sine[at] += part * y[static_cast<std::size_t>(i)] * std::sin(angle);
+      }
+    }
+  }
+  double operator()(double part) const {
+    double sum = 0;
+    for (int k = 0; k <= count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      sum += cosine[at] * std::cos(2 * pi * k * part) + sine[at] * std::sin(2 * pi * k * part);
+    }
+    return sum;
+  }
+  /// Twice integrated over time, without mean and drift.
+  double twice_integrated(double part) const {
+    double sum = 0;
+    for (int k = 1; k <= count; ++k) {
+      const auto at = static_cast<std::size_t>(k);
+      const double rate = 2 * pi * k / stride_s;
+      sum -= (cosine[at] * std::cos(2 * pi * k * part) + sine[at] * std::sin(2 * pi * k * part)) / (rate * rate);
+    }
+    return sum;
+  }
+};
+
+/// His pose at any time: angles as measured, hip adduction and rotation of the left leg as half a stride earlier of the
+/// right; trunk upright, arms hanging. Where his pelvis is along the way was not stored: his centre of mass moves as
+/// the measured fore-aft forces make it.
+class Man {
+ public:
+  explicit Man(const CsvTable& table) {
+    auto curve = [&](const char* name) {
+      std::vector<double> y;
+      for (const auto& v : measured(table, name)) y.push_back(v.value_or(0));
+      return y;
+    };
+    for (const char* name : {"pelvis_tilt_anterior_deg", "pelvis_obliquity_up_deg", "pelvis_rotation_forward_deg",
+                             "hip_adduction_deg", "hip_internal_rotation_deg", "pelvis_height_m"})
+      body_.emplace_back(curve(name));
+    for (const std::string side : {"", "contra_"})
+      for (const char* name : {"hip_flexion_deg", "knee_flexion_deg", "ankle_dorsiflexion_deg"})
+        leg_.emplace_back(curve((side + name).c_str()));
+    std::vector<double> pushed = curve("foreaft_BW");
+    const std::vector<double> other = curve("contra_foreaft_BW");
+    for (std::size_t i = 0; i < pushed.size(); ++i) pushed[i] = gravity * (pushed[i] + other[i]);
+    acceleration_.emplace_back(pushed);
+    // The pelvis' height is that of another point of it: in mid-stance the right foot is on the ground.
+    const Stance flat = posed(0.25);
+    const auto at = places(height, flat);
+    const std::size_t foot = index(Segment::foot_right);
+    const Vector heel =
+        at[foot] + flat.rotation[foot] * Vector(0, -fraction::ankle_height, -fraction::heel_back) * height;
+    const Vector toe = at[foot + 1] + flat.rotation[foot + 1] * Vector(0, -fraction::toe_joint_height, 0) * height;
+    raised_ = -0.5 * (heel.y() + toe.y());
+  }
+
+  Stance at(double t) const {
+    const double part = t / stride_s - std::floor(t / stride_s);
+    Stance s = posed(part);
+    s.pelvis.y() += raised_;
+    s.pelvis.z() += speed * t + acceleration_[0].twice_integrated(part) - body_centre(height, s).z();
+    return s;
+  }
+
+ private:
+  Stance posed(double part) const {
+    constexpr double degree = pi / 180;
+    Stance s = upright(height);
+    auto angle = [&](std::size_t i, double when) { return body_[i](when) * degree; };
+    s.rotation[0] = turn(angle(2, part), Vector::UnitY()) * turn(-angle(1, part), Vector::UnitZ()) *
+                    turn(angle(0, part), Vector::UnitX());
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double out = side == left ? -1 : 1, own = side == left ? part + 0.5 : part;
+      auto joint = [&](std::size_t i) { return leg_[3 * side + i](part) * degree; };
+      const std::size_t thigh = index(on_side(Segment::thigh_right, side));
+      s.rotation[thigh] = s.rotation[0] * turn(-joint(0), Vector::UnitX()) *
+                          turn(out * angle(3, own), Vector::UnitZ()) * turn(out * angle(4, own), Vector::UnitY());
+      s.rotation[thigh + 1] = s.rotation[thigh];
+      s.rotation[thigh + 2] = s.rotation[thigh] * turn(joint(1), Vector::UnitX());
+      s.rotation[thigh + 3] = s.rotation[thigh + 2] * turn(-joint(2), Vector::UnitX());
+      // Toes lie on the ground as the heel rises.
+      const double pitch = std::asin((s.rotation[thigh + 3] * Vector::UnitZ()).y());
+      s.rotation[thigh + 4] = s.rotation[thigh + 3] * turn(std::fmin(pitch, 0), Vector::UnitX());
+    }
+    s.pelvis = {0, body_[5](part), 0};
+    return s;
+  }
+
+  std::vector<Harmonics> body_, leg_, acceleration_;
+  double raised_ = 0;
+};
+
+struct Row {
+  Vector force[2], joints;
+};
+
+/// What `joint_forces` makes of his stride, sample by sample.
+std::vector<Row> computed(const Man& man) {
+  auto b = std::make_unique<Block>();
+  const double dt = stride_s / samples;
+  std::vector<Row> rows;
+  for (int i = -2; i <= samples + 1; ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      b->size.height_m[l] = static_cast<float>(height);
+      b->size.mass_kg[l] = static_cast<float>(mass);
+      b->plan.load_to[l] = 1;
+      b->plan.double_support_s[l] = static_cast<float>(double_support * stride_s);
+      const int sample = (i + samples) % samples;
+      const bool second = sample >= samples / 2;
+      b->state.stance_side[l] = second ? left : right;
+      b->state.time_s[l] = static_cast<float>((sample - (second ? samples / 2 : 0)) * dt);
+      b->stand(l, man.at(i * dt));
+    }
+    b->tick(static_cast<float>(dt));
+    if (i > 0) rows.push_back({{b->force(0, right), b->force(0, left)}, b->joints(0, right)});
+  }
+  return rows;
+}
+
+template <class Value>
+double correlation(const char* name, const std::vector<Row>& rows, const Measured& curve, Value value) {
+  double n = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0, off = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!curve[i]) continue;
+    const double x = value(rows[i]), y = *curve[i];
+    n += 1, sx += x, sy += y, sxx += x * x, syy += y * y, sxy += x * y, off += (x - y) * (x - y);
+  }
+  const double r = (sxy - sx * sy / n) / std::sqrt((sxx - sx * sx / n) * (syy - sy * sy / n));
+  std::printf("%-26s correlation %.3f, off by %.3f (root mean square)\n", name, r, std::sqrt(off / n));
+  return r;
+}
+
+TEST(ForcesOfAMeasuredWalk, AgreeWithTheForcePlatesAndTheMoments) {
+  if (!std::filesystem::exists(path())) GTEST_SKIP() << "no measured walk here";
+  const auto table = read_csv(path(), {});
+  ASSERT_TRUE(table) << table.error().message;
+  const std::vector<Row> rows = computed(Man(*table));
+  ASSERT_EQ(rows.size(), std::size_t{samples + 1});
+  const double weight = mass * gravity;
+  auto plate = [&](const char* name, std::size_t side, Eigen::Index axis) {
+    return correlation(name, rows, measured(*table, name), [&](const Row& r) { return r.force[side](axis) / weight; });
+  };
+  auto joint = [&](const char* name, Eigen::Index j) {
+    return correlation(name, rows, measured(*table, name), [&](const Row& r) { return r.joints(j) / mass; });
+  };
+  EXPECT_GT(plate("vertical_BW", right, 1), 0.98);
+  EXPECT_GT(plate("contra_vertical_BW", left, 1), 0.98);
+  EXPECT_GT(plate("foreaft_BW", right, 2), 0.97);
+  EXPECT_GT(plate("contra_foreaft_BW", left, 2), 0.97);
+  EXPECT_GT(joint("hip_extensor_Nm_kg", 0), 0.8);
+  EXPECT_GT(joint("knee_extensor_Nm_kg", 1), 0.9);
+  EXPECT_GT(joint("ankle_plantarflexor_Nm_kg", 2), 0.97);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,392 @@
+// Ground reactions and joint moments of figures whose motion is known, against mechanics in double precision.
+#include "systems/forces/forces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/gait/forces_figure.h"
+
+namespace mobil {
+namespace {
+
+using namespace figure;
+
+constexpr float tick = 1.0F / 120.0F;
+
+double height_of(const Block& b, std::size_t l) {
+  return static_cast<double>(b.size.height_m[l]);
+}
+double mass_of(const Block& b, std::size_t l) {
+  return static_cast<double>(b.size.mass_kg[l]);
+}
+double weight_of(const Block& b, std::size_t l) {
+  return gravity * mass_of(b, l);
+}
+
+Vector total(const Block& b, std::size_t l) {
+  return b.force(l, right) + b.force(l, left);
+}
+
+/// All weight on one foot.
+void on_one_foot(Block& b, std::size_t l, std::uint32_t side) {
+  b.state.stance_side[l] = side;
+  b.state.time_s[l] = 0.3F;
+  b.plan.load_from[l] = 0.0F;
+  b.plan.load_to[l] = 1.0F;
+}
+
+/// Somewhere in a step.
+void somewhere_in_a_step(Block& b) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    on_one_foot(b, l, l % 2);
+    b.state.time_s[l] = 0.012F * static_cast<float>(l);
+  }
+}
+
+TEST(Forces, TwoTicksAreUnknownAndTheThirdIsNot) {
+  const auto b = random_people(1);
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t l = 0; l < lane_count; ++l) b->stand(l, upright(height_of(*b, l)));
+    b->tick(tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        EXPECT_EQ(b->force(l, side).norm() > 0, k == 2);
+        EXPECT_EQ(b->pressure(l, side).norm() > 0, k == 2);
+        EXPECT_EQ(b->joints(l, side).norm() > 0, k == 2);
+      }
+    }
+  }
+}
+
+TEST(Forces, StandingIsBalancedByHalfTheWeightUnderEachFoot) {
+  const auto b = random_people(2);
+  std::vector<double> heading(lane_count);
+  for (std::size_t l = 0; l < lane_count; ++l) heading[l] = 0.7 * static_cast<double>(l);
+  three_ticks(
+      *b,
+      [&](std::size_t l, double) {
+        return moved(upright(height_of(*b, l)), heading[l], {0.1, 0, -0.2});
+      },
+      tick);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const double height = height_of(*b, l), weight = weight_of(*b, l), tolerance = 1e-3 * weight * height;
+    const Stance s = upright(height);
+    const auto at = centres(height, s);
+    const Vector body = body_centre(height, s), forward = turn(heading[l], Vector::UnitY()) * Vector::UnitZ();
+    for (std::size_t side = 0; side < 2; ++side) {
+      EXPECT_NEAR(b->force(l, side).y(), 0.5 * weight, 1e-3 * weight);
+      EXPECT_NEAR(b->force(l, side).dot(forward), 0, 1e-3 * weight);
+      EXPECT_NEAR((b->pressure(l, side) - Vector(0.1, 0, -0.2)).dot(forward), body.z(), 1e-4 * height);
+      // Ankle, knee and hip are over one another: the weight ahead of them, less what of the leg is ahead of them.
+      const double reaction = 0.5 * weight * body.z();
+      auto hanging = [&](Segment first) {
+        double sum = 0;
+        for (std::size_t i = index(on_side(first, side)); i <= index(on_side(Segment::toes_right, side)); ++i)
+          sum += weight * unit_body.mass_fraction[i] * at[i].z();
+        return sum;
+      };
+      EXPECT_NEAR(b->joints(l, side)(0), reaction - hanging(Segment::thigh_right), tolerance);
+      EXPECT_NEAR(b->joints(l, side)(1), -(reaction - hanging(Segment::shank_right)), tolerance);
+      EXPECT_NEAR(b->joints(l, side)(2), reaction - hanging(Segment::foot_right), tolerance);
+    }
+  }
+}
+
+TEST(Forces, StandingToOneSideLoadsThatFoot) {
+  const auto b = random_people(3);
+  const auto leaning = [&](std::size_t l, double) {
+    // Swaying at the ankles, feet where they are.
+    const double height = height_of(*b, l), angle = 0.03;
+    Stance s = upright(height);
+    const Rotation q = turn(-angle, Vector::UnitZ());
+    const double leg = (fraction::thigh + fraction::shank) * height;
+    s.pelvis += Vector(leg * std::sin(angle), leg * (std::cos(angle) - 1), 0);
+    for (std::size_t side = 0; side < 2; ++side)
+      for (std::size_t i = 0; i < 3; ++i) s.rotation[index(on_side(Segment::thigh_right, side)) + i] = q;
+    return s;
+  };
+  three_ticks(*b, leaning, tick);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const Vector body = body_centre(height_of(*b, l), leaning(l, 0));
+    Vector moment = Vector::Zero();
+    for (std::size_t side = 0; side < 2; ++side) moment += (b->pressure(l, side) - body).cross(b->force(l, side));
+    EXPECT_GT(b->force(l, left).y(), b->force(l, right).y());
+    EXPECT_NEAR(moment.x(), 0, 1e-3 * weight_of(*b, l));
+    EXPECT_NEAR(moment.z(), 0, 1e-3 * weight_of(*b, l));
+  }
+}
+
+TEST(Forces, TheFasterTheBodyTheLessItIsBalanced) {
+  const auto b = random_people(4);
+  // Three quarters of the weight are to be on the right foot, while the body is over the middle of both.
+  for (std::size_t l = 0; l < lane_count; ++l) b->plan.load_from[l] = b->plan.load_to[l] = 0.75F;
+  std::vector<double> last(lane_count, 0.5);
+  for (const double speed : {0.0, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0}) {
+    three_ticks(
+        *b,
+        [&](std::size_t l, double t) {
+          return moved(upright(height_of(*b, l)), 0, {0, 0, speed * t});
+        },
+        tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double share = b->force(l, right).y() / weight_of(*b, l);
+      const double froude = speed * speed / (0.0013 * gravity * height_of(*b, l));
+      EXPECT_NEAR(share, 0.75 - 0.25 * 0.75 / (1 + froude * froude), 2e-3);
+      EXPECT_GT(share, last[l]);
+      last[l] = share;
+    }
+  }
+}
+
+TEST(Forces, InDoubleSupportTheLoadGoesFromFootToFootAsPlanned) {
+  const auto b = random_people(8);
+  for (const auto& [from, to] : {std::pair{0.0, 1.0}, {0.5, 1.0}, {0.0, 0.5}}) {
+    for (const std::size_t stance : {right, left}) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        b->plan.load_from[l] = static_cast<float>(from);
+        b->plan.load_to[l] = static_cast<float>(to);
+        b->plan.double_support_s[l] = 0.1F;
+        b->state.time_s[l] = 0.01F * static_cast<float>(l);  // the last lanes are past double support
+        b->state.stance_side[l] = static_cast<std::uint32_t>(stance);
+      }
+      three_ticks(
+          *b,
+          [&](std::size_t l, double t) {
+            return moved(upright(height_of(*b, l)), 0, {0, 0, 2 * t});
+          },
+          tick);
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const double u = std::fmin(0.1 * static_cast<double>(l), 1.0);
+        const double over = 1 - (1 - u) * (1 - u) * (1 + 1.3 * u);
+        EXPECT_NEAR(b->force(l, stance).y() / weight_of(*b, l), from + (to - from) * over, 2e-3);
+      }
+    }
+  }
+}
+
+TEST(Forces, AnAcceleratedFigureIsPushedByMassTimesAcceleration) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto b = random_people(seed);
+    somewhere_in_a_step(*b);
+    std::mt19937 engine(seed);
+    std::vector<Vector> a(lane_count), v(lane_count);
+    for (std::size_t l = 0; l < lane_count; ++l)
+      for (int c = 0; c < 3; ++c) {
+        a[l](c) = 3.0 * static_cast<double>(engine()) / 4294967296.0 - 1.5;
+        v[l](c) = 3.0 * static_cast<double>(engine()) / 4294967296.0 - 1.5;
+      }
+    three_ticks(
+        *b,
+        [&](std::size_t l, double t) {
+          return moved(upright(height_of(*b, l)), 0.3 * static_cast<double>(l), v[l] * t + 0.5 * t * t * a[l]);
+        },
+        tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const Vector f = mass_of(*b, l) * (a[l] + Vector(0, gravity, 0));
+      EXPECT_LT((total(*b, l) - f).norm(), 2e-3 * weight_of(*b, l));
+    }
+  }
+}
+
+TEST(Forces, FallingFreelyNothingIsFelt) {
+  const auto b = random_people(5);
+  three_ticks(
+      *b,
+      [&](std::size_t l, double t) {
+        Stance s = Thrashing(7, height_of(*b, l)).at(0);
+        s.pelvis += Vector(1.2 * t, 0.8 * t - 0.5 * gravity * t * t, -0.4 * t);
+        return s;
+      },
+      tick);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    EXPECT_LT(total(*b, l).norm(), 3e-3 * weight_of(*b, l));
+    for (std::size_t side = 0; side < 2; ++side) EXPECT_LT(b->joints(l, side).norm(), 3e-3 * weight_of(*b, l));
+  }
+}
+
+TEST(Forces, AFreeLegSwingsLikeTheCompoundPendulumItIs) {
+  const auto b = random_people(6);
+  const double mean = 0.2, swing = 0.3, rate = 7.0;
+  for (const double phase : {0.0, 1.0, 2.5}) {
+    auto angle = [&](double t) { return mean + swing * std::sin(rate * t + phase); };
+    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, left);
+    three_ticks(
+        *b,
+        [&](std::size_t l, double t) {
+          Stance s = upright(height_of(*b, l));
+          for (std::size_t i = index(Segment::thigh_right); i <= index(Segment::toes_right); ++i)
+            s.rotation[i] = turn(-angle(t), Vector::UnitX());
+          return s;
+        },
+        tick);
+    const double second = -swing * rate * rate * std::sin(phase);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double height = height_of(*b, l), mass = mass_of(*b, l);
+      const auto at = centres(height, upright(height)), joint = places(height, upright(height));
+      const Vector hip = joint[index(Segment::thigh_right)];
+      double inertia = 0, torque = 0;
+      auto hang = [&](const Vector& r, double m) {
+        inertia += m * r.squaredNorm();
+        torque += m * gravity * (turn(-angle(0), Vector::UnitX()) * r).z();
+      };
+      const std::size_t t = index(Segment::thigh_right), f = index(Segment::foot_right);
+      const double toes_part = unit_body.mass_fraction[f + 1] / 0.0145;
+      hang(at[t] - hip, mass * unit_body.mass_fraction[t]);
+      hang(at[t + 1] - hip, mass * unit_body.mass_fraction[t + 1]);
+      hang(at[t + 2] - hip, mass * 0.0465);
+      hang((1 - toes_part) * at[f] + toes_part * at[f + 1] - hip, mass * 0.0145);
+      const double thigh = 0.1000 * mass * std::pow(0.323 * fraction::thigh * height, 2),
+                   shank = 0.0465 * mass * std::pow(0.302 * fraction::shank * height, 2),
+                   foot = 0.0145 * mass * std::pow(0.475 * std::hypot(0.078, 0.031) * height, 2);
+      inertia += thigh + shank + foot;
+      EXPECT_NEAR(b->joints(l, right)(0), -inertia * second - torque, 0.0015 * mass * height * height);
+      EXPECT_EQ(b->force(l, right).norm(), 0);
+    }
+  }
+}
+
+/// Moments about a joint of all that hangs below it, one body after the other, three-dimensional.
+double oracle_moment(double height, double mass, const std::function<Stance(double)>& motion, double dt, Segment joint,
+                     std::size_t side, const Vector& force, const Vector& pressure, const Vector& axis) {
+  const Stance now = motion(0);
+  const Vector about = places(height, now)[index(on_side(joint, side))];
+  const auto c0 = centres(height, motion(-dt)), c1 = centres(height, now), c2 = centres(height, motion(dt));
+  Vector sum = -(pressure - about).cross(force);
+  // The radii of gyration below are those of the thigh with its kneecap and of the foot with its toes.
+  const std::vector<std::vector<Segment>> bodies = {{Segment::thigh_right, Segment::patella_right},
+                                                    {Segment::shank_right},
+                                                    {Segment::foot_right, Segment::toes_right}};
+  for (const auto& body : bodies) {
+    if (body.front() < joint) continue;
+    double part = 0;
+    Vector centre = Vector::Zero(), a = Vector::Zero();
+    for (const Segment s : body) {
+      const std::size_t i = index(on_side(s, side));
+      part += unit_body.mass_fraction[i];
+      centre += unit_body.mass_fraction[i] * c1[i];
+      a += unit_body.mass_fraction[i] * (c0[i] - 2 * c1[i] + c2[i]) / (dt * dt);
+    }
+    sum += mass * (centre / part - about).cross(a + part * Vector(0, gravity, 0));
+  }
+  // Angular momentum of the rods about their own centres, from angular velocity and inertia tensor.
+  struct Rod {
+    Segment from, to;
+    double mass, gyration;
+  };
+  const Rod rods[] = {{Segment::thigh_right, Segment::shank_right, 0.1000, 0.323},
+                      {Segment::shank_right, Segment::foot_right, 0.0465, 0.302},
+                      {Segment::foot_right, Segment::toes_right, 0.0145, 0.475}};
+  for (const Rod& rod : rods) {
+    if (rod.from < joint) continue;
+    const std::size_t i = index(on_side(rod.from, side));
+    const Vector along = height * of(unit_body.joint_offset[index(on_side(rod.to, side))]);
+    const double inertia = mass * rod.mass * std::pow(rod.gyration * along.norm(), 2);
+    const Vector u = along.normalized();
+    const Eigen::Matrix3d tensor = inertia * (Eigen::Matrix3d::Identity() - u * u.transpose());
+    auto momentum = [&](double t) -> Vector {
+      const double h = 1e-4;
+      const Eigen::AngleAxisd step(motion(t + h).rotation[i] * motion(t - h).rotation[i].conjugate());
+      const Vector spin = step.axis() * step.angle() / (2 * h);
+      const Eigen::Matrix3d r = motion(t).rotation[i].toRotationMatrix();
+      return r * tensor * r.transpose() * spin;
+    };
+    sum += (momentum(1e-3) - momentum(-1e-3)) / 2e-3;
+  }
+  return sum.dot(axis);
+}
+
+TEST(Forces, AnyMotionAgreesWithThreeDimensionalFreeBodies) {
+  Vector worst = Vector::Zero();  // hip, knee, ankle, of weight times height
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto b = random_people(seed);
+    somewhere_in_a_step(*b);
+    auto motion = [&](std::size_t l, double t) {
+      return moved(Thrashing(100 * seed + static_cast<unsigned>(l), height_of(*b, l)).at(t),
+                   0.5 * static_cast<double>(l), {0.3 * t, 0, 1.2 * t});
+    };
+    three_ticks(*b, motion, tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double height = height_of(*b, l), mass = mass_of(*b, l), dt = static_cast<double>(tick);
+      const auto c0 = centres(height, motion(l, -dt)), c1 = centres(height, motion(l, 0)),
+                 c2 = centres(height, motion(l, dt));
+      Vector force = Vector::Zero();
+      for (std::size_t i = 0; i < segment_count; ++i)
+        force += mass * unit_body.mass_fraction[i] * ((c0[i] - 2 * c1[i] + c2[i]) / (dt * dt) + Vector(0, gravity, 0));
+      EXPECT_LT((total(*b, l) - force).norm(), 3e-3 * weight_of(*b, l));
+
+      const Stance now = motion(l, 0);
+      Vector axis = now.rotation[index(Segment::thigh_right)] * Vector::UnitX() +
+                    now.rotation[index(Segment::thigh_left)] * Vector::UnitX();
+      axis = Vector(axis.x(), 0, axis.z()).normalized();
+      const Segment joints[] = {Segment::thigh_right, Segment::shank_right, Segment::foot_right};
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t j = 0; j < 3; ++j) {
+          const double sign = j == 1 ? -1 : 1;
+          const double moment = sign * oracle_moment(
+                                           height, mass, [&](double t) { return motion(l, t); }, dt, joints[j], side,
+                                           b->force(l, side), b->pressure(l, side), axis);
+          const auto at = static_cast<Eigen::Index>(j);
+          const double off = std::abs(b->joints(l, side)(at) - moment);
+          worst(at) = std::fmax(worst(at), off / (weight_of(*b, l) * height));
+        }
+      }
+    }
+  }
+  EXPECT_LT(worst(0), 1e-4);
+  EXPECT_LT(worst(1), 5e-6);
+  EXPECT_LT(worst(2), 1e-6);
+}
+
+TEST(Forces, TheMirrorImageChangesSides) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto b = random_people(seed), m = random_people(seed);
+    somewhere_in_a_step(*b);
+    somewhere_in_a_step(*m);
+    for (std::size_t l = 0; l < lane_count; ++l) m->state.stance_side[l] ^= 1U;
+    auto motion = [&](std::size_t l, double t) {
+      return Thrashing(seed + 50 * static_cast<unsigned>(l), height_of(*b, l)).at(t);
+    };
+    three_ticks(*b, motion, tick);
+    three_ticks(
+        *m, [&](std::size_t l, double t) { return mirrored(motion(l, t)); }, tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double weight = weight_of(*b, l);
+      for (std::size_t side = 0; side < 2; ++side) {
+        const Vector f = b->force(l, side), c = b->pressure(l, side);
+        EXPECT_LT((m->force(l, 1 - side) - Vector(-f.x(), f.y(), f.z())).norm(), 2e-3 * weight);
+        EXPECT_LT((m->pressure(l, 1 - side) - Vector(-c.x(), c.y(), c.z())).norm(), 1e-3);
+        EXPECT_LT((m->joints(l, 1 - side) - b->joints(l, side)).norm(), 4e-3 * weight);
+      }
+    }
+  }
+}
+
+TEST(Forces, TurningTheWorldTurnsTheForcesAndLeavesTheMoments) {
+  for (unsigned seed = 1; seed <= 10; ++seed) {
+    const auto b = random_people(seed), w = random_people(seed);
+    somewhere_in_a_step(*b);
+    somewhere_in_a_step(*w);
+    auto motion = [&](std::size_t l, double t) {
+      return Thrashing(seed + 50 * static_cast<unsigned>(l), height_of(*b, l)).at(t);
+    };
+    auto heading = [&](std::size_t l) { return 0.4 * static_cast<double>(l + seed); };
+    const Vector by(2, 0, -3);
+    three_ticks(*b, motion, tick);
+    three_ticks(
+        *w, [&](std::size_t l, double t) { return moved(motion(l, t), heading(l), by); }, tick);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double weight = weight_of(*b, l);
+      const Rotation q = turn(heading(l), Vector::UnitY());
+      for (std::size_t side = 0; side < 2; ++side) {
+        EXPECT_LT((w->force(l, side) - q * b->force(l, side)).norm(), 6e-3 * weight);
+        EXPECT_LT((w->pressure(l, side) - by - q * b->pressure(l, side)).norm(), 3e-3);
+        EXPECT_LT((w->joints(l, side) - b->joints(l, side)).norm(), 8e-3 * weight);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mobil

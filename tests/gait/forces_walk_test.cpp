@@ -1,0 +1,291 @@
+// Ground reactions and joint moments of people walking, against mechanics and against measured walks.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "assets/files/csv_table.h"
+#include "systems/simulation.h"
+#include "tests/gait/forces_figure.h"
+
+namespace mobil {
+namespace {
+
+using namespace figure;
+
+/// All of one instant of one walker. Side 0 right, 1 left.
+struct Instant {
+  std::uint32_t steps = 0;
+  double load_from = 0, load_to = 0, part_of_double_support = 0;
+  std::size_t stance = 0;
+  Vector centre;
+  std::array<double, 2> phase{};
+  std::array<Vector, 2> heel, toe, force, pressure, joints;
+};
+
+Vector vector_of(const Vec3<float>& v) {
+  return Eigen::Vector3f(v.x, v.y, v.z).cast<double>();
+}
+
+struct Walker {
+  double height, mass, tick_s;
+  std::vector<Instant> instant;
+
+  double weight() const { return mass * gravity; }
+  /// From the first to the last heel strike of the right foot.
+  std::pair<std::size_t, std::size_t> whole_strides() const {
+    std::size_t first = 0, last = 0;
+    for (std::size_t i = 2; i + 1 < instant.size(); ++i) {
+      if (instant[i].phase[right] >= instant[i - 1].phase[right]) continue;
+      if (first == 0) first = i;
+      last = i;
+    }
+    return {first, last};
+  }
+};
+
+/// Walks a while at speed (m/s), then records some strides.
+Walker walk(float height, float mass, float speed, double tick_s = 1.0 / 120) {
+  Simulation simulation({.tick_s = tick_s});
+  const Entity human = *simulation.spawn({.height_m = height, .mass_kg = mass}, {.speed_m_s = speed});
+  Walker w{static_cast<double>(height), static_cast<double>(mass), tick_s, {}};
+  auto b = std::make_unique<Block>();
+  const auto settle = static_cast<int>(5 / tick_s), ticks = static_cast<int>(11 / tick_s);
+  for (int t = 0; t < ticks; ++t) {
+    simulation.tick();
+    const StepPlan<float> plan = *simulation.get<StepPlan>(human);
+    const GaitState<float> state = *simulation.get<GaitState>(human);
+    const Feet<float> feet = *simulation.get<Feet>(human);
+    const CentreOfMass<float> centre = *simulation.get<CentreOfMass>(human);
+    put(BodySize<float>{height, mass}, b->size, 0);
+    put(plan, b->plan, 0);
+    put(state, b->state, 0);
+    put(*simulation.get<Pose>(human), b->pose, 0);
+    put(feet, b->feet, 0);
+    put(centre, b->centre, 0);
+    b->tick(static_cast<float>(tick_s));
+    if (t <= settle) continue;
+    Instant now{};
+    now.steps = state.steps;
+    now.load_from = static_cast<double>(plan.load_from);
+    now.load_to = static_cast<double>(plan.load_to);
+    now.part_of_double_support = static_cast<double>(state.time_s / plan.double_support_s);
+    now.stance = state.stance_side;
+    now.centre = vector_of(centre.position_m);
+    for (std::size_t side = 0; side < 2; ++side) {
+      now.phase[side] = static_cast<double>(feet.phase[side]);
+      now.heel[side] = vector_of(feet.heel_m[side]);
+      now.toe[side] = vector_of(feet.toe_m[side]);
+      if (w.instant.empty()) continue;
+      Instant& before = w.instant.back();
+      before.force[side] = b->force(0, side);
+      before.pressure[side] = b->pressure(0, side);
+      before.joints[side] = b->joints(0, side);
+    }
+    w.instant.push_back(now);
+  }
+  w.instant.pop_back();
+  return w;
+}
+
+const std::vector<Walker>& walkers() {
+  static const std::vector<Walker> all = [] {
+    std::vector<Walker> made;
+    for (const auto& [height, mass, speed] : std::vector<std::array<float, 3>>{
+             {1.803F, 72.6F, 1.14F}, {1.75F, 75.0F, 1.4F}, {1.6F, 55.0F, 0.9F}, {1.9F, 95.0F, 1.7F}})
+      made.push_back(walk(height, mass, speed));
+    return made;
+  }();
+  return all;
+}
+
+TEST(ForcesOfWalking, TheGroundCarriesTheWeightOverAStride) {
+  for (const Walker& w : walkers()) {
+    const auto [first, last] = w.whole_strides();
+    ASSERT_GT(last, first + 100);
+    Vector sum = Vector::Zero();
+    for (std::size_t i = first; i < last; ++i) sum += w.instant[i].force[right] + w.instant[i].force[left];
+    sum /= static_cast<double>(last - first) * w.weight();
+    EXPECT_NEAR(sum.y(), 1, 0.01);
+    EXPECT_NEAR(sum.x(), 0, 0.01);
+    EXPECT_NEAR(sum.z(), 0, 0.01);
+  }
+}
+
+TEST(ForcesOfWalking, BothFeetTogetherPushTheCentreOfMass) {
+  for (const Walker& w : walkers()) {
+    for (std::size_t i = 1; i + 1 < w.instant.size(); ++i) {
+      const Vector a =
+          (w.instant[i + 1].centre - 2 * w.instant[i].centre + w.instant[i - 1].centre) / (w.tick_s * w.tick_s);
+      const Vector f = w.mass * (a + Vector(0, gravity, 0));
+      EXPECT_LT((w.instant[i].force[right] + w.instant[i].force[left] - f).norm(), 0.03 * w.weight());
+    }
+  }
+}
+
+TEST(ForcesOfWalking, AFootInTheAirBearsNothingAndOneOnTheGroundPressesWithinItsSole) {
+  for (const Walker& w : walkers()) {
+    const double toes = fraction::toes_length * w.height;
+    for (const Instant& now : w.instant) {
+      EXPECT_EQ(now.load_to, 1);
+      for (std::size_t side = 0; side < 2; ++side) {
+        if (side != now.stance && now.part_of_double_support > 1) {
+          EXPECT_EQ(now.force[side].norm(), 0);
+          continue;
+        }
+        const Vector sole = now.toe[side] - now.heel[side], along = Vector(sole.x(), 0, sole.z()).normalized();
+        const Vector from_heel = now.pressure[side] - now.heel[side];
+        EXPECT_GT(from_heel.dot(along), -0.002);
+        EXPECT_LT(from_heel.dot(along), sole.dot(along) + toes + 0.002);
+        EXPECT_EQ(now.pressure[side].y(), 0);
+      }
+    }
+  }
+}
+
+TEST(ForcesOfWalking, InDoubleSupportTheTrailingLegPushesAndTheLeadingLegBrakes) {
+  for (const Walker& w : walkers()) {
+    int seen = 0;
+    for (const Instant& now : w.instant) {
+      if (now.part_of_double_support < 0.3 || now.part_of_double_support > 0.7) continue;
+      const Vector lead = now.force[now.stance], trail = now.force[1 - now.stance];
+      if (lead.y() < 0.1 * w.weight() || trail.y() < 0.1 * w.weight()) continue;
+      EXPECT_GT(trail.z() / trail.y() - lead.z() / lead.y(), 0.2);
+      // Each foot is pushed toward the body's middle.
+      const double out = now.stance == left ? 1 : -1;
+      EXPECT_LT(out * (lead.x() / lead.y() - trail.x() / trail.y()), 0);
+      ++seen;
+    }
+    EXPECT_GT(seen, 5);
+  }
+}
+
+TEST(ForcesOfWalking, TheCentreOfPressureGoesForwardFromHeelToToes) {
+  for (const Walker& w : walkers()) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      double place = w.instant.front().pressure[side].z(), strike = 0;
+      bool bearing = true, struck = false;
+      for (const Instant& now : w.instant) {
+        const bool bears = side == now.stance || now.part_of_double_support < 1;
+        const double here = now.pressure[side].z();
+        if (bears && bearing) {
+          EXPECT_GT(here, place - 0.006);
+          EXPECT_LT(here, place + 0.06);
+        }
+        if (bears && !bearing) {
+          strike = here;
+          struck = true;
+        }
+        if (!bears && bearing && struck) {
+          EXPECT_GT(place - strike, 0.08 * w.height);
+          EXPECT_LT(place - strike, 0.16 * w.height);
+        }
+        place = here;
+        bearing = bears;
+      }
+    }
+  }
+}
+
+// ---- against measured walks -----------------------------------------------------------------------------------------
+
+std::string reference(const std::string& name) {
+  return std::string(MOBIL_SOURCE_DIR) + "/../shared/reference/" + name;
+}
+
+using Percents = std::vector<std::pair<double, double>>;  // percent of the gait cycle, value
+
+Percents measured(const std::string& file, std::string_view column_name, std::string_view key = {},
+                  std::string_view value = {}) {
+  Percents curve;
+  const auto table = read_csv(reference(file), {});
+  if (!table) throw std::runtime_error(table.error().message);
+  for (std::size_t r = 0; r < table->row.size(); ++r) {
+    if (!key.empty() && cell(*table, r, key) != value) continue;
+    const auto percent = number(cell(*table, r, "percent_gait")), y = number(cell(*table, r, column_name));
+    if (percent && y) curve.emplace_back(*percent, *y);
+  }
+  return curve;
+}
+
+/// The walker's value at a percentage of the right foot's cycle, of the mean over the recorded strides.
+template <class Value>
+double at_percent(const Walker& w, double percent, Value value) {
+  double sum = 0;
+  int strides = 0;
+  for (std::size_t i = 1; i < w.instant.size(); ++i) {
+    const double a = 100 * w.instant[i - 1].phase[right];
+    double b = 100 * w.instant[i].phase[right], p = percent;
+    if (b < a) {
+      b += 100;
+      if (p < a) p += 100;
+    }
+    if (p < a || p >= b) continue;
+    const double t = (p - a) / (b - a);
+    sum += (1 - t) * value(w.instant[i - 1]) + t * value(w.instant[i]);
+    ++strides;
+  }
+  return sum / strides;
+}
+
+/// Prints and returns the correlation; extremes are ours / theirs.
+template <class Value>
+double compare(const Walker& w, const Percents& curve, const char* what, Value value) {
+  double sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0, n = 0;
+  double high_x = -1e9, high_y = -1e9, low_x = 1e9, low_y = 1e9;
+  for (const auto& [percent, y] : curve) {
+    const double x = at_percent(w, percent, value);
+    sx += x, sy += y, sxx += x * x, syy += y * y, sxy += x * y, n += 1;
+    high_x = std::fmax(high_x, x), high_y = std::fmax(high_y, y);
+    low_x = std::fmin(low_x, x), low_y = std::fmin(low_y, y);
+  }
+  const double r = (sxy - sx * sy / n) / std::sqrt((sxx - sx * sx / n) * (syy - sy * sy / n));
+  std::printf("  %-24s correlation %.3f  highest %6.2f / %6.2f  lowest %6.2f / %6.2f\n", what, r, high_x, high_y, low_x,
+              low_y);
+  return r;
+}
+
+struct Walk {
+  const char *name, *ground, *moments, *key, *value;
+  float height, mass, speed;
+};
+
+TEST(ForcesOfWalking, CurvesResembleMeasuredWalks) {
+  if (!std::filesystem::exists(reference("winter_grf.csv"))) GTEST_SKIP() << "no measured walks here";
+  // Schwartz's dimensionless speeds on a leg of 0.53 heights.
+  const Walk walks[] = {
+      {"Winter natural", "winter_grf.csv", "winter_joint_moments.csv", "cadence_class", "natural", 1.75F, 75, 1.33F},
+      {"Schwartz slow", "schwartz2008_grf.csv", "schwartz2008_moments_powers.csv", "speed_class", "slow", 1.75F, 75,
+       0.88F},
+      {"Schwartz free", "schwartz2008_grf.csv", "schwartz2008_moments_powers.csv", "speed_class", "free", 1.75F, 75,
+       1.30F},
+      {"Schwartz fast", "schwartz2008_grf.csv", "schwartz2008_moments_powers.csv", "speed_class", "fast", 1.75F, 75,
+       1.69F},
+      {"one man", "trial_subject01_walk.csv", "trial_subject01_walk.csv", "", "", 1.803F, 72.6F, 1.14F}};
+  for (const Walk& m : walks) {
+    const Walker w = walk(m.height, m.mass, m.speed, 1.0 / 60);
+    std::printf("%s\n", m.name);
+    auto ground = [&](const char* column_name) { return measured(m.ground, column_name, m.key, m.value); };
+    auto moment = [&](const char* column_name) { return measured(m.moments, column_name, m.key, m.value); };
+    const double vertical = compare(w, ground("vertical_BW"), "vertical, weights",
+                                    [&](const Instant& i) { return i.force[right].y() / w.weight(); });
+    compare(w, ground("foreaft_BW"), "fore-aft, weights",
+            [&](const Instant& i) { return i.force[right].z() / w.weight(); });
+    const char* names[] = {"hip extensor, N m/kg", "knee extensor, N m/kg", "ankle plantarflexor, N m/kg"};
+    const char* columns[] = {"hip_extensor_Nm_kg", "knee_extensor_Nm_kg", "ankle_plantarflexor_Nm_kg"};
+    double joint[3];
+    for (Eigen::Index j = 0; j < 3; ++j)
+      joint[j] =
+          compare(w, moment(columns[j]), names[j], [&](const Instant& i) { return i.joints[right](j) / w.mass; });
+    EXPECT_GT(vertical, 0.8);
+    EXPECT_GT(joint[2], 0.8);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

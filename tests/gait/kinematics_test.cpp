@@ -1,0 +1,396 @@
+// Random walkers, sixteen at a time: feet that stand still, legs that keep their length, motion without jumps.
+#include "systems/kinematics/kinematics.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/gait/walkers.h"
+
+namespace mobil {
+namespace {
+
+constexpr double degree = 3.14159265358979323846 / 180.0;
+constexpr float tick = 1.0F / 120.0F;
+
+/// Runs blocks of random walkers through several steps; check(walkers, tick number) after each.
+template <class Check>
+void over_walks(Check check) {
+  for (unsigned seed = 1; seed <= 6; ++seed) {
+    const auto w = random_walkers(seed);
+    for (int t = 0; t < 300; ++t) {
+      check(*w, t);
+      w->tick(tick);
+    }
+  }
+}
+
+/// The part of its own gait cycle at which a foot is, from its heel strike, in time.
+float since_strike(const Walkers& w, std::size_t side, std::size_t l) {
+  return w.state.time_s[l] + (w.state.stance_side[l] == side ? 0.0F : w.plan.duration_s[l]);
+}
+
+/// Whether heel (0) or ball (1) of a foot bears on the ground, in steps that are all alike: the heel from its strike to
+/// foot flat, the ball from foot flat to toe-off.
+bool bears(const Walkers& w, std::size_t side, std::size_t toe, std::size_t l) {
+  const float lag = since_strike(w, side, l), flat = w.plan.flat_s[l];
+  return toe == 0 ? lag <= flat : lag >= flat && lag < w.plan.duration_s[l] + w.plan.double_support_s[l];
+}
+
+const Vec3<Lanes<float>>& sole(const Walkers& w, std::size_t side, std::size_t toe) {
+  return toe == 0 ? w.feet.heel_m[side] : w.feet.toe_m[side];
+}
+
+/// How far points that bear on the ground move along it, and off it.
+struct Planted {
+  struct Point {
+    bool down = false;
+    Vec3<float> place{};
+  };
+  std::array<std::array<std::array<Point, 2>, 2>, lane_count> point{};
+  double slid = 0, off = 0;
+  long counted = 0;
+
+  void forget() { point = {}; }
+  void look(const Walkers& w) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        for (std::size_t toe = 0; toe < 2; ++toe) {
+          const bool down = bears(w, side, toe, l);
+          const Vec3<float> now = at(sole(w, side, toe), l);
+          Point& before = point[l][side][toe];
+          if (down) {
+            off = std::fmax(off, std::fabs(static_cast<double>(now.y)));
+            if (before.down) {
+              slid = std::fmax(slid, distance(now, before.place));
+              ++counted;
+            } else {
+              before.place = now;
+            }
+          }
+          before.down = down;
+        }
+      }
+    }
+  }
+};
+
+TEST(Kinematics, StandingFeetStayWhereTheyArePlanted) {
+  Planted planted;
+  over_walks([&](const Walkers& w, int t) {
+    if (t == 0) planted.forget();
+    planted.look(w);
+  });
+  EXPECT_GT(planted.counted, 20000);
+  EXPECT_LT(planted.slid, 1e-4);
+  EXPECT_LT(planted.off, 1e-4);
+}
+
+/// Where a segment hangs: its origin from its parent's joint, m.
+double gap(const Walkers& w, std::size_t s, std::size_t l) {
+  const std::size_t p = index(segment_parent[s]);
+  const Vec3<float> o = rotated(at(w.pose.rotation[p], l), w.body[l].joint_offset_m[s]);
+  const Vec3<float> from = at(w.pose.position_m[p], l);
+  return distance(at(w.pose.position_m[s], l), {from.x + o.x, from.y + o.y, from.z + o.z});
+}
+
+TEST(Kinematics, TheSkeletonHangsTogetherAndJointsKeepTheirRange) {
+  double apart = 0, overreached = 0, unit = 0;
+  over_walks([&](const Walkers& w, int) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (std::size_t s = 0; s < segment_count; ++s) {
+        const Quat<float> q = at(w.pose.rotation[s], l);
+        unit = std::fmax(unit, std::fabs(1.0 - (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)));
+        // The pelvis hangs on nothing; the kneecap slides round the knee.
+        if (s == 0 || s == index(Segment::patella_right) || s == index(Segment::patella_left)) continue;
+        // A leg that would have to be longer than straight leaves its foot where it is planted.
+        const bool straight = (s == index(Segment::foot_right) && w.angles.knee_flexion[right][l] < 0.01F) ||
+                              (s == index(Segment::foot_left) && w.angles.knee_flexion[left][l] < 0.01F);
+        double& most = straight ? overreached : apart;
+        most = std::fmax(most, gap(w, s, l));
+      }
+      for (std::size_t side = 0; side < 2; ++side) {
+        ASSERT_GE(w.angles.knee_flexion[side][l], 0.0F);
+        ASSERT_LT(w.angles.knee_flexion[side][l], 1.6F);
+        ASSERT_LT(std::fabs(w.angles.hip_flexion[side][l]), 1.2F);
+        ASSERT_LT(std::fabs(w.angles.ankle_dorsiflexion[side][l]), 0.9F);
+      }
+    }
+  });
+  EXPECT_LT(apart, 1e-4);
+  EXPECT_LT(overreached, 2e-3);
+  EXPECT_LT(unit, 1e-5);
+}
+
+TEST(Kinematics, TheKneecapStaysAtItsDistanceFromTheKnee) {
+  over_walks([&](const Walkers& w, int) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        const std::size_t cap = index(on_side(Segment::patella_right, side)),
+                          knee = index(on_side(Segment::shank_right, side));
+        const double wanted = distance(w.body[l].joint_offset_m[cap], w.body[l].joint_offset_m[knee]);
+        ASSERT_NEAR(distance(at(w.pose.position_m[cap], l), at(w.pose.position_m[knee], l)), wanted, 1e-5);
+      }
+    }
+  });
+}
+
+TEST(Kinematics, NoFootIsEverInTheGround) {
+  double heel = 1, toe = 1, tip = 1;
+  over_walks([&](const Walkers& w, int) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (std::size_t side = 0; side < 2; ++side) {
+        heel = std::fmin(heel, static_cast<double>(w.feet.heel_m[side].y[l]));
+        toe = std::fmin(toe, static_cast<double>(w.feet.toe_m[side].y[l]));
+        // The toes' tip: along the third axis of their rotation, from under their joint.
+        const std::size_t s = index(on_side(Segment::toes_right, side));
+        const Quat<Lanes<float>>& q = w.pose.rotation[s];
+        const float rise = 2.0F * (q.y[l] * q.z[l] - q.w[l] * q.x[l]);
+        tip = std::fmin(tip, static_cast<double>(w.feet.toe_m[side].y[l] + rise * w.body[l].tip_m[s].z));
+      }
+    }
+  });
+  EXPECT_GT(heel, -0.003);
+  EXPECT_GT(toe, -0.008);  // for hundredths of a second after the steepest toe-offs
+  EXPECT_GT(tip, -0.008);
+}
+
+TEST(Kinematics, SwingingFeetClearTheGroundInMidSwing) {
+  double clearance = 1;
+  over_walks([&](const Walkers& w, int) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const float off = 0.5F + 0.5F * w.plan.double_support_s[l] / w.plan.duration_s[l];
+      for (std::size_t side = 0; side < 2; ++side) {
+        const float u = (w.feet.phase[side][l] - off) / (1.0F - off);
+        if (u < 0.3F || u > 0.7F) continue;
+        clearance = std::fmin(clearance, static_cast<double>(w.feet.heel_m[side].y[l]));
+        clearance = std::fmin(clearance, static_cast<double>(w.feet.toe_m[side].y[l]));
+      }
+    }
+  });
+  EXPECT_GT(clearance, 0.004);
+}
+
+/// A walker's wish changes now and then.
+void wish(Walkers& w, Dice& dice) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const double what = dice(0, 4);
+    if (what < 2) ask_natural(w, l, dice, 0.0);
+    if (what > 3) w.ask(l, {.speed_m_s = 0.0F});
+    if (what > 1.5) w.gait.heading_rad[l] = dice.single(-3, 3);
+  }
+}
+
+TEST(Kinematics, NothingJumpsWhateverIsAskedOnTheWay) {
+  // A segment moves no farther in a tick than a few times the walking speed carries it, and turns no faster than
+  // 35 rad/s; a jump would show at any tick length, so the tick is short.
+  constexpr float short_tick = 1.0F / 1000.0F;
+  double farthest = 0, turned = 0;
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    Dice dice{std::mt19937(seed)};
+    const auto w = random_walkers(seed);
+    auto before = std::make_unique<Pose<Lanes<float>>>(w->pose);
+    for (int t = 0; t < 6000; ++t) {
+      if (t % 1500 == 700) wish(*w, dice);
+      w->tick(short_tick);
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const double speed = std::fmax(w->plan.from.speed_m_s[l], w->plan.to.speed_m_s[l]);
+        for (std::size_t s = 0; s < segment_count; ++s) {
+          const double moved = distance(at(w->pose.position_m[s], l), at(before->position_m[s], l));
+          ASSERT_TRUE(std::isfinite(moved));
+          farthest = std::fmax(farthest, moved / ((speed + 0.5) * short_tick));
+          turned = std::fmax(turned, angle_between(at(w->pose.rotation[s], l), at(before->rotation[s], l)));
+        }
+      }
+      *before = w->pose;
+    }
+  }
+  EXPECT_LT(farthest, 5.5);
+  EXPECT_LT(turned, 0.035);
+}
+
+std::size_t mirrored(std::size_t s) {
+  if (s >= index(Segment::clavicle_right)) return s < index(Segment::clavicle_left) ? s + 6 : s - 6;
+  if (s >= index(Segment::thigh_right)) return s < index(Segment::thigh_left) ? s + 5 : s - 5;
+  return s;
+}
+
+TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
+  const auto now = random_walkers(21, 0.5), then = random_walkers(21, 0.5);
+  Dice dice{std::mt19937(21)};
+  for (int t = 0; t < 40; ++t) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const float time = now->plan.duration_s[l] * (static_cast<float>(t) + 0.5F) / 40.0F;
+      const float x = dice.single(-2, 2), z = dice.single(-2, 2), heading = dice.single(-3, 3);
+      const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3);
+      put(GaitState<float>{time, right, 0, x, z, heading, turn, turn_before}, now->state, l);
+      put(GaitState<float>{time, left, 1, -x, z, -heading, -turn, -turn_before}, then->state, l);
+    }
+    now->place();
+    then->place();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (std::size_t s = 0; s < segment_count; ++s) {
+        const Vec3<float> a = at(now->pose.position_m[s], l), b = at(then->pose.position_m[mirrored(s)], l);
+        ASSERT_LT(distance(a, {-b.x, b.y, b.z}), 2e-5) << segment_name[s];
+        const Quat<float> p = at(now->pose.rotation[s], l), q = at(then->pose.rotation[mirrored(s)], l);
+        ASSERT_LT(angle_between(p, {q.x, -q.y, -q.z, q.w}), 3e-3) << segment_name[s];
+      }
+      for (std::size_t side = 0; side < 2; ++side) {
+        ASSERT_NEAR(now->angles.knee_flexion[side][l], then->angles.knee_flexion[1 - side][l], 1e-5);
+        ASSERT_NEAR(now->feet.phase[side][l], then->feet.phase[1 - side][l], 1e-6);
+      }
+      ASSERT_NEAR(now->angles.pelvis_list[l], -then->angles.pelvis_list[l], 1e-6);
+      ASSERT_NEAR(now->angles.pelvis_rotation[l], -then->angles.pelvis_rotation[l], 1e-6);
+      ASSERT_NEAR(now->angles.pelvis_tilt[l], then->angles.pelvis_tilt[l], 1e-6);
+    }
+  }
+}
+
+TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
+  const auto ahead = random_walkers(22, 0.5), turned = random_walkers(22, 0.5);
+  Dice dice{std::mt19937(22)};
+  for (int t = 0; t < 20; ++t) {
+    std::array<float, lane_count> x, z, heading;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const float time = ahead->plan.duration_s[l] * dice.single(0, 1);
+      const auto side = static_cast<std::uint32_t>(t % 2);
+      const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3);
+      x[l] = dice.single(-20, 20), z[l] = dice.single(-20, 20), heading[l] = dice.single(-3, 3);
+      put(GaitState<float>{time, side, 0, 0, 0, 0, turn, turn_before}, ahead->state, l);
+      put(GaitState<float>{time, side, 0, x[l], z[l], heading[l], turn, turn_before}, turned->state, l);
+    }
+    ahead->place();
+    turned->place();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const Quat<float> about_y = {0, std::sin(heading[l] / 2), 0, std::cos(heading[l] / 2)};
+      for (std::size_t s = 0; s < segment_count; ++s) {
+        const Vec3<float> a = rotated(about_y, at(ahead->pose.position_m[s], l));
+        ASSERT_LT(distance(at(turned->pose.position_m[s], l), {x[l] + a.x, a.y, z[l] + a.z}), 2e-5) << segment_name[s];
+      }
+      ASSERT_EQ(ahead->angles.knee_flexion[right][l], turned->angles.knee_flexion[right][l]);
+      ASSERT_EQ(ahead->angles.hip_flexion[left][l], turned->angles.hip_flexion[left][l]);
+    }
+  }
+}
+
+TEST(Kinematics, AWalkBeginsWithTheRightHeelAndAdvancesAtItsSpeedAlongItsHeading) {
+  const auto w = random_walkers(3);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    EXPECT_EQ(w->feet.phase[right][l], 0.0F);
+    EXPECT_NEAR(w->feet.phase[left][l], 0.5F, 1e-6);
+    EXPECT_NEAR(w->feet.heel_m[right].y[l], 0.0F, 1e-5);
+    EXPECT_GT(w->feet.toe_m[right].y[l], 0.005F);
+    EXPECT_LT(w->feet.heel_m[right].x[l], 0.0F);  // +X is left
+    EXPECT_GT(w->feet.heel_m[right].z[l], w->feet.heel_m[left].z[l]);
+    w->state.heading_rad[l] = w->gait.heading_rad[l] = 0.1F * static_cast<float>(l);
+  }
+  w->place();
+  const CentreOfMass<Lanes<float>> start = w->centre;
+  for (int t = 0; t < 600; ++t) w->tick(tick);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    EXPECT_NEAR(static_cast<float>(w->state.steps[l]) * w->plan.duration_s[l] + w->state.time_s[l], 600 * tick, 1e-3);
+    EXPECT_EQ(w->state.stance_side[l], w->state.steps[l] % 2);
+    w->state.time_s[l] = 0;
+    w->state.stance_side[l] = right;
+  }
+  w->place();
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const float far = static_cast<float>(w->state.steps[l]) * w->plan.step_length_m[l];
+    const float heading = 0.1F * static_cast<float>(l);
+    EXPECT_NEAR(w->centre.position_m.x[l] - start.position_m.x[l], far * std::sin(heading), 1e-3);
+    EXPECT_NEAR(w->centre.position_m.z[l] - start.position_m.z[l], far * std::cos(heading), 1e-3);
+    EXPECT_NEAR(w->centre.position_m.y[l], start.position_m.y[l], 1e-4);
+  }
+}
+
+TEST(Kinematics, TheHeadStaysInTheWalkingPlaneWhileTheShouldersTurnAgainstThePelvis) {
+  over_walks([](const Walkers& w, int) {
+    const Quat<Lanes<float>>&head = w.pose.rotation[index(Segment::head)], &chest = w.pose.rotation[index(Segment::T1)];
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      ASSERT_LT(std::fabs(head.x[l]) + std::fabs(head.y[l]) + std::fabs(head.z[l]), 1e-6F);
+      const float turn = w.angles.pelvis_rotation[l];
+      ASSERT_LE(chest.y[l] * turn, std::fabs(turn) > 1e-3F ? -1e-9F : 1e-9F);
+    }
+  });
+}
+
+TEST(Kinematics, EachVertebraTurnsALittleOnTheOneBelow) {
+  double most = 0, all = 0;
+  over_walks([&](const Walkers& w, int) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      double sum = 0;
+      for (std::size_t s = index(Segment::L5); s <= index(Segment::head); ++s) {
+        const double a = angle_between(at(w.pose.rotation[s], l), at(w.pose.rotation[s - 1], l));
+        most = std::fmax(most, a);
+        sum += a;
+      }
+      all = std::fmax(all, sum);
+    }
+  });
+  EXPECT_LT(most, 1.5 * degree);
+  EXPECT_GT(all, 5 * degree);  // together they do turn
+}
+
+TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
+  // Ranges of Winter's natural cadence and Schwartz's free speed with two standard deviations' room.
+  const auto w = random_walkers(1);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    w->set_body(l, {.height_m = 1.8F, .mass_kg = 80.0F});
+    w->ask(l, {});
+  }
+  w->begin();
+  const float duration = w->plan.duration_s[0];
+  float hip_low = 9, hip_high = -9, knee_load = 0, knee_mid = 9, knee_swing = 0, ankle_low = 9, ankle_high = -9;
+  float high = 0, low = 9, aside_low = 9, aside_high = -9;
+  for (int i = 0; i < 200; ++i) {
+    const float lag = 2.0F * duration * static_cast<float>(i) / 200.0F;
+    put(GaitState<float>{std::fmod(lag, duration), i < 100 ? 0U : 1U, 0, 0, 0, 0, 0, 0}, w->state, 5);
+    w->place();
+    const float degrees = 57.29578F;
+    const float hip = w->angles.hip_flexion[right][5] * degrees, knee = w->angles.knee_flexion[right][5] * degrees;
+    const float ankle = w->angles.ankle_dorsiflexion[right][5] * degrees;
+    hip_low = std::fmin(hip_low, hip);
+    hip_high = std::fmax(hip_high, hip);
+    ankle_low = std::fmin(ankle_low, ankle);
+    ankle_high = std::fmax(ankle_high, ankle);
+    if (i < 50) knee_load = std::fmax(knee_load, knee);
+    if (i >= 50 && i < 100) knee_mid = std::fmin(knee_mid, knee);
+    if (i > 120) knee_swing = std::fmax(knee_swing, knee);
+    high = std::fmax(high, w->centre.position_m.y[5]);
+    low = std::fmin(low, w->centre.position_m.y[5]);
+    aside_high = std::fmax(aside_high, w->centre.position_m.x[5]);
+    aside_low = std::fmin(aside_low, w->centre.position_m.x[5]);
+  }
+  EXPECT_NEAR(hip_high, 37, 6);  // measured from a pelvis that tilts by some 10 deg
+  EXPECT_NEAR(hip_low, -12, 6);
+  EXPECT_NEAR(knee_load, 21, 8);
+  EXPECT_NEAR(knee_mid, 6, 6);
+  EXPECT_NEAR(knee_swing, 62, 6);
+  EXPECT_NEAR(ankle_high, 12, 7);
+  EXPECT_NEAR(ankle_low, -20, 9);
+  EXPECT_NEAR(high - low, 0.040, 0.012);
+  EXPECT_NEAR(aside_high - aside_low, 0.042, 0.015);
+}
+
+TEST(Kinematics, AnatomicalPositionStandsOnTheGround) {
+  const auto w = random_walkers(2);
+  pose_anatomical(w->size, w->pose);
+  centre_of_mass(w->size, w->pose, w->centre);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const float height = w->size.height_m[l];
+    const std::size_t head = index(Segment::head), foot = index(Segment::foot_left);
+    EXPECT_NEAR(w->pose.position_m[head].y[l] + w->body[l].tip_m[head].y, height, 1e-5);
+    EXPECT_NEAR(w->pose.position_m[foot].y[l] + w->body[l].heel_m.y, 0.0F, 1e-6);
+    EXPECT_GT(w->pose.position_m[foot].x[l], 0.0F);
+    // The same centre from the body's own masses, in double.
+    double mass = 0, y = 0;
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      mass += w->body[l].mass_kg[s];
+      y += w->body[l].mass_kg[s] * (w->pose.position_m[s].y[l] + w->body[l].centre_of_mass_m[s].y);
+    }
+    EXPECT_NEAR(w->centre.position_m.y[l], y / mass, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,491 @@
+// Solved steps of random walkers: each goes on from the last one smoothly, whatever was asked between.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include "systems/gait/gait.h"
+#include "systems/kinematics/kinematics.h"
+#include "tests/gait/walkers.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t last_knot = knot_count - 1;
+constexpr double degree = 3.14159265358979323846 / 180.0;
+
+void expect_finite(const StepPlan<float>& plan) {
+  StepPlan<float> p = plan;
+  p.revision = p.settled = p.clamped = 0;  // whole numbers
+  const auto* word = reinterpret_cast<const float*>(&p);
+  for (std::size_t i = 0; i < sizeof(p) / sizeof(float); ++i) ASSERT_TRUE(std::isfinite(word[i])) << "word " << i;
+}
+
+/// Joint angles as numbers, those of the pelvis first.
+constexpr std::size_t angle_count = sizeof(JointAngles<float>) / sizeof(float);
+using Angles = std::array<double, angle_count>;
+
+Angles angles_of(const Walkers& w, std::size_t lane) {
+  const JointAngles<float> r = row(w.angles, lane);
+  Angles a;
+  for (std::size_t i = 0; i < angle_count; ++i) a[i] = reinterpret_cast<const float*>(&r)[i];
+  return a;
+}
+
+/// What the pose is at one end of a step.
+struct Instant {
+  std::array<std::array<Vec3<float>, segment_count>, lane_count> place;
+  std::array<std::array<Quat<float>, segment_count>, lane_count> turned;
+  std::array<Angles, lane_count> angle, rate;
+  std::array<double, lane_count> hip_rate, height_rate;
+};
+
+/// One-sided differences of second order over `moved` seconds, into the step from its start or from its end.
+constexpr float moved = 1e-3F;
+
+Instant instant(Walkers& w, bool at_end) {
+  Instant at_this;
+  std::array<std::array<Angles, 3>, lane_count> angle;
+  std::array<std::array<Vec3<float>, 3>, lane_count> pelvis;
+  for (std::size_t i = 3; i-- > 0;) {
+    for (std::size_t l = 0; l < lane_count; ++l)
+      w.state.time_s[l] = at_end ? w.plan.duration_s[l] - static_cast<float>(i) * moved : static_cast<float>(i) * moved;
+    w.place();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      angle[l][i] = angles_of(w, l);
+      pelvis[l][i] = at(w.pose.position_m[0], l);
+    }
+  }
+  const double h = at_end ? -double{moved} : double{moved};
+  auto slope = [&](double a, double b, double c) { return (-3.0 * a + 4.0 * b - c) / (2.0 * h); };
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      at_this.place[l][s] = at(w.pose.position_m[s], l);
+      at_this.turned[l][s] = at(w.pose.rotation[s], l);
+    }
+    at_this.angle[l] = angle[l][0];
+    for (std::size_t i = 0; i < angle_count; ++i)
+      at_this.rate[l][i] = slope(angle[l][0][i], angle[l][1][i], angle[l][2][i]);
+    at_this.hip_rate[l] = slope(pelvis[l][0].z, pelvis[l][1].z, pelvis[l][2].z);
+    at_this.height_rate[l] = slope(pelvis[l][0].y, pelvis[l][1].y, pelvis[l][2].y);
+  }
+  return at_this;
+}
+
+/// Whether an angle is of a leg so nearly straight that a hair's breadth between hip and ankle is degrees of it.
+bool of_straight_leg(const Instant& at_this, std::size_t l, std::size_t angle) {
+  constexpr std::size_t hip = offsetof(JointAngles<float>, hip_flexion) / sizeof(float), knee = hip + 2;
+  return angle >= hip && angle < hip + 6 && at_this.angle[l][knee + (angle - hip) % 2] < 3 * degree;
+}
+
+/// The greatest jumps through a strike.
+struct Jump {
+  double place = 0, turn = 0, angle = 0, rate = 0, hip_rate = 0;
+
+  void add(const Instant& before, const Instant& after, std::size_t l) {
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      place = std::fmax(place, distance(before.place[l][s], after.place[l][s]));
+      turn = std::fmax(turn, angle_between(before.turned[l][s], after.turned[l][s]));
+    }
+    for (std::size_t i = 0; i < angle_count; ++i) {
+      angle = std::fmax(angle, std::fabs(before.angle[l][i] - after.angle[l][i]));
+      if (of_straight_leg(before, l, i) || of_straight_leg(after, l, i)) continue;
+      rate = std::fmax(rate, std::fabs(before.rate[l][i] - after.rate[l][i]));
+    }
+    hip_rate = std::fmax(hip_rate, std::fabs(before.hip_rate[l] - after.hip_rate[l]));
+    hip_rate = std::fmax(hip_rate, std::fabs(before.height_rate[l] - after.height_rate[l]));
+  }
+};
+
+/// Where the ankle of a planted foot is: turned about the heel with the toes up, about the ball with the heel up.
+struct Ankle {
+  double out, up, forward;
+};
+
+Ankle planted(double height, double half_width, double toe_out, double pitch) {
+  namespace f = fraction;
+  const double s = std::sin(pitch), c = std::cos(pitch);
+  // The turning point and the ankle in the flat foot, forward and up from the ground under the ankle.
+  const double at_z = pitch >= 0 ? -f::heel_back : f::ball_forward, at_y = pitch >= 0 ? 0.0 : f::toe_joint_height;
+  const double z = (-at_z) * c - (f::ankle_height - at_y) * s + at_z;
+  const double y = (-at_z) * s + (f::ankle_height - at_y) * c + at_y;
+  return {half_width + height * z * std::sin(toe_out), height * y, height * z * std::cos(toe_out)};
+}
+
+/// A curve's rates at its ends, a second.
+double first_rate(const Curve<float>& c, double span) {
+  return double{c.slope[0]} * static_cast<double>(last_knot) / span;
+}
+double last_rate(const Curve<float>& c, double span) {
+  return double{c.slope[last_knot]} * static_cast<double>(last_knot) / span;
+}
+
+/// What one step ends with is what the next begins with: a curve's values and rates within the stated tolerances.
+void expect_joined(const StepPlan<float>& a, const StepPlan<float>& b, double height) {
+  const double da = a.duration_s, db = b.duration_s;
+  auto same = [&](const Curve<float>& x, double x_span, const Curve<float>& y, double y_span, double offset,
+                  double value, double rate, const char* name) {
+    EXPECT_NEAR(x.value[last_knot] - offset, y.value[0], value) << name;
+    EXPECT_NEAR(last_rate(x, x_span), first_rate(y, y_span), rate) << name;
+  };
+  EXPECT_EQ(a.step_length_m, b.length_before_m);
+  EXPECT_EQ(std::memcmp(&a.to, &b.from, sizeof(a.to)), 0);
+  same(a.hip_forward_m, da, b.hip_forward_m, db, a.step_length_m, 2e-6, 2e-4, "hips forward");
+  same(a.hip_up_m, da, b.hip_up_m, db, 0, 2e-6, 2e-4, "hips up");
+  same(a.trunk_pitch, da, b.trunk_pitch, db, 0, 2e-6, 2e-4, "trunk");
+  EXPECT_NEAR(a.phase_rate_to / da, b.phase_rate_from / db, 1e-4);
+  // The stance foot becomes the trailing one.
+  same(a.support_pitch, da - a.flat_s, b.trailing_pitch, b.double_support_s, 0, 1e-4, 2e-2, "trailing foot");
+  const bool changes_sides = a.step_length_m + a.length_before_m > 0;  // who goes on standing does not
+  EXPECT_EQ(changes_sides ? a.from.half_width_m : a.trailing_half_width_m, b.trailing_half_width_m);
+  EXPECT_EQ(changes_sides ? a.from.toe_out : a.trailing_toe_out, b.trailing_toe_out);
+  if (!changes_sides) {
+    EXPECT_EQ(a.from.half_width_m, b.from.half_width_m);
+    EXPECT_EQ(a.from.toe_out, b.from.toe_out);
+    return;
+  }
+  // The swing foot has landed where and as the stance foot begins.
+  const double swing = std::fmax(da - a.double_support_s, 0.05);
+  EXPECT_NEAR(a.swing_pitch.value[last_knot], b.from.foot_pitch, 1e-6);
+  EXPECT_NEAR(last_rate(a.swing_pitch, swing), b.from.foot_pitch_rate, 2e-3);
+  const Ankle lands = planted(height, b.from.half_width_m, b.from.toe_out, b.from.foot_pitch);
+  EXPECT_NEAR(a.swing_out_m[1], lands.out, 2e-6);
+  EXPECT_NEAR(a.swing_up_m.value[last_knot], lands.up, 2e-6);
+  EXPECT_NEAR(a.swing_forward_m.value[last_knot] - a.step_length_m, lands.forward, 2e-6);
+  const double d = 1e-4 * b.from.foot_pitch_rate;
+  const double pitch = b.from.foot_pitch;
+  if (pitch > std::fabs(d)) {
+    const Ankle later = planted(height, b.from.half_width_m, b.from.toe_out, pitch + d);
+    const Ankle before = planted(height, b.from.half_width_m, b.from.toe_out, pitch - d);
+    EXPECT_NEAR(last_rate(a.swing_up_m, swing), (later.up - before.up) / 2e-4, 2e-4);
+    EXPECT_NEAR(last_rate(a.swing_forward_m, swing), (later.forward - before.forward) / 2e-4, 2e-4);
+  }
+}
+
+/// Within a step: the trailing foot goes on as the swing foot.
+void expect_leaves(const StepPlan<float>& p, double height) {
+  const double swing = std::fmax(p.duration_s - p.double_support_s, 0.05), off = p.double_support_s;
+  const double pitch = p.trailing_pitch.value[last_knot], rate = last_rate(p.trailing_pitch, off);
+  EXPECT_NEAR(p.swing_pitch.value[0], pitch, 1e-6);
+  EXPECT_NEAR(first_rate(p.swing_pitch, swing), rate, 2e-3);
+  const Ankle leaves = planted(height, p.trailing_half_width_m, p.trailing_toe_out, pitch);
+  EXPECT_NEAR(p.swing_out_m[0], leaves.out, 2e-6);
+  EXPECT_NEAR(p.swing_up_m.value[0], leaves.up, 2e-6);
+  EXPECT_NEAR(p.swing_forward_m.value[0] + p.length_before_m, leaves.forward, 2e-6);
+  if (pitch < -1e-3) {
+    const double d = 1e-5;
+    const Ankle later = planted(height, p.trailing_half_width_m, p.trailing_toe_out, pitch + d);
+    const Ankle before = planted(height, p.trailing_half_width_m, p.trailing_toe_out, pitch - d);
+    EXPECT_NEAR(first_rate(p.swing_up_m, swing), (later.up - before.up) / (2 * d) * rate, 1e-3);
+    EXPECT_NEAR(first_rate(p.swing_forward_m, swing), (later.forward - before.forward) / (2 * d) * rate, 1e-3);
+  }
+}
+
+/// Blocks of unlike walkers before their first step.
+template <class Check>
+void over_first_steps(unsigned seed, int blocks, double style_part, Check check) {
+  Dice dice{std::mt19937(seed)};
+  auto w = std::make_unique<Walkers>();
+  for (int block = 0; block < blocks; ++block) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      w->set_body(l, random_body(dice));
+      ask_anything(*w, l, dice, style_part);
+      if (block == 0 && l == 7) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, style_part)});
+    }
+    w->begin();
+    check(*w, block);
+  }
+}
+
+TEST(FirstStep, IsSettledAndJoinsItsMirrorImage) {
+  over_first_steps(1, 40, 0.5, [](const Walkers& w, int block) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      SCOPED_TRACE(testing::Message() << "block " << block << ", lane " << l);
+      const StepPlan<float> p = row(w.plan, l);
+      expect_finite(p);
+      EXPECT_EQ(p.settled, 1U);
+      EXPECT_EQ(p.revision, w.gait.revision[l]);
+      expect_joined(p, p, w.size.height_m[l]);
+      expect_leaves(p, w.size.height_m[l]);
+    }
+  });
+}
+
+TEST(FirstStep, HasTheLengthAndTheTimeThatWereAsked) {
+  over_first_steps(2, 20, 1.0, [](const Walkers& w, int) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      EXPECT_EQ(w.plan.step_length_m[l], w.gait.step_length_m[l]);
+      EXPECT_EQ(w.plan.length_before_m[l], w.gait.step_length_m[l]);
+      if (w.gait.speed_m_s[l] > 0) {
+        EXPECT_NEAR(w.plan.duration_s[l] * w.gait.step_frequency_hz[l], 1.0F, 1e-5);
+      }
+      EXPECT_GT(w.plan.double_support_s[l], 0.0F);
+      EXPECT_LE(w.plan.double_support_s[l], w.plan.duration_s[l]);
+      EXPECT_LT(w.plan.flat_s[l], w.plan.duration_s[l]);
+    }
+  });
+}
+
+TEST(FirstStep, ASettledStepPlannedAgainIsTheSame) {
+  over_first_steps(3, 10, 0.5, [](Walkers& w, int block) {
+    const auto before = std::make_unique<StepPlan<Lanes<float>>>(w.plan);
+    w.strike();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const StepPlan<float> a = row(*before, l), b = row(w.plan, l);
+      EXPECT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "block " << block << ", lane " << l;
+    }
+  });
+}
+
+TEST(NextStep, UnevenStepsAlternateAndJoin) {
+  Dice dice{std::mt19937(4)};
+  auto w = std::make_unique<Walkers>();
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    w->set_body(l, random_body(dice));
+    GaitRequest request;
+    request.style.step_asymmetry = dice.single(-0.4, 0.4);
+    request.style.time_asymmetry = dice.single(-0.3, 0.3);
+    ASSERT_TRUE(w->ask(l, request));
+  }
+  w->begin();
+  for (int step = 0; step < 6; ++step) {
+    const auto before = std::make_unique<StepPlan<Lanes<float>>>(w->plan);
+    w->strike();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const StepPlan<float> a = row(*before, l), b = row(w->plan, l);
+      expect_joined(a, b, w->size.height_m[l]);
+      EXPECT_EQ(b.settled, 0U);
+      // After the first the pairs add up to two mean steps, the right one longer and slower by what was asked.
+      if (step == 0) continue;
+      const Gait<float> g = row(w->gait, l);
+      const float right_step = w->state.stance_side[l] == left ? b.step_length_m : a.step_length_m;
+      const float right_time = w->state.stance_side[l] == left ? b.duration_s : a.duration_s;
+      EXPECT_NEAR(right_step, g.step_length_m * (1 + g.style.step_asymmetry), 1e-5);
+      EXPECT_NEAR(a.step_length_m + b.step_length_m, 2 * g.step_length_m, 1e-5);
+      EXPECT_NEAR(right_time, (1 + g.style.time_asymmetry) / g.step_frequency_hz, 1e-5);
+      EXPECT_NEAR(a.duration_s + b.duration_s, 2 / g.step_frequency_hz, 1e-5);
+    }
+  }
+}
+
+/// A new wish for some of the walkers: another gait, to stop, or to go on as before.
+void change_some(Walkers& w, Dice& dice, double style_part) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const double what = dice(0, 10);
+    if (what < 4) ask_anything(w, l, dice, style_part);
+    if (what >= 4 && what < 5.5) w.ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, style_part)});
+    if (what >= 5.5 && what < 7) ask_natural(w, l, dice, style_part);
+    if (what >= 9) w.gait.heading_rad[l] = dice.single(-3, 3);
+  }
+}
+
+/// Walks through `steps` strikes of sixteen with changes on the way; check(before, after, lane, plan at the end of the
+/// first, walkers at the start of the second).
+template <class Check>
+void over_changes(unsigned seed, int steps, double style_part, Check check) {
+  Dice dice{std::mt19937(seed)};
+  auto w = random_walkers(seed, style_part);
+  auto last = std::make_unique<StepPlan<Lanes<float>>>();
+  const auto before = std::make_unique<Instant>(), after = std::make_unique<Instant>();
+  for (int step = 0; step < steps; ++step) {
+    change_some(*w, dice, style_part);
+    *before = instant(*w, true);
+    *last = w->plan;
+    w->strike();
+    *after = instant(*w, false);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      SCOPED_TRACE(testing::Message() << "step " << step << ", lane " << l);
+      check(*before, *after, l, row(*last, l), *w);
+    }
+    if (testing::Test::HasFatalFailure()) return;
+  }
+}
+
+/// The jumps of fifty changes; each step is finite and joins the one before.
+Jump jump_through_changes(unsigned seed, double style_part) {
+  Jump jump;
+  over_changes(seed, 50, style_part, [&](const auto& before, const auto& after, std::size_t l, const auto& a, auto& w) {
+    const StepPlan<float> b = row(w.plan, l);
+    ASSERT_NO_FATAL_FAILURE(expect_finite(b));
+    expect_joined(a, b, w.size.height_m[l]);
+    expect_leaves(b, w.size.height_m[l]);
+    jump.add(before, after, l);
+  });
+  return jump;
+}
+
+TEST(NextStep, PoseAndItsRatesGoOnThroughEveryChange) {
+  const Jump jump = jump_through_changes(5, 0.3);
+  EXPECT_LT(jump.place, 1e-4);  // m
+  EXPECT_LT(jump.turn, 3e-3);   // as near as single precision tells two rotations apart
+  EXPECT_LT(jump.angle, 0.05 * degree);
+  EXPECT_LT(jump.rate, 1.5);       // rad/s, of rates up to 20: near a straight knee rates are steep
+  EXPECT_LT(jump.hip_rate, 0.03);  // m/s
+}
+
+TEST(NextStep, StylesAtTheEndsOfTheirRangesStillJoin) {
+  const Jump jump = jump_through_changes(6, 1.0);
+  EXPECT_LT(jump.place, 1e-4);
+  EXPECT_LT(jump.turn, 3e-3);
+  EXPECT_LT(jump.angle, 0.05 * degree);
+  EXPECT_LT(jump.hip_rate, 0.8);  // where a leg is too short at a strike the pelvis sinks with it
+}
+
+/// One walker of sixteen unlike ones, alone in all lanes: the same words as among the others.
+TEST(NextStep, LanesDoNotKnowOfEachOther) {
+  Dice dice{std::mt19937(7)};
+  const auto together = random_walkers(7, 1.0);
+  const auto alone = std::make_unique<std::array<Walkers, lane_count>>();
+  auto share = [&](std::size_t l) {
+    Walkers& w = (*alone)[l];
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      put(row(together->size, l), w.size, i);
+      put(row(together->gait, l), w.gait, i);
+    }
+  };
+  for (std::size_t l = 0; l < lane_count; ++l) share(l), (*alone)[l].begin();
+  for (int step = 0; step < 12; ++step) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const StepPlan<float> a = row(together->plan, l);
+      const Pose<float> pose = row(together->pose, l);
+      for (const std::size_t lane : {std::size_t{0}, l, std::size_t{15}}) {
+        const StepPlan<float> b = row((*alone)[l].plan, lane);
+        ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "step " << step << ", lane " << l << " in " << lane;
+        const Pose<float> same = row((*alone)[l].pose, lane);
+        ASSERT_EQ(std::memcmp(&pose, &same, sizeof(pose)), 0) << "step " << step << ", lane " << l << " in " << lane;
+      }
+    }
+    change_some(*together, dice, 1.0);
+    together->strike();
+    together->place_at(0.3F);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      share(l);
+      (*alone)[l].strike();
+      (*alone)[l].place_at(0.3F);
+    }
+  }
+}
+
+TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
+  Dice dice{std::mt19937(8)};
+  auto w = random_walkers(8);
+  auto last = std::make_unique<StepPlan<Lanes<float>>>();
+  const auto before = std::make_unique<Instant>(), after = std::make_unique<Instant>();
+  Jump jump;
+  int clamped = 0;
+  for (int step = 0; step < 30; ++step) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      // Far beyond what resolve_gait lets through: up to 12 m/s, steps of two leg lengths, six steps a second.
+      w->gait.speed_m_s[l] = step % 10 < 7 ? dice.single(4, 12) : 0.0F;
+      w->gait.step_length_m[l] = step % 10 < 7 ? dice.single(0.3, 2.0) * w->size.height_m[l] * 0.49F : 0.0F;
+      w->gait.step_frequency_hz[l] = step % 10 < 7 ? w->gait.speed_m_s[l] / w->gait.step_length_m[l] : 0.0F;
+      ++w->gait.revision[l];
+    }
+    *before = instant(*w, true);
+    *last = w->plan;
+    w->strike();
+    *after = instant(*w, false);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      SCOPED_TRACE(testing::Message() << "step " << step << ", lane " << l);
+      const StepPlan<float> a = row(*last, l), b = row(w->plan, l);
+      ASSERT_NO_FATAL_FAILURE(expect_finite(b));
+      expect_joined(a, b, w->size.height_m[l]);
+      expect_leaves(b, w->size.height_m[l]);
+      clamped += b.clamped != 0;
+      jump.add(*before, *after, l);
+    }
+  }
+  EXPECT_GT(clamped, 100);
+  EXPECT_LT(jump.place, 1e-4);
+  EXPECT_LT(jump.angle, 0.05 * degree);
+}
+
+TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
+  constexpr double faster = 0.45, slower = 0.55, first = 0.80, last_speed = 0.70;  // m/s at a leg of 0.90 m
+  for (unsigned seed = 11; seed <= 20; ++seed) {
+    Dice dice{std::mt19937(seed)};
+    auto w = random_walkers(seed);
+    for (int change = 0; change < 8; ++change) {
+      change_some(*w, dice, 0.3);
+      for (int step = 0; step < 8; ++step) {
+        w->strike();
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          const double leg = w->body[l].thigh_length_m + w->body[l].shank_length_m, scale = std::sqrt(leg / 0.90);
+          const double from = w->plan.from.speed_m_s[l], to = w->plan.to.speed_m_s[l], aim = w->gait.speed_m_s[l];
+          const double most = from == 0 ? first : faster, least = to == 0 ? last_speed : slower;
+          EXPECT_LE(to - from, most * scale + 1e-6);
+          EXPECT_LE(from - to, std::fmax(least, slower) * scale + 1e-6);
+          // Toward what is asked, never beyond.
+          EXPECT_LE(std::fabs(aim - to), std::fabs(aim - from) + 1e-6);
+          EXPECT_GE((aim - from) * (to - from), 0.0);
+        }
+      }
+      // From the fastest walk to the slowest: four steps of slowing down, one to stop.
+      for (std::size_t l = 0; l < lane_count; ++l) EXPECT_EQ(w->plan.to.speed_m_s[l], w->gait.speed_m_s[l]);
+    }
+  }
+}
+
+TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
+  auto w = random_walkers(9, 0.3);
+  for (int step = 0; step < 5; ++step) w->strike();
+  for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = row(w->gait.style, l)});
+  const auto steps_before = w->state.steps;
+  for (int step = 0; step < 10; ++step) w->strike();
+  for (float part : {0.0F, 0.5F, 1.0F}) {
+    w->place_at(part);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      SCOPED_TRACE(testing::Message() << "lane " << l << ", part " << part);
+      const StepPlan<float> p = row(w->plan, l);
+      EXPECT_EQ(p.settled, 1U);
+      EXPECT_EQ(p.clamped, 0U);
+      EXPECT_EQ(p.load_from, 0.5F);
+      EXPECT_EQ(p.load_to, 0.5F);
+      EXPECT_LE(w->state.steps[l] - steps_before[l], 6U);
+      const Vec3<float> pelvis = at(w->pose.position_m[0], l);
+      std::array<Vec3<float>, 2> ankle;
+      for (std::size_t side = 0; side < 2; ++side) {
+        const Vec3<float> heel = at(w->feet.heel_m[side], l), toe = at(w->feet.toe_m[side], l);
+        EXPECT_NEAR(heel.y, 0.0F, 1e-5);
+        EXPECT_NEAR(toe.y, 0.0F, 1e-5);
+        ankle[side] = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
+      }
+      EXPECT_NEAR(ankle[0].z, ankle[1].z, 1e-5);
+      EXPECT_NEAR(ankle[1].x - ankle[0].x, 2 * p.from.half_width_m, 1e-5);
+      EXPECT_NEAR(pelvis.x, 0.5F * (ankle[0].x + ankle[1].x), 1e-5);
+      // The hips do not move.
+      for (std::size_t k = 0; k < knot_count; ++k) {
+        EXPECT_NEAR(p.hip_forward_m.value[k], p.hip_forward_m.value[0], 2e-4);
+        EXPECT_NEAR(p.hip_up_m.value[k], p.hip_up_m.value[0], 2e-4);
+        EXPECT_NEAR(p.trunk_pitch.value[k], p.trunk_pitch.value[0], 2e-3);
+      }
+    }
+  }
+}
+
+TEST(NextStep, AStandersStyleMayChangeButItsFeetStay) {
+  Dice dice{std::mt19937(10)};
+  auto w = random_walkers(10, 0.3);
+  for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, 0.5)});
+  for (int step = 0; step < 8; ++step) w->strike();
+  std::array<std::array<Vec3<float>, 4>, lane_count> stood;
+  auto places = [&](std::size_t l) {
+    return std::array<Vec3<float>, 4>{at(w->feet.heel_m[0], l), at(w->feet.heel_m[1], l), at(w->feet.toe_m[0], l),
+                                      at(w->feet.toe_m[1], l)};
+  };
+  w->place();
+  for (std::size_t l = 0; l < lane_count; ++l) stood[l] = places(l);
+  for (int step = 0; step < 6; ++step) {
+    for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, 0.5)});
+    w->strike();
+    w->place_at(0.5F);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const auto now = places(l);
+      for (std::size_t i = 0; i < 4; ++i) ASSERT_LT(distance(now[i], stood[l][i]), 1e-4) << "step " << step;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,206 @@
+// Walkers that turn: feet that stay where they are planted, footholds where the line says, motion without jumps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "systems/gait/gait.h"
+#include "tests/gait/walkers.h"
+
+namespace mobil {
+namespace {
+
+constexpr double pi = 3.14159265358979323846, degree = pi / 180.0;
+constexpr double most_turn = 20.0 * degree;
+
+/// Natural walks toward random headings.
+std::unique_ptr<Walkers> turning(unsigned seed) {
+  auto w = random_walkers(seed);
+  Dice dice{std::mt19937(seed + 100)};
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    w->gait.heading_rad[l] = dice.single(-3, 3);
+    w->state.line_x_m[l] = dice.single(-5, 5);
+    w->state.line_z_m[l] = dice.single(-5, 5);
+    w->state.heading_rad[l] = dice.single(-3, 3);
+  }
+  return w;
+}
+
+double wrapped(double angle) {
+  return angle - 2 * pi * std::round(angle / (2 * pi));
+}
+
+TEST(Turning, GoesTheShorterWayByAtMostTwentyDegreesAStepAndArrives) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto w = turning(seed);
+    for (int step = 0; step < 12; ++step) {
+      const auto before = w->state;
+      w->strike();
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const double off = wrapped(double{w->gait.heading_rad[l]} - w->state.heading_rad[l]);
+        const double turn = w->state.turn_rad[l];
+        EXPECT_LE(std::fabs(turn), most_turn + 1e-6);
+        EXPECT_NEAR(turn, std::clamp(off, -most_turn, most_turn), 2e-6);
+        EXPECT_EQ(w->state.turn_before_rad[l], before.turn_rad[l]);
+        EXPECT_EQ(w->state.heading_rad[l], before.heading_rad[l] + before.turn_rad[l]);
+      }
+    }
+    for (std::size_t l = 0; l < lane_count; ++l)
+      EXPECT_NEAR(wrapped(double{w->gait.heading_rad[l]} - w->state.heading_rad[l]), 0.0, 2e-6);
+  }
+}
+
+TEST(Turning, ThoseWhoStandDoNotTurn) {
+  const auto w = turning(30);
+  for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F});
+  const auto heading = w->state.heading_rad;
+  plan_first_step(w->size, w->gait, w->plan);
+  for (int i = 0; i < 300; ++i) w->tick(1.0F / 60.0F);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    EXPECT_EQ(w->state.heading_rad[l], heading[l]);
+    EXPECT_EQ(w->state.steps[l], 0U);
+  }
+}
+
+/// The line moves by the chord of each step; the foot that lands stands beside the point that it then has.
+TEST(Turning, TheNextFootholdIsWhereTheLineSays) {
+  const auto w = turning(31);
+  w->strike();
+  for (int step = 0; step < 12; ++step) {
+    const auto before = std::make_unique<Walkers>(*w);
+    w->strike();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double chord = double{before->state.heading_rad[l]} + 0.5 * double{before->state.turn_rad[l]};
+      const double length = before->plan.step_length_m[l];
+      EXPECT_NEAR(w->state.line_x_m[l] - before->state.line_x_m[l], length * std::sin(chord), 3e-6);
+      EXPECT_NEAR(w->state.line_z_m[l] - before->state.line_z_m[l], length * std::cos(chord), 3e-6);
+    }
+    w->state.time_s = w->plan.flat_s;
+    w->place();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const std::size_t side = w->state.stance_side[l];
+      const double heading = w->state.heading_rad[l];
+      const double left_of = (side == left ? 1.0 : -1.0) * w->plan.from.half_width_m[l];
+      const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
+      EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + left_of * std::cos(heading), 1e-5);
+      EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - left_of * std::sin(heading), 1e-5);
+      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.height_m[l], 1e-5);
+    }
+  }
+}
+
+TEST(Turning, PlantedFeetStayWhereTheyAre) {
+  double slid = 0, turned = 0;
+  long counted = 0;
+  for (unsigned seed = 41; seed <= 44; ++seed) {
+    const auto w = turning(seed);
+    for (int step = 0; step < 8; ++step) {
+      // The stance foot from foot flat to the end, and on as the other foot until it leaves the ground.
+      std::array<Vec3<float>, lane_count> ball, heading;
+      std::array<std::size_t, lane_count> side;
+      auto ahead = [&](std::size_t l, std::size_t s) {
+        // The toes' own direction, from their joint: along the third axis, level.
+        const Vec3<float> z = rotated(at(w->pose.rotation[index(on_side(Segment::foot_right, s))], l), {0, 0, 1});
+        const float r = std::sqrt(z.x * z.x + z.z * z.z);
+        return Vec3<float>{z.x / r, 0, z.z / r};
+      };
+      for (int i = 0; i <= 10; ++i) {
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          const float flat = w->plan.flat_s[l];
+          w->state.time_s[l] = flat + (w->plan.duration_s[l] - flat) * static_cast<float>(i) / 10.0F;
+        }
+        w->place();
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          side[l] = w->state.stance_side[l];
+          if (i == 0) ball[l] = at(w->feet.toe_m[side[l]], l), heading[l] = ahead(l, side[l]);
+          slid = std::fmax(slid, distance(ball[l], at(w->feet.toe_m[side[l]], l)));
+          turned = std::fmax(turned, distance(heading[l], ahead(l, side[l])));
+        }
+      }
+      w->strike();
+      for (int i = 0; i < 10; ++i) {
+        for (std::size_t l = 0; l < lane_count; ++l)
+          w->state.time_s[l] = w->plan.double_support_s[l] * static_cast<float>(i) / 10.0F;
+        w->place();
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          ++counted;
+          slid = std::fmax(slid, distance(ball[l], at(w->feet.toe_m[side[l]], l)));
+          turned = std::fmax(turned, distance(heading[l], ahead(l, side[l])));
+        }
+      }
+    }
+  }
+  EXPECT_GT(counted, 4000);
+  EXPECT_LT(slid, 1e-4);
+  EXPECT_LT(turned, 1e-4);
+}
+
+TEST(Turning, ThePoseGoesOnThroughTheStrike) {
+  double moved = 0, turned = 0, jerked = 0;
+  constexpr float h = 1e-3F;
+  for (unsigned seed = 51; seed <= 54; ++seed) {
+    const auto w = turning(seed);
+    for (int step = 0; step < 8; ++step) {
+      // Places at h before the strike, at it on both sides, and h after.
+      std::array<std::unique_ptr<Pose<Lanes<float>>>, 4> pose;
+      auto keep = [&](std::size_t i, bool at_end, float away) {
+        for (std::size_t l = 0; l < lane_count; ++l) w->state.time_s[l] = at_end ? w->plan.duration_s[l] - away : away;
+        w->place();
+        pose[i] = std::make_unique<Pose<Lanes<float>>>(w->pose);
+      };
+      keep(0, true, h);
+      keep(1, true, 0);
+      w->strike();
+      keep(2, false, 0);
+      keep(3, false, h);
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        for (std::size_t s = 0; s < segment_count; ++s) {
+          std::array<Vec3<float>, 4> p;
+          for (std::size_t i = 0; i < 4; ++i) p[i] = at(pose[i]->position_m[s], l);
+          moved = std::fmax(moved, distance(p[1], p[2]));
+          turned = std::fmax(turned, angle_between(at(pose[1]->rotation[s], l), at(pose[2]->rotation[s], l)));
+          const Vec3<float> in = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z};
+          const Vec3<float> out = {p[3].x - p[2].x, p[3].y - p[2].y, p[3].z - p[2].z};
+          // The knee of a leg that is all but straight runs away from any difference.
+          const std::size_t side = s < index(Segment::thigh_left) ? right : left;
+          const bool of_leg = s >= index(Segment::thigh_right) && s < index(Segment::clavicle_right);
+          if (of_leg && w->angles.knee_flexion[side][l] < 0.1F) continue;
+          jerked = std::fmax(jerked, distance(in, out) / double{h});
+        }
+      }
+    }
+  }
+  EXPECT_LT(moved, 1e-4);
+  EXPECT_LT(turned, 3e-3);  // the angle between two equal rotations in single precision is known no better
+  EXPECT_LT(jerked, 0.35);  // m/s, of them up to 0.1 the acceleration within two milliseconds
+}
+
+TEST(Turning, AtAStrikeTheWalkerIsToBePlannedWhenAnythingChangesAndOnlyThen) {
+  // However the ticks fall, also where a step ends within rounding of a tick.
+  Dice dice{std::mt19937(61)};
+  const auto w = random_walkers(61);
+  for (int trial = 0; trial < 20000; ++trial) {
+    const float tick_s = dice.single(1.0 / 240, 1.0 / 30);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const float step = dice.single(0.3, 1.5);
+      const auto what = static_cast<int>(dice(0, 5));
+      w->plan.duration_s[l] = step;
+      w->plan.settled[l] = 0;
+      w->state.time_s[l] = what == 0   ? std::nextafter(step, 0.0F)
+                           : what == 1 ? step - tick_s
+                           : what == 2 ? std::nextafter(step - tick_s, 0.0F)
+                                       : dice.single(0, step);
+      if (w->state.time_s[l] >= step) w->state.time_s[l] = std::nextafter(step, 0.0F);
+    }
+    const auto before = w->state;
+    advance_gait(w->plan, w->state, tick_s);
+    const std::uint32_t lanes = lanes_to_plan(w->plan, w->gait, w->state, tick_s);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const bool struck = w->state.steps[l] != before.steps[l];
+      ASSERT_EQ((lanes >> l & 1U) != 0, struck)
+          << "a step of " << w->plan.duration_s[l] << " s, tick " << tick_s << " s from " << before.time_s[l];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,71 @@
+// The check that the paper makes after the finite elements: the deformed mesh's end against the line of action.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+struct EndError {
+  double worst_m = 0, largest_change_m = 0;
+};
+
+/// Of one person's muscles over a second of walking, by muscle: how far the mesh's end is from the line's.
+std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
+  Simulation simulation;
+  const Entity human = simulation.spawn(who.body, who.gait).value();
+  EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
+  std::vector<EndError> errors(simulation.person(human)->muscles.size());
+  for (int tick = 0; tick < 60; ++tick) {
+    simulation.tick();
+    for (std::size_t m = 0; m < errors.size(); ++m) {
+      for (const Entity muscle : simulation.person(human)->muscles[m].entity) {
+        const auto line = *simulation.get<LineOfAction>(muscle);
+        const auto belly = *simulation.get<BellyReport>(muscle);
+        const double change = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
+        const double off = std::abs(static_cast<double>(belly.elongation_m) - change);
+        errors[m].worst_m = std::max(errors[m].worst_m, off);
+        errors[m].largest_change_m = std::max(errors[m].largest_change_m, std::abs(change));
+        if (choice.drive == Drive::force && choice.method == Method::statics) {
+          EXPECT_LE(off, 0.03 * std::abs(change) + 2e-6)
+              << muscle_name(simulation.person(human)->muscles[m].muscle) << " lengthened by " << change;
+        }
+      }
+    }
+  }
+  return errors;
+}
+
+class LineEnd : public testing::TestWithParam<int> {};
+
+// Drawn by displacement the end is the line's, whatever the method.
+TEST_P(LineEnd, FollowsTheLineExactlyWhereItIsDriven) {
+  for (const Method method : {Method::ecd, Method::statics}) {
+    LegMuscles choice;
+    choice.muscles = muscle_groups() | muscle_members();
+    choice.method = method;
+    for (const EndError& e : end_errors(person(GetParam()), choice)) {
+      EXPECT_GT(e.largest_change_m, 1e-3);
+      EXPECT_LT(e.worst_m, 2e-6);
+    }
+  }
+}
+
+// The paper's force, +k(L − L₀) spread over the face, moves its mean as far as the line went, the rest being statics.
+TEST_P(LineEnd, IsWithinThreePercentOfTheLengtheningUnderThePapersForce) {
+  LegMuscles choice;
+  choice.muscles = muscle_groups() | muscle_members();
+  choice.drive = Drive::force;
+  choice.method = Method::statics;
+  for (const EndError& e : end_errors(person(GetParam()), choice)) EXPECT_GT(e.largest_change_m, 1e-3);
+}
+
+INSTANTIATE_TEST_SUITE_P(People, LineEnd, testing::Values(0, 7, 19, 33));
+
+}  // namespace
+}  // namespace mobil

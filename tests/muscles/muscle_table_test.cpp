@@ -1,0 +1,179 @@
+// The muscles' figures against what was published, and what a plan makes of them for any body.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/muscles/leg_sections.h"
+#include "assets/muscles/muscle_plan.h"
+#include "assets/muscles/muscle_table.h"
+#include "tests/lines/leg_pose.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+using test::degree;
+using test::LegAngles;
+using test::posed;
+
+constexpr std::array groups = {Muscle::hamstrings, Muscle::quadriceps, Muscle::triceps_surae,
+                               Muscle::tibialis_anterior};
+
+Body body_of(float height_m, float mass_kg, Constitution constitution = Constitution::average, float meso = 4) {
+  return make_body({height_m, mass_kg, {3, meso, 3}, constitution}).value();
+}
+const Body reference = body_of(1.80F, 80);
+
+MusclePlan plan_of(const Body& body, Muscle group) {
+  return make_muscle_plan(body, group).value();
+}
+
+TEST(MuscleTable, EveryMemberRunsFromAFixedOriginToAFixedEnd) {
+  std::set<std::string_view> names;
+  std::size_t in_groups = 0;
+  for (const auto group : groups) in_groups += members_of(group).size();
+  EXPECT_EQ(in_groups, member_muscle_count);
+  for (const auto& m : member_muscles()) {
+    names.insert(m.name);
+    EXPECT_EQ(find_member_muscle(m.name), &m);
+    EXPECT_GE(m.path.size() + (m.kneecap != nullptr ? 1 : 0), 2U) << m.name;
+    EXPECT_EQ(m.path.front().hold, PathHold::fixed) << m.name;
+    EXPECT_TRUE(m.kneecap != nullptr || m.path.back().hold == PathHold::fixed) << m.name;
+    for (const PathPoint& p : m.path) {
+      EXPECT_TRUE(p.hold == PathHold::fixed || p.bone == LegBone::thigh || p.bone == LegBone::shank) << m.name;
+    }
+    for (std::size_t i = 1; i < m.path.size(); ++i) EXPECT_GE(m.path[i].bone, m.path[i - 1].bone) << m.name;
+    for (std::size_t i = 1; i < m.sections.size(); ++i) EXPECT_GT(m.sections[i].level, m.sections[i - 1].level);
+  }
+  EXPECT_EQ(names.size(), member_muscle_count);
+  EXPECT_EQ(find_member_muscle("sartorius"), nullptr);
+}
+
+// Handsfield et al. 2014, tabulated by the regression for 80 kg and 1.80 m, cm³.
+TEST(MuscleTable, VolumesAreThePublishedOnes) {
+  const std::map<std::string_view, double> published = {{"semimembranosus", 275.1},
+                                                        {"semitendinosus", 212.7},
+                                                        {"biceps_femoris_long_head", 230.5},
+                                                        {"biceps_femoris_short_head", 115.0},
+                                                        {"rectus_femoris", 303.7},
+                                                        {"vastus_medialis", 491.8},
+                                                        {"vastus_intermedius", 296.3},
+                                                        {"vastus_lateralis", 950.9},
+                                                        {"gastrocnemius_medial", 289.7},
+                                                        {"gastrocnemius_lateral", 168.5},
+                                                        {"soleus", 486.5},
+                                                        {"tibialis_anterior", 149.9}};
+  for (const auto& m : member_muscles()) {
+    if (m.name == "plantaris") continue;  // not among them
+    EXPECT_NEAR(handsfield_volume_cm3(m, 1.80, 80), published.at(m.name), 0.1) << m.name;
+  }
+  for (const auto group : groups) {
+    double sum = 0, weights = 0;
+    for (const auto& m : members_of(group)) {
+      sum += handsfield_volume_cm3(m, 1.80, 80);
+      weights += member_weight(members_of(group), m);
+    }
+    EXPECT_NEAR(1e6 * plan_of(reference, group).volume_m3 / sum, 1, 0.15) << muscle_name(group);
+    EXPECT_NEAR(weights, 1, 1e-12);
+  }
+}
+
+RC_GTEST_PROP(MusclePlan, VolumeGrowsWithHeightAndWithMass, ()) {
+  const auto height = static_cast<float>(*rc::gen::inRange(1200, 2190)) / 1000;
+  const float mass = living_mass(height + 0.01F, *rc::gen::inRange(0, 951) / 1000.0);
+  for (const auto group : groups) {
+    const double volume = plan_of(body_of(height, mass), group).volume_m3;
+    RC_ASSERT(volume > 0);
+    RC_ASSERT(plan_of(body_of(height + 0.01F, mass), group).volume_m3 > volume);
+    RC_ASSERT(plan_of(body_of(height, mass + 1), group).volume_m3 > volume);
+  }
+}
+
+TEST(MusclePlan, SectionGrowsWithPhysique) {
+  for (const auto group : groups) {
+    const auto section = [group](Constitution c, float meso) {
+      return plan_of(body_of(1.8F, 80, c, meso), group).section_m2;
+    };
+    const double average = section(Constitution::average, 4);
+    EXPECT_LT(section(Constitution::thin, 4), average);
+    EXPECT_LT(average, section(Constitution::heavy, 4));
+    EXPECT_LT(section(Constitution::heavy, 4), section(Constitution::athletic, 4));
+    EXPECT_LT(section(Constitution::average, 3), average);
+    EXPECT_LT(average, section(Constitution::average, 6));
+  }
+}
+
+RC_GTEST_PROP(MusclePlan, ATallerBodyHasTheSameLegsLonger, ()) {
+  const auto height = static_cast<float>(*rc::gen::inRange(1200, 2200)) / 1000;
+  const float mass = living_mass(height, *rc::gen::inRange(0, 1001) / 1000.0);
+  const double by = static_cast<double>(height) / 1.80;
+  for (const auto group : groups) {
+    const MusclePlan own = plan_of(body_of(height, mass), group), other = plan_of(reference, group);
+    RC_ASSERT(std::abs(own.rest_length_m / (by * other.rest_length_m) - 1) < 1e-6);
+    RC_ASSERT(std::abs(own.belly_length_m / (by * other.belly_length_m) - 1) < 1e-6);
+    RC_ASSERT(std::abs(static_cast<double>(own.scale.along) / by - 1) < 1e-6);
+    // The template scaled has the plan's size.
+    const double s = static_cast<double>(own.scale.across);
+    RC_ASSERT(std::abs(s * s * other.section_m2 / own.section_m2 - 1) < 1e-5);
+  }
+}
+
+TEST(MusclePlan, BelliesLieWhereTheAnatomyHasThem) {
+  const std::map<Muscle, std::pair<double, double>> span = {{Muscle::hamstrings, {0.26, 0.30}},
+                                                            {Muscle::quadriceps, {0.28, 0.33}},
+                                                            {Muscle::triceps_surae, {0.22, 0.28}},
+                                                            {Muscle::tibialis_anterior, {0.22, 0.30}}};
+  const LegFrames<double> leg = anatomical_leg(reference);
+  for (const auto group : groups) {
+    const MusclePlan plan = plan_of(reference, group);
+    EXPECT_GE(plan.belly_length_m, span.at(group).first);
+    EXPECT_LE(plan.belly_length_m, span.at(group).second);
+    EXPECT_NEAR(plan.belly_length_m, reference_belly_m(group), 1e-7);
+    EXPECT_GT(plan.tendon_length_m, 0);
+    EXPECT_EQ(plan.scale.across, 1);
+    EXPECT_NEAR(plan.section_m2 * plan.belly_length_m, plan.volume_m3, 1e-12);
+    const Vec z = rotated(plan.rotation, {0, 0, 1}), y = rotated(plan.rotation, {0, 1, 0});
+    EXPECT_LT(z.y, -0.95);
+    EXPECT_GT(y.z, 0.95);
+    // Behind the thigh, in front of it, behind the shank; from the middle of the cage.
+    const CageStation& middle = muscle_cage(group)[cage_station_count / 2];
+    const Vec centre =
+        plan.start_m + rotated(plan.rotation, {static_cast<double>(middle.offset_x_m),
+                                               static_cast<double>(middle.offset_y_m), plan.belly_length_m / 2});
+    const bool on_shank = group == Muscle::triceps_surae || group == Muscle::tibialis_anterior;
+    const double upper = on_shank ? leg.knee_m.y : leg.hip_m.y;
+    const double lower = on_shank ? leg.ankle_m.y : leg.knee_m.y;
+    EXPECT_LT(centre.y, upper);
+    EXPECT_GT(centre.y, lower);
+    if (group == Muscle::quadriceps || group == Muscle::tibialis_anterior) {
+      EXPECT_GT(centre.z, 0.01);
+    } else {
+      EXPECT_LT(centre.z, -0.01);
+    }
+    EXPECT_LT(centre.x, 0);  // the right leg
+  }
+}
+
+TEST(MusclePlan, StiffnessIsThePapersThirdEquation) {
+  const Material material;
+  EXPECT_DOUBLE_EQ(bar_stiffness(material, 0.003, 0.4), material.young_pa * 0.003 / 0.4);
+}
+
+TEST(MusclePlan, ABodyThatWasNeverMadeIsRefused) {
+  const auto plan = make_muscle_plan(Body{}, Muscle::quadriceps);
+  ASSERT_FALSE(plan);
+  EXPECT_NE(plan.error().message.find("must be positive"), std::string::npos);
+  EXPECT_FALSE(make_muscle_plan(reference, static_cast<Muscle>(99)));
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,400 @@
+// How walks are held against measured ones: the judging functions on made-up curves, the tables, the plots, the
+// command.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "demo/compare/compare_judge.h"
+#include "demo/compare/compare_reference.h"
+#include "demo/compare/compare_verdicts.h"
+#include "demo/compare/compare_walk.h"
+#include "demo/pictures/svg_plot.h"
+#include "tests/program/program.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+double between(double low, double high) {
+  return low + (high - low) * *rc::gen::inRange(0, 10001) / 10000.0;
+}
+
+/// Smooth, periodic, of random amplitudes and phases.
+CycleCurve random_curve(double amplitude = 30) {
+  const double a = between(0.2, 1) * amplitude, b = between(-0.4, 0.4) * amplitude, mean = between(-20, 20);
+  const double phase_a = between(0, 6.28), phase_b = between(0, 6.28);
+  CycleCurve curve{};
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    const double t = 2 * std::numbers::pi * static_cast<double>(i) / (cycle_points - 1);
+    curve[i] = mean + a * std::cos(t - phase_a) + b * std::cos(2 * t - phase_b);
+  }
+  return curve;
+}
+
+CycleCurve mapped(const CycleCurve& curve, double scale, double shift) {
+  CycleCurve out = curve;
+  for (double& v : out) v = scale * v + shift;
+  return out;
+}
+
+MeasuredCurve with_sd(const CycleCurve& mean, double sd) {
+  MeasuredCurve curve{mean, {}};
+  curve.sd.fill(sd);
+  return curve;
+}
+
+RC_GTEST_PROP(Judge, AShiftedCurveIsInsideAsLongAsTheShiftIsWithinTheDeviation, ()) {
+  const double sd = between(1, 10), shift = between(-20, 20);
+  RC_PRE(std::abs(std::abs(shift) - sd) > 1e-6);
+  const auto measured = with_sd(random_curve(), sd);
+  const auto ours = mapped(measured.mean, 1, shift);
+  const CurvePair pair{&ours, &measured};
+  RC_ASSERT(inside_bands({&pair, 1}) == (std::abs(shift) <= sd ? 1.0 : 0.0));
+  RC_ASSERT(std::abs(rms_distance(ours, measured.mean) - std::abs(shift)) < 1e-9);
+}
+
+RC_GTEST_PROP(Judge, TheShareInsideIsCountedPointByPoint, ()) {
+  const auto measured = with_sd(random_curve(), between(1, 10));
+  auto ours = measured.mean;
+  const auto out = *rc::gen::inRange<std::size_t>(0, 51);
+  for (std::size_t i = 0; i < out; ++i) ours[(7 * i) % 50] += 2 * measured.sd[0];
+  const CurvePair pair{&ours, &measured};
+  RC_ASSERT(std::abs(inside_bands({&pair, 1}) - (1 - static_cast<double>(out) / 50)) < 1e-12);
+}
+
+RC_GTEST_PROP(Judge, TwoSetsForgiveNoLessThanEachAloneAndNoMoreThanBoth, ()) {
+  const auto first = with_sd(random_curve(), between(1, 15)), second = with_sd(random_curve(), between(1, 15));
+  const auto ours = random_curve(), other = mapped(ours, 1, between(-10, 10));  // each in its own convention
+  const CurvePair pairs[] = {{&ours, &first}, {&other, &second}};
+  const double a = inside_bands({&pairs[0], 1}), b = inside_bands({&pairs[1], 1}), both = inside_bands(pairs);
+  RC_ASSERT(both >= std::max(a, b) && both <= a + b + 1e-12);
+  const double nearer = std::min(rms_distance(ours, first.mean), rms_distance(other, second.mean));
+  RC_ASSERT(rms_to_nearer_mean(pairs) <= nearer + 1e-12);
+  RC_ASSERT(std::abs(rms_to_nearer_mean({&pairs[0], 1}) - rms_distance(ours, first.mean)) < 1e-12);
+}
+
+RC_GTEST_PROP(Judge, CorrelationKnowsNeitherScaleNorShift, ()) {
+  const auto a = random_curve(), b = random_curve();
+  const double r = correlation(a, b), scale = between(0.1, 5), shift = between(-50, 50);
+  RC_ASSERT(r >= -1 - 1e-12 && r <= 1 + 1e-12);
+  RC_ASSERT(std::abs(correlation(mapped(a, scale, shift), b) - r) < 1e-9);
+  RC_ASSERT(std::abs(correlation(mapped(a, -scale, shift), b) + r) < 1e-9);
+  RC_ASSERT(std::abs(correlation(a, a) - 1) < 1e-12);
+  CycleCurve flat{};
+  RC_ASSERT(correlation(flat, a) == 0);
+}
+
+RC_GTEST_PROP(Judge, APeakIsFoundBetweenTheSamples, ()) {
+  const double at = between(10, 90), height = between(5, 60), width = between(8, 20);
+  const bool maximum = *rc::gen::arbitrary<bool>();
+  CycleCurve curve{};
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    const double off = std::remainder(2.0 * static_cast<double>(i) - at, 100) / width;
+    curve[i] = (maximum ? 1 : -1) * height * std::exp(-off * off);
+  }
+  const Peak peak = find_peak(curve, {"", maximum, static_cast<int>(at) - 8, static_cast<int>(at) + 8});
+  RC_ASSERT(peak.interior);
+  RC_ASSERT(std::abs(peak.percent - at) < 0.1);
+  RC_ASSERT(std::abs(std::abs(peak.value) - height) < 0.002 * height);
+}
+
+RC_GTEST_PROP(Judge, APeakInTheNextCycleIsTheSamePeak, ()) {
+  const auto curve = random_curve();
+  const int from = *rc::gen::inRange(5, 60), to = from + *rc::gen::inRange(4, 30);
+  const Peak here = find_peak(curve, {"", true, from, to});
+  const Peak next = find_peak(curve, {"", true, from + 100, to + 100});
+  RC_ASSERT(std::abs(next.percent - here.percent - 100) < 1e-9);
+  RC_ASSERT(std::abs(timing_error(next.percent, here.percent)) < 1e-9);
+  RC_ASSERT(next.value == here.value);
+}
+
+TEST(Judge, ASlopeThatRunsOutOfTheWindowIsNoPeak) {
+  CycleCurve slope{};
+  for (std::size_t i = 0; i < cycle_points; ++i) slope[i] = static_cast<double>(i);
+  const Peak peak = find_peak(slope, {"", true, 20, 40});
+  EXPECT_FALSE(peak.interior);
+  EXPECT_EQ(peak.percent, 40);
+}
+
+RC_GTEST_PROP(Judge, TimingGoesTheShorterWayRound, ()) {
+  const double a = between(0, 100), b = between(0, 100);
+  const double error = timing_error(a, b);
+  RC_ASSERT(std::abs(error) <= 50);
+  RC_ASSERT(std::abs(std::remainder(b + error - a, 100)) < 1e-9);
+}
+
+RC_GTEST_PROP(Judge, BetweenTheReferencesNothingIsOff, ()) {
+  const double low = between(1, 50), high = low + between(0.1, 50), ours = between(0.5, 120);
+  const double references[] = {high, low}, negative[] = {-high, -low};
+  const double errors[] = {ours - low, ours - high};
+  const double ratio = ratio_to_range(ours, references);
+  RC_ASSERT(ratio_to_range(-ours, negative) == ratio);
+  if (ours >= low && ours <= high) {
+    RC_ASSERT(ratio == 1 && outside_range(errors) == 0);
+  } else {
+    const double nearest = ours < low ? low : high;
+    RC_ASSERT(std::abs(ratio - ours / nearest) < 1e-12);
+    RC_ASSERT(std::abs(outside_range(errors) - (ours - nearest)) < 1e-12);
+  }
+}
+
+RC_GTEST_PROP(Judge, SamplingReadsALineOffUnevenRows, ()) {
+  std::vector<double> phase = {-0.05};
+  while (phase.back() < 1.02) phase.push_back(phase.back() + between(0.001, 0.03));
+  const double slope = between(-50, 50), start = between(-50, 50);
+  std::vector<double> value;
+  for (const double p : phase) value.push_back(start + slope * p);
+  const auto curve = sample_cycle(phase, value);
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    RC_ASSERT(std::abs(curve[i] - (start + slope * static_cast<double>(i) / 50)) < 1e-9);
+  }
+}
+
+GaitReference built_in() {
+  auto reference = read_gait_reference(std::nullopt);
+  if (!reference) throw std::runtime_error(reference.error().message);
+  return *reference;
+}
+
+/// Someone who walks exactly as the mean of a set's class, and whose feet bear his weight.
+Comparison mean_walker(const GaitReference& reference, std::size_t speed_class) {
+  WalkedStride stride{};
+  const auto& curve = reference.sets[0].curve[speed_class];
+  const auto mean = [&](GaitQuantity q) { return curve[index(q)].mean; };
+  stride.hip_from_pelvis = stride.hip_from_vertical = mean(GaitQuantity::hip);
+  stride.knee = mean(GaitQuantity::knee);
+  stride.ankle = mean(GaitQuantity::ankle);
+  stride.forces = {mean(GaitQuantity::vertical),    mean(GaitQuantity::fore_aft),     mean(GaitQuantity::hip_moment),
+                   mean(GaitQuantity::knee_moment), mean(GaitQuantity::ankle_moment), 1.0};
+  stride.double_support_cycle = 0.1;
+  stride.com_lowest_percent = 4;
+  stride.com_highest_percent = 29;
+  const double speed = reference.sets[0].speed_m_s(speed_class, 0.9);
+  stride.com_highest_m = excursion_at(reference, speed).mean_m;
+  return {{}, reference, {{0, speed_class, speed, stride}}, {}, {}, {}, {}};
+}
+
+std::vector<std::string> failed(const Comparison& comparison) {
+  std::vector<std::string> names;
+  for (const auto& verdict : judge(comparison)) {
+    if (verdict.what.find("m/s") != std::string::npos && !verdict.held.value_or(false)) names.push_back(verdict.what);
+  }
+  return names;
+}
+
+TEST(Verdicts, WhoWalksAsTheMeanKeepsEveryBound) {
+  const auto reference = built_in();
+  for (std::size_t c = 0; c < speed_class_count; ++c) {
+    EXPECT_EQ(failed(mean_walker(reference, c)), std::vector<std::string>());
+  }
+}
+
+TEST(Verdicts, EachFaultBreaksItsOwnBound) {
+  const auto reference = built_in();
+  const auto broken = [&](auto fault) {
+    auto comparison = mean_walker(reference, 1);
+    fault(comparison.walks[0].stride);
+    std::string all;
+    for (const auto& name : failed(comparison)) all += name.substr(name.find(": ") + 2) + "; ";
+    return all;
+  };
+  EXPECT_EQ(broken([](WalkedStride& s) { s.knee = mapped(s.knee, 1, 5.5); }), "knee rms from the nearer mean; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { std::rotate(s.ankle.begin(), s.ankle.begin() + 2, s.ankle.end() - 1); }),
+            "ankle rms from the nearer mean; ankle peaks off in time; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { s.forces->mean_weights = 1.011; }), "mean vertical force of both feet; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { s.forces->vertical = mapped(s.forces->vertical, 1.12, 0); }),
+            "humps off in size, share; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { s.forces->hip_moment = mapped(s.forces->hip_moment, -1, 0); }),
+            "hip_moment, correlation; hip_moment, peaks off in size, share; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { s.com_highest_percent = 12; }), "centre of mass highest; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { s.com_lowest_percent = 25; }), "centre of mass lowest; ");
+  EXPECT_EQ(broken([](WalkedStride& s) { s.forces.reset(); }), "ground reaction; joint moments; ");
+}
+
+TEST(Verdicts, OneHumpIsNotTwo) {
+  auto comparison = mean_walker(built_in(), 1);
+  auto& vertical = comparison.walks[0].stride.forces->vertical;
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    vertical[i] = i < 30 ? std::sin(std::numbers::pi * static_cast<double>(i) / 30) : 0;
+  }
+  const auto names = failed(comparison);
+  EXPECT_TRUE(std::ranges::any_of(names, [](const auto& n) { return n.find("humps of the") != std::string::npos; }));
+}
+
+TEST(Reference, StepsAreReadBetweenTheNormsAndNotBeyond) {
+  const auto reference = built_in();
+  ASSERT_EQ(reference.steps.size(), 3U);
+  for (const auto& band : reference.steps) {
+    ASSERT_GE(band.norm.size(), 3U) << band.name;
+    EXPECT_FALSE(band.at(band.norm.front().speed - 1e-6));
+    EXPECT_FALSE(band.at(band.norm.back().speed + 1e-6));
+    for (std::size_t i = 0; i < band.norm.size(); ++i) {
+      const auto& norm = band.norm[i];
+      EXPECT_NEAR(band.at(norm.speed)->length, norm.length, 1e-12);
+      // measured on their own, but the speed is their product
+      EXPECT_NEAR(norm.length * norm.cadence / norm.speed, 1, 0.03) << band.name << " " << norm.speed;
+      EXPECT_EQ(outside_step_bands(reference, norm, false), 0.0);
+      EXPECT_EQ(outside_step_bands(reference, norm, true), 0.0);
+    }
+  }
+}
+
+TEST(Reference, SpeedFollowsTheLegWhereItIsDimensionless) {
+  const auto set = built_in().sets[0];
+  EXPECT_NEAR(set.speed_m_s(1, 0.9), 0.4294 * std::sqrt(9.81 * 0.9), 1e-9);
+  EXPECT_NEAR(set.speed_m_s(2, 1.2) / set.speed_m_s(2, 0.3), 2, 1e-9);
+}
+
+TEST(Reference, AFolderIsReadWholeOrRefused) {
+  const TemporaryFolder folder;
+  const auto complaint = [&] { return read_gait_reference(folder.path).error().message; };
+  EXPECT_NE(complaint().find("holds none of the tables"), std::string::npos);
+  EXPECT_NE(read_gait_reference(folder.path / "absent").error().message.find("no such folder"), std::string::npos);
+  const fs::path built = fs::path(MOBIL_SOURCE_DIR) / "assets/reference/schwartz2008_grf.csv";
+  std::string text = read_bytes(built);
+  std::ofstream(folder.path / "schwartz2008_grf.csv") << text;
+  const auto replaced = read_gait_reference(folder.path);
+  ASSERT_TRUE(replaced) << replaced.error().message;
+  EXPECT_EQ(replaced->sets.size(), 1U);
+  EXPECT_FALSE(replaced->note.empty());
+  text.replace(text.find("0.012"), 5, "soft!");
+  std::ofstream(folder.path / "schwartz2008_grf.csv") << text;
+  EXPECT_NE(complaint().find("schwartz2008_grf.csv:2: vertical_BW 'soft!' is not a number"), std::string::npos);
+  std::ofstream(folder.path / "schwartz2008_grf.csv") << text.substr(0, text.find("slow,8,"));
+  EXPECT_NE(complaint().find("needs the 51 rows"), std::string::npos);
+}
+
+TEST(Reference, ASecondSetInTheSameFormatJoinsTheBands) {
+  const TemporaryFolder folder;
+  const auto first = built_in();
+  const auto write = [&](const char* file, const std::string& header, std::initializer_list<GaitQuantity> quantities) {
+    std::ofstream out(folder.path / file);
+    out << "cadence_class,percent_gait" << header << '\n';
+    const char* names[] = {"slow", "natural", "fast"};
+    for (std::size_t c = 0; c < speed_class_count; ++c) {
+      for (std::size_t i = 0; i < cycle_points; ++i) {
+        out << names[c] << ',' << 2 * i;
+        for (const auto q : quantities) out << ',' << first.sets[0].curve[c][index(q)].mean[i] << ",1";
+        out << '\n';
+      }
+    }
+  };
+  using enum GaitQuantity;
+  write("winter_joint_angles.csv", ",hip_flexion_deg,hip_sd,knee_flexion_deg,knee_sd,ankle_dorsiflexion_deg,ankle_sd",
+        {hip, knee, ankle});
+  write("winter_grf.csv", ",vertical_BW,vertical_sd,foreaft_BW,foreaft_sd", {vertical, fore_aft});
+  EXPECT_FALSE(read_gait_reference(folder.path)) << "speeds and moments are missing";
+  write("winter_joint_moments.csv",
+        ",hip_extensor_Nm_kg,hip_sd,knee_extensor_Nm_kg,knee_sd,ankle_plantarflexor_Nm_kg,ankle_sd",
+        {hip_moment, knee_moment, ankle_moment});
+  std::ofstream(folder.path / "com_vertical_excursion_computed.csv")
+      << "source,speed_m_s\nwinter_slow,1\nwinter_natural,1.3\nwinter_fast,1.7\n";
+  const auto both = read_gait_reference(folder.path);
+  ASSERT_TRUE(both) << both.error().message;
+  ASSERT_EQ(both->sets.size(), 2U);
+  EXPECT_TRUE(both->note.empty());
+  EXPECT_TRUE(both->sets[1].hip_from_vertical);
+  EXPECT_EQ(both->sets[1].speed_m_s(1, 0.5), 1.3);
+  EXPECT_NEAR(both->sets[1].curve[2][index(knee)].mean[20], first.sets[0].curve[2][index(knee)].mean[20], 1e-4);
+}
+
+RC_GTEST_PROP(Plot, TicksAreRoundAndWithinTheRange, ()) {
+  const double low = between(-1000, 1000), high = low + std::pow(10, between(-3, 4));
+  const auto ticks = plot_ticks(low, high, false);
+  RC_ASSERT(ticks.size() >= 2U && ticks.size() <= 11U);
+  const double spacing = ticks[1] - ticks[0], decade = std::pow(10, std::floor(std::log10(spacing * 1.0001)));
+  const double lead = std::round(spacing / decade), step = lead * decade;
+  RC_ASSERT(lead == 1 || lead == 2 || lead == 5);
+  RC_ASSERT(std::abs(spacing - step) < 1e-3 * step);
+  for (const double tick : ticks) {
+    RC_ASSERT(tick >= low - 1e-6 * step && tick <= high + 1e-6 * step);
+    RC_ASSERT(std::abs(std::remainder(tick, step)) < 1e-6 * step);
+  }
+}
+
+TEST(Plot, LogarithmicTicksArePowersOfTenOnAWideAxis) {
+  EXPECT_EQ(plot_ticks(0.5, 2e5, true), (std::vector<double>{1, 10, 100, 1000, 1e4, 1e5}));
+  EXPECT_EQ(plot_ticks(1, 20, true), (std::vector<double>{1, 2, 5, 10, 20}));
+  EXPECT_TRUE(plot_ticks(-1, 20, true).empty());
+}
+
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t n = 0;
+  for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(Plot, WhatCannotBeShownBreaksTheLineAndNothingElse) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  PlotPanel panel{"<&>", {"cost \"µs\"", {}, {}, true}, {"error", {}, {}, true}, {}, {}, {}, false};
+  panel.lines.push_back({{1, 10, 100, 1000, 1e4}, {1, 0.1, nan, 0.01, 0.02}, "#000", "ours", 1, false});
+  panel.bands.push_back({{1, 10, 100}, {0.5, -1, 0.2}, {2, 2, infinite}, "#00f", "band", 0.2});
+  panel.points.push_back({{1, 0, 10}, {1, 1, -1}, {0.5, 0.5, 0.5}, {"a<b", "no", "no"}, "#f00", "points"});
+  const std::string text = svg({"title", "", 1, {panel}, false});
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+  EXPECT_EQ(text.find("inf"), std::string::npos);
+  EXPECT_EQ(count(text, "<circle"), 2U) << "one point and its legend";
+  EXPECT_NE(text.find("a&lt;b"), std::string::npos);
+  EXPECT_NE(text.find("&lt;&amp;&gt;"), std::string::npos);
+  const auto path = text.substr(text.find("fill=\"none\"") - 60, 60);
+  EXPECT_EQ(count(path, "M"), 2U) << path;
+}
+
+TEST(Plot, EveryPanelIsDrawnAndAFigureOfNothingIsStillAPicture) {
+  for (const std::size_t panels : {std::size_t{0}, std::size_t{1}, std::size_t{5}}) {
+    PlotFigure figure{"title", "note", 2, std::vector<PlotPanel>(panels), true};
+    const std::string text = svg(figure);
+    EXPECT_EQ(count(text, "<clipPath"), panels);
+    EXPECT_EQ(count(text, "<g"), count(text, "</g>"));
+    EXPECT_EQ(count(text, "<svg"), 1U);
+    EXPECT_EQ(count(text, "</svg>"), 1U);
+    EXPECT_EQ(text.find("nan"), std::string::npos);
+  }
+}
+
+TEST(Command, WritesNumbersAndPlotsAndSaysWhatDoesNotHold) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("compare --height 1.80 --mass 70 --out out", folder.path);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  const Json json = Json::parse(read_bytes(folder.path / "out/compare.json"));
+  ASSERT_EQ(json.at("walks").size(), 3U);
+  for (const auto& walk : json.at("walks")) {
+    const auto& knee = walk.at("quantities").at("knee");
+    EXPECT_EQ(knee.at("ours").size(), cycle_points);
+    EXPECT_GT(knee.at("correlation").at("Schwartz").get<double>(), 0.8) << "it is a knee that walks";
+    EXPECT_LE(knee.at("rms_nearer_point").get<double>(), knee.at("rms_nearer_set").get<double>() + 1e-9);
+  }
+  const auto open = json.at("not_held").get<int>() + json.at("not_simulated").get<int>();
+  EXPECT_EQ(json.at("held").get<int>() + open, static_cast<int>(json.at("bounds").size()));
+  EXPECT_NE(ran.out.find("of " + std::to_string(json.at("bounds").size()) + " bounds hold"), std::string::npos);
+  for (const char* plot : {"angles", "ground_reaction", "moments", "steps", "centre_of_mass"}) {
+    const std::string text = read_bytes(folder.path / "out" / (std::string(plot) + ".svg"));
+    EXPECT_EQ(text.substr(0, 4), "<svg") << plot;
+    EXPECT_EQ(text.find("nan"), std::string::npos) << plot;
+  }
+  EXPECT_EQ(run_mobil("compare --height 1.80 --mass 70 --check --out again", folder.path).status, open > 0 ? 1 : 0);
+  EXPECT_EQ(read_bytes(folder.path / "again/compare.json"), read_bytes(folder.path / "out/compare.json"));
+}
+
+TEST(Command, RefusesInOneLineAndLeavesNothing) {
+  for (const char* arguments : {"--height 3", "--reference absent", "--set no_such=1", "--mass heavy"}) {
+    const TemporaryFolder folder;
+    const Ran ran = run_mobil(std::string("compare ") + arguments, folder.path);
+    EXPECT_EQ(ran.status, 2) << arguments;
+    EXPECT_EQ(std::ranges::count(ran.err, '\n'), 1) << ran.err;
+    EXPECT_TRUE(fs::is_empty(folder.path)) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,231 @@
+// `mobil crowd`: what it refuses, what its report says and that the figures agree, and that a crowd depends on its seed
+// alone.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "demo/crowd/crowd_people.h"
+#include "demo/crowd/crowd_run.h"
+#include "demo/crowd/crowd_scene.h"
+#include "demo/crowd/heap_count.h"
+#include "tests/program/program.h"
+
+namespace mobil {
+namespace {
+
+using Json = nlohmann::json;
+
+/// The report of a crowd that is asked for so.
+Json report_of(const std::string& arguments) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("crowd --report crowd.json " + arguments, folder.path);
+  EXPECT_EQ(ran.status, 0) << arguments << ": " << ran.err;
+  EXPECT_EQ(ran.err, "") << arguments;
+  return Json::parse(read_bytes(folder.path / "crowd.json"), nullptr, false);
+}
+
+// Nobody's muscles need more than their lines: no bases have to be made first.
+const std::string lines_alone = "--tolerance 100mm --near 0 ";
+
+TEST(CrowdCommand, HelpTellsEveryOptionAndExamples) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("crowd --help", folder.path);
+  EXPECT_EQ(ran.status, 0);
+  for (const char* option :
+       {"--humans", "--seconds", "--threads", "--tolerance", "--near", "--budget", "--effects", "--churn", "--burst",
+        "--seed", "--capture", "--frames", "--report", "--raise", "--all-seen", "--near-tolerance", "Examples:"}) {
+    EXPECT_NE(ran.out.find(option), std::string::npos) << option;
+  }
+}
+
+TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
+  const TemporaryFolder folder;
+  expect_refused("crowd",
+                 {{"--humans 0", {"--humans 0", "1 to 200000"}},
+                  {"--humans many", {"--humans many", "1 to 200000"}},
+                  {"--seconds 0", {"--seconds", "0.1 to 3600 s"}},
+                  {"--seconds 5km/h", {"--seconds", "unknown unit"}},
+                  {"--threads 257", {"--threads 257", "0 to 256"}},
+                  {"--seed -1", {"--seed"}},
+                  {"--churn -3", {"--churn", "0 to 100000"}},
+                  {"--humans 10 --burst 11", {"--burst 11", "0 to 10"}},
+                  {"--tolerance 2m", {"--tolerance", "1e-05 to 1 m"}},
+                  {"--near-tolerance 0", {"--near-tolerance"}},
+                  {"--near x", {"--near x"}},
+                  {"--budget 0", {"--budget"}},
+                  {"--budget 1 --effects none", {"--budget", "add muscles"}},
+                  {"--effects wings", {"'wings'", "muscles, forces, inertia, line-motion"}},
+                  {"--effects inertia", {"add muscles"}},
+                  {"--effects ''", {"--effects", "empty"}},
+                  {"--report missing/crowd.json", {"--report", "no folder missing"}},
+                  {"--capture crowd.jpg", {"--capture", ".png"}},
+                  {"--frames 3", {"--frames", "--capture"}},
+                  {"--raise --capture crowd.png", {"--raise"}},
+                  {"--human 3", {"there is no option --human", "--humans"}}},
+                 folder.path);
+}
+
+TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
+  const Json report =
+      report_of("--humans 40 --seconds 2.5 --threads 2 --seed 7 --effects muscles,forces " + lines_alone);
+  ASSERT_TRUE(report.is_object());
+  for (const char* key : {"humans",
+                          "muscles_by_method",
+                          "ticks",
+                          "missed_ticks",
+                          "tick_ms_p50",
+                          "tick_ms_p99",
+                          "tick_ms_max",
+                          "tick_cpu_ms_p50",
+                          "tick_cpu_ms_p99",
+                          "system_ms",
+                          "host_ms",
+                          "relevance_ms",
+                          "bytes_per_human",
+                          "far_bytes_per_human",
+                          "peak_bytes",
+                          "steady_allocations",
+                          "steady_ticks",
+                          "spawns",
+                          "despawns",
+                          "state_hash",
+                          "threads",
+                          "machine",
+                          "seed",
+                          "options"}) {
+    EXPECT_TRUE(report.contains(key)) << key;
+  }
+  EXPECT_EQ(report["humans"], 40);
+  EXPECT_EQ(report["seed"], 7);
+  EXPECT_EQ(report["ticks"], 150);
+  EXPECT_EQ(report["state_hash"].size(), 2U);
+  EXPECT_NE(report["state_hash"][0], report["state_hash"][1]);
+  EXPECT_LE(report["missed_ticks"], report["ticks"]);
+  EXPECT_LE(report["steady_ticks"], report["ticks"]);
+  EXPECT_LE(report["tick_ms_p50"], report["tick_ms_p99"]);
+  EXPECT_LE(report["tick_ms_p99"], report["tick_ms_max"]);
+  EXPECT_GT(report["tick_ms_p50"], 0);
+  EXPECT_GT(report["tick_cpu_ms_p50"], 0);
+  EXPECT_GT(report["system_ms"]["kinematics"], 0);
+  EXPECT_GT(report["system_ms"]["forces"], 0);
+  EXPECT_GT(report["far_bytes_per_human"], 1000);
+  EXPECT_GT(report["peak_bytes"], 1e6);
+  EXPECT_EQ(report["options"]["effects"], Json({"muscles", "forces"}));
+  std::size_t muscles = 0;
+  for (const auto& [method, count] : report["muscles_by_method"].items()) muscles += count.get<std::size_t>();
+  EXPECT_EQ(muscles, 40U * 8U);
+  if (heap_is_counted()) {
+    EXPECT_EQ(report["steady_allocations"], 0);
+  }
+}
+
+TEST(CrowdCommand, MusclesFollowTheSeedAloneOnOneThreadAndOnTwo) {
+  const std::string asked = "--humans 24 --near 6 --near-tolerance 4mm --tolerance 8mm --seconds 2 --churn 6 ";
+  const Json one = report_of(asked + "--threads 1"), two = report_of(asked + "--threads 2");
+  EXPECT_EQ(one["state_hash"].size(), 2U);
+  EXPECT_EQ(one["state_hash"], two["state_hash"]);
+  EXPECT_EQ(one["muscles_by_method"], two["muscles_by_method"]);
+  EXPECT_FALSE(one["muscles_by_method"].contains("none")) << one["muscles_by_method"];
+}
+
+TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
+  const std::string asked = "--humans 20 --seconds 1 --effects none ";
+  const Json first = report_of(asked + "--seed 1"), again = report_of(asked + "--seed 1"),
+             other = report_of(asked + "--seed 2");
+  EXPECT_EQ(first["state_hash"], again["state_hash"]);
+  EXPECT_NE(first["state_hash"], other["state_hash"]);
+}
+
+TEST(CrowdCommand, AsManyComeAsLeave) {
+  const Json report = report_of("--humans 30 --seconds 4 --churn 12 --burst 5 " + lines_alone);
+  EXPECT_EQ(report["humans"], 30);
+  EXPECT_EQ(report["spawns"], report["despawns"]);
+  EXPECT_EQ(report["spawns"], 4 * (12 + 5));
+  EXPECT_LT(report["steady_ticks"], report["ticks"]);
+}
+
+TEST(CrowdScene, IsRaisedUntilTicksAreMissedOrThereCanBeNoMore) {
+  constexpr std::size_t most = 50;
+  CrowdRequest request;
+  request.humans = 8;
+  request.effects.muscles = false;
+  auto scene = CrowdScene::make(request);
+  ASSERT_TRUE(scene) << scene.error().message;
+  std::size_t told = 0;
+  const auto limit = raise_crowd(**scene, 3, most, [&](const CrowdLimit::Tried&) { ++told; }, {});
+  ASSERT_TRUE(limit) << limit.error().message;
+  EXPECT_EQ(told, limit->tried.size());
+  EXPECT_EQ(limit->tried.front().humans, 8U);
+  if (limit->missed_with == 0) {
+    EXPECT_EQ(limit->humans, most);
+    EXPECT_EQ((*scene)->walkers().size(), most);
+  } else {
+    EXPECT_LT(limit->humans, limit->missed_with);
+  }
+}
+
+TEST(CrowdScene, NobodyStaysFarOutsideOfTheSquare) {
+  CrowdRequest request;
+  request.humans = 60;
+  request.effects.muscles = false;
+  auto made = CrowdScene::make(request);
+  ASSERT_TRUE(made) << made.error().message;
+  CrowdScene& scene = **made;
+  float farthest_m = 0;
+  for (int tick = 0; tick < 60 * 60; ++tick) {
+    ASSERT_TRUE(scene.decide());
+    scene.tick();
+    for (const CrowdWalker& walker : scene.walkers()) {
+      farthest_m = std::max({farthest_m, std::abs(walker.x_m), std::abs(walker.z_m)});
+    }
+  }
+  const double half_m = 0.5 * scene.side_m();
+  EXPECT_GT(farthest_m, half_m);       // they do come there,
+  EXPECT_LT(farthest_m, half_m + 15);  // and turn within the steps that a turn takes
+}
+
+TEST(CrowdPeople, NumberAndSeedAloneMakeAPersonAndWhatTheyDo) {
+  std::set<float> heights;
+  for (std::uint64_t number = 0; number < 1000; ++number) {
+    const CrowdPerson person = crowd_person(3, number, 0), same = crowd_person(3, number, 0);
+    EXPECT_EQ(person.body.height_m, same.body.height_m);
+    EXPECT_EQ(person.gait.speed_m_s, same.gait.speed_m_s);
+    heights.insert(person.body.height_m);
+    const CrowdPlace place = crowd_place(3, number);
+    EXPECT_LE(std::max(std::abs(place.across), std::abs(place.along)), 0.5F);
+  }
+  EXPECT_GT(heights.size(), 990U);
+}
+
+TEST(CrowdPeople, ChangesComeAFewTimesAMinuteAndWhoStopsGoesOn) {
+  double seconds = 0;
+  std::size_t changes = 0, stops = 0;
+  for (std::uint64_t number = 0; number < 200; ++number) {
+    bool stopped = false;
+    for (std::uint32_t k = 0; k < 50; ++k) {
+      const CrowdChange change = crowd_change(1, number, k, stopped);
+      EXPECT_GE(change.after_s, 0);
+      EXPECT_LT(change.after_s, 2048.0F / 60);
+      if (stopped) {
+        EXPECT_GT(change.speed_m_s, 0);
+      }
+      stopped = change.speed_m_s == 0;
+      stops += stopped ? 1 : 0;
+      ++changes;
+      seconds += static_cast<double>(change.after_s);
+    }
+  }
+  EXPECT_GT(60 * static_cast<double>(changes) / seconds, 3);
+  EXPECT_LT(60 * static_cast<double>(changes) / seconds, 6);
+  EXPECT_GT(stops, changes / 20);
+  EXPECT_LT(stops, changes / 4);
+}
+
+}  // namespace
+}  // namespace mobil

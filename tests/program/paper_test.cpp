@@ -1,0 +1,204 @@
+// `mobil paper`: what it writes and says, what it refuses.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "demo/paper/paper_cycle.h"
+#include "demo/paper/paper_lengths.h"
+#include "demo/paper/paper_table.h"
+#include "tests/program/program.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Every element that is opened is closed, in order, and nothing is left over.
+bool well_formed(const std::string& xml) {
+  std::vector<std::string> open;
+  for (std::size_t at = xml.find('<'); at != std::string::npos; at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    if (end == std::string::npos) return false;
+    const std::string tag = xml.substr(at + 1, end - at - 1);
+    if (tag.find('<') != std::string::npos) return false;
+    if (tag.starts_with('/')) {
+      if (open.empty() || open.back() != tag.substr(1)) return false;
+      open.pop_back();
+    } else if (!tag.ends_with('/')) {
+      open.push_back(tag.substr(0, tag.find(' ')));
+    }
+  }
+  return open.empty() && xml.starts_with("<svg ");
+}
+
+void expect_plot(const fs::path& file) {
+  const std::string svg = read_bytes(file);
+  EXPECT_TRUE(well_formed(svg)) << file;
+  EXPECT_EQ(svg.find("nan"), std::string::npos) << file;
+  EXPECT_EQ(svg.find("inf"), std::string::npos) << file;
+}
+
+/// As machines without a graphics device have it; skips where the driver cannot be hidden.
+Ran run_blind(const std::string& arguments, const fs::path& in) {
+  return run_shell("__EGL_VENDOR_LIBRARY_DIRS=/nowhere '" MOBIL_PROGRAM "' paper " + arguments, in);
+}
+
+void expect_same_speed_and_more_force_for_more_mass(const fs::path& made) {
+  const Csv table(made / "weight.csv");
+  ASSERT_EQ(table.rows.size(), 3U);
+  for (std::size_t r = 0; r < 3; ++r) {
+    EXPECT_NEAR(table.number(r, "step_length_m") * table.number(r, "step_frequency_hz"), 5 / 3.6, 1e-4);
+    EXPECT_GT(table.number(r, "peak_vertical_weights"), 1);
+    if (r == 0) continue;
+    EXPECT_GT(table.number(r, "peak_vertical_n"), table.number(r - 1, "peak_vertical_n"));
+  }
+}
+
+void expect_longer_steps_to_lower_the_centre_of_mass(const fs::path& made, const std::string& told) {
+  const Csv table(made / "step-length.csv");
+  ASSERT_EQ(table.rows.size(), 3U);
+  EXPECT_NEAR(table.number(0, "step_length_m") / table.number(1, "step_length_m"), 0.8, 1e-4);
+  EXPECT_NEAR(table.number(2, "step_length_m") / table.number(1, "step_length_m"), 1.2, 1e-4);
+  for (std::size_t r = 1; r < 3; ++r) {
+    EXPECT_LT(table.number(r, "com_mean_height_mm"), table.number(r - 1, "com_mean_height_mm"));
+    EXPECT_GT(table.number(r, "com_excursion_mm"), table.number(r - 1, "com_excursion_mm"));
+  }
+  // The sentence tells the table's numbers.
+  EXPECT_NE(told.find(fmt::format("{:.0f} mm,", table.number(2, "com_excursion_mm"))), std::string::npos) << told;
+}
+
+void expect_the_far_end_to_follow_its_pull(const fs::path& made) {
+  const Csv table(made / "figure14.csv");
+  ASSERT_GT(table.rows.size(), 150U);
+  double mean_pull = 0, mean_displacement = 0;
+  const auto count = static_cast<double>(table.rows.size());
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    mean_pull += table.number(r, "pull_n") / count;
+    mean_displacement += table.number(r, "displacement_mm") / count;
+  }
+  double together = 0, pulls = 0, displacements = 0;
+  for (std::size_t r = 0; r < table.rows.size(); ++r) {
+    const double p = table.number(r, "pull_n") - mean_pull, d = table.number(r, "displacement_mm") - mean_displacement;
+    together += p * d;
+    pulls += p * p;
+    displacements += d * d;
+  }
+  EXPECT_GT(together / std::sqrt(pulls * displacements), 0.9);
+  const std::size_t last = table.rows.size() - 1;
+  EXPECT_NEAR(table.number(0, "displacement_mm"), table.number(last, "displacement_mm"), 1.5);  // steady
+}
+
+void expect_every_length_beside_the_published_one(const fs::path& made, const std::string& told) {
+  const Csv table(made / "figure15.csv");
+  ASSERT_EQ(table.rows.size(), 8 * cycle_points);
+  const auto published = read_published_lengths("schwartz_slow");
+  ASSERT_TRUE(published) << published.error().message;
+  double square = 0;
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    ASSERT_EQ(table.text(i, "curve"), "schwartz_slow");
+    EXPECT_NEAR(table.number(i, "published"), (*published)[0].curve.mean[i], 1e-5);
+    if (i + 1 < cycle_points) square += std::pow(table.number(i, "ours") - table.number(i, "published"), 2) / 50;
+  }
+  EXPECT_LT(std::sqrt(square), 0.03);
+  EXPECT_NE(told.find(fmt::format("{:.2f}", 100 * std::sqrt(square))), std::string::npos) << told;
+}
+
+TEST(Paper, AllEntriesWriteTablesAndPlotsAndSayWithoutADeviceWhyThereAreNoPictures) {
+  const TemporaryFolder folder;
+  const Ran ran = run_blind("--out all", folder.path);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  for (const char* entry : {"figure14", "figure15", "weight", "step-length", "quadriceps", "stature"}) {
+    const fs::path csv = folder.path / "all" / fmt::format("{}.csv", entry);
+    ASSERT_TRUE(fs::exists(csv)) << entry;
+    EXPECT_GT(Csv(csv).rows.size(), 2U) << entry;
+    expect_plot(folder.path / "all" / fmt::format("{}.svg", entry));
+    EXPECT_NE(ran.out.find(fmt::format("{}.svg", entry)), std::string::npos) << entry;
+  }
+  const fs::path made = folder.path / "all";
+  expect_same_speed_and_more_force_for_more_mass(made);
+  expect_longer_steps_to_lower_the_centre_of_mass(made, ran.out);
+  expect_the_far_end_to_follow_its_pull(made);
+  expect_every_length_beside_the_published_one(made, ran.out);
+  EXPECT_EQ(ran.out.find("anatomy"), std::string::npos);
+  EXPECT_EQ(ran.err, "");
+  const auto pictures = [&] {
+    std::size_t count = 0;
+    for (const auto& file : fs::directory_iterator(folder.path / "all")) count += file.path().extension() == ".png";
+    return count;
+  };
+  if (ran.out.find("No pictures: ") == std::string::npos) {
+    EXPECT_EQ(pictures(), 5U);
+  } else {
+    EXPECT_EQ(pictures(), 0U);
+    EXPECT_EQ(ran.out.find("No pictures: "), ran.out.rfind("No pictures: ")) << "said more than once";
+  }
+}
+
+TEST(Paper, PublishedLengthsOfAnUnknownWalkAreAnError) {
+  EXPECT_FALSE(read_published_lengths("nobody"));
+}
+
+TEST(Paper, RefusalsSayWhatIsKnownAndLeaveNothing) {
+  const TemporaryFolder folder;
+  expect_refused("paper",
+                 {{"figure13", {"there is no entry 'figure13'", "figure14", "stature"}},
+                  {"weigth", {"weight"}},
+                  {"anatomy", {"--anatomy"}},
+                  {"--anatomy nowhere", {"nowhere", "manifest.csv"}},
+                  {"--out ''", {"--out"}},
+                  {"--colour red", {"--colour"}}},
+                 folder.path);
+}
+
+TEST(Paper, HelpNamesEveryEntry) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("paper --help", folder.path);
+  EXPECT_EQ(ran.status, 0);
+  for (const char* name : {"figure14", "figure15", "figure16", "figure17", "weight", "step-length", "quadriceps",
+                           "stature", "anatomy", "--out", "Examples"}) {
+    EXPECT_NE(ran.out.find(name), std::string::npos) << name;
+  }
+}
+
+TEST(PaperTable, CellsStandUnderTheirHeadsAndTurnedTablesHoldTheSame) {
+  const PaperTable table{
+      "who", {{"a_mm", "first\nmm", 1}, {"b", "b", 2}}, {{"naïve", {1.25, 2}}, {"x\ny", {-30, NAN}}}};
+  EXPECT_EQ(table_text(table),
+            "       first\n"
+            "who       mm     b\n"
+            "naïve    1.2  2.00\n"
+            "x y    -30.0\n");
+  EXPECT_EQ(turned_table_text(table),
+            "                     x\n"
+            "who       naïve      y\n"
+            "first mm    1.2  -30.0\n"
+            "b          2.00\n");
+  EXPECT_EQ(table_csv(table), "who,a_mm,b\nnaïve,1.25,2\nx y,-30,\n");
+}
+
+TEST(PaperCycle, AMusclesCycleIsOneOfTheLine) {
+  CycleRequest request{{}, {}, LegMuscles{}, {0.0, 0.5}, {}};
+  const auto cycle = walk_cycle(request);
+  ASSERT_TRUE(cycle) << cycle.error().message;
+  EXPECT_EQ(cycle->shown.recording.frames.size(), 2U);
+  EXPECT_EQ(cycle->shown.mesh_edge.size(), 2U);
+  for (const MuscleCycle& muscle : cycle->muscles) {
+    for (std::size_t i = 0; i < cycle_points; ++i) {
+      // Driven by displacement, a belly is longer by what its line is.
+      EXPECT_NEAR(muscle.elongation_m[i], muscle.length_m[i] - muscle.rest_length_m, 2e-4);
+      EXPECT_NEAR(muscle.thickness_m[i] / muscle.rest_thickness_m, 1, 0.15);
+      // The pull has the sign of the elongation.
+      if (std::abs(muscle.elongation_m[i]) > 1e-3) {
+        EXPECT_GT(muscle.pull_n[i] * muscle.elongation_m[i], 0);
+      }
+    }
+    EXPECT_NEAR(muscle.length_m[0], muscle.length_m[cycle_points - 1], 1e-3);
+  }
+  EXPECT_EQ(&cycle->muscle(Muscle::quadriceps), &cycle->muscles[1]);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,248 @@
+// `mobil frontier`: what is on the frontier really is; errors fall where they must; what is written has the promised
+// columns; bad usage is refused before anything is made. How long things take is not tested.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "demo/frontier/frontier.h"
+#include "demo/frontier/frontier_costs.h"
+#include "demo/pictures/svg_plot.h"
+#include "tests/program/program.h"
+
+namespace mobil {
+namespace {
+
+FrontierRung elements(const char* name, Method method, const Cells& cells, std::optional<double> dt_s = {},
+                      bool fixed_step = false) {
+  FrontierRung rung{name, {}};
+  rung.method.choice.method = method;
+  rung.method.choice.cells = cells;
+  rung.method.choice.dt_s = dt_s;
+  rung.method.fixed_step = fixed_step;
+  return rung;
+}
+
+FrontierRung reduced(std::uint32_t vectors, bool moving = true) {
+  FrontierRung rung{moving ? "reduced" : "reduced-static", {}};
+  rung.method.choice.method = Method::reduced;
+  rung.method.choice.reduced = {vectors, moving, true, {4, 4, 16}};
+  return rung;
+}
+
+/// One muscle of one walker for a second, and few ways.
+FrontierRequest tiny_request() {
+  FrontierRequest request;
+  request.form = "tiny";
+  request.muscles = {Muscle::triceps_surae};
+  request.walks = {frontier_walks()[2]};
+  request.seconds = 1;
+  request.scenes = {false};
+  request.reference = {4, 4, 16};
+  request.bytes = 1 << 20;
+  request.rounds = 1;
+  request.threads = 1;
+  request.rungs = {elements("ecd", Method::ecd, {2, 2, 8}, 0.002, true),
+                   elements("ecd", Method::ecd, {2, 2, 8}, 0.01, true),
+                   elements("ecd", Method::ecd, {4, 4, 16}),
+                   elements("caa", Method::caa, {2, 2, 8}),
+                   elements("static", Method::statics, {2, 2, 8}),
+                   reduced(4),
+                   reduced(12),
+                   reduced(12, false)};
+  request.rungs.front().mark = "the paper's choice: 81 nodes, 2 ms";
+  return request;
+}
+
+const Frontier& tiny() {
+  static const Frontier made = [] {
+    auto frontier = measure_frontier(tiny_request());
+    if (!frontier) throw std::runtime_error(frontier.error().message);
+    return std::move(*frontier);
+  }();
+  return made;
+}
+
+const FrontierRow& row(const std::string& method, const std::string& cells, std::uint32_t vectors = 0) {
+  for (const FrontierRow& r : tiny().rows) {
+    if (r.method == method && r.cells == cells && r.vectors == vectors) return r;
+  }
+  throw std::runtime_error("no row " + method + " " + cells);
+}
+
+TEST(Frontier, ErrorsFallWithTheMeshAndTheVectors) {
+  EXPECT_LT(row("ecd", "4x4x16").error, row("ecd", "2x2x8").error);
+  EXPECT_LT(row("reduced", "4x4x16", 12).error, row("reduced", "4x4x16", 4).error);
+  EXPECT_LT(row("reduced", "4x4x16", 12).error, row("ecd", "2x2x8").error);
+  // walks excite waves, which static answers have not
+  EXPECT_GT(row("static", "2x2x8").error, 2 * row("ecd", "2x2x8").error);
+  EXPECT_GT(row("reduced-static", "4x4x16", 12).error, 2 * row("reduced", "4x4x16", 12).error);
+  for (const FrontierRow& r : tiny().rows) {
+    EXPECT_TRUE(r.error > 0 && r.error < 1) << r.method;
+    EXPECT_TRUE(r.error_max_m > 0 && r.error_max_m < 0.1) << r.method;
+    ASSERT_EQ(r.error_of_muscle.size(), 1U);
+    EXPECT_DOUBLE_EQ(r.error_of_muscle[0], r.error);
+    EXPECT_TRUE(r.cost_us > 0 && r.points_us > 0 && r.memory_bytes > 0) << r.method;
+    EXPECT_EQ(r.uncertain, r.error < 10 * tiny().change[0].own());
+  }
+}
+
+TEST(Frontier, WhatCannotBeSteppedIsLeftOutWithAReason) {
+  EXPECT_EQ(tiny().rows.size(), tiny_request().rungs.size() - 1);
+  ASSERT_EQ(tiny().notes.size(), 1U);
+  EXPECT_NE(tiny().notes[0].find("10 ms"), std::string::npos) << tiny().notes[0];
+  EXPECT_NE(tiny().notes[0].find("critical step"), std::string::npos) << tiny().notes[0];
+}
+
+TEST(Frontier, RatiosAreToTheFirstRungAndStepsAreAsAsked) {
+  const FrontierRow& paper = tiny().rows.front();
+  EXPECT_EQ(paper.ratio, 1);
+  EXPECT_DOUBLE_EQ(paper.dt_s, 0.002);
+  EXPECT_EQ(paper.nodes, 81U);
+  for (const FrontierRow& r : tiny().rows) {
+    EXPECT_NEAR(r.ratio * r.cost_us, paper.cost_us, 1e-9 * paper.cost_us);
+    EXPECT_NEAR(r.points_ratio * r.points_us, paper.cost_us, 1e-9 * paper.cost_us);
+  }
+  EXPECT_DOUBLE_EQ(row("caa", "2x2x8").dt_s, frontier_tick_s);
+}
+
+/// Mark of each row by asking of every other whether it is better.
+RC_GTEST_PROP(Frontier, IsTheNonDominatedSet, ()) {
+  std::vector<FrontierRow> rows(*rc::gen::inRange<std::size_t>(1, 40));
+  for (FrontierRow& r : rows) {
+    r.error = *rc::gen::inRange(1, 8) / 8.0;
+    r.cost_us = *rc::gen::inRange(1, 8);
+    r.points_us = r.cost_us + *rc::gen::inRange(0, 4);
+    r.loads = *rc::gen::arbitrary<bool>();
+  }
+  mark_frontier(rows);
+  for (const bool points : {false, true}) {
+    for (const FrontierRow& r : rows) {
+      const auto cost = [&](const FrontierRow& of) { return points ? of.points_us : of.cost_us; };
+      const bool beaten = std::ranges::any_of(rows, [&](const FrontierRow& other) {
+        return other.loads == r.loads &&
+               ((other.error < r.error && cost(other) <= cost(r)) || (other.error <= r.error && cost(other) < cost(r)));
+      });
+      RC_ASSERT((points ? r.points_on_frontier : r.on_frontier) == !beaten);
+    }
+  }
+}
+
+TEST(Frontier, CsvHasThePromisedColumnsFirst) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "frontier.csv") << frontier_csv(tiny());
+  const Csv csv(folder.path / "frontier.csv");
+  const std::vector<std::string> promised = {"method",
+                                             "nodes",
+                                             "dt_s",
+                                             "basis",
+                                             "error_rel",
+                                             "error_max_m",
+                                             "cost_us_per_tick",
+                                             "cost_ratio_to_paper",
+                                             "memory_bytes",
+                                             "on_frontier"};
+  ASSERT_GE(csv.columns.size(), promised.size());
+  EXPECT_TRUE(std::equal(promised.begin(), promised.end(), csv.columns.begin()));
+  ASSERT_EQ(csv.rows.size(), tiny().rows.size());
+  for (std::size_t i = 0; i < csv.rows.size(); ++i) {
+    const FrontierRow& r = tiny().rows[i];
+    EXPECT_EQ(csv.text(i, "method"), r.method);
+    EXPECT_NEAR(csv.number(i, "error_rel"), r.error, 1e-5 * r.error);
+    EXPECT_EQ(csv.number(i, "on_frontier"), r.on_frontier ? 1 : 0);
+    EXPECT_EQ(csv.number(i, "basis"), r.vectors);
+    EXPECT_EQ(csv.text(i, "loads"), "line");
+  }
+}
+
+TEST(Frontier, JsonSaysHowTheReferenceWasMadeAndHowFarItMoves) {
+  const auto json = nlohmann::json::parse(frontier_json(tiny()));
+  EXPECT_FALSE(json.at("machine").at("cpu").get<std::string>().empty());
+  EXPECT_NE(json.at("reference").at("made").get<std::string>().find("4x4x16"), std::string::npos);
+  const auto& change = json.at("reference").at("change").at(0);
+  EXPECT_EQ(change.at("loads"), "line");
+  EXPECT_GT(change.at("from_half_the_cells").get<double>(), 0);
+  EXPECT_GT(change.at("from_24_vectors").get<double>(), 0);
+  EXPECT_GT(json.at("costs").at("paper_shared_stiffness_us_per_tick").get<double>(), 0);
+}
+
+TEST(Frontier, PictureHasTheFrontierInOrderOfCost) {
+  const PlotFigure figure = frontier_figure(tiny());
+  ASSERT_EQ(figure.panels.size(), 1U);
+  for (const PlotLine& line : figure.panels[0].lines) {
+    EXPECT_FALSE(line.x.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(line.x));
+    EXPECT_TRUE(std::ranges::is_sorted(line.y, std::greater{}));
+  }
+  EXPECT_NE(svg(figure).find("81 nodes"), std::string::npos);
+}
+
+/// A walk that begins with 2 ms steps and samples every third tick sees what one with even steps sees.
+TEST(Frontier, DrivesAreLinearBetweenTicks) {
+  const auto drives = record_walks(std::vector{Muscle::hamstrings}, std::vector{frontier_walks()[0]}, 0.5);
+  ASSERT_TRUE(drives.has_value());
+  const FrontierDrive& drive = drives->front();
+  EXPECT_EQ(drive.end_m[0][0], 0);  // everything begins at rest
+  for (std::size_t t = drive.first; t < drive.ticks(); ++t) {
+    const double from_s = static_cast<double>(t) * frontier_tick_s;
+    const auto end = drive.end(from_s, from_s + 0.5 * frontier_tick_s);
+    const auto a = static_cast<double>(drive.end_m[t][3]), b = static_cast<double>(drive.end_m[t + 1][3]);
+    EXPECT_NEAR(static_cast<double>(end.from_m[3]), a, 1e-7);
+    EXPECT_NEAR(static_cast<double>(end.to_m[3]), 0.5 * (a + b), 1e-7);
+  }
+}
+
+TEST(Frontier, ControlPointsOfAFineMeshAreItsOwnNodes) {
+  const auto points = frontier_mesh(Muscle::quadriceps, frontier_points),
+             fine = frontier_mesh(Muscle::quadriceps, {4, 4, 16});
+  ASSERT_TRUE(points && fine);
+  const auto sampler = FrontierSampler::make(*fine, *points);
+  ASSERT_TRUE(sampler.has_value());
+  std::vector<Lanes<float>> place(3 * fine->node.size()), sampled(point_width);
+  for (std::size_t n = 0; n < fine->node.size(); ++n) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      place[3 * n][l] = static_cast<float>(fine->node[n].x);
+      place[3 * n + 1][l] = static_cast<float>(fine->node[n].y);
+      place[3 * n + 2][l] = static_cast<float>(fine->node[n].z);
+    }
+  }
+  sampler->sample(place.data()->lane, 0xFFFF, sampled.data());
+  for (std::size_t n = 0; n < points->node.size(); ++n) {
+    EXPECT_NEAR(static_cast<double>(sampled[3 * n][7]), points->node[n].x, 1e-6);
+    EXPECT_NEAR(static_cast<double>(sampled[3 * n + 1][7]), points->node[n].y, 1e-6);
+    EXPECT_NEAR(static_cast<double>(sampled[3 * n + 2][7]), points->node[n].z, 1e-6);
+  }
+  EXPECT_FALSE(FrontierSampler::make(*frontier_mesh(Muscle::quadriceps, {3, 3, 12}), *points).has_value());
+}
+
+TEST(Frontier, BadUsageIsOneLineAndNothingIsWritten) {
+  const TemporaryFolder folder;
+  std::ofstream(folder.path / "taken") << "x";
+  expect_refused("frontier",
+                 {{"--short --long", {"--short", "--long", "one of them"}},
+                  {"--out taken", {"taken", "folder"}},
+                  {"--out ''", {"--out"}},
+                  {"--out", {"--out needs one value"}},
+                  {"--lng", {"--lng", "did you mean --long?"}},
+                  {"extra", {"'extra'"}}},
+                 folder.path);
+}
+
+TEST(Frontier, HelpTeachesWhatItWrites) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("frontier --help", folder.path);
+  EXPECT_EQ(ran.status, 0);
+  for (const auto* piece : {"--short", "--long", "--out", "frontier.csv", "81 nodes", "uncertain", "Examples"}) {
+    EXPECT_NE(ran.out.find(piece), std::string::npos) << piece;
+  }
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 0);
+}
+
+}  // namespace
+}  // namespace mobil

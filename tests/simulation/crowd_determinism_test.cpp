@@ -1,0 +1,135 @@
+// The same people, the same bits: however the work is cut and whoever does it, on each instruction set, in whatever
+// order people come, beside whatever other world. With MOBIL_STATE_HASHES=FILE in the environment the hashes go to that
+// file as well, for builds to be compared with each other (tests/run --long).
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <random>
+#include <set>
+#include <vector>
+
+#include "tests/engine/instruction_sets.h"
+#include "tests/simulation/crowd_play.h"
+#include "tests/simulation/crowd_pool.h"
+
+namespace mobil {
+namespace {
+
+constexpr int ticks = 120, apart = 30;
+constexpr play::Script script{};
+
+/// Of everybody by number and together, every so many ticks.
+using Hashes = std::vector<std::map<int, std::uint64_t>>;
+
+Hashes run(const SimulationOptions& options, const std::vector<int>& order = play::Crowd::in_turn(script)) {
+  play::Crowd crowd(options, script, order);
+  Hashes all;
+  for (int i = 1; i <= ticks; ++i) {
+    crowd.tick();
+    if (i % apart == 0) all.push_back(crowd.hashes());
+  }
+  return all;
+}
+
+const Hashes& alone() {
+  static const Hashes hashes = run({});
+  return hashes;
+}
+
+TEST(CrowdDeterminism, EverythingIsUnderWay) {
+  play::Crowd crowd({}, script);
+  std::set<std::string_view> worked;
+  std::set<int> seen;
+  for (int i = 0; i < ticks; ++i) {
+    crowd.tick();
+    for (const auto& [who, human] : crowd.people()) seen.insert(who);
+    for (const SystemReport& system : crowd.simulation().report().systems) {
+      if (system.entities > 0) worked.insert(system.name);
+    }
+  }
+  for (const System& system : crowd.simulation().schedule().systems())
+    EXPECT_TRUE(worked.contains(system.name)) << system.name;
+  EXPECT_EQ(seen.size(), static_cast<std::size_t>(script.everybody()));
+  EXPECT_LT(crowd.people().size(), seen.size());
+  // what is compared below is not all the same to begin with
+  std::set<std::uint64_t> different;
+  std::size_t count = 0;
+  for (const auto& hashes : alone()) {
+    for (const auto& [who, hash] : hashes) different.insert(hash);
+    count += hashes.size();
+  }
+  EXPECT_EQ(different.size(), count);
+}
+
+TEST(CrowdDeterminism, ThreadsDoNotMatter) {
+  EXPECT_EQ(run({.threads = 2}), alone());
+  for (const std::size_t threads : {std::size_t{3}, std::size_t{8}}) {
+    WilfulPool pool(threads);
+    EXPECT_EQ(run({.jobs = pool.jobs()}), alone()) << threads << " threads";
+  }
+}
+
+TEST(CrowdDeterminism, TheCallersLoopMayCutAsItLikes) {
+  EXPECT_EQ(run({.jobs = backwards()}), alone());
+  WilfulPool more_than_promised(4, 2);
+  EXPECT_EQ(run({.jobs = more_than_promised.jobs(1)}), alone());
+}
+
+TEST(CrowdDeterminism, InstructionSetsDoNotMatter) {
+  int sets = 0;
+  const Hashes& reference = alone();
+  for_each_fused_instruction_set([&] {
+    EXPECT_EQ(run({}), reference) << hwy::TargetName(hwy::SupportedTargets() & -hwy::SupportedTargets());
+    ++sets;
+  });
+  if (sets < 2) GTEST_SKIP() << "this machine has " << sets << " instruction sets with fused multiply-add";
+}
+
+TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
+  std::mt19937 random(3);
+  for (int i = 0; i < 2; ++i) {
+    auto order = play::Crowd::in_turn(script);
+    std::shuffle(order.begin(), order.end(), random);
+    EXPECT_EQ(run({}, order), alone());
+  }
+}
+
+TEST(CrowdDeterminism, TwoWorldsAtOnceDoNotMeet) {
+  WilfulPool pool(2, 4);  // the same for both
+  play::Crowd a({.jobs = pool.jobs()}, script), b({.tick_s = 1.0 / 50, .jobs = pool.jobs()}, {.seed = 2});
+  Hashes in_a, in_b, b_alone;
+  for (int i = 1; i <= ticks; ++i) {
+    a.tick();
+    if (i % 3 != 0) b.tick();
+    if (i % apart == 0) {
+      in_a.push_back(a.hashes());
+      in_b.push_back(b.hashes());
+    }
+  }
+  EXPECT_EQ(in_a, alone());
+  play::Crowd same_as_b({.tick_s = 1.0 / 50}, {.seed = 2});
+  for (int i = 1; i <= ticks / 3 * 2; ++i) {
+    same_as_b.tick();
+    if (i % (apart / 3 * 2) == 0) b_alone.push_back(same_as_b.hashes());
+  }
+  EXPECT_EQ(in_b, b_alone);
+  EXPECT_NE(in_a, in_b);
+}
+
+TEST(CrowdDeterminism, HashesGoToAFileWhereOneIsNamed) {
+  const char* file = std::getenv("MOBIL_STATE_HASHES");
+  if (file == nullptr) GTEST_SKIP() << "MOBIL_STATE_HASHES names no file";
+  std::ofstream out(file);
+  for (std::size_t i = 0; i < alone().size(); ++i) {
+    for (const auto& [who, hash] : alone()[i])
+      out << (i + 1) * apart << ' ' << who << ' ' << std::hex << hash << std::dec << '\n';
+  }
+  EXPECT_TRUE(out.flush());
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,254 @@
+// A crowd's memory: none in steady ticks, all of a world's from its caller, nothing changed where there is none left,
+// and so much a person.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory_resource>
+#include <new>
+#include <span>
+#include <vector>
+
+#include "tests/engine/counting_heap.h"
+#include "tests/engine/counting_malloc.h"
+#include "tests/engine/engine_counting_memory.h"
+#include "tests/simulation/crowd_play.h"
+#include "tests/simulation/crowd_pool.h"
+
+namespace mobil {
+namespace {
+
+using play::coarse;
+
+/// One of the effects, and their sum.
+struct Effects {
+  bool forces = false;
+  LegMuscles muscles;
+};
+
+std::vector<Effects> every_effect() {
+  std::vector<Effects> all;
+  for (const MuscleMethod& method : play::every_method()) {
+    for (const bool more : {false, true}) {
+      Effects e{more, {.method = method.method, .reduced = method.reduced, .inertia = more, .line_motion = more}};
+      if (more && method.method == Method::ecd) e.muscles.drive = Drive::force;
+      e.muscles.muscles = 0;
+      e.muscles.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
+      all.push_back(e);
+    }
+  }
+  return all;
+}
+
+TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
+  CountingMemory memory;
+  const auto effects = every_effect();
+  WilfulPool wilful(3);
+  const std::vector<SimulationOptions> options = {
+      {.memory = &memory}, {.threads = 2, .memory = &memory}, {.jobs = wilful.jobs(), .memory = &memory}};
+  for (const SimulationOptions& o : options) {
+    Simulation simulation(o);
+    for (std::size_t i = 0; i < 2 * effects.size(); ++i) {
+      const Effects& e = effects[i % effects.size()];
+      const Entity human = join(simulation, person(static_cast<int>(i)), false);
+      if (e.forces) {
+        EXPECT_EQ(simulation.add_forces(human), Status::ok);
+      }
+      const auto added = simulation.add_leg_muscles(human, e.muscles);
+      ASSERT_TRUE(added) << added.error().message;
+      // a change of method fades and is over before what is counted begins
+      if (i % 3 == 0) {
+        EXPECT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::statics}));
+      }
+    }
+    for (int i = 0; i < 80; ++i) simulation.tick();
+    const std::size_t heap = heap_requests, all = malloc_requests, lent = memory.requests;
+    ASSERT_GT(heap, 0U);  // the counters count
+    ASSERT_TRUE(all > 0 || !counts_malloc);
+    for (int i = 0; i < 60; ++i) simulation.advance(1.0 / 60);
+    EXPECT_EQ(heap_requests - heap, 0U);
+    EXPECT_EQ(memory.requests - lent, 0U);
+    EXPECT_EQ(malloc_requests - all, 0U) << "libraries included";
+  }
+}
+
+TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
+  CountingMemory memory;
+  std::size_t people = 0;
+  {
+    play::Crowd crowd({.memory = &memory}, {.at_first = 20, .comers = 20});
+    // nothing of a world's own lies elsewhere: the default resource lends nothing
+    std::pmr::memory_resource* before = std::pmr::set_default_resource(std::pmr::null_memory_resource());
+    for (int i = 0; i < 90; ++i) crowd.tick();
+    std::pmr::set_default_resource(before);
+    people = crowd.people().size();
+    EXPECT_GT(memory.lent(), people);
+  }
+  EXPECT_EQ(memory.lent(), 0U);
+}
+
+/// What there is: handles and state of everybody, and what the front door says of them.
+std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& people) {
+  std::uint64_t hash = hash_world(simulation);
+  for (const Entity human : people) hash = fnv(hash_human(simulation, human), static_cast<std::uint32_t>(hash));
+  return hash;
+}
+
+using Change = std::function<void(Simulation&, std::vector<Entity>&)>;
+enum class Refuses { resource, heap };
+
+/// Does `change` with memory for ever more requests until it succeeds; each refusal must leave all as it was, and what
+/// comes of it at last must be what comes of it with memory enough.
+void refuse_at_every_request(const Change& change, Refuses who) {
+  const auto make = [&](CountingMemory& memory, std::vector<Entity>& people) {
+    SimulationOptions options;
+    if (who == Refuses::resource) options.memory = &memory;
+    auto simulation = std::make_unique<Simulation>(options);
+    people.reserve(32);
+    for (int i = 0; i < 16; ++i) people.push_back(join(*simulation, person(i), i % 4 == 0));
+    for (int i = 0; i < 5; ++i) simulation->tick();
+    return simulation;
+  };
+  CountingMemory memory, enough;
+  std::vector<Entity> people, others;
+  const auto simulation = make(memory, people), other = make(enough, others);
+  const auto asked = [&] { return who == Refuses::resource ? enough.requests : heap_requests.load(); };
+  const std::size_t before_requests = asked();
+  change(*other, others);
+  const std::size_t requests = asked() - before_requests;
+  const std::size_t stride = requests / 60 + 1;  // where templates are made the heap is asked very often
+  other->tick();
+  for (std::size_t granted = 0;; granted += stride) {
+    const std::uint64_t before = all_of(*simulation, people);
+    const std::size_t rows_before = rows(simulation->world()), count = people.size();
+    if (who == Refuses::resource) memory.refuse_after = granted;
+    if (who == Refuses::heap) heap_refuse_at = heap_requests + granted;
+    bool refused = false;
+    try {
+      change(*simulation, people);
+    } catch (const std::bad_alloc&) {
+      refused = true;
+    }
+    memory.refuse_after = heap_refuse_at = SIZE_MAX;
+    if (!refused) break;
+    ASSERT_LT(granted, requests);
+    ASSERT_EQ(people.size(), count);
+    EXPECT_EQ(rows(simulation->world()), rows_before) << "at request " << granted << " of " << requests;
+    ASSERT_EQ(all_of(*simulation, people), before) << "at request " << granted << " of " << requests;
+  }
+  simulation->tick();
+  ASSERT_EQ(people.size(), others.size());
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    EXPECT_EQ(people[i], others[i]) << "person " << i;  // no handle is lost to a refusal
+    EXPECT_EQ(hash_human(*simulation, people[i]), hash_human(*other, others[i])) << "person " << i;
+  }
+}
+
+void refuse_at_every_request(const Change& change) {
+  refuse_at_every_request(change, Refuses::resource);
+  refuse_at_every_request(change, Refuses::heap);
+}
+
+void add(Simulation& simulation, Entity human, const LegMuscles& choice) {
+  const auto added = simulation.add_leg_muscles(human, choice);
+  ASSERT_TRUE(added) << added.error().message;
+}
+
+TEST(CrowdMemory, ASpawnThatFindsNoneLeavesAllAsItWas) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    people.push_back(*simulation.spawn(person(20).body, person(20).gait));
+  });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    people.push_back(*simulation.spawn_posed(person(20).body));
+  });
+}
+
+TEST(CrowdMemory, MusclesThatFindNoneLeaveAllAsItWas) {
+  refuse_at_every_request(
+      [](Simulation& simulation, std::vector<Entity>& people) { add(simulation, people[1], {.method = Method::caa}); });
+}
+
+TEST(CrowdMemory, AChangeOfMethodThatFindsNoneLeavesAllAsItWas) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    EXPECT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::statics}));
+  });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    EXPECT_TRUE(simulation.change_leg_muscles(people[0], {.drive = Drive::force, .inertia = true}));
+  });
+}
+
+TEST(CrowdMemory, EffectsThatFindNoneLeaveAllAsItWas) {
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    EXPECT_EQ(simulation.add_forces(people[0]), Status::ok);
+  });
+}
+
+TEST(CrowdMemory, SpawningManyWithMusclesIsAllOrNoneToo) {
+  LegMuscles far{.method = Method::reduced, .reduced = play::reduced(12, true, false)}, near = far;
+  near.reduced.control_points = true;
+  const std::array<LegMuscles, 4> choices = {
+      near, {.method = Method::icd, .inertia = true}, far, {.drive = Drive::force, .method = Method::none}};
+  refuse_at_every_request([&](Simulation& simulation, std::vector<Entity>& people) {
+    std::vector<SpawnRequest> requests;
+    for (int i = 0; i < 8; ++i) {
+      requests.push_back({.body = person(20 + i).body, .gait = person(20 + i).gait});
+      if (i % 5 != 0) requests.back().muscles = choices[static_cast<std::size_t>(i % 4)];
+    }
+    std::vector<Entity> come(requests.size());
+    const auto done = simulation.spawn(requests, come);
+    ASSERT_TRUE(done) << done.error().message;
+    people.insert(people.end(), come.begin(), come.end());
+  });
+}
+
+TEST(CrowdMemory, GoingTakesNone) {
+  CountingMemory memory;
+  Simulation simulation({.memory = &memory});
+  std::vector<Entity> people;
+  for (int i = 0; i < 40; ++i) people.push_back(join(simulation, person(i), i % 2 == 0));
+  const std::span<const Entity> all = people;
+  const std::array<Entity, 2> twice = {people[20], people[20]};
+  memory.refuse_after = 0;
+  heap_refuse_at = 0;
+  const Status refused = simulation.despawn(twice);
+  bool gone = true;
+  for (const Entity human : all.first(20)) gone = simulation.despawn(human) == Status::ok && gone;
+  for (const Entity human : all.subspan(20, 4)) gone = simulation.remove_leg_muscles(human) == Status::ok && gone;
+  gone = simulation.despawn(all.subspan(20)) == Status::ok && gone;
+  memory.refuse_after = heap_refuse_at = SIZE_MAX;
+  EXPECT_EQ(refused, Status::stale_entity);
+  EXPECT_TRUE(gone);
+  EXPECT_EQ(rows(simulation.world()), 0U);
+}
+
+TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
+  CountingMemory memory;
+  Simulation simulation({.memory = &memory});
+  LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};
+  std::vector<Entity> people;
+  const auto grow_to = [&](std::size_t count) {
+    while (people.size() < count) {
+      const Entity human = join(simulation, person(static_cast<int>(people.size() % 64)), false);
+      add(simulation, human, choice);
+      people.push_back(human);
+    }
+    simulation.tick();
+    return static_cast<double>(memory.lent_bytes());
+  };
+  const double few = grow_to(640), some = grow_to(1280), many = grow_to(2560);
+  const double each = (some - few) / 640, each_later = (many - some) / 1280;
+  EXPECT_LT(each, 8192);                       // at the far tier
+  EXPECT_NEAR(each_later, each, 0.25 * each);  // tables hold room for some more
+  EXPECT_LT(many, 1.25 * each * 2560);         // what there is besides people is little
+  while (people.size() > 640) {
+    EXPECT_EQ(simulation.despawn(people.back()), Status::ok);
+    people.pop_back();
+  }
+  simulation.tick();
+  EXPECT_LT(static_cast<double>(memory.lent_bytes()), few + 0.5 * (some - few));
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,191 @@
+#pragma once
+// A crowd that is never left alone: people of all kinds come, turn, change speed, effects and methods, and go, by a
+// script that knows each by number alone.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <vector>
+
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+
+namespace mobil::play {
+
+// Coarse meshes, whose bases are made in no time.
+inline constexpr Cells coarse = {2, 2, 8};
+
+inline ReducedChoice reduced(std::uint32_t vectors, bool moving, bool seen) {
+  return {.vectors = vectors, .moving = moving, .cells = coarse, .control_points = seen};
+}
+
+inline const std::array<MuscleMethod, 9>& every_method() {
+  static const std::array<MuscleMethod, 9> all = {{{Method::ecd},
+                                                   {Method::icd},
+                                                   {Method::caa},
+                                                   {Method::statics},
+                                                   {Method::reduced, reduced(12, true, true)},
+                                                   {Method::reduced, reduced(12, true, false)},
+                                                   {Method::reduced, reduced(5, true, true)},
+                                                   {Method::reduced, reduced(8, false, true)},
+                                                   {Method::none}}};
+  return all;
+}
+
+/// Numbers that depend on what they are for alone (Steele, Lea & Flood's SplitMix64).
+inline std::uint64_t mixed(std::uint64_t seed, std::uint64_t who, std::uint64_t when) {
+  std::uint64_t z = (seed << 48 ^ who << 24 ^ when) + 0x9e3779b97f4a7c15;
+  for (int i = 0; i < 2; ++i) {
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
+    z = (z ^ z >> 27) * 0x94d049bb133111eb;
+    z ^= z >> 31;
+  }
+  return z;
+}
+
+/// Up to three of the groups, by any method, with each effect now and then. Few templates serve them all.
+inline LegMuscles choice_of(std::uint64_t draw) {
+  LegMuscles choice;
+  choice.method = every_method()[draw % 9].method;
+  choice.reduced = every_method()[draw % 9].reduced;
+  choice.reduced.cells = coarse;
+  draw /= 9;
+  choice.line_motion = draw % 2 == 0;
+  choice.muscles = 0;
+  choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
+  if (draw / 2 % 3 == 0) {
+    choice.inertia = true;
+  } else if (draw / 2 % 3 == 1) {
+    choice.drive = Drive::force;
+  } else {
+    choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
+    if (choice.method == Method::ecd) choice.muscles.set(static_cast<std::size_t>(Muscle::quadriceps));
+  }
+  return choice;
+}
+
+struct Script {
+  int at_first = 40;  // people there from the beginning
+  int comers = 24;    // that come later, one every `apart` ticks
+  int apart = 3;      // ticks
+  std::uint64_t seed = 1;
+
+  int everybody() const { return at_first + comers; }
+  int comes(int who) const { return who < at_first ? 0 : 1 + (who - at_first) * apart; }
+  int goes(int who) const {
+    return who % 5 == 4 ? comes(who) + 20 + static_cast<int>(mixed(seed, 7, static_cast<std::uint64_t>(who)) % 60) : -1;
+  }
+};
+
+class Crowd {
+ public:
+  /// `order`: in which people who come at once do so, and in which everybody is asked; all numbers once.
+  Crowd(const SimulationOptions& options, const Script& script, std::vector<int> order)
+      : simulation_(options), script_(script), order_(std::move(order)) {}
+  Crowd(const SimulationOptions& options, const Script& script) : Crowd(options, script, in_turn(script)) {}
+
+  static std::vector<int> in_turn(const Script& script) {
+    std::vector<int> order(static_cast<std::size_t>(script.everybody()));
+    std::iota(order.begin(), order.end(), 0);
+    return order;
+  }
+
+  Simulation& simulation() { return simulation_; }
+  const Simulation& simulation() const { return simulation_; }
+  const std::map<int, Entity>& people() const { return people_; }
+
+  void tick() {
+    for (const int who : order_) {
+      if (script_.comes(who) == now_) come(who);
+      if (script_.goes(who) == now_) go(who);
+      const auto person = people_.find(who);
+      if (person != people_.end()) ask(who, person->second);
+    }
+    simulation_.tick();
+    ++now_;
+  }
+
+  /// By number; everybody's together as -1.
+  std::map<int, std::uint64_t> hashes() const {
+    std::map<int, std::uint64_t> all;
+    all[-1] = simulation_.state_hash();
+    for (const auto& [who, human] : people_) all[who] = hash_human(simulation_, human);
+    return all;
+  }
+
+ private:
+  static bool is_posed(int who) { return who % 16 == 11; }
+  std::uint64_t draw(int who, int what) const {
+    return mixed(script_.seed, static_cast<std::uint64_t>(who), static_cast<std::uint64_t>(what));
+  }
+
+  void come(int who) {
+    const Person p = person(who);
+    const auto human = is_posed(who) ? simulation_.spawn_posed(p.body) : simulation_.spawn(p.body, p.gait);
+    ASSERT_TRUE(human) << human.error().message;
+    people_[who] = *human;
+    if (who % 8 == 5) return;  // walks without muscles
+    const auto added = simulation_.add_leg_muscles(*human, choice_of(draw(who, -1)));
+    ASSERT_TRUE(added) << added.error().message;
+  }
+
+  void go(int who) {
+    EXPECT_EQ(simulation_.despawn(people_.at(who)), Status::ok);
+    people_.erase(who);
+  }
+
+  void ask(int who, Entity human) {
+    const std::uint64_t what = draw(who, now_);
+    if (is_posed(who)) {
+      Pose<float> pose = *simulation_.get<Pose>(human);
+      for (auto& at : pose.position_m) at.z += 0.01F * static_cast<float>(what % 3);
+      EXPECT_EQ(simulation_.set_pose(human, pose), Status::ok);
+    }
+    if (what % 24 != 0) return;
+    const std::uint64_t how = what / 24 / 8;
+    if (what / 24 % 2 == 0) {
+      ask_for_muscles(human, what / 48 % 4, how);
+    } else if (!is_posed(who)) {
+      ask_to_walk(human, what / 48 % 4, how);
+    }
+  }
+
+  void ask_to_walk(Entity human, std::uint64_t what, std::uint64_t how) {
+    const auto part = static_cast<float>(how % 1000) * 1e-3F;
+    if (what == 0) {
+      EXPECT_TRUE(simulation_.change_gait(human, {.speed_m_s = how % 5 == 0 ? 0.0F : 0.7F + part}));
+    } else if (what == 1) {
+      EXPECT_TRUE(simulation_.turn_to(human, 6 * (part - 0.5F)));
+    } else if (what == 2) {
+      EXPECT_EQ(simulation_.add_forces(human), Status::ok);
+    } else {
+      EXPECT_EQ(simulation_.remove_forces(human), Status::ok);
+    }
+  }
+
+  void ask_for_muscles(Entity human, std::uint64_t what, std::uint64_t how) {
+    const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, right);
+    if (!simulation_.world().alive(hamstrings)) {
+      EXPECT_TRUE(simulation_.add_leg_muscles(human, choice_of(how)));
+    } else if (what == 0) {
+      EXPECT_EQ(simulation_.remove_leg_muscles(human), Status::ok);
+    } else if (what == 1) {
+      EXPECT_TRUE(simulation_.change_leg_muscles(human, choice_of(how)));
+    } else {
+      EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % 9]));
+    }
+  }
+
+  Simulation simulation_;
+  Script script_;
+  std::vector<int> order_;
+  std::map<int, Entity> people_;
+  int now_ = 0;
+};
+
+}  // namespace mobil::play

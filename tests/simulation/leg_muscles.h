@@ -1,0 +1,70 @@
+#pragma once
+// People with leg muscles of every kind, and how far apart their bellies are.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+
+namespace mobil {
+
+inline constexpr std::array methods = {Method::ecd, Method::icd, Method::caa, Method::statics};
+
+inline std::string name(Method method) {
+  return std::string(method_name[static_cast<std::size_t>(method)]);
+}
+
+inline std::vector<Entity> muscles_of(const Simulation& simulation, Entity human) {
+  std::vector<Entity> all;
+  for (const auto& own : simulation.person(human)->muscles) {
+    all.insert(all.end(), own.entity.begin(), own.entity.end());
+  }
+  return all;
+}
+
+inline std::vector<float> displacement(const Simulation& simulation, Entity muscle) {
+  const NodalView nodes = simulation.nodal_displacement(muscle);
+  std::vector<float> u(3 * std::size_t{nodes.nodes});
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = nodes.first[i * lane_count];
+  return u;
+}
+
+inline Entity join_with(Simulation& simulation, const Person& p, const LegMuscles& choice) {
+  const Entity human = join(simulation, p, false);
+  const auto added = simulation.add_leg_muscles(human, choice);
+  EXPECT_TRUE(added) << added.error().message;
+  return human;
+}
+
+/// Largest nodal displacement (m) of a person's muscles, and the largest difference from another's.
+struct Difference {
+  double most = 0, apart = 0;
+};
+
+inline void compare(const Simulation& a, Entity in_a, const Simulation& b, Entity in_b, Difference& d) {
+  const auto ma = muscles_of(a, in_a), mb = muscles_of(b, in_b);
+  for (std::size_t m = 0; m < ma.size(); ++m) {
+    const auto ua = displacement(a, ma[m]), ub = displacement(b, mb[m]);
+    ASSERT_EQ(ua.size(), ub.size());
+    for (std::size_t i = 0; i < ua.size(); ++i) {
+      ASSERT_TRUE(std::isfinite(ua[i]) && std::isfinite(ub[i]));
+      d.most = std::max(d.most, static_cast<double>(std::abs(ua[i])));
+      d.apart = std::max(d.apart, static_cast<double>(std::abs(ua[i] - ub[i])));
+    }
+  }
+}
+
+inline double limit_of(const Simulation& simulation, Entity muscle) {
+  const auto scale = *simulation.get<BellyScale>(muscle);
+  return *critical_step(simulation.world().shared<MuscleTemplate>(muscle)->critical_steps,
+                        static_cast<double>(scale.across), static_cast<double>(scale.along));
+}
+
+}  // namespace mobil

@@ -1,0 +1,245 @@
+// Leg muscles that change under way, the bits that they have on any threads, and the memory they take.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "assets/muscles/muscle_table.h"
+#include "tests/engine/counting_heap.h"
+#include "tests/engine/engine_counting_memory.h"
+#include "tests/simulation/leg_muscles.h"
+
+namespace mobil {
+namespace {
+
+// ------------------------------------------------------------------------------------------------ changes under way
+
+TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
+  for (const Method method : methods) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, person(6), {.method = method});
+    for (int i = 0; i < 30; ++i) simulation.tick();
+    const auto muscles = muscles_of(simulation, human);
+    std::uint64_t steps_before = 0;
+    for (const double young : {4e4, 2e5, 5e3}) {
+      std::vector<std::vector<float>> before;
+      for (const Entity muscle : muscles) before.push_back(displacement(simulation, muscle));
+      const auto changed = simulation.change_leg_muscles(human, {.method = method, .material = {1000, young, 0.4}});
+      ASSERT_TRUE(changed) << changed.error().message;
+      EXPECT_EQ(muscles_of(simulation, human), muscles);
+      for (std::size_t m = 0; m < muscles.size(); ++m) EXPECT_EQ(displacement(simulation, muscles[m]), before[m]);
+      for (const Entity muscle : muscles) {
+        EXPECT_EQ(simulation.world().shared<MuscleTemplate>(muscle)->material.young_pa, young);
+        const auto n = method == Method::ecd ? simulation.world().get<Substeps>(muscle)
+                                             : simulation.world().get<SolvedSteps>(muscle);
+        if (method == Method::ecd || method == Method::icd) {
+          EXPECT_LE(simulation.tick_s() / static_cast<double>(*n), 0.9 * limit_of(simulation, muscle) * (1 + 1e-9));
+        }
+      }
+      if (method == Method::ecd) {
+        const auto n = *simulation.world().get<Substeps>(muscles[0]);
+        EXPECT_NE(n, steps_before);
+        steps_before = n;
+      }
+      for (int i = 0; i < 20; ++i) {
+        simulation.tick();
+        Difference d;
+        compare(simulation, human, simulation, human, d);
+        EXPECT_LT(d.most, 0.12) << name(method) << " " << young;
+      }
+    }
+  }
+}
+
+bool operator==(const std::vector<KeyPart>& a, const TableKey& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}
+
+std::vector<KeyPart> key_of(const Simulation& simulation, Entity entity) {
+  const auto& key = simulation.world().find(entity).table->key();
+  return {key.begin(), key.end()};
+}
+
+TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(9), {});
+  for (int i = 0; i < 20; ++i) simulation.tick();
+  const auto muscles = muscles_of(simulation, human);
+  const auto key = key_of(simulation, muscles[0]);
+  const auto& world = simulation.world();
+  for (const bool inertia : {true, false}) {
+    for (const Method method : {Method::caa, Method::statics, Method::icd, Method::ecd}) {
+      const auto before = displacement(simulation, muscles[3]);
+      ASSERT_TRUE(simulation.change_leg_muscles(human, {.method = method, .inertia = inertia}));
+      EXPECT_EQ(simulation.human(human)->leg_muscles.method, method);
+      EXPECT_EQ(muscles_of(simulation, human), muscles);
+      EXPECT_EQ(displacement(simulation, muscles[3]), before);
+      EXPECT_EQ(rows(world), 1 + 2 * muscle_group_count);
+      for (const Entity muscle : muscles) {
+        EXPECT_EQ(world.has<Substeps>(muscle), method == Method::ecd);
+        EXPECT_EQ(world.has<SolvedSteps>(muscle), method == Method::icd || method == Method::caa);
+        EXPECT_EQ(world.has<StaticSteps>(muscle), method == Method::statics);
+        EXPECT_EQ(world.has<NodalVelocity>(muscle), method != Method::statics);
+        EXPECT_EQ(world.has<BellySolver>(muscle), method != Method::ecd);
+        EXPECT_EQ(world.has<FrameLoad>(muscle), inertia);
+        EXPECT_EQ(world.has<FrameHistory>(muscle), inertia);
+      }
+      for (int i = 0; i < 15; ++i) simulation.tick();
+      Difference d;
+      compare(simulation, human, simulation, human, d);
+      EXPECT_LT(d.most, 0.12);
+    }
+  }
+  EXPECT_TRUE(key == world.find(muscles[0]).table->key());
+  EXPECT_EQ(rows_with<FrameLoad>(world) + rows_with<FrameHistory>(world), 0U);
+  ASSERT_TRUE(simulation.change_leg_muscles(human, {.drive = Drive::force, .cells = {1, 1, 4}}));
+  EXPECT_EQ(rows_with<EndDisplacement>(world), 0U);
+  EXPECT_EQ(simulation.nodal_displacement(muscles[0]).nodes, 20U);
+  for (int i = 0; i < 15; ++i) simulation.tick();
+  EXPECT_EQ(simulation.remove_leg_muscles(human), Status::ok);
+  EXPECT_EQ(rows(world), 1U);
+}
+
+TEST(Change, RefusedLeavesAllAsItWas) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(9), {.inertia = true}), bare = join(simulation, person(1), false);
+  for (int i = 0; i < 20; ++i) simulation.tick();
+  const auto before = hash_world(simulation);
+  const std::size_t tables = simulation.world().tables().size();
+  const LegMuscles bad[] = {{.drive = static_cast<Drive>(7)},
+                            {.method = static_cast<Method>(9)},
+                            {.element = static_cast<Element>(4)},
+                            {.mass = static_cast<Mass>(2)},
+                            {.material = {1000, -1, 0.3}},
+                            {.damping_per_s = -1},
+                            {.damping_per_s = NAN},
+                            {.stiffness_damping_s = 2},
+                            {.foundation_hz = -3.0},
+                            {.foundation_hz = 1e9},
+                            {.cells = {0, 2, 2}},
+                            {.cells = {300, 2, 2}},
+                            {.dt_s = 0.0},
+                            {.dt_s = -1.0},
+                            {.dt_s = NAN},
+                            {.dt_s = INFINITY},
+                            {.method = Method::caa, .dt_s = 1e-12}};
+  for (const LegMuscles& choice : bad) {
+    const auto changed = simulation.change_leg_muscles(human, choice);
+    ASSERT_FALSE(changed);
+    EXPECT_TRUE(changed.error().message.starts_with("change_leg_muscles: ")) << changed.error().message;
+    EXPECT_EQ(changed.error().message.find('\n'), std::string::npos) << changed.error().message;
+    EXPECT_FALSE(simulation.add_leg_muscles(bare, choice));
+    EXPECT_EQ(hash_world(simulation), before) << changed.error().message;
+  }
+  EXPECT_FALSE(simulation.change_leg_muscles(bare, {}));
+  EXPECT_FALSE(simulation.change_leg_muscles(Entity{}, {}));
+  EXPECT_EQ(simulation.world().tables().size(), tables);
+  EXPECT_TRUE(simulation.human(human)->leg_muscles.inertia);
+}
+
+// ----------------------------------------------------------------------------------------------- bits and memory
+
+LegMuscles choice_of(Method method, int who) {
+  LegMuscles choice{.method = method, .inertia = who % 2 == 0};
+  if (!choice.inertia) {
+    choice.stiffness_damping_s = 0.001;
+    choice.drive = Drive::force;
+  }
+  return choice;
+}
+
+std::map<int, std::uint64_t> walk_crowd(Method method, int threads, const std::vector<int>& who) {
+  Simulation simulation({.threads = threads});
+  std::map<int, Entity> crowd;
+  for (const int i : who) crowd[i] = join_with(simulation, person(i), choice_of(method, i));
+  for (int tick = 0; tick < 24; ++tick) {
+    if (tick == 12) {
+      for (const auto& [i, human] : crowd) {
+        LegMuscles other = choice_of(method, i);
+        other.material.young_pa *= 2;
+        if (i % 4 == 1) {
+          EXPECT_TRUE(simulation.change_leg_muscles(human, other));
+        }
+      }
+    }
+    simulation.tick();
+  }
+  std::map<int, std::uint64_t> hashes;
+  for (const auto& [i, human] : crowd) hashes[i] = hash_human(simulation, human);
+  return hashes;
+}
+
+TEST(Determinism, NeitherThreadsNorOrderNorCompanyMatterToAnyMethod) {
+  std::vector<int> who(18);
+  std::iota(who.begin(), who.end(), 0);
+  std::mt19937 random(3);
+  for (const Method method : methods) {
+    const auto reference = walk_crowd(method, 1, who);
+    EXPECT_EQ(walk_crowd(method, 2, who), reference) << name(method);
+    EXPECT_EQ(walk_crowd(method, 3, who), reference) << name(method);
+    auto shuffled = who;
+    std::shuffle(shuffled.begin(), shuffled.end(), random);
+    EXPECT_EQ(walk_crowd(method, 2, shuffled), reference) << name(method);
+    shuffled.resize(3);
+    for (const auto& [i, hash] : walk_crowd(method, 1, shuffled)) EXPECT_EQ(hash, reference.at(i)) << name(method);
+  }
+}
+
+TEST(Memory, ASteadyTickTakesNoneWithAnyMethod) {
+  CountingMemory memory;
+  for (const Method method : methods) {
+    for (const int threads : {1, 2}) {
+      Simulation simulation({.threads = threads, .memory = &memory});
+      for (int i = 0; i < 8; ++i) join_with(simulation, person(i), choice_of(method, i));
+      for (int i = 0; i < 3; ++i) simulation.tick();
+      const std::size_t heap = heap_requests, lent = memory.requests;
+      ASSERT_GT(heap, 0U);
+      for (int i = 0; i < 20; ++i) simulation.tick();
+      EXPECT_EQ(heap_requests, heap) << name(method) << " " << threads << " threads";
+      EXPECT_EQ(memory.requests, lent) << name(method) << " " << threads << " threads";
+    }
+  }
+  EXPECT_EQ(memory.lent(), 0U);
+}
+
+TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(3), {});
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  const Entity stays = simulation.muscle(human, Muscle::hamstrings, left),
+               goes = simulation.muscle(human, Muscle::quadriceps, right);
+  const auto before = displacement(simulation, stays);
+
+  const Muscle soleus = find_muscle("soleus").value();
+  LegMuscles choice;
+  choice.muscles = 0;
+  choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings)).set(static_cast<std::size_t>(soleus));
+  ASSERT_TRUE(simulation.change_leg_muscles(human, choice));
+  EXPECT_EQ(simulation.muscle(human, Muscle::hamstrings, left), stays);
+  EXPECT_EQ(displacement(simulation, stays), before);
+  EXPECT_FALSE(simulation.world().alive(goes));
+  EXPECT_EQ(simulation.human(human)->muscles.size(), 2U);
+  EXPECT_EQ(rows(simulation.world()), 5U);
+  simulation.tick();
+  const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, soleus, right));
+  const auto belly = *simulation.get<BellyReport>(simulation.muscle(human, soleus, right));
+  EXPECT_NEAR(belly.elongation_m, line.length_m - line.rest_length_m, 1e-6F);
+
+  const auto hash = hash_world(simulation);
+  for (const unsigned long none_or_beyond : {0UL, 1UL << 31}) {
+    choice.muscles = none_or_beyond;
+    const auto refused = simulation.change_leg_muscles(human, choice);
+    ASSERT_FALSE(refused);
+    EXPECT_NE(refused.error().message.find("muscle_groups()"), std::string::npos) << refused.error().message;
+    EXPECT_EQ(hash_world(simulation), hash);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

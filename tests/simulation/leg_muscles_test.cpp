@@ -1,0 +1,267 @@
+// Leg muscles as they are chosen: every method follows the walk, in steps as asked, with and without inertia.
+#include "tests/simulation/leg_muscles.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <string>
+
+namespace mobil {
+namespace {
+
+/// The same person with two sets of muscles, in two simulations.
+Difference walk_both(const Person& p, const LegMuscles& one, const LegMuscles& other, int ticks) {
+  Simulation a, b;
+  const Entity in_a = join_with(a, p, one), in_b = join_with(b, p, other);
+  Difference d;
+  for (int i = 0; i < ticks; ++i) {
+    a.tick();
+    b.tick();
+    compare(a, in_a, b, in_b, d);
+  }
+  return d;
+}
+
+/// A step that all methods resolve well.
+constexpr double fine_s = 1.0 / 1920;
+
+Person slow(int who) {
+  Person p = person(who);
+  p.gait.speed_m_s = 0.6F;
+  return p;
+}
+
+// -------------------------------------------------------------------------------------------- methods follow the walk
+
+TEST(Methods, AgreeWhereTheStepIsShort) {
+  for (const int who : {0, 12}) {
+    for (const bool inertia : {false, true}) {
+      const auto lumped = walk_both(person(who), {.inertia = inertia, .dt_s = fine_s},
+                                    {.method = Method::caa, .inertia = inertia, .dt_s = fine_s}, 50);
+      EXPECT_GT(lumped.most, 0.03);
+      EXPECT_LT(lumped.apart, 0.01 * lumped.most) << who << inertia;
+      const auto consistent =
+          walk_both(person(who), {.method = Method::icd, .inertia = inertia, .dt_s = fine_s},
+                    {.method = Method::caa, .mass = Mass::consistent, .inertia = inertia, .dt_s = fine_s}, 50);
+      EXPECT_LT(consistent.apart, 0.015 * consistent.most) << who << inertia;
+    }
+  }
+}
+
+TEST(Methods, DifferAtTheirOwnStepsByNoMoreThanTheseExplain) {
+  for (const int who : {5, 12}) {
+    for (const Method method : {Method::icd, Method::caa}) {
+      const auto own = walk_both(slow(who), {.dt_s = fine_s}, {.method = method}, 90);
+      EXPECT_LT(own.apart, 0.12 * own.most) << name(method);
+    }
+    const auto halved = walk_both(slow(who), {.dt_s = fine_s}, {.method = Method::caa, .dt_s = 1.0 / 120}, 90);
+    const auto whole = walk_both(slow(who), {.dt_s = fine_s}, {.method = Method::caa}, 90);
+    EXPECT_LT(halved.apart, 0.6 * whole.apart);
+  }
+}
+
+TEST(Methods, StaticIsNearASlowWalk) {
+  for (const int who : {5, 12}) {
+    const auto d = walk_both(slow(who), {}, {.method = Method::statics}, 90);
+    EXPECT_LT(d.apart, 0.25 * d.most);
+    EXPECT_GT(d.apart, 0.01 * d.most);  // it does not vibrate
+  }
+}
+
+TEST(Methods, RestInTheSameShapeWhereSomebodyStands) {
+  for (const bool inertia : {false, true}) {
+    Simulation simulation;
+    std::vector<Entity> people;
+    for (const Method method : methods) {
+      people.push_back(join_with(simulation, person(7), {.method = method, .damping_per_s = 20, .inertia = inertia}));
+      ASSERT_TRUE(simulation.change_gait(people.back(), {.speed_m_s = 0.0F}));
+    }
+    for (int i = 0; i < 360; ++i) simulation.tick();
+    for (std::size_t m = 1; m < people.size(); ++m) {
+      Difference d;
+      compare(simulation, people[0], simulation, people[m], d);
+      const bool other_load = inertia && methods[m] == Method::icd;  // by the consistent mass
+      EXPECT_LT(d.apart, other_load ? 1e-3 : 1e-4) << name(methods[m]) << (inertia ? " with inertia" : "");
+    }
+  }
+}
+
+TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
+  for (const Method method : methods) {
+    for (const Element element : {Element::full, Element::bbar, Element::one_point}) {
+      for (const Drive drive : {Drive::displacement, Drive::force}) {
+        Simulation simulation;
+        const Entity human =
+            join_with(simulation, person(3), {.drive = drive, .method = method, .element = element, .inertia = true});
+        double missed = 0;
+        for (int i = 0; i < 40; ++i) {
+          simulation.tick();
+          for (const Entity muscle : muscles_of(simulation, human)) {
+            const auto line = *simulation.get<LineOfAction>(muscle);
+            const auto report = *simulation.get<BellyReport>(muscle);
+            ASSERT_TRUE(std::isfinite(report.elongation_m));
+            EXPECT_GT(report.volume_ratio, 0.7F);
+            EXPECT_LT(report.volume_ratio, 1.4F);
+            missed = std::max(missed,
+                              static_cast<double>(std::abs(report.elongation_m - line.length_m + line.rest_length_m)));
+          }
+        }
+        if (drive == Drive::displacement) {
+          EXPECT_LT(missed, 1e-5) << name(method);
+        } else {
+          EXPECT_GT(missed, 1e-4) << name(method);
+          EXPECT_LT(missed, 0.1) << name(method);
+        }
+      }
+    }
+  }
+}
+
+TEST(Methods, OtherCellsDampingAndMassWalkToo) {
+  Simulation simulation;
+  const LegMuscles choices[] = {
+      {.stiffness_damping_s = 0.003, .cells = {1, 2, 5}},
+      {.method = Method::icd, .stiffness_damping_s = 0.001, .foundation_hz = 12.0},
+      {.method = Method::caa, .mass = Mass::consistent, .damping_per_s = 0, .cells = {2, 2, 10}},
+      {.material = {1060, 5e4, 0.45}, .element = Element::bbar, .inertia = true}};
+  for (const LegMuscles& choice : choices) {
+    const Entity human = join_with(simulation, person(2), choice);
+    for (int i = 0; i < 40; ++i) simulation.tick();
+    for (const Entity muscle : muscles_of(simulation, human)) {
+      EXPECT_EQ(simulation.nodal_displacement(muscle).nodes, node_count(choice.cells));
+      for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.2F);  // not true of NaN
+    }
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------------- steps
+
+TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
+  Simulation simulation;
+  for (const LegMuscles& choice :
+       {LegMuscles{}, LegMuscles{.method = Method::icd}, LegMuscles{.stiffness_damping_s = 0.002, .inertia = true}}) {
+    const Entity human = join_with(simulation, person(4), choice);
+    for (const Entity muscle : muscles_of(simulation, human)) {
+      const auto& world = simulation.world();
+      const auto n = choice.method == Method::ecd ? *world.get<Substeps>(muscle) : *world.get<SolvedSteps>(muscle);
+      const double limit = 0.9 * limit_of(simulation, muscle), tick = simulation.tick_s();
+      EXPECT_LE(tick / static_cast<double>(n), limit * (1 + 1e-9));
+      if (n > 1) {
+        EXPECT_GT(tick / static_cast<double>(n - 1), limit);
+      }
+    }
+  }
+}
+
+TEST(Steps, AreTakenAsAsked) {
+  Simulation simulation;
+  const double tick = simulation.tick_s();
+  const Entity explicitly = join_with(simulation, person(0), {.dt_s = tick / 20}),
+               hardly_less = join_with(simulation, person(0), {.dt_s = tick / 20 * 0.999}),
+               once = join_with(simulation, person(0), {.method = Method::caa}),
+               long_ones = join_with(simulation, person(0), {.method = Method::caa, .dt_s = 1.0}),
+               thrice = join_with(simulation, person(0), {.method = Method::caa, .dt_s = tick / 2.5});
+  const auto& world = simulation.world();
+  for (std::size_t g = 0; g < muscle_group_count; ++g) {
+    const auto group = static_cast<Muscle>(g);
+    EXPECT_EQ(world.get<Substeps>(simulation.muscle(explicitly, group, left)), 20U);
+    EXPECT_EQ(world.get<Substeps>(simulation.muscle(hardly_less, group, left)), 21U);
+    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(once, group, left)), 1U);
+    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(long_ones, group, left)), 1U);
+    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(thrice, group, left)), 3U);
+  }
+}
+
+TEST(Steps, AboveTheLimitAreRefusedByName) {
+  for (const Method method : {Method::ecd, Method::icd}) {
+    Simulation simulation;
+    const Entity other = join_with(simulation, person(1), {.method = method});
+    const Entity probe = join_with(simulation, person(2), {.method = method});
+    std::array<double, muscle_group_count> limit{};
+    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+      limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), right));
+    }
+    EXPECT_EQ(simulation.remove_leg_muscles(probe), Status::ok);
+    const std::size_t lowest = static_cast<std::size_t>(std::min_element(limit.begin(), limit.end()) - limit.begin());
+    const auto before = hash_world(simulation);
+    const auto refused = simulation.add_leg_muscles(probe, {.method = method, .dt_s = limit[lowest] * 1.0001});
+    ASSERT_FALSE(refused);
+    const std::string& message = refused.error().message;
+    EXPECT_NE(message.find(muscle_name(static_cast<Muscle>(lowest))), std::string::npos) << message;
+    char number[32];
+    std::snprintf(number, sizeof number, "%.6g", limit[lowest]);
+    EXPECT_NE(message.find(number), std::string::npos) << message << " " << number;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    const auto changed = simulation.change_leg_muscles(other, {.method = method, .dt_s = 0.1});
+    ASSERT_FALSE(changed);
+    EXPECT_NE(changed.error().message.find("critical step"), std::string::npos) << changed.error().message;
+    EXPECT_EQ(hash_world(simulation), before);
+    EXPECT_TRUE(simulation.add_leg_muscles(probe, {.method = method, .dt_s = limit[lowest] * 0.9999}));
+  }
+}
+
+// ---------------------------------------------------------------------------------------------------------- inertia
+
+double size(const Vec3<float>& v) {
+  return std::hypot(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+}
+
+TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
+  for (const float speed : {0.7F, 1.5F}) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, {{}, {.speed_m_s = speed}}, {.inertia = true});
+    double first = 0, most = 0;
+    for (int i = 0; i < 150; ++i) {
+      simulation.tick();
+      for (const Entity muscle : muscles_of(simulation, human)) {
+        const auto load = *simulation.get<FrameLoad>(muscle);
+        most = std::max(most, size(load.constant_to));
+        if (i < 3) first = std::max(first, size(load.constant_to));
+      }
+    }
+    EXPECT_LE(first, most);
+    EXPECT_LT(most, 9.81 + 40);
+    EXPECT_GT(most, 9.81 + 1);
+  }
+}
+
+TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, {{}, {.speed_m_s = 1.4F}}, {.method = Method::statics, .inertia = true});
+  for (const Side side : {right, left}) {
+    double turning = 0, swinging = 0;  // ω² and α times 0.4 m
+    for (int i = 0; i < 90; ++i) {
+      simulation.tick();
+      const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, side);
+      const auto g = simulation.get<FrameLoad>(muscle)->gradient_to;
+      turning = std::max(turning, 0.4 * static_cast<double>(g.x.x + g.y.y + g.z.z) / 2);
+      swinging = std::max(swinging, 0.2 * size({g.z.y - g.y.z, g.x.z - g.z.x, g.y.x - g.x.y}));
+    }
+    EXPECT_GT(turning, 6);
+    EXPECT_LT(turning, 25);
+    EXPECT_GT(swinging, 12);
+    EXPECT_LT(swinging, 60);
+  }
+}
+
+TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
+  for (const Method method : methods) {
+    Simulation simulation;
+    const Person p = {{}, {.speed_m_s = 1.5F}};
+    const Entity with = join_with(simulation, p, {.method = method, .inertia = true}),
+                 without = join_with(simulation, p, {.method = method});
+    Difference d;
+    for (int i = 0; i < 600; ++i) {
+      simulation.tick();
+      if (i % 3 == 0) compare(simulation, with, simulation, without, d);
+    }
+    EXPECT_GT(d.apart, 0.004) << name(method);
+    EXPECT_LT(d.apart, 0.045) << name(method);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

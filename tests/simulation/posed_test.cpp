@@ -1,0 +1,185 @@
+// People whose host animates them: their muscles follow, nothing of gait or kinematics is theirs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "tests/simulation/leg_muscles.h"
+
+namespace mobil {
+namespace {
+
+Entity pose_person(Simulation& simulation, int i) {
+  const auto human = simulation.spawn_posed(person(i).body);
+  EXPECT_TRUE(human) << human.error().message;
+  return human.value_or(Entity{});
+}
+
+TEST(Posed, StandsInTheAnatomicalPosition) {
+  for (int i = 0; i < 6; ++i) {
+    Simulation simulation;
+    const Entity human = pose_person(simulation, i);
+    const Human made = *simulation.human(human);
+    EXPECT_TRUE(made.posed);
+    const auto pose = *simulation.get<Pose>(human);
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      const auto& [x, y, z, w] = pose.rotation[s];
+      EXPECT_TRUE(x == 0 && y == 0 && z == 0 && w == 1) << segment_name[s];
+      const std::size_t parent = index(segment_parent[s]);
+      const Vec3<float> from = parent == s ? Vec3<float>{0, 0, 0} : pose.position_m[parent];
+      const Vec3<float> offset = made.body.joint_offset_m[s];
+      EXPECT_NEAR(pose.position_m[s].x - from.x, offset.x, 1e-6F) << segment_name[s];
+      EXPECT_NEAR(pose.position_m[s].y - from.y, offset.y, 1e-6F) << segment_name[s];
+      EXPECT_NEAR(pose.position_m[s].z - from.z, offset.z, 1e-6F) << segment_name[s];
+    }
+  }
+}
+
+/// A walker, and somebody of the same body who is handed the walker's poses.
+struct Couple {
+  Simulation walking, posed;
+  Entity walker, puppet;
+
+  Couple(int i, const LegMuscles& choice) : walker(join(walking, person(i), false)), puppet(pose_person(posed, i)) {
+    EXPECT_EQ(posed.set_pose(puppet, *walking.get<Pose>(walker)), Status::ok);
+    EXPECT_TRUE(walking.add_leg_muscles(walker, choice));
+    EXPECT_TRUE(posed.add_leg_muscles(puppet, choice));
+  }
+  void tick() {
+    walking.tick();
+    EXPECT_EQ(posed.set_pose(puppet, *walking.get<Pose>(walker)), Status::ok);
+    posed.tick();
+  }
+};
+
+const std::vector<LegMuscles>& choices() {
+  static const std::vector<LegMuscles> all = [] {
+    std::vector<LegMuscles> some;
+    for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced, Method::none}) {
+      some.push_back({.method = method, .reduced = {.cells = {2, 2, 8}}, .line_motion = true});
+    }
+    return some;
+  }();
+  return all;
+}
+
+TEST(Posed, HandedAWalkersPosesHasTheWalkersMuscles) {
+  for (const LegMuscles& choice : choices()) {
+    Couple two(4, choice);
+    for (int i = 0; i < 40; ++i) two.tick();
+    const auto walkers = muscles_of(two.walking, two.walker), puppets = muscles_of(two.posed, two.puppet);
+    ASSERT_EQ(walkers.size(), puppets.size());
+    for (std::size_t m = 0; m < walkers.size(); ++m) {
+      EXPECT_EQ(hash_row(two.walking.world(), walkers[m], 1), hash_row(two.posed.world(), puppets[m], 1))
+          << name(choice.method);
+    }
+  }
+}
+
+TEST(Posed, WithInertiaTheWalkersPastIsSoonForgotten) {
+  for (LegMuscles choice : choices()) {
+    choice.inertia = true;
+    if (choice.method == Method::none) continue;
+    Couple two(3, choice);
+    for (int i = 0; i < 4; ++i) two.tick();
+    const auto walkers = muscles_of(two.walking, two.walker), puppets = muscles_of(two.posed, two.puppet);
+    for (std::size_t m = 0; m < walkers.size(); ++m) {
+      const auto a = *two.walking.get<FrameLoad>(walkers[m]), b = *two.posed.get<FrameLoad>(puppets[m]);
+      EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << name(choice.method);
+    }
+    for (int i = 0; i < 180; ++i) two.tick();
+    Difference d;
+    compare(two.walking, two.walker, two.posed, two.puppet, d);
+    EXPECT_LT(d.apart, 1e-4) << name(choice.method);
+    EXPECT_GT(d.most, 1e-3) << name(choice.method);
+  }
+}
+
+TEST(Posed, BeginsWithGravityAloneWhateverItsHostDoesLater) {
+  Simulation simulation;
+  const Entity human = pose_person(simulation, 2);
+  ASSERT_TRUE(simulation.add_leg_muscles(human, {.inertia = true}));
+  for (const Entity muscle : muscles_of(simulation, human)) {
+    const auto load = *simulation.get<FrameLoad>(muscle);
+    const auto& [x, y, z] = load.constant_to;
+    EXPECT_NEAR(std::sqrt(x * x + y * y + z * z), 9.81F, 1e-4F);
+    EXPECT_NEAR(load.gradient_to.x.x, 0, 1e-9F);
+  }
+  for (int i = 0; i < 240; ++i) simulation.tick();  // stands still
+  for (const Entity muscle : muscles_of(simulation, human)) {
+    EXPECT_LT(simulation.get<BellyReport>(muscle)->kinetic_energy_j, 1e-6F);
+  }
+}
+
+TEST(Posed, RunsNoGaitAndNoKinematics) {
+  Simulation simulation;
+  for (int i = 0; i < 3; ++i) {
+    const Entity human = pose_person(simulation, i);
+    ASSERT_TRUE(simulation.add_leg_muscles(human));
+  }
+  for (int i = 0; i < 3; ++i) simulation.tick();
+  for (const SystemReport& system : simulation.report().systems) {
+    const bool theirs = system.name == "leg frames" || system.name == "lines of action" || system.name == "deformation";
+    const std::uint64_t each = system.name == "leg frames" ? 1 : 8;  // a person, or a person's muscles
+    EXPECT_EQ(system.total_entities, theirs ? 3 * 3 * each : 0) << system.name;
+    EXPECT_EQ(system.total_seconds > 0, theirs) << system.name;
+  }
+}
+
+TEST(Posed, AnswersWhatIsNotTheirsAndStaysAsTheyAre) {
+  Simulation simulation;
+  const Entity human = pose_person(simulation, 1), walker = join(simulation, person(2), false);
+  simulation.tick();
+  const auto before = hash_world(simulation);
+  const auto gait = simulation.change_gait(human, {.speed_m_s = 1.0F});
+  ASSERT_FALSE(gait);
+  EXPECT_NE(gait.error().message.find("host"), std::string::npos) << gait.error().message;
+  const auto turn = simulation.turn_to(human, 1);
+  ASSERT_FALSE(turn);
+  EXPECT_NE(turn.error().message.find("host"), std::string::npos) << turn.error().message;
+  EXPECT_EQ(simulation.add_forces(human), Status::missing);
+  EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+  EXPECT_EQ(simulation.set_pose(walker, {}), Status::missing);
+  EXPECT_EQ(simulation.set_pose({}, {}), Status::stale_entity);
+  const auto giant = simulation.spawn_posed({.height_m = 9.0F});
+  ASSERT_FALSE(giant);
+  EXPECT_EQ(giant.error().message.find('\n'), std::string::npos);
+  EXPECT_EQ(hash_world(simulation), before);
+  EXPECT_EQ(simulation.despawn(human), Status::ok);
+  EXPECT_EQ(simulation.set_pose(human, {}), Status::stale_entity);
+  EXPECT_EQ(rows(simulation.world()), 1U);
+}
+
+TEST(Posed, KeepWalkersBitsAsTheyAre) {
+  Simulation alone, together;
+  const Entity a = join(alone, person(6)), b = join(together, person(6));
+  const Entity puppet = pose_person(together, 6);
+  ASSERT_TRUE(together.add_leg_muscles(puppet));
+  for (int i = 0; i < 30; ++i) {
+    alone.tick();
+    together.tick();
+  }
+  EXPECT_EQ(hash_human(alone, a), hash_human(together, b));
+}
+
+TEST(Posed, MayChangeTheirMethods) {
+  Simulation simulation;
+  const Entity human = pose_person(simulation, 5);
+  ASSERT_TRUE(simulation.add_leg_muscles(human, {.inertia = true}));
+  for (const Method method : {Method::none, Method::statics, Method::none, Method::reduced, Method::caa}) {
+    for (std::size_t m = 0; m < muscle_group_count; ++m) {
+      const auto done =
+          simulation.set_method(human, static_cast<Muscle>(m), {method, {.vectors = 10, .cells = {2, 2, 8}}});
+      ASSERT_TRUE(done) << done.error().message;
+    }
+    for (int i = 0; i < 20; ++i) simulation.tick();
+    Difference d;
+    if (method != Method::none) compare(simulation, human, simulation, human, d);
+    EXPECT_LT(d.most, 0.12) << name(method);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

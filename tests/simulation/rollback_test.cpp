@@ -1,0 +1,187 @@
+// A window of the last ticks.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <map>
+#include <type_traits>
+#include <vector>
+
+#include "systems/relevance/simulation_relevance.h"
+#include "systems/snapshot/simulation_snapshot.h"
+#include "tests/engine/counting_heap.h"
+#include "tests/simulation/crowd_play.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+std::vector<Entity> fill(Simulation& simulation, int count, const LegMuscles& choice) {
+  std::vector<Entity> people;
+  for (int i = 0; i < count; ++i) {
+    people.push_back(*simulation.spawn(person(i).body, person(i).gait));
+    EXPECT_TRUE(simulation.add_leg_muscles(people.back(), choice));
+  }
+  return people;
+}
+
+/// What is asked at a tick, by its number alone.
+void steer(Simulation& simulation, const std::vector<Entity>& people) {
+  const std::uint64_t draw = play::mixed(3, simulation.ticks(), 0);
+  const Entity one = people[draw % people.size()];
+  if (draw % 4 == 0) {
+    ASSERT_TRUE(simulation.turn_to(one, static_cast<float>(draw % 7) - 3));
+  }
+  if (draw % 4 == 1) {
+    ASSERT_TRUE(simulation.set_method(one, Muscle::hamstrings, play::every_method()[draw / 4 % 9]));
+  }
+}
+
+TEST(Rollback, GoneBackAnyNumberOfTicksItRunsAgainWithTheSameBits) {
+  Simulation simulation;
+  const auto people = fill(simulation, 7, play::choice_of(4));
+  Rollback window(8);
+  std::map<std::uint32_t, std::uint64_t> hashes;
+  const auto run = [&](std::size_t ticks) {
+    for (std::size_t t = 0; t < ticks; ++t) {
+      ASSERT_TRUE(window.keep(simulation));
+      const auto [at, anew] = hashes.try_emplace(simulation.ticks(), simulation.state_hash());
+      ASSERT_TRUE(anew || at->second == simulation.state_hash()) << simulation.ticks();
+      steer(simulation, people);
+      simulation.tick();
+    }
+  };
+  run(8);
+  rc::check([&] {
+    const auto times = *rc::gen::inRange<std::size_t>(1, window.depth() + 1);
+    const std::uint32_t ticks = simulation.ticks();
+    RC_ASSERT(window.back(simulation, times).has_value());
+    RC_ASSERT(simulation.ticks() == ticks - times);
+    run(times + *rc::gen::inRange<std::size_t>(0, 3));
+    RC_ASSERT(window.depth() == 8U);
+  });
+}
+
+TEST(Rollback, FartherThanWasKeptIsRefused) {
+  Simulation simulation;
+  const auto people = fill(simulation, 2, play::choice_of(5));
+  Rollback window(3);
+  EXPECT_FALSE(window.back(simulation, 1));
+  for (int tick = 0; tick < 5; ++tick) {
+    ASSERT_TRUE(window.keep(simulation));
+    simulation.tick();
+  }
+  EXPECT_EQ(window.depth(), 3U);
+  EXPECT_FALSE(window.back(simulation, 4));
+  EXPECT_FALSE(window.back(simulation, 0));
+  EXPECT_EQ(simulation.ticks(), 5U);
+  ASSERT_TRUE(window.back(simulation, 3));
+  EXPECT_EQ(simulation.ticks(), 2U);
+  EXPECT_EQ(window.depth(), 0U);
+  EXPECT_FALSE(window.back(simulation, 1));
+}
+
+TEST(Rollback, KeepingAndGoingBackTakesNoMemoryWithTheSamePeople) {
+  Simulation simulation;
+  fill(simulation, 5, play::choice_of(4));
+  Rollback window(4);
+  const auto round = [&] {
+    for (int tick = 0; tick < 6; ++tick) {
+      ASSERT_TRUE(window.keep(simulation));
+      simulation.tick();
+    }
+    ASSERT_TRUE(window.back(simulation, 3));
+  };
+  round();
+  const std::size_t before = heap_requests;
+  round();
+  EXPECT_EQ(heap_requests, before);
+}
+
+TEST(Rollback, ChoosingOfMethodsGoesBackWithIt) {
+  Simulation simulation;
+  Relevance relevance(simulation, {.switches = 3, .stagger = 3, .machine_factor = 1});
+  for (int i = 0; i < 40; ++i) {
+    const Entity human = *simulation.spawn(person(i).body, person(i).gait);
+    ASSERT_TRUE(relevance.manage(human, {.muscles = 1}));
+  }
+  SceneNeeds scene;
+  scene.tolerance_m = 0.004F;
+  scene.budget_s = 2e-5;
+  const auto run = [&] {
+    std::vector<std::uint64_t> hashes;
+    for (int tick = 0; tick < 25; ++tick) {
+      relevance.update();
+      simulation.tick();
+      hashes.push_back(simulation.state_hash());
+    }
+    return hashes;
+  };
+  ASSERT_TRUE(relevance.set_scene(scene));
+  run();
+  scene.budget_s = 5e-5;
+  ASSERT_TRUE(relevance.set_scene(scene));
+  relevance.update();
+  Rollback window(1);
+  ASSERT_TRUE(window.keep(simulation));
+  const RelevanceState kept = relevance.state();
+  static_assert(std::is_trivially_copyable_v<RelevanceState>);
+  const auto first = run();
+  ASSERT_TRUE(window.back(simulation, 1));
+  relevance.set_state(kept);
+  EXPECT_EQ(run(), first);
+}
+
+// What a window of eight ticks costs; run it by name.
+TEST(Rollback, DISABLED_Milliseconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto ms = [](Clock::time_point from) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - from).count();
+  };
+  for (const int threads : {1, 2}) {
+    for (const bool seen : {false, true}) {
+      Simulation simulation({.threads = threads});
+      LegMuscles choice;
+      choice.method = Method::reduced;
+      choice.reduced.control_points = seen;
+      choice.reduced.reported = false;
+      const auto people = fill(simulation, 1000, choice);
+      Rollback window(8);
+      std::vector<double> keep, back, again, hash;
+      for (int tick = 0; tick < 48; ++tick) {
+        auto from = Clock::now();
+        ASSERT_TRUE(window.keep(simulation));
+        keep.push_back(ms(from));
+        simulation.tick();
+        from = Clock::now();
+        simulation.state_hash();
+        hash.push_back(ms(from));
+        if (tick % 8 != 7) continue;
+        from = Clock::now();
+        ASSERT_TRUE(window.back(simulation, 8));
+        back.push_back(ms(from));
+        for (int t = 0; t < 8; ++t) {
+          if (t > 0) {
+            ASSERT_TRUE(window.keep(simulation));
+          }
+          simulation.tick();
+        }
+        again.push_back(ms(from));
+      }
+      const auto median = [](std::vector<double> of) {
+        std::nth_element(of.begin(), of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2), of.end());
+        return of[of.size() / 2];
+      };
+      std::printf(
+          "1000 people x 8 reduced muscles, %s, %d threads: %.2f MB, keep %.2f ms, back %.2f ms, back and 8 ticks"
+          " again, all kept, %.2f ms, hash %.2f ms\n",
+          seen ? "seen" : "unseen", threads, 1e-6 * static_cast<double>(simulation.snapshot_bytes()), median(keep),
+          median(back), median(again), median(hash));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,241 @@
+// Requests to people under way: what a change costs, who refuses it, and that it shows in the same bits on any threads.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "components/forces.h"
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+
+namespace mobil {
+namespace {
+
+std::uint64_t solved(const Simulation& simulation) {
+  return simulation.schedule().timing("replan")->rows;
+}
+
+void walk(Simulation& simulation, int ticks) {
+  for (int i = 0; i < ticks; ++i) simulation.tick();
+}
+
+template <template <class> class C>
+bool has_column(const Simulation& simulation, Entity entity) {
+  const auto place = simulation.world().find(entity);
+  return place && find_part(place.table->key(), type_id<C<float>>()) != nullptr;
+}
+
+// --------------------------------------------------------------------------------------------------- refusals
+
+TEST(Change, StaleHandlesChangeNothing) {
+  Simulation simulation;
+  const Entity gone = join(simulation, person(0)), stays = join(simulation, person(1));
+  walk(simulation, 10);
+  ASSERT_EQ(simulation.despawn(gone), Status::ok);
+  const Entity muscle = simulation.muscle(stays, Muscle::quadriceps, left);
+  ASSERT_TRUE(simulation.world().alive(muscle));
+  const auto before = hash_world(simulation);
+  for (const Entity bad : {gone, Entity{}, Entity{~0U, 1}, muscle}) {  // a muscle lives, but walks nowhere
+    const auto changed = simulation.change_gait(bad, {.speed_m_s = 1.0F});
+    ASSERT_FALSE(changed);
+    EXPECT_FALSE(changed.error().message.empty());
+    EXPECT_FALSE(simulation.turn_to(bad, 1));
+    EXPECT_EQ(simulation.add_forces(bad), Status::stale_entity);
+    EXPECT_EQ(simulation.remove_forces(bad), Status::stale_entity);
+  }
+  EXPECT_EQ(hash_world(simulation), before);
+}
+
+TEST(Change, RequestsOutOfRangeLeaveEverythingAsItWas) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(2)), other = join(simulation, person(3), false);
+  walk(simulation, 45);
+  const auto before = hash_world(simulation);
+  const std::size_t tables = simulation.world().tables().size();
+  std::vector<GaitRequest> bad = {{.speed_m_s = 9.0F},
+                                  {.speed_m_s = -1.0F},
+                                  {.speed_m_s = NAN},
+                                  {.speed_m_s = INFINITY},
+                                  {.speed_m_s = 0.0F, .step_length_m = 0.5F},
+                                  {.step_length_m = 3.0F},
+                                  {.step_length_m = 0.0F},
+                                  {.step_frequency_hz = 20.0F},
+                                  {.speed_m_s = 1.4F, .step_length_m = 0.7F, .step_frequency_hz = 3.0F}};
+  for (const GaitParameter& parameter : gait_parameters) {
+    for (const float value : {parameter.low - 0.01F, parameter.high + 0.01F, NAN, INFINITY, -INFINITY}) {
+      bad.push_back({.speed_m_s = 1.2F});
+      bad.back().style.*parameter.value = value;
+    }
+  }
+  for (const GaitRequest& request : bad) {
+    const auto changed = simulation.change_gait(human, request);
+    ASSERT_FALSE(changed);
+    EXPECT_EQ(changed.error().message.find('\n'), std::string::npos) << changed.error().message;
+    ASSERT_EQ(hash_world(simulation), before) << changed.error().message;
+  }
+  EXPECT_EQ(simulation.world().tables().size(), tables);
+
+  // Nor does it show later.
+  Simulation unasked;
+  const Entity same = join(unasked, person(2)), beside = join(unasked, person(3), false);
+  walk(unasked, 45);
+  walk(simulation, 60);
+  walk(unasked, 60);
+  EXPECT_EQ(hash_human(simulation, human), hash_human(unasked, same));
+  EXPECT_EQ(hash_human(simulation, other), hash_human(unasked, beside));
+}
+
+TEST(Change, OthersKeepTheirBits) {
+  Simulation asked, unasked;
+  std::vector<Entity> in_asked, in_unasked;
+  for (int i = 0; i < 20; ++i) {
+    in_asked.push_back(join(asked, person(i), false));
+    in_unasked.push_back(join(unasked, person(i), false));
+  }
+  for (int tick = 0; tick < 240; ++tick) {
+    if (tick % 30 == 20) {
+      ASSERT_TRUE(asked.change_gait(in_asked[7], {.speed_m_s = tick % 60 == 20 ? 0.0F : 1.2F}));
+      EXPECT_TRUE(asked.turn_to(in_asked[12], static_cast<float>(tick)));
+    }
+    if (tick == 50) {
+      EXPECT_EQ(asked.add_forces(in_asked[3]), Status::ok);
+    }
+    if (tick == 150) {
+      EXPECT_EQ(asked.remove_forces(in_asked[3]), Status::ok);
+    }
+    asked.tick();
+    unasked.tick();
+  }
+  for (std::size_t i = 0; i < in_asked.size(); ++i) {
+    const bool changed = i == 7 || i == 12;  // forces do not change the walk
+    EXPECT_EQ(hash_human(asked, in_asked[i]) == hash_human(unasked, in_unasked[i]), !changed) << "person " << i;
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------- costs
+
+TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(0), false), other = join(simulation, person(1), false);
+  const auto bare = simulation.world().find(human).table;
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(simulation.add_forces(human), Status::ok);
+    EXPECT_EQ(simulation.add_forces(human), Status::ok);  // there already
+    EXPECT_TRUE(has_column<MotionHistory>(simulation, human));
+    EXPECT_TRUE(has_column<GroundReaction>(simulation, human));
+    EXPECT_TRUE(has_column<JointMoments>(simulation, human));
+    EXPECT_FALSE(has_column<JointMoments>(simulation, other));
+    walk(simulation, 20);
+    EXPECT_TRUE(simulation.get<GroundReaction>(human).has_value());
+    EXPECT_EQ(simulation.get<GroundReaction>(other).error(), Status::missing);
+    EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+    EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+    EXPECT_FALSE(has_column<MotionHistory>(simulation, human));
+    EXPECT_FALSE(has_column<GroundReaction>(simulation, human));
+    EXPECT_FALSE(has_column<JointMoments>(simulation, human));
+    EXPECT_EQ(simulation.world().find(human).table, bare);
+    EXPECT_EQ(rows_with<JointMoments>(simulation.world()), 0U);
+  }
+}
+
+TEST(Change, SteadyWalkersAreNotSolvedAgain) {
+  Simulation simulation;
+  std::vector<Entity> crowd;
+  for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, person(i), false));
+  walk(simulation, 120);  // the first step was solved at spawn; one may show that the next is like it
+  EXPECT_LE(solved(simulation), 2 * crowd.size());
+  auto before = solved(simulation);
+  walk(simulation, 300);
+  EXPECT_EQ(solved(simulation), before);
+
+  // One who changes is solved a few times: as many steps as the change takes, and one to find that it is done.
+  for (const float speed : {1.9F, 0.6F, 0.0F, 1.3F}) {
+    ASSERT_TRUE(simulation.change_gait(crowd[11], {.speed_m_s = speed}));
+    before = solved(simulation);
+    walk(simulation, 600);
+    EXPECT_GE(solved(simulation), before + 1) << speed;
+    EXPECT_LE(solved(simulation), before + 6) << speed;
+    before = solved(simulation);
+    walk(simulation, 300);
+    EXPECT_EQ(solved(simulation), before) << speed;
+  }
+  // Turning takes no new step.
+  EXPECT_TRUE(simulation.turn_to(crowd[11], 2));
+  walk(simulation, 600);
+  EXPECT_EQ(solved(simulation), before);
+  // Several requests within a step are solved once.
+  const auto stance = simulation.get<GaitState>(crowd[20])->steps;
+  while (simulation.get<GaitState>(crowd[20])->steps == stance) simulation.tick();
+  before = solved(simulation);
+  for (int i = 0; i < 5; ++i)
+    ASSERT_TRUE(simulation.change_gait(crowd[20], {.speed_m_s = 1.2F + 0.01F * static_cast<float>(i)}));
+  walk(simulation, 600);
+  EXPECT_LE(solved(simulation), before + 4);
+}
+
+// ------------------------------------------------------------------------------------------------- determinism
+
+/// Everything after four seconds in which everybody is asked for something every half second.
+std::vector<std::uint64_t> changeable_crowd(int threads) {
+  Simulation simulation({.threads = threads});
+  std::vector<Entity> crowd;
+  for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, person(i), i % 10 == 0));
+  for (int tick = 0; tick < 240; ++tick) {
+    for (int i = 0; i < 40; ++i) {
+      if ((tick + 7 * i) % 30 != 0) continue;
+      const Entity human = crowd[static_cast<std::size_t>(i)];
+      switch ((tick / 30 + i) % 5) {
+        case 0:
+          EXPECT_TRUE(simulation.change_gait(human, {.speed_m_s = 0.8F + 0.02F * static_cast<float>(i)}));
+          break;
+        case 1:
+          EXPECT_TRUE(simulation.turn_to(human, static_cast<float>(i - 20)));
+          break;
+        case 2:
+          EXPECT_TRUE(simulation.change_gait(human, {.speed_m_s = 0.0F}));
+          break;
+        case 3:
+          EXPECT_EQ(simulation.add_forces(human), Status::ok);
+          break;
+        default:
+          EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+      }
+    }
+    simulation.tick();
+  }
+  std::vector<std::uint64_t> hashes;
+  for (const Entity human : crowd) hashes.push_back(hash_human(simulation, human));
+  return hashes;
+}
+
+TEST(Change, ThreadsDoNotMatter) {
+  const auto alone = changeable_crowd(1);
+  EXPECT_EQ(changeable_crowd(2), alone);
+  EXPECT_EQ(changeable_crowd(3), alone);
+}
+
+TEST(Change, ARequestShowsFromTheNextStepOn) {
+  Simulation changed, unchanged;
+  const Entity a = join(changed, person(4), false), b = join(unchanged, person(4), false);
+  walk(changed, 50);
+  walk(unchanged, 50);
+  ASSERT_TRUE(changed.change_gait(a, {.speed_m_s = 0.7F}));
+  EXPECT_TRUE(changed.turn_to(a, 1));
+  const auto step = changed.get<GaitState>(a)->steps;
+  for (int i = 0; i < 200; ++i) {
+    changed.tick();
+    unchanged.tick();
+    if (changed.get<GaitState>(a)->steps != step) break;
+    const auto p = *changed.get<Pose>(a), q = *unchanged.get<Pose>(b);
+    ASSERT_EQ(std::memcmp(&p, &q, sizeof p), 0) << i;
+  }
+  walk(changed, 60);
+  walk(unchanged, 60);
+  EXPECT_LT(changed.get<Pose>(a)->position_m[0].z, unchanged.get<Pose>(b)->position_m[0].z);
+  EXPECT_GT(changed.get<GaitState>(a)->heading_rad, 0.3F);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,82 @@
+#pragma once
+// What a simulation holds, in one number; and people who join one.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+
+inline std::uint64_t fnv(std::uint64_t hash, std::uint32_t word) {
+  return (hash ^ word) * 0x100000001b3;
+}
+
+/// Every word of an entity's row, whatever it is made of; who owns a muscle (a handle) left out.
+inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t hash) {
+  const auto place = world.find(entity);
+  if (!place) return fnv(hash, 0xdead);
+  for (const KeyPart& part : place.table->key()) {
+    const bool steps = part.id == type_id<Substeps>() || part.id == type_id<SolvedSteps>();
+    if (steps) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
+    if (!has_column(part.kind) || part.id == type_id<MuscleOwner<float>>()) continue;
+    std::vector<std::uint32_t> words(part.value);
+    const auto width = static_cast<std::uint32_t>(part.value);
+    place.table->read(place.row, place.table->column(part.id), width, words.data());
+    for (const std::uint32_t word : words) hash = fnv(hash, word);
+  }
+  return hash;
+}
+
+inline std::uint64_t hash_human(const Simulation& simulation, Entity human) {
+  std::uint64_t hash = hash_row(simulation.world(), human, 0xcbf29ce484222325);
+  for (std::size_t g = 0; g < muscle_group_count; ++g) {
+    for (const Side side : {right, left}) {
+      hash = hash_row(simulation.world(), simulation.muscle(human, static_cast<Muscle>(g), side), hash);
+    }
+  }
+  return hash;
+}
+
+inline std::size_t rows(const World& world) {
+  std::size_t sum = 0;
+  for (const Table& table : world.tables()) sum += table.row_count();
+  return sum;
+}
+
+template <template <class> class C>
+std::size_t rows_with(const World& world) {
+  std::size_t sum = 0;
+  for (const Table& table : world.tables()) {
+    if (find_part(table.key(), type_id<C<float>>()) != nullptr) sum += table.row_count();
+  }
+  return sum;
+}
+
+/// Everything there is, handles too, table by table.
+inline std::uint64_t hash_world(const Simulation& simulation) {
+  std::uint64_t hash = fnv(0xcbf29ce484222325, static_cast<std::uint32_t>(rows(simulation.world())));
+  for (const Table& table : simulation.world().tables()) {
+    for (std::uint32_t row = 0; row < table.row_count(); ++row) {
+      const Entity entity = table.entities(row / lane_count)[row % lane_count];
+      hash = hash_row(simulation.world(), entity, fnv(fnv(hash, entity.index), entity.generation));
+    }
+  }
+  return hash;
+}
+
+inline Entity join(Simulation& simulation, const Person& person, bool muscles = true) {
+  const auto human = simulation.spawn(person.body, person.gait);
+  EXPECT_TRUE(human) << human.error().message;
+  if (!human) return {};
+  if (muscles) {
+    const auto added = simulation.add_leg_muscles(*human);
+    EXPECT_TRUE(added) << added.error().message;
+  }
+  return *human;
+}
+
+}  // namespace mobil

@@ -1,0 +1,432 @@
+// Methods of single muscles that change under way: what is shown goes on, errors change nothing, nobody pays for what
+// they have not asked for.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <iostream>
+#include <map>
+#include <numeric>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "components/fade.h"
+#include "tests/simulation/leg_muscles.h"
+
+namespace mobil {
+namespace {
+
+// Coarse meshes, whose bases are made in no time.
+constexpr Cells coarse = {2, 2, 8};
+
+MuscleMethod reduced(std::uint32_t vectors, bool moving, bool control_points) {
+  return {Method::reduced, {vectors, moving, true, coarse, control_points}};
+}
+
+const std::vector<MuscleMethod> every_method = {{Method::ecd},
+                                                {Method::icd},
+                                                {Method::caa},
+                                                {Method::statics},
+                                                reduced(12, true, true),
+                                                reduced(5, true, true),
+                                                reduced(12, true, false),
+                                                reduced(12, false, true),
+                                                reduced(8, false, false),
+                                                {Method::none}};
+
+std::string text(const MuscleMethod& method) {
+  std::string all = name(method.method);
+  if (method.method != Method::reduced) return all;
+  const ReducedChoice& r = method.reduced;
+  return all + " " + std::to_string(r.vectors) + (r.moving ? "" : " static") + (r.control_points ? "" : " unseen");
+}
+
+double apart(const std::vector<float>& a, const std::vector<float>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, static_cast<double>(std::abs(a[i] - b[i])));
+  return most;
+}
+
+template <class Tag>
+std::size_t rows_of(const World& world) {
+  std::size_t sum = 0;
+  for (const Table& table : world.tables()) {
+    if (find_part(table.key(), type_id<Tag>()) != nullptr) sum += table.row_count();
+  }
+  return sum;
+}
+
+// ------------------------------------------------------------------------------------------------- continuity
+
+/// A crowd in short ticks that is switched about, and a twin that is not.
+struct Twins {
+  static constexpr double tick_s = 1.0 / 960;
+  static constexpr int people = 4;
+  Simulation switched{{.tick_s = tick_s}}, steady{{.tick_s = tick_s}};
+  std::vector<Entity> who, twin;
+
+  explicit Twins(bool inertia) {
+    LegMuscles choice;
+    choice.inertia = inertia;
+    choice.muscles = 0;
+    choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
+    choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
+    for (int i = 0; i < people; ++i) {
+      who.push_back(join_with(switched, person(i), choice));
+      twin.push_back(join_with(steady, person(i), choice));
+    }
+    tick(100);
+  }
+  void tick(int count = 1) {
+    for (int i = 0; i < count; ++i) {
+      switched.tick();
+      steady.tick();
+    }
+  }
+};
+
+Twins& twins(bool inertia) {
+  static std::array<Twins, 2> both = {Twins(false), Twins(true)};
+  return both[inertia ? 1 : 0];
+}
+
+/// The vectors' own static answer is another method than their motion, though they are the same vectors; and methods
+/// may change twice between two ticks.
+TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
+  Twins& t = twins(false);
+  const auto at = [&] { return displacement(t.switched, t.switched.muscle(t.who[0], Muscle::hamstrings, right)); };
+  const auto change = [&](const MuscleMethod& to) {
+    ASSERT_TRUE(t.switched.set_method(t.who[0], Muscle::hamstrings, to));
+  };
+  change(reduced(12, true, true));
+  double step = 0;  // of a tick, unswitched
+  for (int i = 0; i < 400; ++i) {
+    const auto before = at();
+    t.tick();
+    step = std::max(step, apart(before, at()));
+  }
+  for (const MuscleMethod& next : {MuscleMethod{Method::ecd}, reduced(5, true, true), reduced(12, true, true)}) {
+    const auto before = at();
+    change(reduced(12, false, true));
+    EXPECT_LT(apart(before, at()), 1.1e-5);
+    t.tick();
+    EXPECT_LT(apart(before, at()), 2 * step);
+    const auto still = at();
+    change(reduced(12, true, true));
+    change(reduced(12, false, true));
+    change(next);
+    EXPECT_LT(apart(still, at()), 1.1e-5) << text(next);
+    change(reduced(12, true, true));
+    t.tick(400);
+  }
+}
+
+RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
+  const bool inertia = *rc::gen::arbitrary<bool>();
+  Twins& t = twins(inertia);
+  const auto human = *rc::gen::inRange<std::size_t>(0, Twins::people);
+  const Muscle muscle = *rc::gen::element(Muscle::hamstrings, Muscle::tibialis_anterior);
+  const MuscleMethod to = *rc::gen::elementOf(every_method);
+  t.tick(*rc::gen::inRange(0, 300));  // now and then while the last change still fades
+
+  // Ticks 0 and 1, the change, ticks 2 to 4.
+  using Frames = std::array<std::vector<float>, 5>;
+  std::array<Frames, 2> shown, unswitched;
+  const auto record = [&](std::size_t frame) {
+    for (const Side side : {right, left}) {
+      shown[side][frame] = displacement(t.switched, t.switched.muscle(t.who[human], muscle, side));
+      unswitched[side][frame] = displacement(t.steady, t.steady.muscle(t.twin[human], muscle, side));
+    }
+  };
+  record(0);
+  t.tick();
+  record(1);
+  const auto done = t.switched.set_method(t.who[human], muscle, to);
+  RC_ASSERT(done.has_value());
+  RC_ASSERT(t.switched.method(t.who[human], muscle).method == to.method);
+  const bool seen = to.method != Method::none && (to.method != Method::reduced || to.reduced.control_points);
+  for (const Side side : {right, left}) {
+    const auto now = displacement(t.switched, t.switched.muscle(t.who[human], muscle, side));
+    RC_ASSERT(now.empty() != seen);
+    if (seen && !shown[side][1].empty()) RC_ASSERT(apart(now, shown[side][1]) < 1.1e-5);
+  }
+  for (std::size_t frame = 2; frame < 5; ++frame) {
+    t.tick();
+    record(frame);
+  }
+  for (const Side side : {right, left}) {
+    // A static answer has the velocity of its load, which changes as it likes.
+    const bool still = to.method == Method::statics || (to.method == Method::reduced && !to.reduced.moving);
+    if (!seen || still || shown[side][1].empty()) continue;
+    // Change of velocity about the change, and what the methods' own motion makes of it then and later.
+    double jump = 0, explained = 0;
+    for (std::size_t i = 0; i < shown[side][1].size(); ++i) {
+      const auto kink = [i](const Frames& u, std::size_t k) {
+        return std::abs(static_cast<double>(u[k + 1][i] - u[k][i]) - static_cast<double>(u[k][i] - u[k - 1][i])) /
+               Twins::tick_s;
+      };
+      RC_ASSERT(std::isfinite(shown[side][4][i]));
+      jump = std::max(jump, kink(shown[side], 1));
+      explained = std::max({explained, kink(unswitched[side], 1), kink(shown[side], 2), kink(shown[side], 3)});
+    }
+    RC_ASSERT(jump < 3 * explained + 0.01);
+  }
+}
+
+TEST(Switching, IsForgottenAfterTheFade) {
+  Simulation simulation, whole;
+  const Entity human = join_with(simulation, person(5), {}),
+               same = join_with(whole, person(5), {.method = Method::statics});
+  for (int i = 0; i < 40; ++i) {
+    simulation.tick();
+    whole.tick();
+  }
+  for (std::size_t m = 0; m < muscle_group_count; ++m) {
+    ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(m), {Method::statics}));
+  }
+  EXPECT_GT(rows_with<Fade>(simulation.world()), 0U);
+  for (int i = 0; i < 15; ++i) {
+    EXPECT_GT(rows_of<ShownDisplacement>(simulation.world()), 0U) << i;
+    simulation.tick();
+    whole.tick();
+  }
+  EXPECT_EQ(rows_with<Fade>(simulation.world()), 0U);
+  EXPECT_EQ(rows_of<FadeStart>(simulation.world()), 0U);
+  EXPECT_EQ(rows_of<ShownDisplacement>(simulation.world()), 0U);
+  Difference d;
+  compare(simulation, human, whole, same, d);
+  EXPECT_LT(d.apart, 2e-5);  // what the solver leaves
+  EXPECT_GT(d.most, 1e-3);
+}
+
+TEST(Switching, WhetherSomebodyLooksChangesNothing) {
+  for (const bool inertia : {false, true}) {
+    Simulation looked, unseen;
+    const LegMuscles choice{.method = Method::reduced, .reduced = {.cells = coarse}, .inertia = inertia};
+    const Entity a = join_with(looked, person(7), choice), b = join_with(unseen, person(7), choice);
+    for (int i = 0; i < 60; ++i) {
+      if (i % 5 == 0) {
+        ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, reduced(12, true, i % 2 == 0)));
+      }
+      looked.tick();
+      unseen.tick();
+    }
+    ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, reduced(12, true, true)));
+    looked.tick();
+    unseen.tick();
+    for (const Side side : {right, left}) {
+      const Entity x = looked.muscle(a, Muscle::hamstrings, side), y = unseen.muscle(b, Muscle::hamstrings, side);
+      EXPECT_EQ(displacement(looked, x), displacement(unseen, y));
+      EXPECT_FALSE(displacement(unseen, y).empty());
+    }
+    EXPECT_EQ(rows_with<Fade>(unseen.world()), 0U);
+    EXPECT_EQ(hash_human(looked, a), hash_human(unseen, b));
+  }
+}
+
+TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
+  for (const bool inertia : {false, true}) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, person(2), {.inertia = inertia});
+    for (int i = 0; i < 30; ++i) simulation.tick();
+    for (const MuscleMethod& to : every_method) {
+      ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
+      for (int i = 0; i < 3; ++i) simulation.tick();
+      ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to)) << text(to);
+      const Entity muscle = simulation.muscle(human, Muscle::hamstrings, left);
+      EXPECT_FALSE(simulation.world().has<Fade>(muscle));
+      for (int i = 0; i < 20; ++i) simulation.tick();
+      const auto u = displacement(simulation, muscle);
+      for (const float x : u) ASSERT_LT(std::abs(x), 0.12F) << text(to);
+    }
+  }
+}
+
+// ----------------------------------------------------------------------------------------------------- refusals
+
+TEST(SetMethod, RefusedLeavesAllAsItWas) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(9), {.method = Method::caa, .inertia = true, .dt_s = 1.0 / 60}),
+               damped = join_with(simulation, person(4), {.stiffness_damping_s = 0.001}),
+               bare = join(simulation, person(1), false);
+  for (int i = 0; i < 10; ++i) simulation.tick();
+  const auto before = hash_world(simulation);
+  const std::size_t tables = simulation.world().tables().size();
+  const auto refused = [&](Entity whose, Muscle muscle, const MuscleMethod& method, const std::string& says) {
+    const auto done = simulation.set_method(whose, muscle, method);
+    ASSERT_FALSE(done) << says;
+    EXPECT_TRUE(done.error().message.starts_with("set_method: ")) << done.error().message;
+    EXPECT_NE(done.error().message.find(says), std::string::npos) << done.error().message;
+    EXPECT_EQ(done.error().message.find('\n'), std::string::npos) << done.error().message;
+    EXPECT_EQ(hash_world(simulation), before) << says;
+    EXPECT_EQ(simulation.world().tables().size(), tables) << says;
+  };
+  const Muscle soleus = find_muscle("soleus").value();
+  refused(Entity{}, Muscle::hamstrings, {Method::none}, "spawn one first");
+  refused(bare, Muscle::hamstrings, {Method::none}, "no such muscle");
+  refused(human, soleus, {Method::none}, "no such muscle");
+  refused(human, Muscle::hamstrings, {static_cast<Method>(9)}, "hamstrings");
+  refused(human, Muscle::hamstrings, {Method::ecd}, "critical step");
+  refused(human, Muscle::hamstrings, reduced(0, true, true), "1 to 32");
+  refused(human, Muscle::hamstrings, reduced(33, false, true), "1 to 32");
+  refused(human, Muscle::hamstrings, {Method::reduced, {.cells = {3, 3, 12}}}, "cells");
+  refused(human, Muscle::hamstrings, {Method::reduced, {.cells = {0, 4, 16}}}, "cells");
+  refused(damped, Muscle::quadriceps, reduced(12, true, true), "stiffness damping");
+  EXPECT_EQ(simulation.method(human, Muscle::hamstrings).method, Method::caa);
+  EXPECT_EQ(simulation.method(human, soleus).method, Method::none);
+  EXPECT_EQ(simulation.method(bare, Muscle::hamstrings).method, Method::none);
+}
+
+TEST(SetMethod, IsForgottenByAChangeOfLegMuscles) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(8), {});
+  for (int i = 0; i < 10; ++i) simulation.tick();
+  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
+  ASSERT_TRUE(simulation.set_method(human, Muscle::quadriceps, reduced(9, true, true)));
+  ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, {Method::statics}));
+  EXPECT_EQ(simulation.method(human, Muscle::tibialis_anterior).method, Method::ecd);
+  simulation.tick();
+  const auto muscles = muscles_of(simulation, human);
+  ASSERT_TRUE(simulation.change_leg_muscles(human, {.method = Method::caa}));
+  EXPECT_EQ(muscles_of(simulation, human), muscles);
+  for (std::size_t m = 0; m < muscle_group_count; ++m) {
+    EXPECT_EQ(simulation.method(human, static_cast<Muscle>(m)).method, Method::caa);
+  }
+  for (const Entity muscle : muscles) EXPECT_TRUE(simulation.world().has<SolvedSteps>(muscle));
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  EXPECT_EQ(rows_with<Fade>(simulation.world()), 0U);
+}
+
+// -------------------------------------------------------------------------------------------------- determinism
+
+std::map<int, std::uint64_t> switch_crowd(int threads, const std::vector<int>& who) {
+  Simulation simulation({.threads = threads});
+  std::map<int, Entity> crowd;
+  for (const int i : who) {
+    crowd[i] = join_with(simulation, person(i), {.reduced = {.cells = coarse}, .inertia = i % 2 == 0});
+  }
+  for (int tick = 0; tick < 40; ++tick) {
+    for (const int i : who) {  // in whatever order
+      const auto draw = static_cast<std::size_t>(7 * i + 13 * tick);
+      if (draw % 5 != 0) continue;
+      const auto muscle = static_cast<Muscle>(draw % muscle_group_count);
+      EXPECT_TRUE(simulation.set_method(crowd[i], muscle, every_method[draw * 31 % every_method.size()]));
+    }
+    simulation.tick();
+  }
+  std::map<int, std::uint64_t> hashes;
+  for (const auto& [i, human] : crowd) hashes[i] = hash_human(simulation, human);
+  return hashes;
+}
+
+TEST(Switching, NeitherThreadsNorOrderNorCompanyMatter) {
+  std::vector<int> who = {0, 1, 2, 3, 4, 5, 6};
+  const auto reference = switch_crowd(1, who);
+  EXPECT_EQ(switch_crowd(2, who), reference);
+  std::mt19937 random(5);
+  std::shuffle(who.begin(), who.end(), random);
+  EXPECT_EQ(switch_crowd(2, who), reference);
+  who.resize(2);
+  for (const auto& [i, hash] : switch_crowd(1, who)) EXPECT_EQ(hash, reference.at(i));
+}
+
+// --------------------------------------------------------------------------------------------------------- costs
+
+/// Entities that systems whose names begin so worked on in the last tick; no time where there are none.
+std::uint64_t worked(const Simulation& simulation, std::string_view begins) {
+  std::uint64_t sum = 0;
+  for (const SystemReport& system : simulation.report().systems) {
+    if (!system.name.starts_with(begins)) continue;
+    sum += system.entities;
+    if (system.entities == 0) {
+      EXPECT_EQ(system.seconds, 0.0) << system.name;
+    }
+  }
+  return sum;
+}
+
+TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
+  Simulation simulation;
+  std::vector<Entity> crowd;
+  for (int i = 0; i < 5; ++i) crowd.push_back(join(simulation, person(i), false));
+  simulation.tick();
+  EXPECT_EQ(worked(simulation, "gait"), 5U);
+  EXPECT_EQ(worked(simulation, "kinematics"), 5U);
+  for (const char* system : {"forces", "line", "frame motion", "deformation", "control points", "fade"}) {
+    EXPECT_EQ(worked(simulation, system), 0U) << system;
+  }
+  for (const SystemReport& system : simulation.report().systems) {
+    if (system.total_entities > 0) {
+      EXPECT_GT(system.total_seconds, 0) << system.name;
+    }
+  }
+
+  LegMuscles choice{.method = Method::none, .inertia = true};
+  ASSERT_TRUE(simulation.add_leg_muscles(crowd[0], choice));
+  simulation.tick();
+  EXPECT_EQ(worked(simulation, "lines of action"), 8U);
+  for (const char* system : {"forces", "line motion", "frame motion", "deformation", "control points", "fade"}) {
+    EXPECT_EQ(worked(simulation, system), 0U) << system;
+  }
+  EXPECT_EQ(simulation.nodal_displacement(simulation.muscle(crowd[0], Muscle::hamstrings, left)).first, nullptr);
+
+  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, false, false)));
+  simulation.tick();
+  for (const char* system : {"frame motion", "deformation", "control points", "fade"}) {
+    EXPECT_EQ(worked(simulation, system), 0U) << system;
+  }
+  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, true, false)));
+  simulation.tick();
+  EXPECT_EQ(worked(simulation, "frame motion"), 2U);
+  EXPECT_EQ(worked(simulation, "deformation, reduced"), 2U);
+  EXPECT_EQ(worked(simulation, "deformation"), 2U);
+  EXPECT_EQ(worked(simulation, "control points"), 0U);
+  ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, false, true)));
+  simulation.tick();
+  EXPECT_EQ(worked(simulation, "deformation"), 0U);
+  EXPECT_EQ(worked(simulation, "control points, static"), 2U);
+  EXPECT_EQ(worked(simulation, "control points"), 2U);
+  EXPECT_EQ(simulation.report().ticks, 5U);
+}
+
+TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
+  Simulation all, none;
+  const Entity a = join_with(all, person(3), {.line_motion = true}),
+               b = join_with(none, person(3), {.method = Method::none, .line_motion = true});
+  for (int i = 0; i < 20; ++i) {
+    all.tick();
+    none.tick();
+  }
+  for (std::size_t m = 0; m < muscle_group_count; ++m) {
+    const Entity x = all.muscle(a, static_cast<Muscle>(m), left), y = none.muscle(b, static_cast<Muscle>(m), left);
+    const auto p = *all.get<LineOfAction>(x), q = *none.get<LineOfAction>(y);
+    EXPECT_EQ(std::memcmp(&p, &q, sizeof p), 0);
+    const auto r = *all.get<LineMotion>(x), s = *none.get<LineMotion>(y);
+    EXPECT_EQ(std::memcmp(&r, &s, sizeof r), 0);
+  }
+}
+
+TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
+  std::map<std::string, std::uint32_t> bytes;
+  for (const bool inertia : {false, true}) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, person(3), {.inertia = inertia});
+    for (const MuscleMethod& method : every_method) {
+      ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, method));
+      for (int i = 0; i < 20; ++i) simulation.tick();  // the fade is over
+      const auto place = simulation.world().find(simulation.muscle(human, Muscle::hamstrings, left));
+      bytes[text(method) + (inertia ? ", inertia" : "")] = 4 * place.table->words();
+    }
+  }
+  for (const auto& [what, size] : bytes) std::cout << what << ": " << size << " bytes a muscle\n";
+  EXPECT_LE(bytes["reduced 12 unseen"], 448U);
+  EXPECT_LE(bytes["none"], 200U);
+  EXPECT_LT(4 * bytes["reduced 12 unseen"], bytes["ecd"]);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,421 @@
+// The front door: same bits however the work is cut and whoever else is there, bodies and gaits of all kinds, effects
+// that come and go without a trace, time, memory.
+#include "systems/simulation.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <numeric>
+#include <random>
+#include <vector>
+
+#include "tests/engine/counting_heap.h"
+#include "tests/engine/engine_counting_memory.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+
+namespace mobil {
+namespace {
+
+constexpr int crowd_size = 40;
+
+/// Hash of each person of the crowd, by its number, after those ticks.
+std::vector<std::uint64_t> walk_crowd(const SimulationOptions& options, std::vector<int> who, int ticks) {
+  Simulation simulation(options);
+  std::map<int, Entity> crowd;
+  for (const int i : who) crowd[i] = join(simulation, person(i));
+  EXPECT_EQ(rows(simulation.world()),
+            (1 + 2 * muscle_group_count) * who.size());  // a row a person and a muscle: the hash leaves none out
+  for (int i = 0; i < ticks; ++i) simulation.tick();
+  std::vector<std::uint64_t> hashes(crowd_size);
+  for (const auto& [i, human] : crowd) hashes[static_cast<std::size_t>(i)] = hash_human(simulation, human);
+  return hashes;
+}
+
+std::vector<int> everybody() {
+  std::vector<int> who(crowd_size);
+  std::iota(who.begin(), who.end(), 0);
+  return who;
+}
+
+/// The same person's bits in ever the same crowd, on one thread.
+const std::vector<std::uint64_t>& reference() {
+  static const auto hashes = walk_crowd({}, everybody(), 120);
+  return hashes;
+}
+
+TEST(Determinism, ThreadsDoNotMatter) {
+  EXPECT_EQ(walk_crowd({.threads = 2}, everybody(), 120), reference());
+  EXPECT_EQ(walk_crowd({.threads = 3}, everybody(), 120), reference());
+}
+
+TEST(Determinism, TheCallersOwnLoopMayRunBlocksBackwards) {
+  const Jobs backwards{nullptr, [](void*, std::size_t count, Jobs::Body body, void* context) {
+                         for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
+                       }};
+  EXPECT_EQ(walk_crowd({.jobs = backwards}, everybody(), 120), reference());
+}
+
+TEST(Determinism, PeopleDiffer) {
+  auto hashes = reference();
+  std::ranges::sort(hashes);
+  EXPECT_EQ(std::ranges::adjacent_find(hashes), hashes.end());
+}
+
+TEST(Determinism, NeitherOrderNorCompanyMatters) {
+  std::mt19937 random(5);
+  for (const std::size_t size : {std::size_t{crowd_size}, std::size_t{17}, std::size_t{1}}) {
+    auto who = everybody();
+    std::shuffle(who.begin(), who.end(), random);
+    who.resize(size);
+    const auto hashes = walk_crowd({}, who, 120);
+    for (const int i : who) {
+      EXPECT_EQ(hashes[static_cast<std::size_t>(i)], reference()[static_cast<std::size_t>(i)]) << "person " << i;
+    }
+  }
+}
+
+TEST(Determinism, ComersAndGoersLeaveOthersAlone) {
+  Simulation simulation;
+  const Entity stayer = join(simulation, person(3));
+  std::vector<Entity> others;
+  for (int i = 0; i < 120; ++i) {
+    if (i % 4 == 0) others.push_back(join(simulation, person(i % crowd_size), i % 8 == 0));
+    if (i % 12 == 5) {
+      EXPECT_EQ(simulation.remove_leg_muscles(others.front()), Status::ok);
+    }
+    if (i % 12 == 11) {
+      EXPECT_EQ(simulation.despawn(others.front()), Status::ok);
+      others.erase(others.begin());
+    }
+    simulation.tick();
+  }
+  EXPECT_EQ(hash_human(simulation, stayer), reference()[3]);
+}
+
+TEST(Simulation, TwoSideBySideDoNotMeet) {
+  Simulation a, b({.tick_s = 1.0 / 50});
+  const Entity in_a = join(a, person(3));
+  const Entity in_b = join(b, person(4));
+  for (int i = 0; i < 120; ++i) {
+    a.tick();
+    if (i % 3 != 0) b.tick();
+  }
+  EXPECT_EQ(hash_human(a, in_a), reference()[3]);
+  Simulation alone({.tick_s = 1.0 / 50});
+  const Entity same = join(alone, person(4));
+  for (int i = 0; i < 80; ++i) alone.tick();
+  EXPECT_EQ(hash_human(b, in_b), hash_human(alone, same));
+}
+
+// ------------------------------------------------------------------------------------------------------- physics
+
+double length(const Vec3<float>& a, const Vec3<float>& b) {
+  return std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x),
+                    static_cast<double>(a.y) - static_cast<double>(b.y),
+                    static_cast<double>(a.z) - static_cast<double>(b.z));
+}
+
+/// Angle between two rotations, rad.
+double turn(const Quat<float>& a, const Quat<float>& b) {
+  const auto d = [](float x, float y) { return static_cast<double>(x) * static_cast<double>(y); };
+  const double dot = std::abs(d(a.x, b.x) + d(a.y, b.y) + d(a.z, b.z) + d(a.w, b.w));
+  return 2 * std::acos(std::min(1.0, dot));
+}
+
+void check_muscles(const Simulation& simulation, const Human& human) {
+  for (const auto& own : human.muscles) {
+    for (const Entity muscle : own.entity) {
+      const auto line = *simulation.get<LineOfAction>(muscle);
+      const auto report = *simulation.get<BellyReport>(muscle);
+      const double asked = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
+      RC_ASSERT(std::abs(static_cast<double>(report.elongation_m) - asked) < 1e-5);
+      RC_ASSERT(report.volume_ratio > 0.5F && report.volume_ratio < 1.7F);
+      RC_ASSERT(report.kinetic_energy_j >= 0 && report.kinetic_energy_j < 5);
+      RC_ASSERT(report.strain_energy_j > -0.01F && report.strain_energy_j < 20);
+      RC_ASSERT(std::isfinite(report.reaction_n) && std::abs(report.reaction_n) < 2000);
+      const NodalView nodes = simulation.nodal_displacement(muscle);
+      for (std::size_t i = 0; i < 3 * std::size_t{nodes.nodes}; ++i) {
+        RC_ASSERT(std::abs(nodes.first[i * lane_count]) < 0.5F);  // not true of NaN
+      }
+    }
+  }
+}
+
+/// Three poses a tick apart. In the oddest of styles feet turn by 70° in a tick.
+void check_step(const Pose<float>& first, const Pose<float>& before, const Pose<float>& now, const Gait<float>& gait) {
+  const double furthest = (8 * static_cast<double>(gait.speed_m_s) + 10) / 60;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto &a = first.position_m[s], &b = before.position_m[s], &c = now.position_m[s];
+    RC_ASSERT(length(b, c) < furthest);
+    RC_ASSERT(length({2 * b.x - a.x, 2 * b.y - a.y, 2 * b.z - a.z}, c) < 0.4);
+    RC_ASSERT(turn(before.rotation[s], now.rotation[s]) < 2.2);
+    const auto& q = now.rotation[s];
+    RC_ASSERT(std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 1e-4F);
+  }
+}
+
+/// Somebody within the ranges of body and gait; not everybody of those can walk as asked.
+Person any_person() {
+  const auto uniform = [](double low, double high) {
+    return static_cast<float>(low +
+                              (high - low) * *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 10001)) / 10000.0);
+  };
+  Person p;
+  p.body.height_m = uniform(1.2, 2.2);
+  p.body.mass_kg = living_mass(p.body.height_m, static_cast<double>(uniform(0, 1)));
+  p.body.biotype = {uniform(0.1, 12), uniform(0.1, 12), uniform(0.1, 12)};
+  p.body.constitution = static_cast<Constitution>(*rc::gen::inRange(0, 4));
+  p.gait.speed_m_s = uniform(0.4, 2.2);
+  if (*rc::gen::arbitrary<bool>()) p.gait.step_length_m = uniform(0.3, 1);
+  for (const GaitParameter& parameter : gait_parameters) {
+    if (*rc::gen::inRange(0, 4) != 0) continue;
+    const float usual = p.gait.style.*parameter.value;
+    const float part = uniform(-0.4, 0.4);
+    p.gait.style.*parameter.value = usual + part * (part > 0 ? parameter.high - usual : usual - parameter.low);
+  }
+  return p;
+}
+
+TEST(Simulation, BodiesOfAllKindsWalkAndTheirMusclesFollow) {
+  Simulation simulation;  // templates are made once
+  EXPECT_TRUE(rc::check("walks", [&] {
+    const Person p = any_person();
+    const auto human = simulation.spawn(p.body, p.gait);
+    RC_PRE(human.has_value());
+    const auto added = simulation.add_leg_muscles(*human);
+    if (!added) RC_FAIL(added.error().message);
+    const bool clamped = simulation.get<StepPlan>(*human)->clamped != 0;  // what is reported as no walk
+    Pose<float> first = *simulation.get<Pose>(*human), before = first;
+    for (int i = 0; i < 90; ++i) {
+      simulation.tick();
+      const Pose<float> now = *simulation.get<Pose>(*human);
+      if (i > 0 && !clamped) check_step(first, before, now, simulation.human(*human)->gait);
+      check_muscles(simulation, *simulation.human(*human));
+      first = before;
+      before = now;
+    }
+    RC_ASSERT(simulation.despawn(*human) == Status::ok);
+  }));
+}
+
+TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
+  Simulation simulation;
+  for (const int who : {0, 7, 19}) {
+    const auto human = *simulation.spawn(person(who).body, person(who).gait);
+    ASSERT_TRUE(simulation.add_leg_muscles(human, {.drive = Drive::force}));
+    double asked = 0, missed = 0;
+    for (int i = 0; i < 300; ++i) {
+      simulation.tick();
+      for (const auto& own : simulation.person(human)->muscles) {
+        for (const Entity muscle : own.entity) {
+          const auto line = *simulation.get<LineOfAction>(muscle);
+          const auto report = *simulation.get<BellyReport>(muscle);
+          const double change = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
+          ASSERT_TRUE(std::isfinite(report.elongation_m));
+          asked = std::max(asked, std::abs(change));
+          missed = std::max(missed, std::abs(static_cast<double>(report.elongation_m) - change));
+          EXPECT_GT(report.volume_ratio, 0.5F);
+          EXPECT_LT(report.volume_ratio, 1.6F);
+        }
+      }
+    }
+    EXPECT_GT(missed, 0.02 * asked);  // the elongation is not simply prescribed
+    EXPECT_LT(missed, 2 * asked);
+    EXPECT_EQ(simulation.despawn(human), Status::ok);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------------- effects
+
+TEST(Effects, EveryBodyInRangeGetsMuscles) {
+  Simulation simulation;
+  for (const float height : {1.2F, 2.2F}) {
+    for (const float mass : {living_mass(height, 0), living_mass(height, 1)}) {
+      for (const float meso : {0.1F, 12.0F}) {
+        for (const auto build :
+             {Constitution::thin, Constitution::average, Constitution::athletic, Constitution::heavy}) {
+          const auto human = simulation.spawn({height, mass, {3, meso, 3}, build}, {.speed_m_s = 1.1F});
+          ASSERT_TRUE(human) << human.error().message;
+          const auto added = simulation.add_leg_muscles(*human);
+          EXPECT_TRUE(added) << added.error().message;
+        }
+      }
+    }
+  }
+}
+
+TEST(Effects, MusclesComeAndGoWithTheirRows) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(0), false);
+  const Entity other = join(simulation, person(1), false);
+  EXPECT_EQ(rows(simulation.world()), 2U);
+  EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 0U);
+  simulation.tick();
+  for (int round = 0; round < 3; ++round) {
+    ASSERT_TRUE(simulation.add_leg_muscles(human));
+    EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * muscle_group_count);
+    EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
+    std::vector<Entity> muscles;
+    for (const auto& own : simulation.person(human)->muscles)
+      muscles.insert(muscles.end(), own.entity.begin(), own.entity.end());
+    for (const Entity muscle : muscles) {
+      EXPECT_TRUE(simulation.world().alive(muscle));
+      EXPECT_EQ(simulation.get<MuscleOwner>(muscle)->index, human.index);
+      EXPECT_EQ(simulation.nodal_displacement(muscle).nodes, 81U);
+    }
+    EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, Muscle::quadriceps, left)));
+    simulation.tick();
+    EXPECT_EQ(simulation.remove_leg_muscles(human), Status::ok);
+    EXPECT_EQ(rows(simulation.world()), 2U);
+    EXPECT_EQ(rows_with<BellyReport>(simulation.world()) + rows_with<LineOfAction>(simulation.world()), 0U);
+    for (const Entity muscle : muscles) {
+      EXPECT_EQ(simulation.get<LineOfAction>(muscle).error(), Status::stale_entity);
+      EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
+    }
+    EXPECT_TRUE(simulation.human(human)->muscles.empty());
+    simulation.tick();
+  }
+}
+
+TEST(Effects, MusclesDoNotChangeTheWalkNorATickBefore) {
+  Simulation simulation;
+  const Entity with = join(simulation, person(5)), without = join(simulation, person(5), false);
+  for (int i = 0; i < 40; ++i) simulation.tick();
+  EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
+  ASSERT_TRUE(simulation.add_leg_muscles(without));  // in mid-stride
+  for (int i = 0; i < 40; ++i) simulation.tick();
+  EXPECT_EQ(hash_row(simulation.world(), with, 1), hash_row(simulation.world(), without, 1));
+}
+
+TEST(Effects, AddingTwiceIsAnErrorAndChangesNothing) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(2));
+  for (int i = 0; i < 10; ++i) simulation.tick();
+  const auto before = hash_world(simulation);
+  for (const Drive drive : {Drive::displacement, Drive::force}) {
+    const auto again = simulation.add_leg_muscles(human, {.drive = drive});
+    ASSERT_FALSE(again);
+    EXPECT_NE(again.error().message.find("remove them first"), std::string::npos) << again.error().message;
+  }
+  EXPECT_EQ(hash_world(simulation), before);
+}
+
+TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(2), false);
+  const auto before = hash_world(simulation);
+  for (const Material& bad : {Material{1000, 1e4, 0.5}, Material{0, 1e4, 0.3}, Material{1000, NAN, 0.3},
+                              Material{1000, 1e4, -1}, Material{INFINITY, 1e4, 0.3}}) {
+    EXPECT_FALSE(simulation.add_leg_muscles(human, {.material = bad}));
+    EXPECT_EQ(hash_world(simulation), before);
+  }
+  EXPECT_TRUE(simulation.add_leg_muscles(human));
+}
+
+TEST(Handles, OfTheGoneAreStaleEverywhere) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(0)), other = join(simulation, person(1));
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, right);
+  const auto before = hash_human(simulation, other);
+  ASSERT_EQ(simulation.despawn(human), Status::ok);
+  EXPECT_EQ(rows(simulation.world()), 1 + 2 * muscle_group_count);
+  EXPECT_EQ(hash_human(simulation, other), before);
+  const Entity next = join(simulation, person(2));  // takes the place of the first
+  for (const Entity gone : {human, Entity{}, Entity{~0U, 1}}) {
+    EXPECT_EQ(simulation.despawn(gone), Status::stale_entity);
+    EXPECT_EQ(simulation.remove_leg_muscles(gone), Status::stale_entity);
+    EXPECT_FALSE(simulation.add_leg_muscles(gone));
+    EXPECT_FALSE(simulation.human(gone));
+    EXPECT_EQ(simulation.get<Pose>(gone).error(), Status::stale_entity);
+    EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, right)));
+  }
+  EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
+  EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
+  EXPECT_FALSE(simulation.human(muscle));
+  // A muscle is no person, though it lives.
+  const Entity living = simulation.muscle(next, Muscle::hamstrings, left);
+  ASSERT_TRUE(simulation.world().alive(living));
+  EXPECT_FALSE(simulation.human(living));
+  EXPECT_EQ(simulation.despawn(living), Status::stale_entity);
+  EXPECT_TRUE(simulation.world().alive(living));
+}
+
+TEST(Handles, BadSpawnsChangeNothing) {
+  Simulation simulation;
+  join(simulation, person(0));
+  const auto before = hash_world(simulation);
+  const std::size_t tables = simulation.world().tables().size();
+  const Person bad[] = {{{.height_m = 0}, {}},
+                        {{.height_m = NAN}, {}},
+                        {{.mass_kg = 5}, {}},
+                        {{.biotype = {-1, 3, 3}}, {}},
+                        {{.constitution = static_cast<Constitution>(9)}, {}},
+                        {{}, {.speed_m_s = 9.0F}},
+                        {{}, {.speed_m_s = NAN}},
+                        {{}, {.speed_m_s = 1.4F, .step_length_m = 0.7F, .step_frequency_hz = 3.0F}},
+                        {{}, {.style = {.swing_knee_deg = 500}}}};
+  for (const Person& p : bad) {
+    const auto spawned = simulation.spawn(p.body, p.gait);
+    ASSERT_FALSE(spawned);
+    EXPECT_FALSE(spawned.error().message.empty());
+    EXPECT_EQ(spawned.error().message.find('\n'), std::string::npos) << spawned.error().message;
+    EXPECT_EQ(hash_world(simulation), before);
+    EXPECT_EQ(simulation.world().tables().size(), tables);
+  }
+}
+
+// ------------------------------------------------------------------------------------------------ time and memory
+
+TEST(Time, AdvanceRunsWholeTicksAndReportsTheRest) {
+  Simulation simulation;
+  const Entity human = join(simulation, person(0), false);
+  EXPECT_EQ(simulation.advance(0.5 / 60).count, 0U);
+  Ticks ticks = simulation.advance(1.0 / 60);
+  EXPECT_EQ(ticks.count, 1U);
+  EXPECT_NEAR(ticks.alpha, 0.5, 1e-9);
+  EXPECT_EQ(simulation.ticks(), 1U);
+  ticks = simulation.advance(3);  // a hitch
+  EXPECT_NEAR(ticks.dropped_s, 2.75, 1e-9);
+  EXPECT_EQ(ticks.count, 15U);
+  EXPECT_EQ(simulation.ticks(), 16U);
+  EXPECT_NEAR(simulation.time_s(), 16.0 / 60, 1e-9);
+  const auto before = hash_world(simulation);
+  for (const double bad : {-1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+    EXPECT_FALSE(simulation.advance(bad).valid);
+    EXPECT_EQ(hash_world(simulation), before);
+  }
+  Simulation ticked;
+  const Entity same = join(ticked, person(0), false);
+  for (int i = 0; i < 16; ++i) ticked.tick();
+  EXPECT_EQ(hash_human(simulation, human), hash_human(ticked, same));
+  EXPECT_THROW(Simulation({.tick_s = 0}), std::invalid_argument);
+  EXPECT_THROW(Simulation({.max_frame_s = NAN}), std::invalid_argument);
+}
+
+TEST(Memory, SteadyTicksTakeNoneAndAllIsReturned) {
+  CountingMemory memory;
+  for (const int threads : {1, 2}) {
+    Simulation simulation({.threads = threads, .memory = &memory});
+    std::vector<Entity> crowd;
+    for (int i = 0; i < 20; ++i) crowd.push_back(join(simulation, person(i), i % 2 == 0));
+    EXPECT_GT(memory.lent(), 0U);
+    for (int i = 0; i < 5; ++i) simulation.tick();
+    const std::size_t heap = heap_requests, lent = memory.requests;
+    ASSERT_GT(heap, 0U);  // the counter counts
+    for (int i = 0; i < 100; ++i) simulation.advance(1.0 / 60);
+    EXPECT_EQ(heap_requests, heap) << threads << " threads";
+    EXPECT_EQ(memory.requests, lent) << threads << " threads";
+    EXPECT_GE(simulation.ticks(), 104U);
+    for (const Entity human : crowd) EXPECT_EQ(simulation.despawn(human), Status::ok);
+    EXPECT_EQ(rows(simulation.world()), 0U);
+  }
+  EXPECT_EQ(memory.lent(), 0U);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,125 @@
+// Snapshots in files that survive whatever happens to the program.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <set>
+#include <string>
+
+#include "systems/snapshot/simulation_snapshot.h"
+#include "tests/simulation/crowd_play.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SnapshotFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::temp_directory_path() / ("mobil_snapshot_" + std::to_string(::getpid()));
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+  fs::path file() const { return folder_ / "crowd.snapshot"; }
+  std::size_t files() const {
+    return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
+  }
+
+  fs::path folder_;
+};
+
+void fill(Simulation& simulation) {
+  for (int i = 0; i < 6; ++i) {
+    const auto human = simulation.spawn(person(i).body, person(i).gait);
+    ASSERT_TRUE(human);
+    ASSERT_TRUE(simulation.add_leg_muscles(*human, play::choice_of(static_cast<std::uint64_t>(i))));
+  }
+}
+
+TEST_F(SnapshotFile, AnotherSimulationGoesOnFromIt) {
+  Simulation first, second({.threads = 2});
+  fill(first);
+  first.tick();
+  ASSERT_TRUE(save_file(first, file()));
+  const auto done = restore_file(second, file());
+  ASSERT_TRUE(done) << done.error().message;
+  for (int tick = 0; tick < 10; ++tick) {
+    ASSERT_EQ(first.state_hash(), second.state_hash());
+    first.tick();
+    second.tick();
+  }
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(SnapshotFile, CutAlteredOrMissingItIsRefusedByName) {
+  Simulation simulation;
+  fill(simulation);
+  const std::uint64_t state = simulation.state_hash();
+  const auto expect_refused = [&] {
+    const auto done = restore_file(simulation, file());
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find(file().string()), std::string::npos);
+    EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+    EXPECT_EQ(simulation.state_hash(), state);
+  };
+  expect_refused();
+  ASSERT_TRUE(save_file(simulation, file()));
+  const auto size = fs::file_size(file());
+  for (const auto length : {size - 1, size / 2, std::uintmax_t{1}, std::uintmax_t{0}}) {
+    fs::resize_file(file(), length);
+    expect_refused();
+  }
+  ASSERT_TRUE(save_file(simulation, file()));
+  std::fstream(file(), std::ios::in | std::ios::out | std::ios::binary).seekp(static_cast<std::streamoff>(size / 2))
+      << 'x';
+  expect_refused();
+}
+
+TEST_F(SnapshotFile, WhereItCannotBeWrittenWhatWasThereStays) {
+  Simulation simulation;
+  fill(simulation);
+  const auto nowhere = save_file(simulation, folder_ / "none" / "crowd.snapshot");
+  ASSERT_FALSE(nowhere);
+  EXPECT_NE(nowhere.error().message.find("none"), std::string::npos);
+  fs::create_directories(file() / "taken");
+  EXPECT_FALSE(save_file(simulation, file()));
+  EXPECT_TRUE(fs::is_directory(file() / "taken"));
+  EXPECT_EQ(files(), 1U);
+}
+
+TEST_F(SnapshotFile, KilledAtAnyMomentTheLastGoodOneIsThere) {
+  Simulation simulation;
+  fill(simulation);
+  ASSERT_TRUE(save_file(simulation, file()));
+  std::mt19937 random(5);
+  std::set<std::uint32_t> ticks;
+  for (int round = 0; round < 40; ++round) {
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+      for (;;) {
+        simulation.tick();
+        if (!save_file(simulation, file())) ::_exit(1);
+      }
+    }
+    ::usleep(static_cast<useconds_t>(random() % 20000));
+    ::kill(child, SIGKILL);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFSIGNALED(status));
+    const auto done = restore_file(simulation, file());
+    ASSERT_TRUE(done) << done.error().message;
+    ticks.insert(simulation.ticks());
+  }
+  EXPECT_GT(ticks.size(), 3U);  // children got somewhere
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,316 @@
+// The state as bytes, and back.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "components/gait.h"
+#include "engine/snapshot_bytes.h"
+#include "systems/simulation.h"
+#include "tests/engine/engine_counting_memory.h"
+#include "tests/simulation/crowd_play.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+
+namespace mobil {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes saved(const Simulation& simulation) {
+  Bytes bytes(simulation.snapshot_bytes());
+  const auto done = simulation.save(bytes);
+  EXPECT_TRUE(done) << done.error().message;
+  EXPECT_EQ(done.value_or(0), bytes.size());
+  return bytes;
+}
+
+void restore(Simulation& simulation, const Bytes& bytes) {
+  const auto done = simulation.restore(bytes);
+  ASSERT_TRUE(done) << done.error().message;
+}
+
+/// What happens to those who are there at a tick: depends on the tick and the seed, and on handles alone.
+void disturb(Simulation& simulation, std::vector<Entity>& people, std::uint64_t seed) {
+  const std::uint64_t what = play::mixed(seed, simulation.ticks(), 1), how = play::mixed(seed, simulation.ticks(), 2);
+  if (what % 3 == 0) {
+    const auto who = static_cast<int>(how % 1000);
+    const auto human =
+        what % 4 == 0 ? simulation.spawn_posed(person(who).body) : simulation.spawn(person(who).body, person(who).gait);
+    ASSERT_TRUE(human);
+    people.push_back(*human);
+    if (what % 5 != 0) {
+      ASSERT_TRUE(simulation.add_leg_muscles(*human, play::choice_of(how / 7)));
+    }
+  }
+  if (people.size() < 5) return;
+  const Entity one = people[how % people.size()], other = people[how / 1000 % people.size()];
+  if (what % 7 == 1) {
+    ASSERT_EQ(simulation.despawn(one), Status::ok);
+    std::erase(people, one);
+  }
+  if (!simulation.world().alive(other)) return;
+  const bool walks = !simulation.human(other)->posed;
+  if (what % 6 == 1) (void)simulation.set_method(other, Muscle::hamstrings, play::every_method()[how % 9]);
+  if (what % 6 == 2 && walks) {
+    ASSERT_TRUE(simulation.change_gait(other, {.speed_m_s = how % 3 == 0 ? 0.0F : 1.2F}));
+  }
+  if (what % 6 == 3 && walks) {
+    ASSERT_TRUE(simulation.turn_to(other, static_cast<float>(how % 6) - 3));
+  }
+  if (what % 6 == 4) simulation.add_forces(other);
+  if (what % 6 == 5) simulation.remove_leg_muscles(other);
+}
+
+struct Told {
+  std::vector<std::uint64_t> hashes;
+  std::vector<Entity> people;
+};
+
+Told run(Simulation& simulation, std::vector<Entity> people, int ticks, std::uint64_t seed) {
+  Told told;
+  for (int t = 0; t < ticks; ++t) {
+    disturb(simulation, people, seed);
+    simulation.tick();
+    told.hashes.push_back(simulation.state_hash());
+  }
+  told.people = people;
+  return told;
+}
+
+TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
+  Simulation simulation({.threads = 2});
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    std::vector<Entity> people;
+    for (const PersonRecord& person : simulation.people().all()) people.push_back(person.entity);
+    people = run(simulation, people, 25, seed).people;
+    const std::uint64_t before = simulation.state_hash(), world = hash_world(simulation);
+    const Bytes bytes = saved(simulation);
+    const Told first = run(simulation, people, 20, seed + 10);
+
+    restore(simulation, bytes);
+    EXPECT_EQ(simulation.state_hash(), before);
+    EXPECT_EQ(hash_world(simulation), world);
+    EXPECT_EQ(saved(simulation), bytes);
+    for (const Entity one : people) EXPECT_NE(simulation.person(one), nullptr);
+    const Told again = run(simulation, people, 20, seed + 10);
+    EXPECT_EQ(again.hashes, first.hashes);
+    EXPECT_EQ(again.people, first.people);
+
+    Simulation fresh;
+    restore(fresh, bytes);
+    EXPECT_EQ(fresh.state_hash(), before);
+    const Told elsewhere = run(fresh, people, 20, seed + 10);
+    EXPECT_EQ(elsewhere.hashes, first.hashes);
+    EXPECT_EQ(elsewhere.people, first.people);
+  }
+}
+
+/// A few people with muscles of every method, one of whom fades.
+std::vector<Entity> few(Simulation& simulation) {
+  std::vector<Entity> people;
+  for (int i = 0; i < 9; ++i) {
+    people.push_back(join(simulation, person(i), false));
+    EXPECT_TRUE(simulation.add_leg_muscles(people.back(), play::choice_of(static_cast<std::uint64_t>(i))));
+  }
+  simulation.tick();
+  EXPECT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::statics}));
+  simulation.tick();
+  return people;
+}
+
+TEST(Snapshot, TimeFedGoesWithIt) {
+  Simulation simulation;
+  few(simulation);
+  simulation.advance(0.03);
+  const Bytes bytes = saved(simulation);
+  const auto first = simulation.advance(0.005);
+  restore(simulation, bytes);
+  const auto again = simulation.advance(0.005);
+  EXPECT_EQ(first.count, again.count);
+  EXPECT_EQ(first.alpha, again.alpha);
+}
+
+TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
+  Simulation simulation;
+  const auto people = few(simulation);
+  const Bytes bytes = saved(simulation);
+  ASSERT_EQ(simulation.despawn(people[3]), Status::ok);
+  const Entity late = *simulation.spawn({});
+  const Entity later = *simulation.spawn({});
+  restore(simulation, bytes);
+  EXPECT_EQ(simulation.person(late), nullptr);
+  EXPECT_FALSE(simulation.world().alive(later));
+  EXPECT_NE(simulation.person(people[3]), nullptr);
+  EXPECT_TRUE(simulation.world().alive(simulation.muscle(people[3], Muscle::hamstrings, left)));
+}
+
+TEST(Snapshot, WithTheSamePeopleRestoringTakesNoMemoryOfTheCallers) {
+  CountingMemory memory;
+  Simulation simulation({.memory = &memory});
+  few(simulation);
+  const Bytes bytes = saved(simulation);
+  restore(simulation, bytes);
+  const auto before = memory.requests;
+  for (int i = 0; i < 3; ++i) {
+    simulation.tick();
+    restore(simulation, bytes);
+  }
+  EXPECT_EQ(memory.requests, before);
+}
+
+/// Refused in one line, and all is as it was.
+void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, const std::string& about = "") {
+  const std::uint64_t world = hash_world(simulation), state = simulation.state_hash();
+  const auto done = simulation.restore(bytes);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("restore: "), std::string::npos);
+  EXPECT_NE(done.error().message.find(about), std::string::npos) << done.error().message;
+  EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+  EXPECT_EQ(hash_world(simulation), world);
+  EXPECT_EQ(simulation.state_hash(), state);
+}
+
+TEST(Snapshot, OneBitMoreOrLessIsRefused) {
+  Simulation simulation;
+  few(simulation);
+  Bytes bytes = saved(simulation);
+  rc::check([&] {
+    const auto at = *rc::gen::inRange<std::size_t>(0, bytes.size());
+    const auto bit = static_cast<std::byte>(1U << *rc::gen::inRange(0, 8));
+    bytes[at] ^= bit;
+    expect_refused(simulation, bytes);
+    bytes[at] ^= bit;
+  });
+  for (std::size_t at = 0; at < 64; ++at) {
+    bytes[at] ^= std::byte{16};
+    expect_refused(simulation, bytes);
+    bytes[at] ^= std::byte{16};
+  }
+  restore(simulation, bytes);
+}
+
+TEST(Snapshot, CutOrPaddedItIsRefused) {
+  Simulation simulation;
+  few(simulation);
+  Bytes bytes = saved(simulation);
+  rc::check([&] {
+    const auto length = *rc::gen::inRange<std::size_t>(0, bytes.size());
+    expect_refused(simulation, std::span(bytes).first(length));
+  });
+  bytes.resize(bytes.size() + 8);
+  expect_refused(simulation, bytes, "cut or padded");
+}
+
+TEST(Snapshot, NewerVersionsAndOtherByteOrdersAreRefusedByName) {
+  Simulation simulation;
+  few(simulation);
+  Bytes bytes = saved(simulation);
+  bytes[8] = std::byte{2};
+  reseal_snapshot(bytes);
+  expect_refused(simulation, bytes, "version 2");
+  bytes[8] = std::byte{1};
+  std::swap(bytes[12], bytes[15]);
+  std::swap(bytes[13], bytes[14]);
+  reseal_snapshot(bytes);
+  expect_refused(simulation, bytes, "byte order");
+}
+
+TEST(Snapshot, TooLittleRoomAndOtherTicksAreRefused) {
+  Simulation simulation;
+  few(simulation);
+  Bytes bytes = saved(simulation);
+  EXPECT_FALSE(simulation.save(std::span(bytes).first(bytes.size() - 1)));
+  Simulation faster({.tick_s = 1.0 / 120});
+  expect_refused(faster, bytes, "tick_s");
+}
+
+TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
+  Simulation simulation, fresh;
+  few(simulation);
+  Bytes bytes = saved(simulation);
+  constexpr std::size_t front = SnapshotLayout::header_bytes + 40, fingerprint = 184;
+  bytes[front + fingerprint] ^= std::byte{1};
+  ASSERT_TRUE(reseal_snapshot(bytes));
+  const auto done = fresh.restore(bytes);
+  ASSERT_FALSE(done);
+  EXPECT_NE(done.error().message.find("otherwise"), std::string::npos) << done.error().message;
+  EXPECT_EQ(fresh.people().all().size(), 0U);
+}
+
+TEST(Snapshot, WithoutMemoryForItAllStaysAsItWas) {
+  Simulation large;
+  for (int copies = 0; copies < 8; ++copies) few(large);
+  const Bytes more = saved(large);
+  for (const std::size_t granted : {0U, 1U, 3U, 9U}) {
+    CountingMemory memory;
+    Simulation small({.memory = &memory});
+    few(small);
+    ASSERT_EQ(small.despawn(small.people().all()[2].entity), Status::ok);
+    memory.refuse_after = granted;
+    expect_refused(small, more, "memory");
+    memory.refuse_after = SIZE_MAX;
+    restore(small, more);
+    EXPECT_EQ(small.state_hash(), large.state_hash());
+  }
+}
+
+// Whoever seals what they made up is refused, or restores people who can be ticked, hashed and saved.
+void survive(Simulation& simulation, const Bytes& good, const Bytes& bad) {
+  const auto done = simulation.restore(bad);
+  if (!done) {
+    EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+    return;
+  }
+  simulation.tick();
+  simulation.state_hash();
+  saved(simulation);
+  for (const PersonRecord& person : simulation.people().all()) EXPECT_TRUE(simulation.human(person.entity));
+  restore(simulation, good);
+}
+
+TEST(Snapshot, MadeUpBytesWithAGoodSealDoNoHarm) {
+  Simulation simulation;
+  few(simulation);
+  const Bytes good = saved(simulation);
+  const std::uint64_t state = simulation.state_hash();
+  std::uint64_t sizes[3];
+  std::memcpy(sizes, good.data() + 32, sizeof(sizes));
+  std::mt19937_64 random(7);
+  int refused = 0;
+  for (int round = 0; round < 700; ++round) {
+    Bytes bad = good;
+    // Mostly where the lists are, of which single words are changed to small, large and near numbers.
+    const std::size_t lists = 64 + sizes[0] + sizes[1];
+    for (std::uint64_t edit = 0; edit < 1 + random() % 3; ++edit) {
+      const std::size_t end = round % 4 == 0 ? bad.size() - 4 : lists - 4;
+      const std::size_t at = (round % 16 == 1 ? random() % 64 : 64 + random() % (end - 64)) / 4 * 4;
+      std::uint32_t word;
+      std::memcpy(&word, &bad[at], 4);
+      const std::uint32_t choices[] = {0,
+                                       1,
+                                       word + 1,
+                                       word - 1,
+                                       0xffffffff,
+                                       0x7fc00000,
+                                       static_cast<std::uint32_t>(random()),
+                                       word ^ 1U << random() % 32};
+      word = choices[random() % std::size(choices)];
+      std::memcpy(&bad[at], &word, 4);
+    }
+    if (round % 50 == 3) bad.resize(bad.size() - random() % bad.size());
+    reseal_snapshot(bad);
+    const auto done = simulation.restore(bad);
+    refused += done ? 0 : 1;
+    survive(simulation, good, bad);
+    if (done) restore(simulation, good);
+    ASSERT_EQ(simulation.state_hash(), state) << round;
+  }
+  EXPECT_GT(refused, 100);
+  EXPECT_EQ(simulation.state_hash(), state);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,259 @@
+// People spawned by one call are bit for bit who they would be one by one; and all of them come, or none.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <new>
+#include <vector>
+
+#include "systems/simulation.h"
+#include "tests/engine/engine_counting_memory.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/simulation_hash.h"
+
+namespace mobil {
+namespace {
+
+LegMuscles muscles_of_kind(int kind) {
+  LegMuscles choice;
+  choice.muscles = 0b1010;  // two will do
+  choice.method = kind == 0 ? Method::none : kind == 3 ? Method::ecd : Method::reduced;
+  choice.reduced.cells = {2, 2, 8};
+  choice.reduced.vectors = 6;
+  choice.reduced.control_points = kind != 1;
+  choice.reduced.moving = kind != 4;
+  choice.drive = kind == 4 ? Drive::force : Drive::displacement;
+  return choice;
+}
+
+SpawnRequest request(int i) {
+  const Person of = person(i);
+  SpawnRequest made{of.body, of.gait, 0, 0, 0, {}};
+  if (i % 6 != 5) made.muscles = muscles_of_kind(i % 6);
+  return made;
+}
+
+Entity spawn_alone(Simulation& simulation, const SpawnRequest& request) {
+  const auto human = simulation.spawn(request.body, request.gait);
+  EXPECT_TRUE(human) << human.error().message;
+  if (human && request.muscles) {
+    EXPECT_TRUE(simulation.add_leg_muscles(*human, *request.muscles));
+  }
+  return human.value_or(Entity{});
+}
+
+Jobs backward() {
+  return {nullptr,
+          [](void*, std::size_t count, Jobs::Body body, void* context) {
+            for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
+          },
+          2};
+}
+
+/// Empty worlds, which keep the bases that are dear to make.
+Simulation& empty_world(bool by_threads) {
+  static Simulation threads({.threads = 2}), jobs({.jobs = backward()});
+  Simulation& of = by_threads ? threads : jobs;
+  std::vector<Entity> all;
+  for (const PersonRecord& one : of.people().all()) all.push_back(one.entity);
+  EXPECT_EQ(of.despawn(all), Status::ok);
+  return of;
+}
+
+/// Of persons 0 to 35 after some ticks, each alone in the world.
+std::uint64_t hash_alone(int i) {
+  static Simulation simulation;
+  static std::map<int, std::uint64_t> known;
+  const auto at = known.find(i);
+  if (at != known.end()) return at->second;
+  const Entity human = spawn_alone(simulation, request(i));
+  for (int t = 0; t < 3; ++t) simulation.tick();
+  known[i] = hash_human(simulation, human);
+  EXPECT_EQ(simulation.despawn(human), Status::ok);
+  return known[i];
+}
+
+RC_GTEST_PROP(SpawnBatch, EverybodyIsWhoTheyWouldBeAloneInAnyOrderByAnyJobs, ()) {
+  const auto who = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 36));
+  Simulation& simulation = empty_world(*rc::gen::arbitrary<bool>());
+  std::vector<SpawnRequest> people;
+  for (const int i : who) people.push_back(request(i));
+  std::vector<Entity> made(people.size());
+  const auto spawned = simulation.spawn(people, made);
+  RC_ASSERT(spawned.has_value());
+  for (int t = 0; t < 3; ++t) simulation.tick();
+  for (std::size_t i = 0; i < who.size(); ++i) RC_ASSERT(hash_human(simulation, made[i]) == hash_alone(who[i]));
+}
+
+TEST(SpawnBatch, PeopleStandWhereAndAsTheyWereAsked) {
+  Simulation simulation;
+  std::vector<SpawnRequest> people(40);
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    people[i] = request(static_cast<int>(i));
+    people[i].muscles.reset();
+    people[i].x_m = 3 * static_cast<float>(i);
+    people[i].z_m = -2 * static_cast<float>(i);
+    people[i].heading_rad = 0.1F * static_cast<float>(i);
+  }
+  std::vector<Entity> made(people.size());
+  ASSERT_TRUE(simulation.spawn(people, made));
+  for (int t = 0; t < 240; ++t) simulation.tick();
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const auto at = simulation.get<CentreOfMass>(made[i])->position_m;
+    const float heading = people[i].heading_rad, dx = at.x - people[i].x_m, dz = at.z - people[i].z_m;
+    const float ahead = dx * std::sin(heading) + dz * std::cos(heading);
+    const float aside = dx * std::cos(heading) - dz * std::sin(heading);
+    EXPECT_NEAR(ahead, *people[i].gait.speed_m_s * 4, 0.5F) << i;
+    EXPECT_LT(std::abs(aside), 0.2F) << i;
+    EXPECT_EQ(simulation.human(made[i])->gait.heading_rad, heading);
+  }
+}
+
+TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
+  Simulation simulation;
+  std::vector<SpawnRequest> people(70);
+  for (std::size_t i = 0; i < people.size(); ++i) people[i] = request(static_cast<int>(i % 3));
+  std::vector<Entity> made(people.size());
+  ASSERT_TRUE(simulation.spawn(people, made));
+  const std::uint64_t before = hash_world(simulation);
+  const auto refused = [&](std::size_t at, SpawnRequest wrong) {
+    auto others = people;
+    others[at] = wrong;
+    std::vector<Entity> none(others.size());
+    const auto spawned = simulation.spawn(others, none);
+    ASSERT_FALSE(spawned);
+    const std::string& message = spawned.error().message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    EXPECT_EQ(message.rfind("spawn: person " + std::to_string(at) + ": ", 0), 0U) << message;
+    EXPECT_EQ(hash_world(simulation), before);
+    EXPECT_EQ(simulation.people().all().size(), people.size());
+  };
+  SpawnRequest wrong = people[0];
+  wrong.body.height_m = 5;
+  refused(0, wrong);
+  wrong = people[0];
+  wrong.gait.speed_m_s = 50;
+  refused(69, wrong);
+  wrong = people[0];
+  wrong.x_m = NAN;
+  refused(17, wrong);
+  wrong = people[0];
+  wrong.muscles = muscles_of_kind(1);
+  wrong.muscles->muscles = 0;
+  refused(33, wrong);
+  wrong.muscles = muscles_of_kind(1);
+  wrong.muscles->reduced.vectors = 33;
+  refused(34, wrong);
+  wrong.muscles = muscles_of_kind(3);
+  wrong.muscles->dt_s = 0.016;
+  refused(64, wrong);
+  EXPECT_FALSE(simulation.spawn(people, std::span(made).first(3)));
+  EXPECT_EQ(hash_world(simulation), before);
+}
+
+TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
+  Simulation simulation;
+  std::vector<SpawnRequest> people(20);
+  for (std::size_t i = 0; i < people.size(); ++i) people[i] = request(static_cast<int>(i % 3));
+  std::vector<Entity> made(people.size());
+  ASSERT_TRUE(simulation.spawn(people, made));
+  const Entity gone = spawn_alone(simulation, people[2]);
+  ASSERT_EQ(simulation.despawn(gone), Status::ok);
+  const std::uint64_t before = hash_world(simulation);
+  const Entity muscle = simulation.person(made[0])->muscles[0].entity[0];
+  for (const std::vector<Entity>& wrong : {std::vector<Entity>{made[1], made[2], made[1]}, {made[0], gone}, {muscle}}) {
+    EXPECT_EQ(simulation.despawn(wrong), Status::stale_entity);
+    EXPECT_EQ(hash_world(simulation), before);
+    for (const Entity human : made) EXPECT_TRUE(simulation.human(human));
+  }
+}
+
+TEST(SpawnBatch, WhereMemoryRunsOutNobodyHasCome) {
+  CountingMemory memory;
+  Simulation simulation({.memory = &memory});
+  std::vector<SpawnRequest> people;
+  for (int i = 0; i < 40; ++i) people.push_back(request(i % 3));
+  std::vector<Entity> first(people.size()), made(people.size());
+  ASSERT_TRUE(simulation.spawn(people, first));
+  const std::uint64_t before = hash_world(simulation);
+  bool done = false;
+  for (std::size_t granted = 0; !done; ++granted) {
+    ASSERT_LT(granted, 1000U);
+    memory.refuse_after = granted;
+    try {
+      done = simulation.spawn(people, made).has_value();
+    } catch (const std::bad_alloc&) {
+    }
+    memory.refuse_after = SIZE_MAX;
+    if (done) break;
+    ASSERT_EQ(hash_world(simulation), before);
+    ASSERT_EQ(simulation.people().all().size(), first.size());
+  }
+  EXPECT_EQ(simulation.people().all().size(), 2 * first.size());
+}
+
+TEST(SpawnBatch, PreparedOrNotPeopleAreTheSame) {
+  for (const int kind : {2, 3}) {
+    Simulation simulation({.threads = 2});
+    ASSERT_TRUE(simulation.prepare(muscles_of_kind(kind)));
+    std::vector<SpawnRequest> people = {request(kind), request(6 + kind), request(12 + kind)};
+    std::vector<Entity> made(people.size());
+    ASSERT_TRUE(simulation.spawn(people, made));
+    for (int t = 0; t < 3; ++t) simulation.tick();
+    for (int i = 0; i < 3; ++i) {
+      EXPECT_EQ(hash_human(simulation, made[static_cast<std::size_t>(i)]), hash_alone(6 * i + kind));
+    }
+  }
+}
+
+TEST(SpawnBatch, NothingIsPreparedForAChoiceOutOfRange) {
+  Simulation simulation;
+  LegMuscles wrong = muscles_of_kind(1);
+  wrong.reduced.vectors = 40;
+  const auto refused = simulation.prepare(wrong);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message.rfind("prepare: ", 0), 0U);
+  EXPECT_EQ(refused.error().message.find('\n'), std::string::npos);
+  wrong = muscles_of_kind(0);
+  wrong.muscles = 0;
+  EXPECT_FALSE(simulation.prepare(wrong));
+}
+
+RC_GTEST_PROP(SpawnBatch, ComingAndGoingLeavesThoseWhoStayAlone, ()) {
+  Simulation& simulation = empty_world(*rc::gen::arbitrary<bool>());
+  std::vector<std::pair<Entity, int>> here;
+  for (int round = 0; round < 5; ++round) {
+    const auto who = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 36));
+    std::vector<SpawnRequest> people;
+    for (const int i : who) people.push_back(request(i));
+    std::vector<Entity> made(people.size());
+    RC_ASSERT(simulation.spawn(people, made).has_value());
+    for (std::size_t i = 0; i < who.size(); ++i) here.emplace_back(made[i], who[i]);
+    std::vector<Entity> leave;
+    std::vector<std::pair<Entity, int>> stay;
+    for (const auto& one : here) {
+      if (*rc::gen::arbitrary<bool>()) {
+        leave.push_back(one.first);
+      } else {
+        stay.push_back(one);
+      }
+    }
+    RC_ASSERT(simulation.despawn(leave) == Status::ok);
+    for (const Entity gone : leave) RC_ASSERT(!simulation.human(gone));
+    here = stay;
+    RC_ASSERT(simulation.people().all().size() == here.size());
+    std::size_t expected = here.size();
+    for (const auto& [human, i] : here) expected += 2 * simulation.person(human)->muscles.size();
+    RC_ASSERT(rows(simulation.world()) == expected);
+    for (const auto& [human, i] : here) {
+      RC_ASSERT(simulation.person(human)->muscles.size() == (request(i).muscles ? 2U : 0U));
+    }
+  }
+  for (int t = 0; t < 3; ++t) simulation.tick();
+  for (const auto& [human, i] : here) RC_ASSERT(hash_human(simulation, human) == hash_alone(i));
+}
+
+}  // namespace
+}  // namespace mobil

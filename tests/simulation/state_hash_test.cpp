@@ -1,0 +1,144 @@
+// One number of everybody's state.
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <bit>
+#include <numeric>
+#include <set>
+#include <vector>
+
+#include "engine/row_hash.h"
+#include "systems/simulation.h"
+#include "tests/simulation/crowd_play.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+/// People 0 to count − 1 with muscles, come in that order.
+std::vector<Entity> come(Simulation& simulation, const std::vector<int>& order) {
+  std::vector<Entity> people(order.size());
+  for (const int who : order) {
+    people[static_cast<std::size_t>(who)] = *simulation.spawn(person(who).body, person(who).gait);
+    const auto done = simulation.add_leg_muscles(people[static_cast<std::size_t>(who)],
+                                                 play::choice_of(static_cast<std::uint64_t>(who)));
+    EXPECT_TRUE(done) << done.error().message;
+  }
+  return people;
+}
+
+std::vector<int> numbers(int count) {
+  std::vector<int> all(static_cast<std::size_t>(count));
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+TEST(StateHash, DoesNotDependOnWhoCameFirstNorOnRowsNorOnThreads) {
+  Simulation first, second({.threads = 2});
+  come(first, numbers(37));
+  auto order = numbers(37);
+  std::reverse(order.begin(), order.end());
+  std::rotate(order.begin(), order.begin() + 11, order.end());
+  const Entity gone = *second.spawn({});  // other handles and rows
+  come(second, order);
+  ASSERT_EQ(second.despawn(gone), Status::ok);
+  for (int tick = 0; tick < 20; ++tick) {
+    ASSERT_EQ(first.state_hash(), second.state_hash()) << tick;
+    first.tick();
+    second.tick();
+  }
+}
+
+TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
+  Simulation simulation;
+  const auto people = come(simulation, numbers(5));
+  std::set<std::uint64_t> seen;
+  const auto is_new = [&] { return seen.insert(simulation.state_hash()).second; };
+  EXPECT_TRUE(is_new());
+  simulation.tick();
+  EXPECT_TRUE(is_new());
+  const Entity sixth = *simulation.spawn(person(5).body, person(5).gait);
+  EXPECT_TRUE(is_new());
+  ASSERT_TRUE(simulation.turn_to(people[1], 0.5F));
+  EXPECT_TRUE(is_new());
+  ASSERT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::none}));
+  EXPECT_TRUE(is_new());
+  ASSERT_EQ(simulation.despawn(sixth), Status::ok);
+  EXPECT_TRUE(is_new());
+  simulation.world().create(BodySize<float>{1, 2});  // nobody's
+  EXPECT_TRUE(is_new());
+}
+
+/// Words that say whose a row is.
+bool is_handle(const Table& table, std::uint32_t word) {
+  const std::uint32_t owner = table.column(type_id<MuscleOwner<float>>());
+  return owner != Table::no_column && word >= owner && word < owner + 2;
+}
+
+TEST(StateHash, EveryBitOfEveryWordOfStateCounts) {
+  Simulation simulation;
+  come(simulation, numbers(9));
+  simulation.tick();
+  const std::uint64_t before = simulation.state_hash();
+  rc::check([&] {
+    auto& tables = simulation.world().tables();
+    Table& table = tables[*rc::gen::inRange<std::size_t>(0, tables.size())];
+    RC_PRE(table.row_count() > 0);
+    const auto row = *rc::gen::inRange<std::uint32_t>(0, table.row_count());
+    const auto word = *rc::gen::inRange<std::uint32_t>(0, table.words());
+    const std::uint32_t bit = std::uint32_t{1} << *rc::gen::inRange(0, 32);
+    float* at = table.block(row / lane_count) + word * lane_count + row % lane_count;
+    const float kept = *at;
+    *at = std::bit_cast<float>(std::bit_cast<std::uint32_t>(kept) ^ bit);
+    const std::uint64_t after = simulation.state_hash();
+    *at = kept;
+    RC_ASSERT((after == before) == is_handle(table, word));
+    RC_ASSERT(simulation.state_hash() == before);
+  });
+}
+
+TEST(StateHash, LanesWithoutARowDoNotCount) {
+  Simulation simulation;
+  come(simulation, {0, 1, 2});
+  const std::uint64_t before = simulation.state_hash();
+  for (Table& table : simulation.world().tables()) {
+    if (table.row_count() % lane_count == 0) continue;
+    float* block = table.block(table.row_count() / lane_count);
+    for (std::uint32_t w = 0; w < table.words(); ++w) block[w * lane_count + table.row_count() % lane_count] += 1;
+  }
+  EXPECT_EQ(simulation.state_hash(), before);
+}
+
+TEST(Bytes, EveryBitAndTheLengthCount) {
+  rc::check([](std::vector<std::uint8_t> bytes) {
+    const std::uint64_t before = hash_bytes(bytes.data(), bytes.size());
+    auto longer = bytes;
+    longer.push_back(0);
+    RC_ASSERT(hash_bytes(longer.data(), longer.size()) != before);
+    if (bytes.empty()) return;
+    const auto at = *rc::gen::inRange<std::size_t>(0, bytes.size());
+    bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1U << *rc::gen::inRange(0, 8)));
+    RC_ASSERT(hash_bytes(bytes.data(), bytes.size()) != before);
+  });
+}
+
+TEST(Bytes, SeventyThousandAlikeButForOneBitAreAllTold) {
+  std::vector<std::uint8_t> bytes(1100);
+  std::set<std::uint64_t> seen;
+  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
+    bytes[bit / 8] = static_cast<std::uint8_t>(1U << bit % 8);
+    EXPECT_TRUE(seen.insert(hash_bytes(bytes.data(), bytes.size())).second);
+    const std::size_t other = (bit * 7919 + 12345) % (8 * bytes.size());
+    if (other / 8 != bit / 8) {
+      bytes[other / 8] = static_cast<std::uint8_t>(1U << other % 8);
+      seen.insert(hash_bytes(bytes.data(), bytes.size()));
+      bytes[other / 8] = 0;
+    }
+    bytes[bit / 8] = 0;
+  }
+  EXPECT_GT(seen.size(), 8 * bytes.size());
+}
+
+}  // namespace
+}  // namespace mobil

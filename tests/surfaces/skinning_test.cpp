@@ -1,0 +1,343 @@
+// A bound surface rests where it was drawn, moves rigidly with its body, follows its cage, and never tears.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/surfaces/muscle_surfaces.h"
+#include "assets/surfaces/surface_binding.h"
+#include "assets/surfaces/tube.h"
+#include "engine/geometry.h"
+#include "systems/skinning/skinning.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr double blend_m = 0.04;
+constexpr Passages at_the_faces{-blend_m, 0, 0.25, 0.25 + blend_m};  // of the cage below
+
+Body body() {
+  return make_body({.height_m = 1.8F, .mass_kg = 80}).value();
+}
+
+Quat<float> rotation(const Vec& axis, double angle) {
+  const Vec n = normalised(axis);
+  const double s = std::sin(0.5 * angle);
+  return {static_cast<float>(s * n.x), static_cast<float>(s * n.y), static_cast<float>(s * n.z),
+          static_cast<float>(std::cos(0.5 * angle))};
+}
+
+Quat<float> product(const Quat<float>& a, const Quat<float>& b) {
+  return {a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y, a.w * b.y - a.x * b.z + a.y * b.w + a.z * b.x,
+          a.w * b.z + a.x * b.y - a.y * b.x + a.z * b.w, a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z};
+}
+
+/// A bent, twice bulging cage, some 0.25 m long.
+HexahedralMesh cage(const Cells& cells = {3, 3, 10}) {
+  const std::array<CageStation, 4> stations = {CageStation{0, 0, 0, 0.020F, 0.020F},
+                                               {0.35F, 0.004F, -0.003F, 0.045F, 0.035F},
+                                               {0.7F, -0.002F, 0.002F, 0.038F, 0.040F},
+                                               {1, 0.003F, 0, 0.018F, 0.022F}};
+  return bend_block(cells, stations, 0.25).value();
+}
+
+/// Belly from below the hip to above the knee, z down the thigh, a little askew.
+RestFrame thigh_frame(const Body& b) {
+  const Vec hip = to_double(b.joint_offset_m[0]) + to_double(b.joint_offset_m[index(Segment::thigh_right)]);
+  return {to_float(hip + Vec{-0.02, -0.10, -0.02}), product(rotation({0.2, 0, 1}, 0.1), rotation({1, 0, 0}, 1.5708))};
+}
+
+struct Bound {
+  HexahedralMesh mesh = cage();
+  Body b = body();
+  RestFrame frame = thigh_frame(b);
+  MuscleSurface surface;
+
+  explicit Bound(std::size_t member = 0) {
+    const GroupSurface muscle = make_muscle_surfaces(b)[member];
+    surface = muscle.surface;
+    bind_muscle(surface, mesh, frame, muscle.attachments, blend_m);
+  }
+  Pose<float> rest_pose() const {
+    Pose<float> pose{};
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      const Vec3<float>& o = b.joint_offset_m[s];
+      const Vec3<float> p = s == 0 ? Vec3<float>{} : pose.position_m[index(segment_parent[s])];
+      pose.position_m[s] = {p.x + o.x, p.y + o.y, p.z + o.z};
+      pose.rotation[s] = {0, 0, 0, 1};
+    }
+    return pose;
+  }
+  LineOfAction<float> rest_line() const {
+    LineOfAction<float> line{};
+    line.start_m = frame.start_m;
+    line.rotation = frame.rotation;
+    return line;
+  }
+  std::uint32_t nodes() const { return node_count(mesh.cells); }
+  std::vector<Vec3<float>> skin(const SkinPose& pose, const std::vector<float>& u, bool mirrored = false) const {
+    std::vector<Vec3<float>> out(surface.mesh.position.size());
+    skin_surface(surface, pose, {u.data(), 1, nodes()}, mirrored, out);
+    return out;
+  }
+  std::vector<float> still() const { return std::vector<float>(3 * nodes(), 0.0F); }
+};
+
+double distance(const Vec3<float>& a, const Vec3<float>& b) {
+  return length(to_double(a) - to_double(b));
+}
+
+Vec direction() {
+  return normalised(
+      Vec{*rc::gen::inRange(-9, 10) + 0.3, *rc::gen::inRange(-9, 10) + 0.1, *rc::gen::inRange(-9, 10) + 0.2});
+}
+
+RC_GTEST_PROP(PlaceInCage, PointsInsideAreFoundAndWeightsArePartition, ()) {
+  const HexahedralMesh mesh = cage({4, 3, 9});
+  // a point inside, by the map itself: any convex combination of an element's nodes with trilinear weights
+  const auto e = static_cast<std::uint32_t>(*rc::gen::inRange(0, 4 * 3 * 9));
+  const double x = *rc::gen::inRange(0, 101) * 0.01, y = *rc::gen::inRange(0, 101) * 0.01,
+               z = *rc::gen::inRange(0, 101) * 0.01;
+  const std::array<double, 8> w = {
+      (1 - x) * (1 - y) * (1 - z), x * (1 - y) * (1 - z), x * y * (1 - z), (1 - x) * y * (1 - z),
+      (1 - x) * (1 - y) * z,       x * (1 - y) * z,       x * y * z,       (1 - x) * y * z};
+  const Hexahedron nodes = element_nodes(mesh.cells, e);
+  Vec point{};
+  for (std::size_t c = 0; c < 8; ++c) point = point + w[c] * mesh.node[nodes[c]];
+  const CagePlace place = place_in_cage(mesh, point);
+  Vec found{};
+  for (std::size_t c = 0; c < 8; ++c) found = found + place.weight[c] * mesh.node[place.node[c]];
+  RC_ASSERT(length(found - point) < 1e-9);
+}
+
+RC_GTEST_PROP(PlaceInCage, OutsideItNeverExtrapolates, ()) {
+  const HexahedralMesh mesh = cage();
+  const Vec point = Vec{0, 0, 0.12} + (*rc::gen::inRange(0, 500) * 0.001) * direction();
+  const CagePlace place = place_in_cage(mesh, point);
+  double sum = 0;
+  for (const double w : place.weight) {
+    RC_ASSERT(w >= 0 && w <= 1);
+    sum += w;
+  }
+  RC_ASSERT(std::abs(sum - 1) < 1e-12);
+}
+
+TEST(Binding, WeightsArePartitionsOfOne) {
+  for (std::size_t m = 0; m < 12; ++m) {
+    const Bound bound(m);
+    ASSERT_EQ(bound.surface.binding.size(), bound.surface.mesh.position.size());
+    for (const auto& b : bound.surface.binding) {
+      EXPECT_GE(std::min({b.cage, b.origin, b.insertion}), 0.0F);
+      EXPECT_NEAR(b.cage + b.origin + b.insertion, 1.0F, 1e-6F);
+      float sum = 0;
+      for (int i = 0; i < 8; ++i) {
+        EXPECT_GE(b.node_weight[i], 0.0F);
+        EXPECT_LT(b.node[i], bound.nodes());
+        sum += b.node_weight[i];
+      }
+      EXPECT_NEAR(sum, 1.0F, 1e-6F);
+    }
+  }
+}
+
+TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
+  // All of triceps surae: the calcaneal tendon reaches the heel, the others end in it and go with it.
+  const Bound base(10);
+  auto muscles = make_muscle_surfaces(base.b);
+  const Vec knee = to_double(base.rest_pose().position_m[index(Segment::shank_right)]);
+  const RestFrame frame{to_float(knee + Vec{0, -0.01, -0.02}), rotation({1, 0, 0}, 1.5708)};
+  std::vector<MuscleSurface*> group;
+  for (auto& m : muscles) {
+    if (m.group != Muscle::triceps_surae || m.surface.mesh.name.starts_with("plantaris")) continue;
+    group.push_back(&m.surface);
+    bind_muscle(m.surface, base.mesh, frame, m.attachments, blend_m);
+  }
+  ASSERT_EQ(group.size(), 4U);
+  const auto& tendon = *group.back();
+  EXPECT_EQ(tendon.binding.back().insertion, 1.0F);
+  for (const MuscleSurface* s : group) {
+    for (std::size_t v = 0; v < s->binding.size(); ++v) {
+      EXPECT_NEAR(s->binding[v].cage + s->binding[v].origin + s->binding[v].insertion, 1.0F, 1e-6F);
+      for (std::size_t w = 0; w < tendon.binding.size(); ++w) {
+        const bool together = std::abs(s->rest_in_cage[v].z - tendon.rest_in_cage[w].z) < 1e-3F;
+        if (together) {
+          EXPECT_NEAR(s->binding[v].insertion, tendon.binding[w].insertion, 0.02F);
+        }
+      }
+    }
+  }
+}
+
+TEST(Skinning, RestsWhereItWasDrawn) {
+  for (std::size_t m = 0; m < 12; ++m) {
+    const Bound bound(m);
+    const SkinPose pose = skin_pose(bound.surface, right, bound.b, bound.rest_pose(), bound.rest_line());
+    const auto out = bound.skin(pose, bound.still());
+    for (std::size_t v = 0; v < out.size(); ++v) EXPECT_LT(distance(out[v], bound.surface.mesh.position[v]), 1e-5);
+  }
+}
+
+RC_GTEST_PROP(Skinning, MovesRigidlyWithTheWholeBody, ()) {
+  static const Bound bound;
+  const Quat<float> turn = rotation(direction(), *rc::gen::inRange(-314, 315) * 0.01);
+  const Vec shift = (*rc::gen::inRange(0, 300) * 0.01) * direction();
+  const auto moved = [&](const Vec3<float>& p) { return to_float(rotated(to_double(turn), to_double(p)) + shift); };
+  Pose<float> pose = bound.rest_pose();
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    pose.position_m[s] = moved(pose.position_m[s]);
+    pose.rotation[s] = turn;
+  }
+  LineOfAction<float> line = bound.rest_line();
+  line.start_m = moved(line.start_m);
+  line.rotation = product(turn, line.rotation);
+  const auto out = bound.skin(skin_pose(bound.surface, right, bound.b, pose, line), bound.still());
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    RC_ASSERT(distance(out[v], moved(bound.surface.mesh.position[v])) < 1e-5);
+  }
+}
+
+RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
+  static const Bound bound;
+  // a surface of our own that lies well inside
+  MuscleSurface inner;
+  inner.mesh = ellipsoid({0, 0, 0}, {0.012, 0.012, 0.10}, 20, 12);
+  for (auto& p : inner.mesh.position) {
+    const Vec q = to_double(p) + Vec{0.001, 0, 0.125};
+    p = to_float(rotated(to_double(bound.frame.rotation), q) + to_double(bound.frame.start_m));
+  }
+  bind_surface(inner, bound.mesh, bound.frame, at_the_faces);
+  double gradient[3][3];
+  for (auto& row : gradient) {
+    for (double& g : row) g = *rc::gen::inRange(-30, 31) * 0.01;
+  }
+  const auto field = [&](const Vec& q) {
+    return Vec{gradient[0][0] * q.x + gradient[0][1] * q.y + gradient[0][2] * q.z,
+               gradient[1][0] * q.x + gradient[1][1] * q.y + gradient[1][2] * q.z,
+               gradient[2][0] * q.x + gradient[2][1] * q.y + gradient[2][2] * q.z};
+  };
+  std::vector<float> u;
+  for (const auto& node : bound.mesh.node) {
+    const Vec3<float> d = to_float(field(node));
+    u.insert(u.end(), {d.x, d.y, d.z});
+  }
+  std::vector<Vec3<float>> out(inner.mesh.position.size());
+  skin_surface(inner, skin_pose(inner, right, bound.b, bound.rest_pose(), bound.rest_line()),
+               {u.data(), 1, bound.nodes()}, false, out);
+  for (std::size_t v = 0; v < out.size(); ++v) {
+    const Vec q = rotated(conjugate(to_double(bound.frame.rotation)),
+                          to_double(inner.mesh.position[v]) - to_double(bound.frame.start_m));
+    const Vec expected = rotated(to_double(bound.frame.rotation), q + field(q)) + to_double(bound.frame.start_m);
+    RC_ASSERT(length(to_double(out[v]) - expected) < 1e-5);
+  }
+}
+
+/// A bent leg: the shank turned back about the knee, the thigh forward about the hip; the muscle's frame with the
+/// thigh.
+struct BentLeg {
+  Pose<float> pose;
+  LineOfAction<float> line;
+};
+BentLeg bent(const Bound& bound, double hip, double knee) {
+  using enum Segment;
+  BentLeg leg{bound.rest_pose(), bound.rest_line()};
+  const Quat<float> thigh = rotation({1, 0, 0}, -hip), shank = rotation({1, 0, 0}, knee - hip);
+  const Vec hip_at = to_double(leg.pose.position_m[index(thigh_right)]),
+            knee_at = to_double(leg.pose.position_m[index(shank_right)]);
+  leg.pose.rotation[index(thigh_right)] = thigh;
+  leg.pose.rotation[index(shank_right)] = shank;
+  leg.pose.position_m[index(shank_right)] = to_float(hip_at + rotated(to_double(thigh), knee_at - hip_at));
+  leg.line.start_m = to_float(hip_at + rotated(to_double(thigh), to_double(leg.line.start_m) - hip_at));
+  leg.line.rotation = product(thigh, leg.line.rotation);
+  return leg;
+}
+
+RC_GTEST_PROP(Skinning, NeighboursStayNeighboursAcrossTheEnds, ()) {
+  // Displacement differs along an edge by no more than the edge times a bounded strain: nothing tears.
+  static const Bound bound;
+  const BentLeg leg = bent(bound, *rc::gen::inRange(-20, 60) * 0.01, *rc::gen::inRange(0, 100) * 0.01);
+  // the cage bulges and is drawn out towards its far end
+  std::vector<float> u;
+  for (const auto& q : bound.mesh.node) {
+    const double t = q.z / 0.25;
+    const Vec3<float> d = to_float(Vec{0.2 * q.x * std::sin(3.14 * t), 0.2 * q.y * std::sin(3.14 * t), 0.015 * t});
+    u.insert(u.end(), {d.x, d.y, d.z});
+  }
+  const auto out = bound.skin(skin_pose(bound.surface, right, bound.b, leg.pose, leg.line), u);
+  const auto& mesh = bound.surface.mesh;
+  for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
+      const double rest = distance(mesh.position[a], mesh.position[b]), now = distance(out[a], out[b]);
+      RC_ASSERT(now < 5 * rest + 2e-3);
+    }
+  }
+}
+
+RC_GTEST_PROP(Skinning, LeftIsTheMirrorImageOfRight, ()) {
+  static const Bound bound;
+  const BentLeg leg = bent(bound, *rc::gen::inRange(-20, 60) * 0.01, *rc::gen::inRange(0, 100) * 0.01);
+  Pose<float> mirrored{};
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto segment = static_cast<Segment>(s);
+    const bool is_right = segment_name[s].ends_with("_right");
+    if (segment_name[s].ends_with("_left")) continue;
+    const std::size_t to = is_right ? index(on_side(segment, left)) : s;
+    const auto& p = leg.pose.position_m[s];
+    const auto& q = leg.pose.rotation[s];
+    mirrored.position_m[to] = {-p.x, p.y, p.z};
+    mirrored.rotation[to] = {q.x, -q.y, -q.z, q.w};
+  }
+  std::vector<float> u;
+  for (std::uint32_t n = 0; n < 3 * bound.nodes(); ++n) u.push_back(0.004F * std::sin(static_cast<float>(n)));
+  const auto r = bound.skin(skin_pose(bound.surface, right, bound.b, leg.pose, leg.line), u);
+  const auto l = bound.skin(skin_pose(bound.surface, left, bound.b, mirrored, leg.line), u, true);
+  for (std::size_t v = 0; v < r.size(); ++v) RC_ASSERT(distance({-r[v].x, r[v].y, r[v].z}, l[v]) < 1e-6);
+}
+
+RC_GTEST_PROP(Skinning, OneLaneOfABlockEqualsAPlainArray, (bool large)) {
+  const HexahedralMesh mesh = cage(large ? Cells{12, 12, 26} : Cells{3, 3, 10});  // more than 4096 nodes, or fewer
+  static const Bound bound;
+  MuscleSurface surface = bound.surface;
+  bind_surface(surface, mesh, bound.frame, blend_m);
+  const auto lane = static_cast<std::size_t>(*rc::gen::inRange(0, 16));
+  const std::size_t words = 3 * node_count(mesh.cells);
+  std::vector<float> plain, block(words * 16);
+  for (std::size_t i = 0; i < block.size(); ++i) block[i] = 0.01F * std::sin(static_cast<float>(i));
+  for (std::size_t i = 0; i < words; ++i) plain.push_back(block[i * 16 + lane]);
+  const SkinPose pose = skin_pose(surface, right, bound.b, bound.rest_pose(), bound.rest_line());
+  std::vector<Vec3<float>> a(surface.mesh.position.size()), b(a.size());
+  skin_surface(surface, pose, {plain.data(), 1, node_count(mesh.cells)}, false, a);
+  skin_surface(surface, pose, {block.data() + lane, 16, node_count(mesh.cells)}, false, b);
+  for (std::size_t v = 0; v < a.size(); ++v) RC_ASSERT(a[v].x == b[v].x && a[v].y == b[v].y && a[v].z == b[v].z);
+}
+
+TEST(Ligament, FollowsItsBonesAtItsEnds) {
+  const Bound bound;
+  auto ligament = make_muscle_surfaces(bound.b).back();
+  ASSERT_TRUE(ligament.ligament);
+  auto& surface = ligament.surface;
+  bind_ligament(surface, surface.mesh.position.front(), surface.mesh.position.back());
+  BentLeg leg = bent(bound, 0.3, 0.8);
+  const std::vector<float> u(3, 0.0F);
+  std::vector<Vec3<float>> out(surface.mesh.position.size());
+  leg.pose.position_m[index(Segment::patella_right)].y += 0.02F;
+  const SkinPose pose = skin_pose(surface, right, bound.b, leg.pose, leg.line);
+  skin_surface(surface, pose, {u.data(), 1, 1}, false, out);
+  const auto follow = [](const RigidPose& now, const RigidPose& rest, const Vec3<float>& p) {
+    return rotated(to_double(now.rotation), to_double(p) - to_double(rest.position_m)) + to_double(now.position_m);
+  };
+  EXPECT_LT(length(to_double(out.front()) - follow(pose.origin_now, pose.origin_rest, surface.mesh.position.front())),
+            1e-5);
+  EXPECT_LT(
+      length(to_double(out.back()) - follow(pose.insertion_now, pose.insertion_rest, surface.mesh.position.back())),
+      1e-5);
+}
+
+}  // namespace
+}  // namespace mobil

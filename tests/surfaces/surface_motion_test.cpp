@@ -1,0 +1,383 @@
+// Muscle surfaces over a walking cycle: they bulge, keep the volume that their meshes say, and neither fold nor tear.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/import/fit_anatomy.h"
+#include "assets/surfaces/muscle_surfaces.h"
+#include "assets/surfaces/surface_binding.h"
+#include "assets/surfaces/surface_mesh.h"
+#include "engine/geometry.h"
+#include "systems/simulation.h"
+#include "systems/skinning/skinning.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace geometry;
+
+constexpr std::size_t phases = 12;
+using Positions = std::vector<Vec3<float>>;
+
+/// One right-hand surface of one person over a stride: where it is, where its mesh alone would carry it, the muscle's
+/// frame and how much longer the line is than at rest.
+struct Moving {
+  std::string label;
+  Muscle group{};
+  bool ligament = false;
+  bool cut = false;      // at the kneecap, and so open
+  bool crosses = false;  // a joint between its bone of origin and its mesh's
+  MuscleSurface surface;
+  std::array<Positions, phases> now, by_mesh;
+  std::array<LineOfAction<float>, phases> line;
+};
+
+HexahedralMesh own_mesh(const Simulation& simulation, const HumanMuscle& muscle) {
+  HexahedralMesh mesh = simulation.world().shared<MuscleTemplate>(muscle.entity[right])->mesh;
+  for (auto& node : mesh.node) {
+    node.x *= static_cast<double>(muscle.plan.scale.across);
+    node.y *= static_cast<double>(muscle.plan.scale.across);
+    node.z *= static_cast<double>(muscle.plan.scale.along);
+  }
+  return mesh;
+}
+
+struct Drawn {
+  Muscle group{}, muscle{};
+  MuscleSurface surface;
+  Attachments attachments{};
+  bool ligament = false;
+  std::optional<Ligament> beyond{};
+};
+
+/// Binds a person's surfaces, lets them walk a stride, and keeps what there is to see.
+std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std::vector<Drawn> (*draw)(const Body&)) {
+  Simulation simulation;
+  const Entity entity = simulation.spawn(body).value();
+  LegMuscles choice;
+  choice.muscles = muscles;
+  choice.method = Method::statics;
+  if (const auto added = simulation.add_leg_muscles(entity, choice); !added) {
+    ADD_FAILURE() << added.error().message;
+    return {};
+  }
+  const Human human = *simulation.human(entity);
+  struct Driven {
+    Moving moving;
+    Entity muscle;
+  };
+  std::vector<Driven> all;
+  auto drawn = draw(human.body);
+  for (Drawn& d : drawn) {
+    const Muscle driver = driving_muscle(muscles, d.group, d.muscle).value();
+    const auto own = std::find_if(human.muscles.begin(), human.muscles.end(),
+                                  [driver](const HumanMuscle& m) { return m.plan.muscle == driver; });
+    const RestFrame frame{to_float(own->plan.start_m), to_float(own->plan.rotation)};
+    if (d.ligament) {
+      bind_ligament(d.surface, d.attachments.origin_m, d.attachments.insertion_m);
+    } else {
+      const HexahedralMesh mesh = own_mesh(simulation, *own);
+      const Passages passages =
+          bind_muscle(d.surface, mesh, frame, d.attachments, 0.022 * static_cast<double>(human.body.request.height_m));
+      if (d.beyond) bind_beyond(d.beyond->surface, d.surface, mesh, frame, passages, d.beyond->ends);
+    }
+    const std::string label = d.surface.mesh.name + " by " + std::string(muscle_name(driver)) + " of " +
+                              std::to_string(body.height_m) + " m, " + std::to_string(body.mass_kg) + " kg";
+    const bool crosses = d.surface.origin != own->plan.origin;
+    all.push_back({{label, d.group, d.ligament, d.beyond.has_value(), crosses, std::move(d.surface), {}, {}, {}},
+                   own->entity[right]});
+    if (d.beyond) {
+      all.push_back({{label + " beyond", d.group, true, true, false, std::move(d.beyond->surface), {}, {}, {}},
+                     own->entity[right]});
+    }
+  }
+  constexpr int stride_ticks = 66, settled = stride_ticks;
+  for (int i = 0; i < settled; ++i) simulation.tick();
+  for (std::size_t phase = 0; phase < phases; ++phase) {
+    for (std::size_t i = 0; i < stride_ticks / phases; ++i) simulation.tick();
+    const Pose<float> pose = *simulation.get<Pose>(entity);
+    for (auto& [moving, muscle] : all) {
+      const NodalView nodes = simulation.nodal_displacement(muscle);
+      const NodalLane lane{nodes.first, lane_count, nodes.nodes};
+      moving.line[phase] = *simulation.get<LineOfAction>(muscle);
+      const SkinPose skin = skin_pose(moving.surface, right, human.body, pose, moving.line[phase]);
+      moving.now[phase].resize(moving.surface.mesh.position.size());
+      skin_surface(moving.surface, skin, lane, false, moving.now[phase]);
+      MuscleSurface alone = moving.surface;
+      for (VertexBinding& b : alone.binding) b.cage = 1, b.origin = b.insertion = 0;
+      moving.by_mesh[phase].resize(alone.mesh.position.size());
+      skin_surface(alone, skin, lane, false, moving.by_mesh[phase]);
+    }
+  }
+  std::vector<Moving> seen;
+  for (auto& d : all) seen.push_back(std::move(d.moving));
+  return seen;
+}
+
+std::vector<Drawn> built_in(const Body& body) {
+  auto surfaces = make_muscle_surfaces(body);
+  std::vector<Drawn> all;
+  for (GroupSurface& s : surfaces) {
+    all.push_back({s.group, s.muscle, std::move(s.surface), s.attachments, s.ligament, {}});
+  }
+  return all;
+}
+
+std::string anatomy_folder() {
+  if (const char* given = std::getenv("MOBIL_ANATOMY")) return given;
+  for (fs::path at = fs::current_path();; at = at.parent_path()) {
+    if (fs::exists(at / "shared/anatomy/manifest.csv")) return (at / "shared/anatomy").string();
+    if (at == at.parent_path()) return {};
+  }
+}
+
+std::vector<Drawn> real(const Body& body) {
+  static const Result<Anatomy> anatomy = load_anatomy(anatomy_folder());
+  auto fitted = fit_anatomy(anatomy.value(), body).value();
+  std::vector<Drawn> all;
+  for (FittedMuscle& m : fitted.muscles) {
+    auto beyond = cut_at_kneecap(m, body);
+    all.push_back({m.group, m.muscle, std::move(m.surface), m.attachments, false, std::move(beyond)});
+  }
+  return all;
+}
+
+/// Small, large, athletic and thin people, moved by the groups' meshes and by the members' own.
+const std::vector<Moving>& generated() {
+  static const std::vector<Moving> all = [] {
+    BodyRequest small{.height_m = 1.50F, .mass_kg = 45}, large{.height_m = 2.0F, .mass_kg = 110}, athletic, thin;
+    athletic.height_m = thin.height_m = 1.80F;
+    athletic.mass_kg = 85;
+    athletic.biotype.meso = 6;
+    athletic.constitution = Constitution::athletic;
+    thin.mass_kg = 60;
+    thin.constitution = Constitution::thin;
+    std::vector<Moving> each;
+    for (const BodyRequest& body : {small, large, athletic, thin}) {
+      for (const MuscleSet& set : {muscle_groups(), muscle_members()}) {
+        for (Moving& m : walk(body, set, built_in)) each.push_back(std::move(m));
+      }
+    }
+    return each;
+  }();
+  return all;
+}
+
+const std::vector<Moving>& of_real_anatomy() {
+  static const std::vector<Moving> all = [] {
+    std::vector<Moving> each;
+    for (const MuscleSet& set : {muscle_groups(), muscle_members()}) {
+      for (Moving& m : walk({.height_m = 1.80F, .mass_kg = 80}, set, real)) each.push_back(std::move(m));
+    }
+    return each;
+  }();
+  return all;
+}
+
+/// The two triangles of each edge that has two.
+struct Edge {
+  std::uint32_t from, to;
+  std::size_t one, other;
+};
+std::vector<Edge> edges(const SurfaceMesh& mesh) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> at;
+  for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
+      at[{std::min(a, b), std::max(a, b)}].push_back(t);
+    }
+  }
+  std::vector<Edge> all;
+  for (const auto& [e, triangles] : at) {
+    if (triangles.size() == 2) all.push_back({e.first, e.second, triangles[0], triangles[1]});
+  }
+  return all;
+}
+
+Vec normal(const SurfaceMesh& mesh, const Positions& p, std::size_t t) {
+  const Vec a = to_double(p[mesh.triangle[t]]);
+  return cross(to_double(p[mesh.triangle[t + 1]]) - a, to_double(p[mesh.triangle[t + 2]]) - a);
+}
+
+/// Neither sliver nor speck: as high as a fifth of its longest side, which is half a millimetre at least.
+bool well_shaped(const SurfaceMesh& mesh, std::size_t t) {
+  double longest = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    longest = std::max(longest, length(to_double(mesh.position[mesh.triangle[t + k]]) -
+                                       to_double(mesh.position[mesh.triangle[t + (k + 1) % 3]])));
+  }
+  return longest > 0.5e-3 && length(normal(mesh, mesh.position, t)) > 0.2 * longest * longest;
+}
+
+/// Angle by which the surface bends over an edge, positive where it is hollow; rad.
+double bend(const SurfaceMesh& mesh, const Positions& p, const Edge& e) {
+  const Vec a = normal(mesh, p, e.one), b = normal(mesh, p, e.other);
+  const Vec along = normalised(to_double(p[e.to]) - to_double(p[e.from]));
+  return std::atan2(dot(cross(a, b), along), dot(a, b));
+}
+
+struct Worst {
+  double fold = 0, smallest = 1, largest = 1, shortened = 1, drawn_out = 1, volume = 0;
+};
+
+Worst worst(const Moving& m) {
+  const SurfaceMesh& mesh = m.surface.mesh;
+  const auto all = edges(mesh);
+  const double volume = enclosed_volume(mesh);
+  Worst w;
+  for (std::size_t phase = 0; phase < phases; ++phase) {
+    const Positions &p = m.now[phase], &q = m.by_mesh[phase];
+    for (const Edge& e : all) {
+      if (!well_shaped(mesh, e.one) || !well_shaped(mesh, e.other)) continue;
+      const double turned = std::remainder(bend(mesh, p, e) - bend(mesh, mesh.position, e), 2 * std::acos(-1.0));
+      w.fold = std::max(w.fold, std::abs(turned) * 180 / std::acos(-1.0));
+      const double rest = length(to_double(mesh.position[e.to]) - to_double(mesh.position[e.from]));
+      const double now = length(to_double(p[e.to]) - to_double(p[e.from])) / rest;
+      const double meshes = length(to_double(q[e.to]) - to_double(q[e.from])) / rest;
+      w.shortened = std::min(w.shortened, now / std::min(1.0, meshes));
+      w.drawn_out = std::max(w.drawn_out, now / std::max(1.0, meshes));
+    }
+    for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+      if (!well_shaped(mesh, t)) continue;
+      const double ratio = length(normal(mesh, p, t)) / length(normal(mesh, mesh.position, t));
+      w.smallest = std::min(w.smallest, ratio);
+      w.largest = std::max(w.largest, ratio);
+    }
+    const double own = enclosed_volume({"", p, mesh.triangle}), meshes = enclosed_volume({"", q, mesh.triangle});
+    w.volume = std::max(w.volume, std::abs(own - meshes) / volume);
+  }
+  return w;
+}
+
+bool is_tendon(const Moving& m) {
+  return m.ligament || m.surface.mesh.name.starts_with("calcaneal");
+}
+
+/// Largest area that the surface has across the muscle's line, m².
+double largest_section(const Moving& m, std::size_t phase) {
+  constexpr int levels = 24;
+  const LineOfAction<float>& line = m.line[phase];
+  std::vector<Vec> place;
+  double low = 1e9, high = -1e9;
+  for (const auto& p : m.now[phase]) {
+    place.push_back(rotated(conjugate(to_double(line.rotation)), to_double(p) - to_double(line.start_m)));
+    low = std::min(low, place.back().z);
+    high = std::max(high, place.back().z);
+  }
+  double largest = 0;
+  for (int level = 1; level < levels; ++level) {
+    const double z = low + (high - low) * (level + 0.013) / levels;
+    double area = 0;
+    const auto& triangle = m.surface.mesh.triangle;
+    for (std::size_t t = 0; t < triangle.size(); t += 3) {
+      Vec in{}, out{};
+      int crossings = 0;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Vec &a = place[triangle[t + k]], &b = place[triangle[t + (k + 1) % 3]];
+        if ((a.z >= z) == (b.z >= z)) continue;
+        ++crossings;
+        (a.z >= z ? out : in) = a + ((z - a.z) / (b.z - a.z)) * (b - a);
+      }
+      if (crossings == 2) area += 0.5 * (in.x * out.y - in.y * out.x);
+    }
+    largest = std::max(largest, std::abs(area));
+  }
+  return largest;
+}
+
+void expect_whole(const std::vector<Moving>& all, double fold_deg, double smallest, double largest) {
+  ASSERT_FALSE(all.empty());
+  for (const Moving& m : all) {
+    const Worst w = worst(m);
+    EXPECT_LT(w.fold, fold_deg) << m.label;
+    EXPECT_GT(w.smallest, smallest) << m.label;
+    EXPECT_LT(w.largest, largest) << m.label;
+  }
+}
+
+/// Where a group's mesh spans fewer joints than one of its members does, the shortening of that member over the joint
+/// has to go somewhere. `plantaris` gets that much more: its short belly takes what the calf's length does, a quarter
+/// of its own, and the measured one is thrice the size of a living one.
+void expect_volumes(const std::vector<Moving>& all, double plantaris) {
+  for (const Moving& m : all) {
+    if (is_tendon(m) || m.cut) continue;
+    const double more = m.surface.mesh.name.starts_with("plantaris") ? plantaris : 0;
+    EXPECT_LT(worst(m).volume, (m.crosses ? 0.10 : 0.03) + more) << m.label;
+  }
+}
+
+TEST(SurfaceMotion, NoTriangleFoldsOrVanishes) {
+  expect_whole(generated(), 45, 0.25, 1.7);
+}
+
+TEST(SurfaceMotion, VolumesAreWhatTheMeshesSay) {
+  expect_volumes(generated(), 0.02);
+}
+
+TEST(SurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {
+  for (const Moving& m : generated()) {
+    const Worst w = worst(m);
+    EXPECT_GT(w.shortened, 0.25) << m.label;
+    EXPECT_LT(w.drawn_out, 1.5) << m.label;
+  }
+}
+
+TEST(SurfaceMotion, HamstringsBulgeAsTheyShorten) {
+  int seen = 0;
+  for (const Moving& m : generated()) {
+    if (m.group != Muscle::hamstrings) continue;
+    ++seen;
+    std::size_t longest = 0, shortest = 0;
+    for (std::size_t i = 1; i < phases; ++i) {
+      if (m.line[i].length_m > m.line[longest].length_m) longest = i;
+      if (m.line[i].length_m < m.line[shortest].length_m) shortest = i;
+    }
+    const double thick = largest_section(m, shortest), slender = largest_section(m, longest);
+    EXPECT_GT(thick, 1.01 * slender) << m.label;
+  }
+  EXPECT_EQ(seen, 32);
+}
+
+class RealSurfaceMotion : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (anatomy_folder().empty()) GTEST_SKIP() << "no shared/anatomy above here, MOBIL_ANATOMY is not set";
+  }
+};
+
+TEST_F(RealSurfaceMotion, EveryMuscleIsThereAndFollowsItsOwnMesh) {
+  std::map<std::string, int> drivers;
+  for (const Drawn& d : real(make_body({.height_m = 1.80F, .mass_kg = 80}).value()))
+    ++drivers[std::string(muscle_name(d.muscle))];
+  for (const MemberMuscle& member : member_muscles()) EXPECT_EQ(drivers[std::string(member.name)], 1) << member.name;
+}
+
+TEST_F(RealSurfaceMotion, NoTriangleFoldsOrVanishes) {
+  expect_whole(of_real_anatomy(), 60, 0.2, 2.5);
+}
+
+TEST_F(RealSurfaceMotion, VolumesAreWhatTheMeshesSay) {
+  expect_volumes(of_real_anatomy(), 0.05);
+}
+
+TEST_F(RealSurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {
+  for (const Moving& m : of_real_anatomy()) {
+    const Worst w = worst(m);
+    EXPECT_GT(w.shortened, 0.4) << m.label;
+    EXPECT_LT(w.drawn_out, 1.6) << m.label;
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -22,6 +22,9 @@ inline constexpr std::size_t muscle_group_count = 4;
 inline constexpr std::size_t most_muscles = 32;
 using MuscleSet = std::bitset<most_muscles>;
 
+/// Elements of a belly's mesh along x, y and z.
+using Cells = std::array<std::uint32_t, 3>;
+
 /// Linear elastic material. The defaults are the paper's (section 6.1).
 struct Material {
   double density_kg_m3 = 1000.0;
@@ -82,16 +85,16 @@ struct LineMotion {
   F hip_flexion_arm_m, knee_flexion_arm_m, ankle_dorsiflexion_arm_m;
 };
 
-/// What drives the far end of the belly along z this tick: displacement at the tick's start and end, m.
-template <class F>
-struct EndDisplacement {
-  F from_m, to_m;
-};
+/// What the insertion face of a belly may do; the origin face is always fixed. `held`: every displacement of it is
+/// prescribed. `sliding`: held sideways, free along z. `free`: free in all directions. As a tag (TagValue<FarEnd>) what
+/// a table's EndDrive means.
+enum class FarEnd : std::uint8_t { held, sliding, free };
 
-/// What drives a far end held sideways and free along z: total force along +z at the tick's start and end, N.
+/// What drives the far end of the belly along z at the tick's start and end: where it is `held` its displacement, m;
+/// where it is `sliding` the total force along +z, N.
 template <class F>
-struct EndForce {
-  F from_n, to_n;
+struct EndDrive {
+  F from, to;
 };
 
 /// What loads a free far end: total of a uniform traction over it at the tick's start and end, N.
@@ -145,5 +148,14 @@ struct NodalVelocity {};
 struct ReducedState {};
 struct ReducedMotion {};
 struct ReducedShape {};
+
+/// Tags of muscle tables: the number of equal steps that a tick is cut into, of who steps explicitly, solves, and
+/// settles to the static answer; reduced bellies that show the static answer alone; and floats that one block is worked
+/// on with.
+struct Substeps {};
+struct SolvedSteps {};
+struct StaticSteps {};
+struct ReducedStatic {};
+struct ScratchFloats {};
 
 }  // namespace mobil

@@ -17,6 +17,16 @@ struct Jobs {
   std::size_t threads = 1;  // about how many work at once, for memory made ready; more may
 };
 
+/// `work(begin, end)` on parts of [0, count), by jobs.
+template <class Work>
+void in_parallel(const Jobs& jobs, std::size_t count, Work work) {
+  if (count == 0) return;
+  if (count == 1) return work(std::size_t{0}, std::size_t{1});
+  jobs.parallel_for(
+      jobs.user, count,
+      [](void* context, std::size_t begin, std::size_t end) { (*static_cast<Work*>(context))(begin, end); }, &work);
+}
+
 /// A pool (oneTBB). One thread runs everything inline and starts nothing; 0 means as many as the machine has. More than
 /// the machine has are allowed and not used.
 class Threads {

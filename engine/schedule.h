@@ -36,6 +36,7 @@ namespace mobil {
 /// A system with its type taken off.
 struct System {
   std::string name;
+  std::string module{};          // whose it is (engine/module.h); empty where nobody said
   std::vector<Access> accesses;  // of its parameters
   std::size_t parameters = 0;
   std::vector<std::string> after;  // names of systems that must have run
@@ -125,11 +126,15 @@ class Schedule {
 
 class ScheduleBuilder {
  public:
+  /// Systems added from now on are that module's.
+  void begin_module(std::string name) { module_ = std::move(name); }
+
   /// A free function or a lambda whose parameters are those of engine/access.h. It is called from several threads at
   /// once, for different blocks.
   template <class F>
   ScheduleBuilder& add(std::string name, F function) {
     systems_.push_back(erase(std::move(name), std::move(function), Signature<F>{}));
+    systems_.back().module = module_;
     return *this;
   }
   /// A packed system (engine/packed.h): `choose` takes a block like any system, writes nothing, and returns the lanes
@@ -137,6 +142,7 @@ class ScheduleBuilder {
   template <class Choose, class F>
   ScheduleBuilder& add_packed(std::string name, Choose choose, F function) {
     systems_.push_back(erase_packed(std::move(name), choose, function, Signature<Choose>{}, Signature<F>{}));
+    systems_.back().module = module_;
     return *this;
   }
   /// The system added last runs after that one.
@@ -215,6 +221,7 @@ class ScheduleBuilder {
   }
 
   std::vector<System> systems_;
+  std::string module_;
 };
 
 }  // namespace mobil

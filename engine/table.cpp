@@ -46,8 +46,8 @@ std::size_t Table::alignment_of(std::size_t bytes) {
   return bytes >= large_page ? large_page : block_alignment;
 }
 
-/// Pieces of a quarter of what there is, so that little is held in vain; of a crowd's tables, in the end, of a large page
-/// each, which one entry maps.
+/// Pieces of a quarter of what there is, so that little is held in vain; of a crowd's tables, in the end, of a large
+/// page each, which one entry maps.
 void Table::add_chunk(std::size_t least) {
   const std::size_t full = (large_page + chunk_bytes(1) - 1) / chunk_bytes(1);
   const std::size_t more = blocks_.size() < 2 * full ? blocks_.size() / 4 : full;

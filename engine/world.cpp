@@ -62,6 +62,28 @@ Status World::remake_from(Entity entity, std::span<const PartValue> parts) {
   return Status::ok;
 }
 
+void World::key_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned) {
+  key_from(parts);
+  for (const KeyPart& part : find(entity).table->key()) {
+    if (!std::binary_search(owned.begin(), owned.end(), part.id)) insert_part(scratch_, part);
+  }
+}
+
+Status World::remake_from(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned) {
+  if (!alive(entity)) return Status::stale_entity;
+  key_remade(entity, parts, owned);
+  if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
+  write_from(find(entity), parts);
+  return Status::ok;
+}
+
+void World::reserve_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned,
+                           std::uint32_t rows) {
+  key_remade(entity, parts, owned);
+  Table& table = tables_[table_of(scratch_)];
+  table.reserve(table.row_count() + rows);
+}
+
 void World::reserve(std::span<const PartValue> parts, std::uint32_t rows) {
   key_from(parts);
   Table& table = tables_[table_of(scratch_)];

@@ -5,8 +5,8 @@
 //   World world;
 //   const auto mesh = world.share(std::make_shared<const Mesh>(…));
 //   const Entity muscle = world.create(BellyScale<float>{1, 1}, FieldWidth<NodalVelocity>{243}, mesh);
-//   world.add(muscle, EndForce<float>{0, 1});  // Status::ok
-//   world.get<EndForce>(muscle)->to_n;         // 1
+//   world.add(muscle, EndDrive<float>{0, 1});  // Status::ok
+//   world.get<EndDrive>(muscle)->to;           // 1
 //   world.add(muscle, TagValue<Substeps>{5});  // moves to the table of those with five
 //   world.remove<NodalVelocity>(muscle);       // and on to the table of those without velocities
 //   world.destroy(muscle);                     // from here on everything answers Status::stale_entity
@@ -59,6 +59,9 @@ class World {
   /// The same from lists put together at run time; each type once.
   Entity create_from(std::span<const PartValue> parts);
   Status remake_from(Entity entity, std::span<const PartValue> parts);
+  /// The same for some of its parts: of those that `owned` names (ids, sorted) it has just `parts` afterwards, all
+  /// others stay with their values.
+  Status remake_from(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned);
   /// Many entities of the same parts. A row's values come in blocks of sixteen lanes: that of word w of the entity that
   /// is number i at [(i / 16 · words + w) · 16 + i % 16]; null is zeros. The same entities as one by one, in
   /// `entities`. Where memory runs out, the world is as it was.
@@ -75,6 +78,9 @@ class World {
   /// Room for so many more entities of these parts; and for so many of whatever parts. Then create_from, remake_from
   /// and create_many take no memory for them.
   void reserve(std::span<const PartValue> parts, std::uint32_t rows);
+  /// Room for what `remake_from` with the same arguments makes of that entity, and of others like it: `rows` in all.
+  void reserve_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned,
+                      std::uint32_t rows);
   void reserve_entities(std::size_t more) { entities_.reserve(more); }
   /// Several parts more at once, those of them that are not there.
   Status add_parts(Entity entity, std::span<const PartValue> parts);
@@ -144,6 +150,11 @@ class World {
     const T* raw = resource.get();
     return {raw, own(std::move(resource))};
   }
+  /// The same of a resource whose type is known as a part alone: key_part(Shared<T>{}).
+  KeyPart share_as(KeyPart part, std::shared_ptr<const void> resource) {
+    part.value = own(std::move(resource));
+    return part;
+  }
   /// The resource of that index, null when there is none.
   const void* resource(std::uint64_t index) const {
     return index < resources_.size() ? resources_[index].get() : nullptr;
@@ -176,6 +187,7 @@ class World {
   Status write_field(Entity entity, std::uint64_t id, std::span<const float> in);
   std::uint64_t own(std::shared_ptr<const void> resource);
   void key_from(std::span<const PartValue> parts);
+  void key_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned);
   void write_from(Place<Table> place, std::span<const PartValue> parts);
 
   template <template <class> class C>

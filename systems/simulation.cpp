@@ -8,11 +8,14 @@
 #include "assets/body/anthropometry.h"
 #include "components/fade.h"
 #include "components/leg_frames.h"
+#include "engine/rows.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/muscles/simulation_change.h"
-#include "systems/people/simulation_rows.h"
+#include "systems/muscles/change_muscles.h"
+#include "systems/muscles/muscle_parts.h"
+#include "systems/people/walker_past.h"
+#include "systems/standard_modules.h"
 
 namespace mobil {
 namespace {
@@ -48,29 +51,23 @@ MotionHistory<float> recent_motion(const BodySize<float>& size, const StepPlan<f
 
 }  // namespace
 
-std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds) {
-  state.time_s -= seconds;
-  if (state.time_s >= 0.0F) return state;
-  const bool steady = plan.settled != 0 && plan.step_length_m > 0.0F && state.turn_before_rad == 0.0F;
-  if (!steady) return std::nullopt;
-  state.time_s += plan.duration_s;
-  state.stance_side ^= 1U;
-  state.line_x_m -= plan.length_before_m * std::sin(state.heading_rad);
-  state.line_z_m -= plan.length_before_m * std::cos(state.heading_rad);
-  state.turn_rad = 0.0F;
-  return state;
-}
-
 Simulation::Simulation(const SimulationOptions& options)
-    : world_(options.memory), clock_(make_clock(options)), work_(std::make_unique<MuscleWork>()) {
+    : world_(options.memory),
+      clock_(make_clock(options)),
+      modules_(standard_modules()),
+      work_(std::make_unique<MuscleWork>()) {
   if (options.jobs) {
     jobs_ = *options.jobs;
   } else {
     threads_.emplace(options.threads);
     jobs_ = threads_->jobs();
   }
-  auto schedule = make_schedule(options.memory);
-  if (!schedule) throw std::logic_error(schedule.error().message);
+  modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
+  for (const Module& module : options.modules) {
+    for (const NamedResource& named : module.resources) world_.share_as(named.part, named.resource);
+  }
+  auto schedule = make_schedule(modules_, options.memory);
+  if (!schedule) throw std::invalid_argument(schedule.error().message);
   schedule_ = std::move(*schedule);
 }
 
@@ -121,6 +118,11 @@ Status Simulation::remove_forces(Entity entity) {
       entity, {type_id<MotionHistory<float>>(), type_id<GroundReaction<float>>(), type_id<JointMoments<float>>()});
 }
 
+Result<void> Simulation::prepare(const LegMuscles& choice) {
+  if (auto done = bellies_.prepare(choice, tick_s(), jobs_); !done) return fail("prepare: " + done.error().message);
+  return {};
+}
+
 Ticks Simulation::advance(double seconds) {
   const Ticks ticks = clock_.advance(seconds);
   for (std::uint32_t i = 0; i < ticks.count; ++i) tick();
@@ -138,7 +140,8 @@ std::optional<Human> Simulation::human(Entity entity) const {
   if (of == nullptr) return std::nullopt;
   Human human{entity, *make_body(of->body), world_.get<Gait>(entity).value_or(Gait<float>{}), {}, {}, of->posed};
   for (const OwnMuscle& own : of->muscles) {
-    human.muscles.push_back({*make_muscle_plan(human.body, own.muscle), own.entity, own.method});
+    human.muscles.push_back(
+        {*make_muscle_plan(human.body, own.muscle), own.entity, muscle_method(world_, own.entity[right])});
   }
   if (!of->muscles.empty()) human.leg_muscles = people_.choice(*of);
   return human;

@@ -31,9 +31,10 @@
 #include "engine/clock.h"
 #include "engine/error.h"
 #include "engine/jobs.h"
+#include "engine/module.h"
 #include "engine/schedule.h"
 #include "engine/world.h"
-#include "systems/muscles/simulation_muscles.h"
+#include "systems/muscles/belly_library.h"
 #include "systems/people/simulation_people.h"
 
 namespace mobil {
@@ -44,6 +45,8 @@ struct SimulationOptions {
   int threads = 1;             // of the built-in pool; 0: as many as the machine has
   std::optional<Jobs> jobs{};  // the caller's own job system instead
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
+  /// The host's own effects (engine/module.h), behind the library's.
+  std::vector<Module> modules{};
 };
 
 /// One of a person's muscles, by side, with its plan.
@@ -76,7 +79,7 @@ struct SpawnRequest {
 
 /// What one system cost: time of all threads together, and entities that it worked on.
 struct SystemReport {
-  std::string_view name;  // good as long as the simulation
+  std::string_view name, module;  // good as long as the simulation
   double seconds = 0;     // in the last tick
   std::uint64_t entities = 0;
   double total_seconds = 0;  // in all ticks since the schedule's timings were last reset
@@ -96,14 +99,15 @@ struct NodalView {
   std::uint32_t nodes = 0;
 };
 
-struct MuscleWork;  // systems/muscles/simulation_change.h
-struct MuscleSize;  // systems/people/simulation_spawn.h
+struct MuscleWork;  // systems/muscles/change_muscles.h
+struct MuscleSize;  // systems/muscles/begin_muscles.h
 struct NotMade;
 struct SnapshotWork;  // systems/snapshot/simulation_snapshot_work.h
 
 class Simulation {
  public:
-  /// Throws std::invalid_argument when tick_s or max_frame_s is out of range (engine/clock.h).
+  /// Throws std::invalid_argument when tick_s or max_frame_s is out of range (engine/clock.h), or where a module does
+  /// not fit the others (engine/module.h).
   explicit Simulation(const SimulationOptions& options = {});
   ~Simulation();
 
@@ -212,13 +216,15 @@ class Simulation {
   const World& world() const { return world_; }
   Schedule& schedule() { return *schedule_; }
   const Schedule& schedule() const { return *schedule_; }
+  /// The library's, then the host's.
+  std::span<const Module> modules() const { return modules_; }
 
  private:
   class Batch;
   tl::expected<void, NotMade> spawn_all(std::span<const SpawnRequest> people, std::span<Entity> entities);
   tl::expected<void, NotMade> begin(Batch& batch, std::span<const Entity> people, std::span<const MuscleSize> size,
                                     const LegMuscles& choice);
-  void set_muscles(PersonRecord& person, const std::vector<Belly>& bellies, const LegMuscles& choice);
+  Result<void> set_muscles(PersonRecord& person, const LegMuscles& choice);
   void end_fades();
   SnapshotWork& snapshot_work() const;
   Result<void> restore_checked(std::span<const std::byte> in);
@@ -228,6 +234,7 @@ class Simulation {
   Clock clock_;
   std::optional<Threads> threads_;
   Jobs jobs_;
+  std::vector<Module> modules_;
   std::optional<Schedule> schedule_;
   People people_;
   BellyLibrary bellies_;
@@ -235,8 +242,5 @@ class Simulation {
   mutable std::shared_ptr<SnapshotWork> snapshots_;  // made when first needed
   std::uint32_t tick_ = 0;
 };
-
-/// The systems of a simulation in the order of their data, for a schedule; `memory` as ScheduleBuilder::build has it.
-Result<Schedule> make_schedule(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
 }  // namespace mobil

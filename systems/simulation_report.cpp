@@ -10,7 +10,7 @@ StepReport Simulation::report() const {
   report.systems.reserve(systems.size());
   for (std::size_t s = 0; s < systems.size(); ++s) {
     const Timing& t = timings[s];
-    report.systems.push_back({systems[s].name, t.last_seconds, t.last_rows, t.seconds, t.rows});
+    report.systems.push_back({systems[s].name, systems[s].module, t.last_seconds, t.last_rows, t.seconds, t.rows});
   }
   return report;
 }

@@ -10,10 +10,6 @@
 
 namespace mobil {
 
-/// What the insertion face may do; the origin face is always fixed. `held`: every displacement of it is prescribed.
-/// `sliding`: held sideways, free along z. `free`: free in all directions.
-enum class FarEnd : std::uint8_t { held, sliding, free };
-
 /// Whether a component (0 x, 1 y, 2 z) of a node moves freely.
 constexpr bool moves(const Cells& cells, FarEnd end, std::uint32_t node, std::size_t component) {
   if (node < plane_nodes(cells)) return false;

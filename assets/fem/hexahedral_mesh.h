@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "components/lanes.h"
+#include "components/muscle.h"
 #include "engine/error.h"
 
 namespace mobil {
-
-using Cells = std::array<std::uint32_t, 3>;  // elements along x, y, z
 
 /// nx × ny × nz hexahedra over (nx+1)(ny+1)(nz+1) nodes; positions in m, in the muscle's frame (z from the origin-side
 /// to the insertion-side end).

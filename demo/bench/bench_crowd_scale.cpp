@@ -110,7 +110,7 @@ void tell_threads(BenchRun& run, const Schedule& schedule, std::size_t humans, c
   const double all_s = std::accumulate(one.system_s.begin(), one.system_s.end(), 0.0);
   for (const std::size_t s : by_size(one)) {
     if (one.system_s[s] < 0.02 * all_s) break;
-    add_figure(run, fmt::format("crowd.threads2.{}.speedup", stem_of(schedule.systems()[s].name)),
+    add_figure(run, fmt::format("crowd.threads2.{}.speedup", stem_of(schedule.systems()[s].module)),
                2 * one.system_s[s] / two.system_s[s], "1", "by processor time, both threads at work");
   }
 }
@@ -139,7 +139,7 @@ Result<void> beside_rivals(BenchRun& run) {
       const auto systems = scenes[i]->simulation().schedule().systems();
       double muscles_s = 0;
       for (std::size_t s = 0; s < systems.size(); ++s) {
-        if (is_deformation(systems[s].name)) muscles_s += tick.system_s[s];
+        if (is_deformation(systems[s].module)) muscles_s += tick.system_s[s];
       }
       ours[i].muscles_us = std::min(ours[i].muscles_us.value_or(1e9), muscles_s * 1e6);
       ours[i].all_us = std::min(ours[i].all_us.value_or(1e9), tick.cpu_s * 1e6);

@@ -26,7 +26,7 @@ struct LineBlock {
   LegScale<Lanes<float>> scale;
   LegFrames<Lanes<float>> leg;
   LineOfAction<Lanes<float>> line;
-  EndDisplacement<Lanes<float>> end;
+  EndDrive<Lanes<float>> end;
   LineMotion<Lanes<float>> motion;
 };
 
@@ -74,7 +74,7 @@ Result<void> bench_lines(BenchRun& run) {
     for (std::size_t l = 0; l < lane_count; ++l) gather_leg(poses.find(block.owner[l]), side_of(l), block.leg, l);
   };
   const auto follow = [&](LineBlock& block) {
-    lines_of_action(lines[block.group], block.scale, block.leg, block.line, block.end);
+    lines_of_action(lines[block.group], block.scale, block.leg, FarEnd::held, block.line, block.end);
   };
   const auto time = [&](const auto& work) {
     return measure_short([&] {

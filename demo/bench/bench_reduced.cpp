@@ -75,7 +75,7 @@ class ReducedCrowd {
     const std::size_t each = reduced_motion_width(basis_.vectors, basis_.inputs) / basis_.vectors;
     for (std::size_t b = 0; b < blocks; ++b) {
       Columns column = columns(b);
-      std::ranges::fill(column.end->to_m.lane, 1e-4F);
+      std::ranges::fill(column.end->to.lane, 1e-4F);
       std::ranges::fill(column.scale->across.lane, 1.0F);
       std::ranges::fill(column.scale->along.lane, 1.0F);
       for (std::size_t i = 0; i < motion_width_; ++i) {
@@ -98,9 +98,9 @@ class ReducedCrowd {
           basis_,     *column.scale, column.state, column.motion, basis_.options.frame_loads ? column.frame : nullptr,
           next.state, next.motion};
       const ControlPoints points{column.shape, column.displacement, streamed, next.shape};
-      if (what_ != What::still) deform_reduced(block, *column.end, static_cast<float>(tick_s));
-      if (what_ == What::placed) place_control_points(block, points, *column.end);
-      if (what_ == What::still) place_static(block, points, *column.end);
+      if (what_ != What::still) deform_reduced(block, {FarEnd::held, *column.end}, static_cast<float>(tick_s));
+      if (what_ == What::placed) place_control_points(block, points, {FarEnd::held, *column.end});
+      if (what_ == What::still) place_static(block, points, {FarEnd::held, *column.end});
     }
   }
 
@@ -109,7 +109,7 @@ class ReducedCrowd {
     for (std::size_t b = 0; b < blocks_; ++b) {
       const Columns column = columns(b);
       report_reduced({basis_, *column.scale, column.state, column.motion}, control, {column.shape, column.displacement},
-                     *column.end, static_cast<float>(tick_s), told);
+                     {FarEnd::held, *column.end}, static_cast<float>(tick_s), told);
     }
   }
 
@@ -143,7 +143,7 @@ class ReducedCrowd {
  private:
   /// Where one block's columns begin.
   struct Columns {
-    EndDisplacement<Lanes<float>>* end;
+    EndDrive<Lanes<float>>* end;
     BellyScale<Lanes<float>>* scale;
     FrameLoad<Lanes<float>>* frame;
     float *state, *motion, *shape, *displacement;
@@ -164,7 +164,7 @@ class ReducedCrowd {
     float* const state = at + head_width_ * lane_count;
     float* const motion = state + state_width_ * lane_count;
     float* const shape = motion + motion_width_ * lane_count;
-    return {reinterpret_cast<EndDisplacement<Lanes<float>>*>(at),
+    return {reinterpret_cast<EndDrive<Lanes<float>>*>(at),
             reinterpret_cast<BellyScale<Lanes<float>>*>(at + 2 * lane_count),
             reinterpret_cast<FrameLoad<Lanes<float>>*>(at + 4 * lane_count),
             state,

@@ -173,7 +173,7 @@ Result<RungCost> measure_costs(std::size_t humans, bool inertia) {
       });
       double sum = 0;
       for (std::size_t s = 0; s < cpu_s.size(); ++s) {
-        if (is_deformation(simulation.schedule().systems()[s].name)) sum += cpu_s[s];
+        if (is_deformation(simulation.schedule().systems()[s].module)) sum += cpu_s[s];
       }
       least = std::min(least, sum);
     }

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/rows.h"
 #include "systems/deformation/reduced.h"
-#include "systems/people/simulation_rows.h"
 
 namespace mobil {
 
@@ -53,9 +53,11 @@ Result<ReferenceMuscle> ReferenceMuscle::make(std::shared_ptr<const ReducedBasis
 }
 
 Result<void> ReferenceMuscle::follow(const Simulation& simulation, Entity muscle) {
-  const auto end = simulation.get<EndDisplacement>(muscle);
-  if (!end) return fail("a muscle is gone, or not driven by displacement");
-  const auto ends = broadcast(*end);
+  const auto end = simulation.get<EndDrive>(muscle);
+  if (!end || simulation.world().get<FarEnd>(muscle) != static_cast<std::uint64_t>(FarEnd::held))
+    return fail("a muscle is gone, or not driven by displacement");
+  const auto drive = broadcast(*end);
+  const FarFaceDrive ends(FarEnd::held, drive);
   const auto load = simulation.get<FrameLoad>(muscle);
   if (!load && basis_->options.frame_loads) return fail("a muscle lost its inertia");
   const auto loads = load ? broadcast(*load) : FrameLoad<Lanes<float>>{};

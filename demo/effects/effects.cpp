@@ -33,7 +33,7 @@ class Meter {
       double sum = 0;
       std::string used;
       for (const SystemReport& system : simulation_.report().systems) {
-        if (!counts(system.name) || system.total_entities == 0) continue;
+        if (!counts(system) || system.total_entities == 0) continue;
         sum += system.total_seconds;
         used += (used.empty() ? "" : ", ") + std::string(system.name);
       }
@@ -49,8 +49,13 @@ class Meter {
 };
 
 auto named(std::vector<std::string_view> names) {
-  return
-      [names = std::move(names)](std::string_view system) { return std::ranges::find(names, system) != names.end(); };
+  return [names = std::move(names)](const SystemReport& system) {
+    return std::ranges::find(names, system.name) != names.end();
+  };
+}
+
+bool deforms(const SystemReport& system) {
+  return is_deformation(system.module);
 }
 
 std::string_view rung_adds(const Rung& rung) {
@@ -106,7 +111,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.method = Method::none;
   auto done = everybody([&](Entity human) { return simulation.add_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
-  us = meter(named({"leg frames", "lines of action", "lines of action, pulling"}), &systems);
+  us = meter(named({"leg frames", "lines of action"}), &systems);
   add("lines of action", "where muscles run, how long they are", "kinematics; add_leg_muscles()", us, systems);
 
   choice.line_motion = true;
@@ -139,14 +144,14 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
     tell(fmt::format("muscles, {}", rungs[r].name));
     if (done = set_all(r, !rungs[r].moving); !done) return tl::unexpected(done.error());
     settle();
-    us = meter(is_deformation, &systems);
+    us = meter(deforms, &systems);
     if (r == shown_rung) moving_us = us;
     const std::string needs = rungs[r].moving ? "lines; set_method()" : "lines; set_method(); with control points";
     add(fmt::format("muscles, {}", rungs[r].name), std::string(rung_adds(rungs[r])), needs, us, systems);
   }
   if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
   settle();
-  us = meter(is_deformation, &systems) - moving_us;
+  us = meter(deforms, &systems) - moving_us;
   add("control points", fmt::format("81 points a muscle to draw from (of {})", rungs[shown_rung].name),
       "a muscle that is simulated; ReducedChoice::control_points", std::max(us, 0.0), systems);
 
@@ -173,7 +178,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   if (!done) return tl::unexpected(done.error());
   if (done = set_all(shown_rung, false); !done) return tl::unexpected(done.error());
   settle();
-  us = meter(named({"frame motion"}), &systems) + meter(is_deformation) - moving_us;
+  us = meter(named({"frame motion"}), &systems) + meter(deforms) - moving_us;
   add("inertia", fmt::format("gravity and every jolt shake bellies (of {})", rungs[shown_rung].name),
       "lines; LegMuscles::inertia", std::max(us, 0.0), systems + ", and more of deformation");
 

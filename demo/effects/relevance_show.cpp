@@ -27,7 +27,7 @@ struct Crowd {
     const auto cpu_s = crowd->cpu_of([&] { simulation().tick(); });
     deformation_s = 0;
     for (std::size_t s = 0; s < cpu_s.size(); ++s) {
-      if (is_deformation(simulation().schedule().systems()[s].name)) deformation_s += cpu_s[s];
+      if (is_deformation(simulation().schedule().systems()[s].module)) deformation_s += cpu_s[s];
     }
   }
   double median_tick_s(int ticks) {

@@ -80,9 +80,9 @@ Result<void> answer_by_elements(const FrontierDrive& drive, const FrontierMethod
                                unused, Stiffness::individual, loads ? &load : nullptr,   false};
         const auto call_s = static_cast<float>(calendar.call_s);
         if (group.individual->solver == nullptr) {
-          deform_explicit(block, end, steps, call_s, scratch.data()->lane);
+          deform_explicit(block, {FarEnd::held, end}, steps, call_s, scratch.data()->lane);
         } else {
-          deform_implicit(block, *group.individual->solver, end, steps, call_s, scratch.data()->lane);
+          deform_implicit(block, *group.individual->solver, {FarEnd::held, end}, steps, call_s, scratch.data()->lane);
         }
       },
       [&](Lanes<float>* to) { sampler->sample(displacement.data()->lane, group.lanes, to); });
@@ -108,21 +108,21 @@ void answer_by_vectors(const FrontierDrive& drive, const FrontierMethod& method,
   const auto motion = in_lanes(individuals, &FrontierIndividual::motion, group);
   const auto shape = in_lanes(individuals, &FrontierIndividual::points, group);
   std::vector<Lanes<float>> state(reduced_state_width(basis.vectors)), displacement(point_width);
-  EndDisplacement<Lanes<float>> end{};
+  EndDrive<Lanes<float>> end{};
   FrameLoad<Lanes<float>> load{};
   const ReducedBlock block{basis, drive.scale, state.data()->lane, motion.data()->lane, loads ? &load : nullptr};
   calendar.go(
       [&](double from_s, double to_s) {
         end = drive.end(from_s, to_s);
         if (loads) load = drive.load(from_s, to_s);
-        if (method.moving()) deform_reduced(block, end, static_cast<float>(calendar.call_s));
+        if (method.moving()) deform_reduced(block, {FarEnd::held, end}, static_cast<float>(calendar.call_s));
       },
       [&](Lanes<float>* to) {
         const ControlPoints points{shape.data()->lane, displacement.data()->lane};
         if (method.moving()) {
-          place_control_points(block, points, end);
+          place_control_points(block, points, {FarEnd::held, end});
         } else {
-          place_static(block, points, end);
+          place_static(block, points, {FarEnd::held, end});
         }
         for (std::size_t i = 0; i < point_width; ++i) {
           for (std::size_t l = 0; l < lane_count; ++l) {

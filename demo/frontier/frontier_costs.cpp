@@ -32,7 +32,7 @@ FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const Front
                              Stiffness stiffness, std::size_t bytes, std::size_t most_blocks)
     : method_(method), loads_(loads), stiffness_(stiffness) {
   const std::size_t input =
-      sizeof(EndDisplacement<float>) + sizeof(BellyScale<float>) + (loads ? sizeof(FrameLoad<float>) : 0);
+      sizeof(EndDrive<float>) + sizeof(BellyScale<float>) + (loads ? sizeof(FrameLoad<float>) : 0);
   const auto there = [](const std::vector<FrontierIndividual>& sixteen) { return !sixteen.empty(); };
   const FrontierIndividual& first = std::ranges::find_if(individuals, there)->front();
   const auto muscles = static_cast<std::size_t>(std::ranges::count_if(individuals, there));
@@ -71,7 +71,7 @@ FrontierCrowd::FrontierCrowd(const FrontierMethod& method, std::span<const Front
       for (std::size_t way = 0; way < 2; ++way) {
         const double from_s = way == 0 ? time_s : time_s + frontier_tick_s,
                      to_s = 2 * time_s + frontier_tick_s - from_s;
-        block.end[way] = alike<EndDisplacement>(drive.end(from_s, to_s), lane);
+        block.end[way] = alike<EndDrive>(drive.end(from_s, to_s), lane);
         if (loads) block.load[way] = alike<FrameLoad>(drive.load(from_s, to_s), lane);
       }
       block.first = numbers * (blocks_.size() - 1);
@@ -111,9 +111,9 @@ void FrontierCrowd::tick_elements(Block& block) {
   const auto tick_s = static_cast<float>(ticks_a_call_ * frontier_tick_s);
   const std::uint32_t steps = method_.fixed_step ? fixed_steps_ : own.steps;
   if (own.solver == nullptr) {
-    deform_explicit(bellies, block.end[turn_], steps, tick_s, scratch_.data()->lane);
+    deform_explicit(bellies, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
   } else {
-    deform_implicit(bellies, *own.solver, block.end[turn_], steps, tick_s, scratch_.data()->lane);
+    deform_implicit(bellies, *own.solver, {FarEnd::held, block.end[turn_]}, steps, tick_s, scratch_.data()->lane);
   }
 }
 
@@ -130,11 +130,11 @@ void FrontierCrowd::tick_vectors(std::size_t b, bool control_points) {
   const ControlPoints points{column(block, state_ + motion_), column(block, state_ + motion_ + points_), true,
                              column(next, state_ + motion_)};
   if (!method_.moving()) {
-    place_static(bellies, points, block.end[turn_]);
+    place_static(bellies, points, {FarEnd::held, block.end[turn_]});
     return;
   }
-  deform_reduced(bellies, block.end[turn_], static_cast<float>(frontier_tick_s));
-  if (control_points) place_control_points(bellies, points, block.end[turn_]);
+  deform_reduced(bellies, {FarEnd::held, block.end[turn_]}, static_cast<float>(frontier_tick_s));
+  if (control_points) place_control_points(bellies, points, {FarEnd::held, block.end[turn_]});
 }
 
 double FrontierCrowd::steps_a_tick() const {

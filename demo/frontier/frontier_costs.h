@@ -40,7 +40,7 @@ class FrontierCrowd {
   struct Block {
     const FrontierIndividual* individual;
     BellyScale<Lanes<float>> scale;
-    EndDisplacement<Lanes<float>> end[2];  // to and fro
+    EndDrive<Lanes<float>> end[2];  // to and fro
     FrameLoad<Lanes<float>> load[2];
     std::size_t first;  // of numbers_
   };

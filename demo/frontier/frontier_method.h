@@ -13,7 +13,7 @@
 #include "components/lanes.h"
 #include "demo/frontier/frontier_walks.h"
 #include "engine/error.h"
-#include "systems/muscles/simulation_muscles.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 

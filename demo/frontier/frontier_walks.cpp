@@ -73,10 +73,10 @@ Result<void> record(const FrontierWalk& walk, std::size_t lane, std::vector<Fron
     const auto part = static_cast<float>(ramp(static_cast<double>(t) * frontier_tick_s / ramp_s));
     for (FrontierDrive& drive : drives) {
       const Entity muscle = simulation.muscle(*human, drive.muscle, right);
-      const auto end = simulation.get<EndDisplacement>(muscle);
+      const auto end = simulation.get<EndDrive>(muscle);
       const auto load = simulation.get<FrameLoad>(muscle);
       if (!end || !load) return fail("frontier: a muscle is gone from its walker");
-      drive.end_m[t][lane] = part * end->to_m;
+      drive.end_m[t][lane] = part * end->to;
       FrontierFrame& frame = drive.frame[t];
       scale_into(load->constant_to, part, frame.constant, lane);
       scale_into(load->gradient_to.x, part, frame.gradient.x, lane);
@@ -108,14 +108,14 @@ void repeat(FrontierDrive& drive, std::size_t from, std::size_t to) {
 
 }  // namespace
 
-EndDisplacement<Lanes<float>> FrontierDrive::end(double from_s, double to_s) const {
-  EndDisplacement<Lanes<float>> all;
+EndDrive<Lanes<float>> FrontierDrive::end(double from_s, double to_s) const {
+  EndDrive<Lanes<float>> all;
   const auto at = [&](double time_s, Lanes<float>& to) {
     const Moment m = moment(time_s, ticks());
     mix(end_m[m.tick], end_m[m.tick + 1], m.part, to);
   };
-  at(from_s, all.from_m);
-  at(to_s, all.to_m);
+  at(from_s, all.from);
+  at(to_s, all.to);
   return all;
 }
 

@@ -40,7 +40,7 @@ struct FrontierDrive {
 
   std::size_t ticks() const { return end_m.size() - 1; }
   /// At a time between ticks; from and to over the time from `from_s` to `to_s`.
-  EndDisplacement<Lanes<float>> end(double from_s, double to_s) const;
+  EndDrive<Lanes<float>> end(double from_s, double to_s) const;
   FrameLoad<Lanes<float>> load(double from_s, double to_s) const;
 };
 

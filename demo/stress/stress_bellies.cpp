@@ -24,7 +24,7 @@ Result<void> Bellies::solve_by(Method method, Mass mass, double dt_s) {
   return {};
 }
 
-void Bellies::tick(const EndDrive& end, std::uint32_t substeps, float tick_s) {
+void Bellies::tick(const FarFaceDrive& end, std::uint32_t substeps, float tick_s) {
   const BellyBlock block{muscle, scale,     displacement.data()->lane,       velocity.data()->lane,
                          report, stiffness, frame ? &frame.value() : nullptr};
   float* const memory = scratch.empty() ? nullptr : scratch.data()->lane;

@@ -32,7 +32,7 @@ struct Bellies {
   Result<void> solve_by(Method method, Mass mass, double dt_s);
 
   /// One tick in `substeps` equal steps.
-  void tick(const EndDrive& end, std::uint32_t substeps, float tick_s);
+  void tick(const FarFaceDrive& end, std::uint32_t substeps, float tick_s);
 
   /// Kinetic and strain energy of a lane after the last tick, J.
   double energy_j(std::size_t lane) const;

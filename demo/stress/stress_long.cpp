@@ -23,15 +23,15 @@ Result<void> stress_energy_single(StressRun& run) {
   const auto substeps = substeps_of(bellies, tick_s);
   if (!substeps) return tl::unexpected(substeps.error());
   const auto dt = static_cast<float>(tick_s / *substeps);
-  const EndDisplacement<Lanes<float>> still{};
-  bellies.tick(still, 1, dt);
+  const EndDrive<Lanes<float>> still{};
+  bellies.tick({FarEnd::held, still}, 1, dt);
   std::array<double, lane_count> first{};
   for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
   constexpr std::uint32_t at_once = 1000;
   const double steps = run.quick ? 5e4 : 1e7;
   double worst = 0, after_a_tenth = 0;
   for (double done = 0; done < steps; done += at_once) {
-    bellies.tick(still, at_once, at_once * dt);
+    bellies.tick({FarEnd::held, still}, at_once, at_once * dt);
     for (std::size_t l = 0; l < lane_count; ++l) {
       const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
       if (!(change <= worst)) worst = change;

@@ -62,12 +62,12 @@ Result<void> stress_poisson(StressRun& run) {
       shake(bellies, 1e-3F);
       const auto substeps = substeps_of(bellies, tick_s);
       if (!substeps) return tl::unexpected(substeps.error());
-      const EndDisplacement<Lanes<float>> still{};
-      bellies.tick(still, *substeps, static_cast<float>(tick_s));
+      const EndDrive<Lanes<float>> still{};
+      bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(tick_s));
       std::array<double, lane_count> first{};
       for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
       for (int tick = 0; tick < (run.quick ? 10 : 120); ++tick) {
-        bellies.tick(still, *substeps, static_cast<float>(tick_s));
+        bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(tick_s));
       }
       for (std::size_t l = 0; l < lane_count; ++l) {
         const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
@@ -121,8 +121,8 @@ Result<Bellies> ring(const Material& material, double dt_s, Method method, int t
   if (method != Method::ecd) {
     if (auto ok = bellies.solve_by(method, Mass::consistent, dt_s); !ok) return tl::unexpected(ok.error());
   }
-  const EndDisplacement<Lanes<float>> still{};
-  for (int tick = 0; tick < ticks; ++tick) bellies.tick(still, 8, static_cast<float>(8 * dt_s));
+  const EndDrive<Lanes<float>> still{};
+  for (int tick = 0; tick < ticks; ++tick) bellies.tick({FarEnd::held, still}, 8, static_cast<float>(8 * dt_s));
   return bellies;
 }
 

@@ -110,8 +110,8 @@ Result<void> MeshFigures::take(const HexahedralMesh& mesh, Element element, FarE
                                 .value());
   }
   const EndTraction<Lanes<float>> slack{};
-  const EndDisplacement<Lanes<float>> still{};
-  const EndDrive drive = end == FarEnd::free ? EndDrive(slack) : EndDrive(still);
+  const EndDrive<Lanes<float>> still{};
+  const FarFaceDrive drive = end == FarEnd::free ? FarFaceDrive(slack) : FarFaceDrive(end, still);
   const auto tick = static_cast<float>(0.9 * limit * steps);
   bellies.tick(drive, 1, tick / static_cast<float>(steps));
   std::array<double, lane_count> first{};

@@ -29,21 +29,13 @@ std::string_view name(Method method) {
 /// All that a block is given.
 struct Inputs {
   Bellies bellies;
-  EndDisplacement<Lanes<float>> displacement{};
-  EndForce<Lanes<float>> force{};
+  EndDrive<Lanes<float>> end{};
   EndTraction<Lanes<float>> traction{};
   std::uint32_t substeps = 1;
 
-  EndDrive drive() const {
-    switch (bellies.muscle.options.far_end) {
-      case FarEnd::held:
-        return displacement;
-      case FarEnd::sliding:
-        return force;
-      case FarEnd::free:
-        return traction;
-    }
-    return traction;
+  FarFaceDrive drive() const {
+    const FarEnd way = bellies.muscle.options.far_end;
+    return way == FarEnd::free ? FarFaceDrive(traction) : FarFaceDrive(way, end);
   }
 
   void tick() { bellies.tick(drive(), substeps, static_cast<float>(tick_s)); }
@@ -52,17 +44,11 @@ struct Inputs {
   std::vector<Lanes<float>*> words() {
     std::vector<Lanes<float>*> all = {&bellies.scale.across, &bellies.scale.along};
     const auto add = [&](Vec3<Lanes<float>>& v) { all.insert(all.end(), {&v.x, &v.y, &v.z}); };
-    switch (bellies.muscle.options.far_end) {
-      case FarEnd::held:
-        all.insert(all.end(), {&displacement.from_m, &displacement.to_m});
-        break;
-      case FarEnd::sliding:
-        all.insert(all.end(), {&force.from_n, &force.to_n});
-        break;
-      case FarEnd::free:
-        add(traction.from_n);
-        add(traction.to_n);
-        break;
+    if (bellies.muscle.options.far_end == FarEnd::free) {
+      add(traction.from_n);
+      add(traction.to_n);
+    } else {
+      all.insert(all.end(), {&end.from, &end.to});
     }
     add(bellies.frame->constant_from);
     add(bellies.frame->constant_to);
@@ -101,8 +87,7 @@ Result<Inputs> make_inputs(Method method, FarEnd end, const Cells& cells, double
     const auto part = static_cast<float>(l) / lane_count;
     bellies.frame->constant_from.y[l] = bellies.frame->constant_to.y[l] = -9.81F;
     bellies.frame->gradient_from.x.z[l] = bellies.frame->gradient_to.z.x[l] = 20 * part;
-    inputs.displacement.to_m[l] = 0.01F * part;
-    inputs.force.to_n[l] = 0.3F * part;
+    inputs.end.to[l] = (inputs.bellies.muscle.options.far_end == FarEnd::held ? 0.01F : 0.3F) * part;
     inputs.traction.to_n.z[l] = 0.3F * part;
   }
   return inputs;
@@ -239,7 +224,7 @@ Result<void> stress_denormals(StressRun& run) {
     auto flushed = make_inputs(method, FarEnd::held, {2, 2, 4}, 40, 0);
     if (!flushed) return tl::unexpected(flushed.error());
     flushed->bellies.frame.reset();
-    flushed->displacement = {};
+    flushed->end = {};
     Inputs plain = *flushed;
     std::size_t with = 0, without = 0;
     double apart = 0;

@@ -96,12 +96,9 @@ Result<void> try_in_lanes(StressRun& run) {
   for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
     auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {end, 0, 0.4, 2.5});
     if (!made) return tl::unexpected(made.error());
-    const EndDisplacement<Lanes<float>> still{};
-    const EndForce<Lanes<float>> loose{};
+    const EndDrive<Lanes<float>> still{};
     const EndTraction<Lanes<float>> slack{};
-    const EndDrive drive = end == FarEnd::held   ? EndDrive(still)
-                           : end == FarEnd::free ? EndDrive(slack)
-                                                 : EndDrive(loose);
+    const FarFaceDrive drive = end == FarEnd::free ? FarFaceDrive(slack) : FarFaceDrive(end, still);
     for (const auto& [across, along] :
          {std::pair{1.0F, 1.0F}, std::pair{0.6F, 1.4F}, std::pair{1.5F, 0.7F}, std::pair{0.83F, 1.17F}}) {
       const auto limit = critical_step(made->critical_steps, static_cast<double>(across), static_cast<double>(along));

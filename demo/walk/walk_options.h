@@ -12,7 +12,7 @@
 #include "demo/program/body_options.h"
 #include "demo/walk/walk_script.h"
 #include "engine/error.h"
-#include "systems/muscles/simulation_muscles.h"
+#include "components/leg_muscles.h"
 
 namespace mobil {
 

@@ -6,6 +6,8 @@
 #include <iterator>
 #include <numbers>
 
+#include "assets/muscles/muscle_table.h"
+
 namespace mobil {
 namespace {
 

@@ -8,7 +8,7 @@
 #include "components/forces.h"
 #include "components/muscle.h"
 #include "components/pose.h"
-#include "systems/muscles/simulation_muscles.h"
+#include "components/leg_muscles.h"
 
 namespace mobil {
 

@@ -26,18 +26,17 @@ enum class Stiffness : std::uint8_t { individual, shared };
 
 /// What drives the far face of a block this tick, linear from its start to its end, in the way that the template was
 /// made for:
-/// - EndDisplacement (FarEnd::held): held sideways, moving along z from `from_m` to `to_m`;
-/// - EndForce (FarEnd::sliding): held sideways, pulled along z by a uniform traction of that total;
-/// - EndTraction (FarEnd::free): loaded by a uniform traction of that total.
-struct EndDrive {
+/// - FarEnd::held: held sideways, moving along z by EndDrive's displacement;
+/// - FarEnd::sliding: held sideways, pulled along z by a uniform traction whose total is EndDrive's force;
+/// - FarEnd::free: loaded by a uniform traction whose total is EndTraction's.
+struct FarFaceDrive {
   FarEnd way;
   const Lanes<float>*from[3], *to[3];  // per axis; null: none
 
-  EndDrive(const EndDisplacement<Lanes<float>>& end)
-      : way(FarEnd::held), from{nullptr, nullptr, &end.from_m}, to{nullptr, nullptr, &end.to_m} {}
-  EndDrive(const EndForce<Lanes<float>>& end)
-      : way(FarEnd::sliding), from{nullptr, nullptr, &end.from_n}, to{nullptr, nullptr, &end.to_n} {}
-  EndDrive(const EndTraction<Lanes<float>>& end)
+  /// `held_or_sliding`: as it says.
+  FarFaceDrive(FarEnd held_or_sliding, const EndDrive<Lanes<float>>& end)
+      : way(held_or_sliding), from{nullptr, nullptr, &end.from}, to{nullptr, nullptr, &end.to} {}
+  FarFaceDrive(const EndTraction<Lanes<float>>& end)
       : way(FarEnd::free),
         from{&end.from_n.x, &end.from_n.y, &end.from_n.z},
         to{&end.to_n.x, &end.to_n.y, &end.to_n.z} {}
@@ -63,12 +62,12 @@ struct BellyBlock {
 std::size_t scratch_floats(const MuscleTemplate& muscle, Method method);
 
 /// One tick of a block by ECD in `substeps` equal steps. A lane's NaN stays in its lane. No heap, no state of its own.
-void deform_explicit(const BellyBlock& block, const EndDrive& end, std::uint32_t substeps, float tick_s,
+void deform_explicit(const BellyBlock& block, const FarFaceDrive& end, std::uint32_t substeps, float tick_s,
                      float* scratch = nullptr);
 
 /// The same by the method of `solver`, which was made for the template, its bellies' size and this substep; static
 /// takes the load at the tick's end, whatever `substeps` says.
-void deform_implicit(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
-                     float tick_s, float* scratch);
+void deform_implicit(const BellyBlock& block, const BellySolver& solver, const FarFaceDrive& end,
+                     std::uint32_t substeps, float tick_s, float* scratch);
 
 }  // namespace mobil

@@ -133,8 +133,8 @@ HWY_INLINE void add_rates(const Bellies& belly, V beta, float* scratch) {
 }
 
 template <Stiffness stiffness, FarEnd far_end>
-void tick_of_lanes(const BellyBlock& block, const EndDrive& end, std::uint32_t substeps, float tick_s, float* scratch,
-                   std::size_t first_lane) {
+void tick_of_lanes(const BellyBlock& block, const FarFaceDrive& end, std::uint32_t substeps, float tick_s,
+                   float* scratch, std::size_t first_lane) {
   const MuscleOptions& options = block.muscle.options;
   const Factors factor = factors(block.scale, first_lane);
   const float dt = tick_s / static_cast<float>(substeps);
@@ -205,7 +205,7 @@ void tick_of_lanes(const BellyBlock& block, const EndDrive& end, std::uint32_t s
 }
 
 template <Stiffness stiffness>
-void tick_of_stiffness(const BellyBlock& block, const EndDrive& end, std::uint32_t substeps, float tick_s,
+void tick_of_stiffness(const BellyBlock& block, const FarFaceDrive& end, std::uint32_t substeps, float tick_s,
                        float* scratch) {
   for (std::size_t lane = 0; lane < lane_count; lane += vector_lanes) {
     switch (end.way) {
@@ -222,7 +222,8 @@ void tick_of_stiffness(const BellyBlock& block, const EndDrive& end, std::uint32
   }
 }
 
-void explicit_tick(const BellyBlock& block, const EndDrive& end, std::uint32_t substeps, float tick_s, float* scratch) {
+void explicit_tick(const BellyBlock& block, const FarFaceDrive& end, std::uint32_t substeps, float tick_s,
+                   float* scratch) {
   if (block.stiffness == Stiffness::individual) {
     tick_of_stiffness<Stiffness::individual>(block, end, substeps, tick_s, scratch);
   } else {
@@ -240,7 +241,7 @@ namespace {
 HWY_EXPORT(explicit_tick);
 }  // namespace
 
-void deform_explicit(const BellyBlock& block, const EndDrive& end, std::uint32_t substeps, float tick_s,
+void deform_explicit(const BellyBlock& block, const FarFaceDrive& end, std::uint32_t substeps, float tick_s,
                      float* scratch) {
   HWY_DYNAMIC_DISPATCH(explicit_tick)(block, end, substeps, tick_s, scratch);
 }

@@ -193,7 +193,7 @@ HWY_INLINE void hold_far_face_sideways(const Bellies& belly, bool moving) {
 }
 
 template <Stiffness stiffness, Mass mass>
-void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const FarFaceDrive& end, std::uint32_t substeps,
                    float tick_s, float* scratch, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
   const std::size_t floats = nodal_width(cells) * lane_count;
@@ -276,14 +276,14 @@ void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const End
 }
 
 template <Stiffness stiffness, Mass mass>
-void tick_of_block(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+void tick_of_block(const BellyBlock& block, const BellySolver& solver, const FarFaceDrive& end, std::uint32_t substeps,
                    float tick_s, float* scratch) {
   for (std::size_t lane = 0; lane < lane_count; lane += vector_lanes) {
     tick_of_lanes<stiffness, mass>(block, solver, end, substeps, tick_s, scratch, lane);
   }
 }
 
-void implicit_tick(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
+void implicit_tick(const BellyBlock& block, const BellySolver& solver, const FarFaceDrive& end, std::uint32_t substeps,
                    float tick_s, float* scratch) {
   const bool lumped = solver.mass == Mass::lumped;
   if (block.stiffness == Stiffness::individual) {
@@ -311,8 +311,8 @@ std::size_t scratch_floats(const MuscleTemplate& muscle, Method method) {
   return 3 * column;
 }
 
-void deform_implicit(const BellyBlock& block, const BellySolver& solver, const EndDrive& end, std::uint32_t substeps,
-                     float tick_s, float* scratch) {
+void deform_implicit(const BellyBlock& block, const BellySolver& solver, const FarFaceDrive& end,
+                     std::uint32_t substeps, float tick_s, float* scratch) {
   HWY_DYNAMIC_DISPATCH(implicit_tick)(block, solver, end, substeps, tick_s, scratch);
 }
 

@@ -35,7 +35,7 @@ struct ReducedInputs {
   }
 };
 
-HWY_INLINE ReducedInputs reduced_inputs(const EndDrive& end, const FrameLoad<Lanes<float>>* frame) {
+HWY_INLINE ReducedInputs reduced_inputs(const FarFaceDrive& end, const FrameLoad<Lanes<float>>* frame) {
   ReducedInputs inputs;
   for (std::size_t axis = end.way == FarEnd::free ? 0 : 2; axis < 3; ++axis) inputs.add(end.from[axis], end.to[axis]);
   if (frame != nullptr) {

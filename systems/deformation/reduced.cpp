@@ -24,7 +24,7 @@ HWY_INLINE void swing(float* state, const float* motion, const Wide& rate) {
   store(next_v + rate, state + lane_count);
 }
 
-void deform_tick(const ReducedBlock& block, const EndDrive& end, float tick_s) {
+void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
   const ReducedInputs inputs = reduced_inputs(end, block.frame);
   const std::size_t vectors = block.basis.vectors;
   const float per_s = 1.0F / tick_s;
@@ -134,7 +134,7 @@ HWY_INLINE void place_all(const ReducedBasis& basis, bool held, const Wide* amou
   if constexpr (streamed) hwy::FlushStream();
 }
 
-void place(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end, const float* x) {
+void place(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end, const float* x) {
   std::array<Wide, most_vectors + 1> amount;
   find_amounts(reduced_inputs(end, block.frame), block.basis.vectors, points.shape, x, amount.data());
   const bool held = end.way == FarEnd::held;
@@ -151,11 +151,11 @@ void place(const ReducedBlock& block, const ControlPoints& points, const EndDriv
   }
 }
 
-void place_moving(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+void place_moving(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end) {
   place(block, points, end, block.state);
 }
 
-void place_at_rest(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+void place_at_rest(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end) {
   place(block, points, end, nullptr);
 }
 
@@ -171,15 +171,15 @@ HWY_EXPORT(place_moving);
 HWY_EXPORT(place_at_rest);
 }  // namespace
 
-void deform_reduced(const ReducedBlock& block, const EndDrive& end, float tick_s) {
+void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
   HWY_DYNAMIC_DISPATCH(deform_tick)(block, end, tick_s);
 }
 
-void place_control_points(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+void place_control_points(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end) {
   HWY_DYNAMIC_DISPATCH(place_moving)(block, points, end);
 }
 
-void place_static(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end) {
+void place_static(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end) {
   HWY_DYNAMIC_DISPATCH(place_at_rest)(block, points, end);
 }
 

@@ -35,7 +35,7 @@ struct ReducedBlock {
 };
 
 /// One tick of a block. A lane's NaN stays in its lane. No heap.
-void deform_reduced(const ReducedBlock& block, const EndDrive& end, float tick_s);
+void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
 
 /// Where the control points are at the tick's end: `displacement`, three a node in m, muscle's frame, as in BellyBlock
 /// (the origin face's are written too: zero).
@@ -53,11 +53,11 @@ struct ControlPoints {
   bool streamed = false;
   const float* next_shape = nullptr;  // as ReducedBlock's
 };
-void place_control_points(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end);
+void place_control_points(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end);
 
 /// Where a belly without motion of its own is: the static answer to what drives and loads it, with the same shapes
 /// (`state` and `motion` are not touched and may be null).
-void place_static(const ReducedBlock& block, const ControlPoints& points, const EndDrive& end);
+void place_static(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end);
 
 /// What the block did, after its tick and its placing. Volume is that of the mesh of `control`, whose nodes the control
 /// points are. Reaction: of a held face the force that moves it, by the lift's virtual work; else what pulls (of a mesh
@@ -65,6 +65,6 @@ void place_static(const ReducedBlock& block, const ControlPoints& points, const 
 /// sum is constant in free undamped motion. A null state is that of a static belly; with several inputs `motion` is
 /// read all the same.
 void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
-                    const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
+                    const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
 
 }  // namespace mobil

@@ -27,7 +27,7 @@ HWY_INLINE V mean_of_far_face(const MuscleTemplate& control, const float* u) {
 /// ½·Σ W² + ½·m·ẇ² and strain energy ½·Σ (X + ω·s)² of what no lift answers to, plus half the static reaction to w, by
 /// w. Virtual work of the lift gives the reaction in rest less S²·l·Σ ω·P·X, plus its drag.
 void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
-                     const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass,
+                     const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass,
                      std::size_t lane) {
   const ReducedInputs inputs = reduced_inputs(end, block.frame);
   const std::size_t vectors = block.basis.vectors;
@@ -94,7 +94,7 @@ void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, c
 }
 
 void report_block(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
-                  const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass) {
+                  const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report, float lift_mass) {
   for (std::size_t lane = 0; lane < lane_count; lane += vector_lanes) {
     report_of_lanes(block, control, points, end, tick_s, report, lift_mass, lane);
   }
@@ -111,7 +111,7 @@ HWY_EXPORT(report_block);
 }  // namespace
 
 void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
-                    const EndDrive& end, float tick_s, BellyReport<Lanes<float>>& report) {
+                    const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report) {
   // What of the lift's mass no vector has, in the template's size.
   double lift_mass = block.basis.lift_kinetic;
   for (const double along : block.basis.lift_mass) lift_mass -= along * along;

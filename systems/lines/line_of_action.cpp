@@ -70,19 +70,15 @@ HWY_INLINE void follow(const WideMask& first, const Wide& now, Lanes<float>& fro
 
 }  // namespace
 
-void act_by_displacement(const MuscleLines& lines, const LegScale<Lanes<float>>& scale,
-                         const LegFrames<Lanes<float>>& legs, LineOfAction<Lanes<float>>& line,
-                         EndDisplacement<Lanes<float>>& end) {
+void act_on_end(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
+                FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
   const WideMask first = load(line.length_m) <= wide(0.0F);
   const Wide elongation = act(lines, scale, legs, line);
-  follow(first, elongation, end.from_m, end.to_m);
-}
-
-void act_by_force(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                  LineOfAction<Lanes<float>>& line, EndForce<Lanes<float>>& end) {
-  const WideMask first = load(line.length_m) <= wide(0.0F);
-  const Wide elongation = act(lines, scale, legs, line);
-  follow(first, load(line.stiffness_n_per_m) * elongation, end.from_n, end.to_n);
+  if (far_end == FarEnd::held) {
+    follow(first, elongation, end.from, end.to);
+  } else {
+    follow(first, load(line.stiffness_n_per_m) * elongation, end.from, end.to);
+  }
 }
 
 using Four = hn::Full128<float>;
@@ -141,8 +137,7 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 namespace {
 
-HWY_EXPORT(act_by_displacement);
-HWY_EXPORT(act_by_force);
+HWY_EXPORT(act_on_end);
 HWY_EXPORT(flexions);
 HWY_EXPORT(take_rows);
 HWY_EXPORT(put_rows);
@@ -211,13 +206,8 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 }
 
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                     LineOfAction<Lanes<float>>& line, EndDisplacement<Lanes<float>>& end) {
-  HWY_DYNAMIC_DISPATCH(act_by_displacement)(lines, scale, legs, line, end);
-}
-
-void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                     LineOfAction<Lanes<float>>& line, EndForce<Lanes<float>>& end) {
-  HWY_DYNAMIC_DISPATCH(act_by_force)(lines, scale, legs, line, end);
+                     FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
+  HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end);
 }
 
 void knee_flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {

@@ -26,15 +26,13 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 /// belly's origin-side end, z along the drawn line, y the proximal bone's anterior axis carried without twist from that
 /// bone's long axis to z. For a left leg all of it is the mirror image's.
 ///
-/// `end` gets what moves the belly's far end over this tick: from where the last tick ended to L − L₀ (the tendon does
-/// not stretch). A line of length 0 has not been computed yet: then it begins where it ends.
+/// `end` gets what drives the belly's far end over this tick, from where the last tick ended: where it is held, to L −
+/// L₀ (the tendon does not stretch), m; where it slides, to +k(L − L₀) along z, N. A line of length 0 has not been
+/// computed yet: then it begins where it ends.
 ///
 /// Defined while no bone's long axis points along the line against its usual sense. A NaN stays in its lane.
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                     LineOfAction<Lanes<float>>& line, EndDisplacement<Lanes<float>>& end);
-/// The same for a belly that is pulled: by +k(L − L₀) along z.
-void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                     LineOfAction<Lanes<float>>& line, EndForce<Lanes<float>>& end);
+                     FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end);
 
 /// Knee flexion (rad) of sixteen legs, from their thigh and shank.
 void knee_flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad);

@@ -5,7 +5,8 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/fade.h"
-#include "systems/muscles/simulation_change.h"
+#include "systems/muscles/change_muscles.h"
+#include "systems/muscles/muscle_parts.h"
 #include "systems/simulation.h"
 
 namespace mobil {
@@ -16,11 +17,6 @@ auto find_muscle_of(Muscles& muscles, Muscle muscle) {
   return std::find_if(muscles.begin(), muscles.end(), [&](const OwnMuscle& m) { return m.muscle == muscle; });
 }
 
-bool same(const MuscleMethod& a, const MuscleMethod& b) {
-  if (a.method != b.method) return false;
-  return a.method != Method::reduced || a.reduced == b.reduced;
-}
-
 }  // namespace
 
 Result<void> Simulation::set_method(Entity entity, Muscle muscle, const MuscleMethod& method) {
@@ -29,14 +25,13 @@ Result<void> Simulation::set_method(Entity entity, Muscle muscle, const MuscleMe
   const auto own = find_muscle_of(human->muscles, muscle);
   if (own == human->muscles.end())
     return fail("set_method: this person has no such muscle; choose one of those in add_leg_muscles");
-  if (same(own->method, method)) return {};
+  if (same_method(muscle_method(world_, own->entity[right]), method)) return {};
   LegMuscles choice = people_.choice(*human);
   choice.method = method.method;
   choice.reduced = method.reduced;
   const auto belly = bellies_.belly(*make_muscle_plan(*make_body(human->body), muscle), choice, tick_s());
   if (!belly) return fail(fmt::format("set_method: {}: {}", muscle_name(muscle), belly.error().message));
-  make_muscles(world_, *work_, {entity, choice, true, tick_, static_cast<float>(tick_s())}, {&*belly, 1}, {&*own, 1});
-  own->method = method;
+  change_muscles(world_, *work_, {entity, choice, true, {tick_, tick_s()}}, {&*belly, 1}, {&*own, 1});
   return {};
 }
 
@@ -44,7 +39,7 @@ MuscleMethod Simulation::method(Entity entity, Muscle muscle) const {
   const PersonRecord* owner = person(entity);
   if (owner == nullptr) return {Method::none};
   const auto own = find_muscle_of(owner->muscles, muscle);
-  return own == owner->muscles.end() ? MuscleMethod{Method::none} : own->method;
+  return own == owner->muscles.end() ? MuscleMethod{Method::none} : muscle_method(world_, own->entity[right]);
 }
 
 /// Of those whose time is up; who changed again since has a later entry.

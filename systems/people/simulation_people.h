@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "components/body.h"
+#include "components/leg_muscles.h"
 #include "components/muscle.h"
 #include "engine/entity.h"
-#include "systems/muscles/simulation_muscles.h"
 
 namespace mobil {
 
@@ -20,7 +20,6 @@ namespace mobil {
 struct OwnMuscle {
   Muscle muscle{};
   std::array<Entity, 2> entity{};
-  MuscleMethod method{};  // as it is
 };
 
 struct PersonRecord {

@@ -1,8 +1,8 @@
 // People whose host animates them.
 #include "assets/body/anthropometry.h"
 #include "components/leg_frames.h"
+#include "engine/rows.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/people/simulation_rows.h"
 #include "systems/simulation.h"
 
 namespace mobil {

@@ -1,5 +1,4 @@
 // People who come and go, many at once.
-#include "systems/people/simulation_spawn.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +17,9 @@
 #include "components/relevance.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/muscles/simulation_change.h"
+#include "systems/muscles/begin_muscles.h"
+#include "systems/muscles/change_muscles.h"
+#include "systems/people/simulation_batch.h"
 #include "systems/simulation.h"
 
 namespace mobil {
@@ -119,30 +120,6 @@ struct FirstInstants {
 
 }  // namespace
 
-/// What a batch has done so far is undone unless it is `done`.
-class Simulation::Batch {
- public:
-  Batch(Simulation& of, std::size_t room) : of_(of) { made.reserve(room); }
-  ~Batch() {
-    if (done) return;
-    for (const Entity entity : made) {
-      if (of_.people_.find(entity) != nullptr) of_.people_.remove(entity);
-    }
-    of_.world_.undo_create(made);
-    of_.work_->recent = {};  // others will have these handles
-    std::fill(entities.begin(), entities.end(), Entity{});
-  }
-  Batch(const Batch&) = delete;
-  Batch& operator=(const Batch&) = delete;
-
-  std::vector<Entity> made;      // people and muscles as they came; there is room for all that will
-  std::span<Entity> entities{};  // the caller's
-  bool done = false;
-
- private:
-  Simulation& of_;
-};
-
 tl::expected<void, NotMade> Simulation::spawn_all(std::span<const SpawnRequest> people, std::span<Entity> entities) {
   std::vector<Checked> checked(people.size());
   std::size_t sizes = 0;
@@ -225,23 +202,11 @@ tl::expected<void, NotMade> Simulation::spawn_all(std::span<const SpawnRequest> 
 
 tl::expected<void, NotMade> Simulation::begin(Batch& batch, std::span<const Entity> people,
                                               std::span<const MuscleSize> size, const LegMuscles& choice) {
-  if (!begin_together(choice)) {
-    for (std::size_t i = 0; i < people.size(); ++i) {
-      PersonRecord& person = *find(people[i]);
-      const auto bellies = bellies_.bellies(*make_body(person.body), choice, tick_s());
-      if (!bellies) return tl::unexpected(NotMade{i, bellies.error()});
-      set_muscles(person, *bellies, choice);
-      for (const OwnMuscle& own : person.muscles)
-        batch.made.insert(batch.made.end(), own.entity.begin(), own.entity.end());
-    }
-    return {};
-  }
   const std::size_t muscles = choice.muscles.count();
   std::vector<OwnMuscle> own(people.size() * muscles);
   std::vector<std::vector<OwnMuscle>> theirs(people.size());
   for (auto& one : theirs) one.reserve(muscles);
-  auto begun =
-      begin_muscles(world_, bellies_, choice, static_cast<float>(tick_s()), jobs_, people, size, own, batch.made);
+  auto begun = begin_muscles(world_, bellies_, choice, {tick_, tick_s()}, jobs_, people, size, own, batch.made);
   if (!begun) return begun;
   for (std::size_t i = 0; i < people.size(); ++i) {
     PersonRecord& person = *find(people[i]);
@@ -277,7 +242,7 @@ Result<void> Simulation::add_leg_muscles(Entity entity, const LegMuscles& choice
   const std::uint32_t number = people_.number_of(choice);
   std::vector<MuscleSize> size;
   const auto body = make_body(human->body);
-  for (std::size_t m = 0; begin_together(choice) && m < choice.muscles.size(); ++m) {
+  for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
     if (choice.muscles[m]) size.push_back(size_of(*make_muscle_plan(*body, static_cast<Muscle>(m))));
   }
   Batch batch(*this, 2 * choice.muscles.count());

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
 #include <stdexcept>
 
+#include "engine/rows.h"
 #include "systems/relevance/simulation_relevance_rows.h"
 
 namespace mobil {
@@ -15,11 +15,6 @@ namespace {
 constexpr float person_radius_m = 1, closest_m = 0.3F;
 constexpr float leave_m = 0.5F;  // how much farther out somebody seen must be to be seen no more
 constexpr float reference_height = static_cast<float>(reference_body_height_m);
-constexpr std::uint32_t first_speed_word = 0;
-constexpr auto from_speed_word = static_cast<std::uint32_t>(offsetof(StepPlan<float>, from) / 4);
-constexpr auto to_speed_word = static_cast<std::uint32_t>(offsetof(StepPlan<float>, to) / 4);
-static_assert(offsetof(Strike<float>, speed_m_s) == 0 && offsetof(Gait<float>, speed_m_s) == 0);
-
 struct Sight {
   View view;
   float tolerance_m;  // by distance; 0 without a camera
@@ -62,13 +57,9 @@ void Relevance::find_tables() {
   World& world = simulation_.world();
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
-    const Columns at = {table.column(type_id<Needs<float>>()), table.column(type_id<Tiers<float>>()),
-                        table.column(type_id<Pose<float>>()),  table.column(type_id<BodySize<float>>()),
-                        table.column(type_id<Gait<float>>()),  table.column(type_id<StepPlan<float>>())};
-    if (at.needs == Table::no_column || at.tiers == Table::no_column || at.pose == Table::no_column ||
-        at.size == Table::no_column) {
-      continue;
-    }
+    const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),
+                     TableColumn<BodySize>(table), TableColumn<Gait>(table),  TableColumn<StepPlan>(table)};
+    if (!at.needs || !at.tiers || !at.pose || !at.size) continue;
     tables_.emplace_back(&table, at);
   }
 }
@@ -115,20 +106,18 @@ RelevanceReport Relevance::update() {
 }
 
 std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b) {
-  const float* const block = table.block(b);
+  const auto& all_needs = at.needs.at(table, b);
+  auto& all_tiers = at.tiers.at(table, b);
+  const auto& pose = at.pose.at(table, b);
   const std::uint32_t live = table.live(b);
   for (std::uint32_t lane = 0; lane < live; ++lane) {
-    const auto word = [&](std::uint32_t w) { return block[w * lane_count + lane]; };
-    const auto row = static_cast<std::uint32_t>(b * lane_count) + lane;
-    Needs<float> needs;
-    Tiers<float> tiers;
-    table.read(row, at.needs, ComponentLayout<Needs>::words, &needs);
-    table.read(row, at.tiers, ComponentLayout<Tiers>::words, &tiers);
-    const float height = word(at.size);
+    const Needs<float> needs = row_of(all_needs, lane);
+    Tiers<float> tiers = row_of(all_tiers, lane);
+    const float height = at.size.at(table, b).height_m[lane];
     float speed = INFINITY;
-    if (at.gait != Table::no_column && at.plan != Table::no_column) {
-      speed =
-          std::max({word(at.gait + first_speed_word), word(at.plan + from_speed_word), word(at.plan + to_speed_word)});
+    if (at.gait && at.plan) {
+      const auto& plan = at.plan.at(table, b);
+      speed = std::max({at.gait.at(table, b).speed_m_s[lane], plan.from.speed_m_s[lane], plan.to.speed_m_s[lane]});
     }
     tiers.speed_step = RungLadder::speed_step(speed, height);
     tiers.relative_size = options_.margin * height / reference_height;
@@ -136,7 +125,8 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
     tiers.tolerance_m = scene_.tolerance_m.value_or(default_tolerance_m);
     View view = scene_.looked_at ? View::seen : View::near;
     if (scene_.camera) {
-      const Vec3<float> pelvis = {word(at.pose), word(at.pose + 1), word(at.pose + 2)};
+      const auto& at_pelvis = pose.position_m[index(Segment::pelvis)];
+      const Vec3<float> pelvis = {at_pelvis.x[lane], at_pelvis.y[lane], at_pelvis.z[lane]};
       const Sight of = sight(*scene_.camera, scene_.tolerance_px, pelvis, static_cast<View>(tiers.view));
       view = of.view;
       tiers.tolerance_m = of.tolerance_m;
@@ -146,7 +136,7 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
     tiers.view = static_cast<std::uint32_t>(view);
 
     decide(table.entities(b)[lane], tiers, wanted(needs));
-    table.write(row, at.tiers, ComponentLayout<Tiers>::words, &tiers);
+    put_row(tiers, all_tiers, lane);
   }
   return live;
 }

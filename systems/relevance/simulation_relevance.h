@@ -26,6 +26,7 @@
 #include <vector>
 
 #include "components/relevance.h"
+#include "engine/each.h"
 #include "engine/error.h"
 #include "systems/relevance/accuracy_table.h"
 #include "systems/relevance/simulation_ladder.h"
@@ -126,9 +127,9 @@ struct Choice {
 /// A rung as Simulation takes it.
 MuscleMethod rung_method(std::size_t rung, bool control_points);
 
-/// Whether a system of that name is part of what a budget is for: bellies, their control points, and what fades after
+/// Whether a module's systems are part of what a budget is for: bellies, their control points, and what fades after
 /// changes of method.
-bool is_deformation(std::string_view system);
+bool is_deformation(std::string_view module);
 
 /// What choosing remembers from one update to the next besides people's rows: plain data, to be kept beside a snapshot
 /// of the simulation.
@@ -175,9 +176,14 @@ class Relevance {
   tl::expected<Choice, Status> why(Entity human, Muscle muscle) const;
 
  private:
-  /// Where a table of people keeps what is needed: first words in a block.
+  /// Where a table of people keeps what is needed.
   struct Columns {
-    std::uint32_t needs, tiers, pose, size, gait, plan;
+    TableColumn<Needs> needs;
+    TableColumn<Tiers> tiers;
+    TableColumn<Pose> pose;
+    TableColumn<BodySize> size;
+    TableColumn<Gait> gait;  // walkers have this and the next
+    TableColumn<StepPlan> plan;
   };
   struct Switch {
     float excess;  // error over tolerance: as it is, to be dearer; as it will be, to be cheaper

@@ -125,9 +125,10 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     const auto m = static_cast<std::uint32_t>(own.muscle);
     set_bit(tiers.muscles, m, true);
     if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
-    set_rung(tiers.rung, m, rung_of(own.method));
-    set_rung(tiers.goal, m, rung_of(own.method));
-    set_bit(tiers.points, m, own.method.method != Method::none && own.method.reduced.control_points);
+    const MuscleMethod method = simulation_.method(entity, own.muscle);
+    set_rung(tiers.rung, m, rung_of(method));
+    set_rung(tiers.goal, m, rung_of(method));
+    set_bit(tiers.points, m, method.method != Method::none && method.reduced.control_points);
   }
   world.add_parts(entity, std::array{part_value(row), part_value(tiers)});
   world.set(entity, row);

@@ -1,6 +1,7 @@
 // What is afforded, and whose method changes now.
 #include <algorithm>
 
+#include "systems/muscles/muscle_parts.h"
 #include "systems/relevance/simulation_relevance.h"
 #include "systems/relevance/simulation_relevance_rows.h"
 
@@ -12,16 +13,22 @@ constexpr float easing = 0.97F;  // how fast tolerances come back when there is 
 double deformation_s(const Simulation& simulation) {
   double sum = 0;
   for (const SystemReport& system : simulation.report().systems) {
-    if (is_deformation(system.name)) sum += system.seconds;
+    if (is_deformation(system.module)) sum += system.seconds;
   }
   return sum;
 }
 
 }  // namespace
 
-bool is_deformation(std::string_view system) {
-  return system.starts_with("deformation") || system.starts_with("control points") || system.starts_with("report") ||
-         system == "fade";
+bool is_deformation(std::string_view module) {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all = {fade_module().name};
+    for (const DeformationMethod& method : deformation_methods()) {
+      if (method.module != nullptr) all.push_back(method.module().name);
+    }
+    return all;
+  }();
+  return std::find(names.begin(), names.end(), module) != names.end();
 }
 
 void Relevance::observe_machine() {

@@ -115,7 +115,6 @@ struct Hashing {
       if (!person.muscles.empty()) mixer.add(choice[person.choice]);
       for (const OwnMuscle& own : person.muscles) {
         mixer.add(static_cast<std::uint64_t>(own.muscle));
-        mixer.add(own.method.method, own.method.reduced);
         for (const Entity muscle : own.entity) mixer.add(take(muscle));
       }
       all += mix64(mixer.hash());

@@ -130,6 +130,18 @@ Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
   return recipe_of(kind, made.muscle, alike);
 }
 
+std::uint64_t hash_of(const std::string& name) {
+  return hash_bytes(name.data(), name.size());
+}
+Recipe named_recipe(const Module& module, const NamedResource& named) {
+  Recipe recipe{};
+  recipe.kind = ResourceKind::named;
+  recipe.dt = hash_of(module.name);
+  recipe.across = hash_of(named.name);
+  recipe.along = named.part.id;
+  return recipe;
+}
+
 BellyScale<float> scale_of(double across, double along) {
   return {static_cast<float>(across), static_cast<float>(along)};
 }
@@ -139,8 +151,10 @@ double number(std::uint64_t bits) {
 
 }  // namespace
 
-std::uint64_t resource_type(ResourceKind kind) {
-  switch (kind) {
+std::uint64_t resource_type(const Recipe& recipe) {
+  switch (recipe.kind) {
+    case ResourceKind::named:
+      return recipe.along;
     case ResourceKind::shape:
       return type_id<MuscleTemplate>();
     case ResourceKind::lines:
@@ -154,7 +168,7 @@ std::uint64_t resource_type(ResourceKind kind) {
   }
 }
 
-void ResourceList::learn(const World& world, const BellyLibrary& library) {
+void ResourceList::learn(const World& world, const BellyLibrary& library, std::span<const Module> modules) {
   for (std::size_t number = known_.size(); number < world.resource_count(); ++number) {
     const void* resource = world.resource(number);
     Known known;
@@ -189,11 +203,17 @@ void ResourceList::learn(const World& world, const BellyLibrary& library) {
       known.recipe.across = std::bit_cast<std::uint64_t>(made.middle_ratio);
       known.recipe.along = std::bit_cast<std::uint64_t>(made.middle_product);
     }
+    for (const Module& module : modules) {
+      for (const NamedResource& named : module.resources) {
+        if (named.resource.get() == resource) known = {named_recipe(module, named), 0};
+      }
+    }
     known_.push_back(known);
   }
 }
 
-Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World& world, BellyLibrary& library) {
+Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World& world, BellyLibrary& library,
+                                              std::span<const Module> modules) {
   const auto is = [&](std::size_t i) {
     return known_[i].fingerprint == saved.fingerprint && known_[i].recipe == saved.recipe;
   };
@@ -204,13 +224,16 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
     }
     return std::nullopt;
   };
-  if (saved.recipe.kind == ResourceKind::unknown || saved.recipe.kind > ResourceKind::basis)
+  if (saved.recipe.kind == ResourceKind::unknown || saved.recipe.kind > ResourceKind::named)
     return fail("the snapshot does not agree with itself (a recipe); give one that `save` made");
   if (const auto there = find()) return *there;
+  if (saved.recipe.kind == ResourceKind::named)
+    return fail(
+        "the snapshot shares a named resource that no module here has; give it the modules that it was made with");
   if (auto made = make(saved.recipe, world, library); !made)
     return fail("the snapshot needs a muscle's mesh, solver or basis that cannot be made again: " +
                 made.error().message);
-  learn(world, library);
+  learn(world, library, modules);
   if (const auto there = find()) return *there;
   return fail(
       fmt::format("a mesh, solver or basis of {} comes out otherwise here than where the snapshot was made;"

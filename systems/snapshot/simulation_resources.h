@@ -3,19 +3,22 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/error.h"
+#include "engine/module.h"
 #include "engine/world.h"
+#include "systems/muscles/belly_library.h"
 #include "systems/snapshot/simulation_snapshot_records.h"
 
 namespace mobil {
 
-/// The part's id of shared resources of that kind; 0 of unknown ones.
-std::uint64_t resource_type(ResourceKind kind);
+/// The part's id of a shared resource; 0 of unknown ones.
+std::uint64_t resource_type(const Recipe& recipe);
 
 /// Of each resource of a world, by number: what it is made from, and a hash of its numbers. Others than those of the
-/// library are unknown.
+/// library and of modules are unknown.
 class ResourceList {
  public:
   struct Known {
@@ -24,12 +27,13 @@ class ResourceList {
   };
 
   /// Learns of resources that came since; takes memory for those alone.
-  void learn(const World& world, const BellyLibrary& library);
+  void learn(const World& world, const BellyLibrary& library, std::span<const Module> modules);
   const std::vector<Known>& known() const { return known_; }
 
   /// The number of that resource in this world, found or made again and shared. Errors: a
   /// recipe that the library refuses, or numbers that come out otherwise.
-  Result<std::uint64_t> number_of(const SavedResource& saved, World& world, BellyLibrary& library);
+  Result<std::uint64_t> number_of(const SavedResource& saved, World& world, BellyLibrary& library,
+                                  std::span<const Module> modules);
 
  private:
   Result<void> make(const Recipe& recipe, World& world, BellyLibrary& library);

@@ -14,9 +14,28 @@
 namespace mobil {
 namespace {
 
+bool has_rows(const Module& module, const World& world) {
+  for (const Table& table : world.tables()) {
+    if (table.row_count() == 0) continue;
+    for (const KeyPart& part : module.parts) {
+      if (find_part(table.key(), part.id) != nullptr) return true;
+    }
+  }
+  return false;
+}
+
+SavedModule pack(const Module& module) {
+  SavedModule saved{};
+  module.name.copy(saved.name, sizeof(saved.name));
+  saved.version = module.version;
+  return saved;
+}
+
 /// How long the front's lists are. Marks resources that tables with rows have.
-FrontHeader count(const World& world, const People& people, std::size_t fading, std::vector<std::uint8_t>& used) {
+FrontHeader count(const World& world, const People& people, std::size_t fading, std::span<const Module> modules,
+                  std::vector<std::uint8_t>& used) {
   FrontHeader header{};
+  for (const Module& module : modules) header.modules += has_rows(module, world) ? 1 : 0;
   for (const PersonRecord& person : people.all()) {
     if (!world.alive(person.entity)) continue;  // their host took them away through the world
     ++header.people;
@@ -36,9 +55,9 @@ FrontHeader count(const World& world, const People& people, std::size_t fading, 
 }
 
 std::size_t front_bytes(const FrontHeader& header) {
-  return sizeof(FrontHeader) + header.resources * sizeof(SavedResource) + header.choices * sizeof(SavedChoice) +
-         header.people * sizeof(SavedPerson) + header.muscles * sizeof(SavedMuscle) +
-         header.fading * sizeof(SavedFading);
+  return sizeof(FrontHeader) + header.modules * sizeof(SavedModule) + header.resources * sizeof(SavedResource) +
+         header.choices * sizeof(SavedChoice) + header.people * sizeof(SavedPerson) +
+         header.muscles * sizeof(SavedMuscle) + header.fading * sizeof(SavedFading);
 }
 
 SavedPerson pack(const PersonRecord& person) {
@@ -72,7 +91,7 @@ PersonRecord unpack(const SavedPerson& saved) {
 }
 
 OwnMuscle unpack(const SavedMuscle& saved) {
-  return {static_cast<Muscle>(saved.muscle), {saved.entity[0], saved.entity[1]}, *unpack(saved.method)};
+  return {static_cast<Muscle>(saved.muscle), {saved.entity[0], saved.entity[1]}};
 }
 
 /// Whether only values need to be put back.
@@ -135,6 +154,7 @@ Result<SavedFront> read_front(std::span<const std::byte> bytes) {
   SavedFront front;
   FrontHeader& header = front.header;
   if (reader.take(header)) {
+    front.modules = reader.take_many<SavedModule>(header.modules);
     front.resources = reader.take_many<SavedResource>(header.resources);
     front.choices = reader.take_many<SavedChoice>(header.choices);
     front.people = reader.take_many<SavedPerson>(header.people);
@@ -159,19 +179,19 @@ std::optional<SavedResource> find_resource(const SavedFront& front, std::uint64_
 
 SnapshotWork& Simulation::snapshot_work() const {
   if (snapshots_ == nullptr) snapshots_ = std::make_shared<SnapshotWork>();
-  snapshots_->resources.learn(world_, bellies_);
+  snapshots_->resources.learn(world_, bellies_, modules_);
   return *snapshots_;
 }
 
 std::size_t Simulation::snapshot_bytes() const {
   SnapshotLayout layout = WorldSnapshot::layout(world_);
-  layout.front = front_bytes(count(world_, people_, work_->fading.size(), snapshot_work().used));
+  layout.front = front_bytes(count(world_, people_, work_->fading.size(), modules_, snapshot_work().used));
   return layout.bytes();
 }
 
 Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
   SnapshotWork& work = snapshot_work();
-  FrontHeader header = count(world_, people_, work_->fading.size(), work.used);
+  FrontHeader header = count(world_, people_, work_->fading.size(), modules_, work.used);
   header.tick_units = clock_.tick_units();
   header.remainder_units = clock_.remainder_units();
   header.tick = tick_;
@@ -182,13 +202,16 @@ Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
                             layout.bytes(), out.size()));
   ByteWriter writer(&out[layout.front_at()]);
   writer.put(header);
+  for (const Module& module : modules_) {
+    if (has_rows(module, world_)) writer.put(pack(module));
+  }
   for (std::uint32_t number = 0; number < work.used.size(); ++number) {
     if (work.used[number] == 0) continue;
     const auto& [recipe, fingerprint] = work.resources.known()[number];
     if (recipe.kind == ResourceKind::unknown)
       return fail(
-          "save: an entity has a shared resource of the host's own, which a snapshot cannot tell of; take it off"
-          " all that have it");
+          "save: an entity has a shared resource that no module names; list it in a module's resources, or take it"
+          " off all that have it");
     writer.put(SavedResource{recipe, fingerprint, number, 0});
   }
   for (const LegMuscles& choice : people_.choices()) writer.put(pack(choice));
@@ -198,7 +221,7 @@ Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
   for (const PersonRecord& person : people_.all()) {
     if (!world_.alive(person.entity)) continue;
     for (const OwnMuscle& own : person.muscles) {
-      writer.put(SavedMuscle{static_cast<std::uint32_t>(own.muscle), {own.entity[0], own.entity[1]}, pack(own.method)});
+      writer.put(SavedMuscle{static_cast<std::uint32_t>(own.muscle), {own.entity[0], own.entity[1]}});
     }
   }
   for (const auto& [muscle, ends] : work_->fading) writer.put(SavedFading{muscle, ends});
@@ -232,16 +255,19 @@ Result<void> Simulation::restore_checked(std::span<const std::byte> in) {
                             std::ldexp(static_cast<double>(header.tick_units), -50), clock_.tick_s()));
   }
   SnapshotWork& work = snapshot_work();
+  if (auto ok = check_modules(*front, *world, modules_); !ok) return ok;
   if (auto ok = check_people(*front, *world, people_, work.facts); !ok) return ok;
+  work.parts.clear();
+  for (const Module& module : modules_) work.parts.insert(work.parts.end(), module.parts.begin(), module.parts.end());
   work.shared.clear();
   for (std::size_t i = 0; i < front->resources.size(); ++i) {
     const SavedResource saved = front->resources[i];
-    const auto number = work.resources.number_of(saved, world_, bellies_);
+    const auto number = work.resources.number_of(saved, world_, bellies_, modules_);
     if (!number) return tl::unexpected(number.error());
-    work.shared.push_back({resource_type(saved.recipe.kind), saved.number, *number});
+    work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
   }
-  const auto check = [this](const TableKey& key) { return check_key(key, world_, snapshots_->resources); };
-  if (auto ok = work.world.prepare(world_, *world, front_parts(), work.shared, check); !ok) return ok;
+  const auto check = [this](const TableKey& key) { return check_key(key, world_, snapshots_->resources, modules_); };
+  if (auto ok = work.world.prepare(world_, *world, work.parts, work.shared, check); !ok) return ok;
   const bool people_stay = same_people(*front, people_), fading_stays = same_fading(*front, work_->fading);
   if (!people_stay) {
     if (auto ok = make_people(*front, work.people); !ok) return ok;

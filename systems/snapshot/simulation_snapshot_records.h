@@ -7,14 +7,14 @@
 #include <cstring>
 #include <optional>
 
+#include "components/leg_muscles.h"
 #include "engine/entity.h"
-#include "systems/muscles/simulation_muscles.h"
 
 namespace mobil {
 
 struct FrontHeader {
   std::int64_t tick_units, remainder_units;
-  std::uint32_t tick, people, muscles, choices, fading, resources;
+  std::uint32_t tick, people, muscles, choices, fading, resources, modules, spare;
 };
 
 struct SavedMethod {
@@ -38,7 +38,6 @@ struct SavedPerson {
 struct SavedMuscle {
   std::uint32_t muscle;
   Entity entity[2];
-  SavedMethod method;
 };
 
 struct SavedFading {
@@ -46,14 +45,22 @@ struct SavedFading {
   std::uint32_t ends;
 };
 
-enum class ResourceKind : std::uint32_t { unknown, shape, lines, solver, basis };
+/// A module that rows have parts of.
+struct SavedModule {
+  char name[60];  // its beginning, zeros behind
+  std::uint32_t version;
+};
+
+/// `named`: a module's, by names.
+enum class ResourceKind : std::uint32_t { unknown, shape, lines, solver, basis, named };
 
 /// What a shared resource is made from, in one form: what it does not depend on is as in a LegMuscles{}.
 struct Recipe {
   ResourceKind kind;
   std::uint32_t muscle;
   SavedChoice choice;
-  std::uint64_t dt, across, along;             // of a solver: doubles; of a basis across / along and their product
+  std::uint64_t dt, across, along;             // of a solver: doubles; of a basis across / along and their product;
+                                               // of a named one: hashes of the module's name and its own, its part
   std::uint32_t method, mass, vectors, spare;  // of a solver; of a basis
 
   friend bool operator==(const Recipe& a, const Recipe& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }

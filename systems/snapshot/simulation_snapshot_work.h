@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "engine/module.h"
 #include "engine/snapshot.h"
-#include "systems/muscles/simulation_change.h"
+#include "systems/muscles/change_muscles.h"
 #include "systems/people/simulation_people.h"
 #include "systems/snapshot/simulation_resources.h"
 #include "systems/snapshot/simulation_snapshot_records.h"
@@ -27,6 +28,7 @@ struct SnapshotWork {
   WorldSnapshot world;
   std::vector<std::uint8_t> used;  // resources, by number
   std::vector<SharedNumber> shared;
+  std::vector<KeyPart> parts;  // of all modules
   std::vector<TableFacts> facts;
   // People and fades to be, where they are not as many as those that are there.
   People people;
@@ -36,6 +38,7 @@ struct SnapshotWork {
 /// Lists of the front, each as long as its header says.
 struct SavedFront {
   FrontHeader header{};
+  Records<SavedModule> modules;
   Records<SavedResource> resources;
   Records<SavedChoice> choices;
   Records<SavedPerson> people;
@@ -50,10 +53,10 @@ Result<SavedFront> read_front(std::span<const std::byte> front);
 /// their owners', numbers that lists are read by are in range. `present`: bodies that are there need no other look.
 Result<void> check_people(const SavedFront& front, const SavedWorld& world, const People& present,
                           std::vector<TableFacts>& facts);
-/// A table's parts are those of one muscle and as wide as its resources want them; tables without are the host's own.
-Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources);
-
-/// All parts that the front door's tables have, and their names.
-std::span<const KeyPart> front_parts();
+/// Parts are laid out as their modules have them, of the version that these have here, and their rows are sound.
+Result<void> check_modules(const SavedFront& front, const SavedWorld& world, std::span<const Module> modules);
+/// A table's shared resources are those of one muscle; and what its modules make sure of.
+Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
+                       std::span<const Module> modules);
 
 }  // namespace mobil

@@ -76,6 +76,14 @@ struct Block {
   }
 };
 
+/// A far end with the way it is driven.
+template <FarEnd way>
+struct DrivenEnd : EndDrive<Lanes<float>> {
+  operator FarFaceDrive() const { return {way, *this}; }  // NOLINT(google-explicit-constructor)
+};
+using HeldEnd = DrivenEnd<FarEnd::held>;
+using SlidingEnd = DrivenEnd<FarEnd::sliding>;
+
 double drive(double t, std::size_t lane) {
   return std::sin(7 * t + 0.3 * static_cast<double>(lane)) * std::min(1.0, 5 * t);
 }
@@ -85,19 +93,16 @@ void set_drive(End& end, double t, double size) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const auto from = static_cast<float>(size * drive(t, l));
     const auto to = static_cast<float>(size * drive(t + static_cast<double>(tick_s), l));
-    if constexpr (requires { end.from_m; }) {
-      end.from_m[l] = from;
-      end.to_m[l] = to;
-    } else if constexpr (requires { end.from_n.x; }) {
+    if constexpr (requires { end.from; }) {
+      end.from[l] = from;
+      end.to[l] = to;
+    } else {
       end.from_n.x[l] = 0.1F * to;
       end.to_n.x[l] = 0.1F * from;
       end.from_n.y[l] = -0.05F * from;
       end.to_n.y[l] = -0.05F * to;
       end.from_n.z[l] = from;
       end.to_n.z[l] = to;
-    } else {
-      end.from_n[l] = from;
-      end.to_n[l] = to;
     }
   }
 }
@@ -131,19 +136,19 @@ double distance_from_oracle(Block& block, double size) {
       for (std::uint32_t s = 0; s < n; ++s) {
         Vector f = Vector::Zero(belly.now.size());
         const double part = static_cast<double>(s) / n;
-        if constexpr (requires { end.from_n.x; }) {
+        if constexpr (requires { end.from_n; }) {
           for (Eigen::Index i = 0; i < share.size(); ++i) {
             f(3 * i) = share(i) * mix(end.from_n.x, end.to_n.x, part);
             f(3 * i + 1) = share(i) * mix(end.from_n.y, end.to_n.y, part);
             f(3 * i + 2) = share(i) * mix(end.from_n.z, end.to_n.z, part);
           }
-        } else if constexpr (requires { end.from_n; }) {
-          for (Eigen::Index i = 0; i < share.size(); ++i) f(3 * i + 2) = share(i) * mix(end.from_n, end.to_n, part);
+        } else if constexpr (std::is_same_v<End, SlidingEnd>) {
+          for (Eigen::Index i = 0; i < share.size(); ++i) f(3 * i + 2) = share(i) * mix(end.from, end.to, part);
         }
         belly.step(f, dt);
-        if constexpr (requires { end.from_m; }) {
+        if constexpr (std::is_same_v<End, HeldEnd>) {
           for (std::uint32_t node = first_insertion_node(cells); node < node_count(cells); ++node) {
-            belly.now(3 * node + 2) = mix(end.from_m, end.to_m, (s + 1.0) / n);
+            belly.now(3 * node + 2) = mix(end.from, end.to, (s + 1.0) / n);
           }
         }
       }
@@ -179,12 +184,12 @@ double distance_from_oracle(Block& block, double size) {
 
 TEST(Deformation, DrivenByDisplacementFollowsTheDenseModel) {
   Block block(make(spindle({2, 2, 8}), FarEnd::held, 8));
-  EXPECT_LT(distance_from_oracle<EndDisplacement<Lanes<float>>>(block, 0.015), 3e-5);
+  EXPECT_LT(distance_from_oracle<HeldEnd>(block, 0.015), 3e-5);
 }
 
 TEST(Deformation, DrivenByForceFollowsTheDenseModel) {
   Block block(make(spindle({2, 2, 8}), FarEnd::sliding, 8));
-  EXPECT_LT(distance_from_oracle<EndForce<Lanes<float>>>(block, 0.5), 3e-5);
+  EXPECT_LT(distance_from_oracle<SlidingEnd>(block, 0.5), 3e-5);
 }
 
 TEST(Deformation, DrivenByTractionFollowsTheDenseModel) {
@@ -196,8 +201,8 @@ TEST(Deformation, SharedStiffnessFollowsTheDenseModelInAllThreeWays) {
   Block held(make(spindle({2, 2, 8}), FarEnd::held, 0)), sliding(make(spindle({2, 2, 8}), FarEnd::sliding, 0)),
       free(make(spindle({2, 2, 8}), FarEnd::free, 0));
   for (Block* block : {&held, &sliding, &free}) block->be_all_alike();
-  EXPECT_LT(distance_from_oracle<EndDisplacement<Lanes<float>>>(held, 0.015), 3e-5);
-  EXPECT_LT(distance_from_oracle<EndForce<Lanes<float>>>(sliding, 0.5), 3e-5);
+  EXPECT_LT(distance_from_oracle<HeldEnd>(held, 0.015), 3e-5);
+  EXPECT_LT(distance_from_oracle<SlidingEnd>(sliding, 0.5), 3e-5);
   EXPECT_LT(distance_from_oracle<EndTraction<Lanes<float>>>(free, 0.2), 3e-5);
 }
 
@@ -206,7 +211,7 @@ TEST(Deformation, OtherMeshesFollowTheDenseModel) {
   for (const Cells& cells : {Cells{1, 1, 1}, Cells{1, 3, 2}, Cells{4, 2, 3}}) {
     Block free(make(spindle(cells), FarEnd::free, 2)), held(make(spindle(cells), FarEnd::held, 2));
     EXPECT_LT(distance_from_oracle<EndTraction<Lanes<float>>>(free, 0.1), 1e-4);
-    EXPECT_LT(distance_from_oracle<EndDisplacement<Lanes<float>>>(held, 0.01), 3e-5);
+    EXPECT_LT(distance_from_oracle<HeldEnd>(held, 0.01), 3e-5);
   }
 }
 
@@ -305,8 +310,8 @@ TEST(Deformation, VolumeIsThatOfTheDeformedMesh) {
     shake(block, 0.002F);
     constexpr float instant = 1e-9F;
     if (end == FarEnd::held) {
-      EndDisplacement<Lanes<float>> stretch{};
-      for (std::size_t l = 0; l < lane_count; ++l) stretch.from_m[l] = stretch.to_m[l] = 0.01F;
+      HeldEnd stretch{};
+      for (std::size_t l = 0; l < lane_count; ++l) stretch.from[l] = stretch.to[l] = 0.01F;
       block.tick(stretch, 1, instant);
     } else {
       block.tick(EndTraction<Lanes<float>>{}, 1, instant);
@@ -327,7 +332,7 @@ TEST(Deformation, VolumeIsThatOfTheDeformedMesh) {
 
 TEST(Deformation, HeldEndIsExactlyWhereItIsToldAndOriginStays) {
   Block block(make(spindle({2, 2, 8}), FarEnd::held, 8));
-  EndDisplacement<Lanes<float>> end{};
+  HeldEnd end{};
   set_drive(end, 0.4, 0.0137);
   block.tick(end, block.substeps());
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -337,9 +342,9 @@ TEST(Deformation, HeldEndIsExactlyWhereItIsToldAndOriginStays) {
     for (std::uint32_t n = first_insertion_node({2, 2, 8}); n < node_count({2, 2, 8}); ++n) {
       EXPECT_EQ(block.u[3 * n][l], 0.0F);
       EXPECT_EQ(block.u[3 * n + 1][l], 0.0F);
-      EXPECT_EQ(block.u[3 * n + 2][l], end.to_m[l]);
+      EXPECT_EQ(block.u[3 * n + 2][l], end.to[l]);
     }
-    EXPECT_NEAR(static_cast<double>(block.report.elongation_m[l]), static_cast<double>(end.to_m[l]), 1e-8);
+    EXPECT_NEAR(static_cast<double>(block.report.elongation_m[l]), static_cast<double>(end.to[l]), 1e-8);
   }
 }
 
@@ -348,10 +353,10 @@ TEST(Deformation, NotANumberStaysInItsLane) {
     Block clean(make(spindle({2, 2, 8}), FarEnd::held, 8)), dirty(clean);
     const auto substeps = clean.substeps();
     for (int tick = 0; tick < 20; ++tick) {
-      EndDisplacement<Lanes<float>> end{};
+      HeldEnd end{};
       set_drive(end, tick * static_cast<double>(tick_s), 0.01);
       clean.tick(end, substeps);
-      if (tick == 3) end.to_m[sick] = std::numeric_limits<float>::quiet_NaN();
+      if (tick == 3) end.to[sick] = std::numeric_limits<float>::quiet_NaN();
       if (tick == 8) dirty.scale.across[sick] = INFINITY;
       dirty.tick(end, substeps);
     }
@@ -372,8 +377,8 @@ TEST(Deformation, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAd
       block.scale.across[l] = 1.1F;
       block.scale.along[l] = 0.95F;
     }
-    EndForce<Lanes<float>> end{};
-    for (std::size_t l = 0; l < lane_count; ++l) end.from_n[l] = end.to_n[l] = 0.4F;
+    SlidingEnd end{};
+    for (std::size_t l = 0; l < lane_count; ++l) end.from[l] = end.to[l] = 0.4F;
     for (int tick = 0; tick < 60; ++tick) block.tick(end, block.substeps());
     results.push_back(block);
   });

@@ -40,14 +40,14 @@ inline BellySolver make_solver(const MuscleTemplate& muscle, Method method, Mass
 
 /// Anything that can drive a far face, and the frame: the same for the kernel and the oracle.
 struct Drive {
-  EndDisplacement<Lanes<float>> displacement{};
-  EndForce<Lanes<float>> force{};
+  EndDrive<Lanes<float>> displacement{}, force{};
   EndTraction<Lanes<float>> traction{};
   FrameLoad<Lanes<float>> frame{};
   bool framed = false;
 
-  EndDrive of(FarEnd end) const {
-    return end == FarEnd::held ? EndDrive(displacement) : end == FarEnd::sliding ? EndDrive(force) : EndDrive(traction);
+  FarFaceDrive of(FarEnd end) const {
+    if (end == FarEnd::free) return traction;
+    return {end, end == FarEnd::held ? displacement : force};
   }
 };
 
@@ -64,8 +64,8 @@ inline Drive drive_at(double t, double size, bool framed) {
       to[l] = static_cast<float>(amount * wave(t + static_cast<double>(tick_s), l, phase));
     }
   };
-  set(drive.displacement.from_m, drive.displacement.to_m, size * 0.012, 0);
-  set(drive.force.from_n, drive.force.to_n, size * 0.3, 0);
+  set(drive.displacement.from, drive.displacement.to, size * 0.012, 0);
+  set(drive.force.from, drive.force.to, size * 0.3, 0);
   set(drive.traction.from_n.x, drive.traction.to_n.x, size * 0.006, 1);
   set(drive.traction.from_n.y, drive.traction.to_n.y, size * -0.004, 2);
   set(drive.traction.from_n.z, drive.traction.to_n.z, size * 0.2, 0);
@@ -184,14 +184,14 @@ struct Dense {
       force = mass * a;
     }
     for (Eigen::Index n = 0; n < share.size(); ++n) {
-      if (options.far_end == FarEnd::sliding) force(3 * n + 2) += share(n) * mix(drive.force.from_n, drive.force.to_n);
+      if (options.far_end == FarEnd::sliding) force(3 * n + 2) += share(n) * mix(drive.force.from, drive.force.to);
       if (options.far_end != FarEnd::free) continue;
       const auto &from = drive.traction.from_n, &to = drive.traction.to_n;
       force(3 * n) += share(n) * mix(from.x, to.x);
       force(3 * n + 1) += share(n) * mix(from.y, to.y);
       force(3 * n + 2) += share(n) * mix(from.z, to.z);
     }
-    return {force, mix(drive.displacement.from_m, drive.displacement.to_m)};
+    return {force, mix(drive.displacement.from, drive.displacement.to)};
   }
   void set_far(Vector& x, double value) const {
     if (options.far_end != FarEnd::held) return;

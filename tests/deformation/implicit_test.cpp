@@ -223,7 +223,7 @@ TEST(Implicit, NotANumberStaysInItsLane) {
           Drive drive = drive_at(tick * static_cast<double>(tick_s), 1, true);
           clean.tick(drive, method == Method::icd ? 32 : 1);
           if (tick == 1) drive.frame.constant_to.x[sick] = std::numeric_limits<float>::quiet_NaN();
-          if (tick == 1) drive.displacement.to_m[sick] = INFINITY;
+          if (tick == 1) drive.displacement.to[sick] = INFINITY;
           if (tick == 3) dirty.scale.across[sick] = INFINITY;
           dirty.tick(drive, method == Method::icd ? 32 : 1);
         }
@@ -253,8 +253,8 @@ TEST(Implicit, SameBitsInEveryLaneAndOnEveryInstructionSetWithFusedMultiplyAdd) 
       for (int tick = 0; tick < 20; ++tick) {
         Drive drive = drive_at(tick * static_cast<double>(tick_s), 1, false);
         for (std::size_t l = 1; l < lane_count; ++l) {
-          drive.force.from_n[l] = drive.force.from_n[0];
-          drive.force.to_n[l] = drive.force.to_n[0];
+          drive.force.from[l] = drive.force.from[0];
+          drive.force.to[l] = drive.force.to[0];
         }
         block.tick(drive, method == Method::icd ? 32 : 1);
       }

@@ -195,20 +195,22 @@ struct ReducedDrive {
       frame.gradient_from = {vector(from, ends + 3), vector(from, ends + 6), vector(from, ends + 9)};
       frame.gradient_to = {vector(to, ends + 3), vector(to, ends + 6), vector(to, ends + 9)};
     }
-    if (way == FarEnd::held) f(EndDrive(EndDisplacement<Lanes<float>>{from[0], to[0]}), frame);
-    if (way == FarEnd::sliding) f(EndDrive(EndForce<Lanes<float>>{from[0], to[0]}), frame);
-    if (way == FarEnd::free) f(EndDrive(EndTraction<Lanes<float>>{vector(from, 0), vector(to, 0)}), frame);
+    if (way == FarEnd::free) {
+      f(FarFaceDrive(EndTraction<Lanes<float>>{vector(from, 0), vector(to, 0)}), frame);
+    } else {
+      f(FarFaceDrive(way, EndDrive<Lanes<float>>{from[0], to[0]}), frame);
+    }
   }
 };
 
 inline void ReducedBodies::tick(const ReducedDrive& drive, double tick_s) {
-  drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
+  drive.give([&](const FarFaceDrive& end, const FrameLoad<Lanes<float>>& frame) {
     deform_reduced(block(frame), end, static_cast<float>(tick_s));
   });
 }
 
 inline void ReducedBodies::place(const ReducedDrive& drive, bool at_rest) {
-  drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
+  drive.give([&](const FarFaceDrive& end, const FrameLoad<Lanes<float>>& frame) {
     ReducedBlock given = block(frame);
     const ControlPoints points{shape.data()->lane, displacement.data()->lane, streamed,
                                hinted ? shape.data()->lane : nullptr};
@@ -222,7 +224,7 @@ inline void ReducedBodies::place(const ReducedDrive& drive, bool at_rest) {
 inline BellyReport<Lanes<float>> ReducedBodies::report(const ReducedDrive& drive, const MuscleTemplate& control,
                                                        double tick_s) {
   BellyReport<Lanes<float>> told{};
-  drive.give([&](const EndDrive& end, const FrameLoad<Lanes<float>>& frame) {
+  drive.give([&](const FarFaceDrive& end, const FrameLoad<Lanes<float>>& frame) {
     const ControlPoints points{shape.data()->lane, displacement.data()->lane};
     report_reduced(block(frame), control, points, end, static_cast<float>(tick_s), told);
   });

@@ -168,7 +168,7 @@ std::array<History, 2> reduced(const Case& what) {
     fill(frame.gradient_to.x, to.gradient.x);
     fill(frame.gradient_to.y, to.gradient.y);
     fill(frame.gradient_to.z, to.gradient.z);
-    EndDrive drive(end);
+    FarFaceDrive drive(end);
     drive.way = what.end;
     const ReducedBlock block{basis, scale, state.data()->lane, motion.data()->lane, what.frame ? &frame : nullptr};
     deform_reduced(block, drive, static_cast<float>(tick_s));

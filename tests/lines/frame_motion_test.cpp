@@ -231,7 +231,7 @@ MuscleTemplate belly(double foundation_hz, double damping_per_s) {
 struct Bellies {
   const MuscleTemplate& muscle;
   BellyScale<Lanes<float>> scale{};
-  EndDisplacement<Lanes<float>> end{};
+  EndDrive<Lanes<float>> end{};
   std::vector<Lanes<float>> u, v;
   BellyReport<Lanes<float>> report{};
 
@@ -253,7 +253,8 @@ TEST(FrameMotion, UnderOneGravitySidewaysABellySagsFiveMillimetres) {
   Bellies bellies(muscle);
   std::vector<Lanes<float>> scratch(scratch_floats(muscle, Method::statics) / lane_count);
   for (int i = 0; i < 4; ++i) {
-    deform_implicit(bellies.block(frames.load), *solver, bellies.end, 1, 1 / 60.0F, scratch.data()->lane);
+    deform_implicit(bellies.block(frames.load), *solver, {FarEnd::held, bellies.end}, 1, 1 / 60.0F,
+                    scratch.data()->lane);
   }
   double lowest = 0;
   for (std::size_t n = 0; n < muscle.mesh.node.size(); ++n) {
@@ -347,7 +348,7 @@ Outcome shake(double metres, double radians) {
   for (auto k = static_cast<int>(start / tick); k * tick < 0.8; ++k) {
     const double t = k * tick;  // the kernel is a tick late
     frames.tick(motion, t, tick);
-    deform_explicit(bellies.block(frames.load), bellies.end, substeps, static_cast<float>(tick));
+    deform_explicit(bellies.block(frames.load), {FarEnd::held, bellies.end}, substeps, static_cast<float>(tick));
     space.run(t - 2 * tick, t - tick, tick / 20);
     if (t < 0) continue;  // both sag
     for (std::size_t n = 0; n < muscle.mesh.node.size(); ++n) {

@@ -27,7 +27,7 @@ struct Block {
   LegScale<Lanes<float>> scale;
   LegFrames<Lanes<float>> legs;
   LineOfAction<Lanes<float>> line{};
-  EndDisplacement<Lanes<float>> end{};
+  EndDrive<Lanes<float>> end{};
 };
 
 inline void set(Vec3<Lanes<float>>& to, const Vec& v, std::size_t l) {

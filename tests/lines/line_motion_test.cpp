@@ -95,7 +95,7 @@ TEST(LineMotion, SpeedIsWhatTheLengthGrewByInATick) {
         const Body body = random.body();
         set(block, body, random.leg(body), muscle, l);
       }
-      lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+      lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
       line_motion(lines, block.scale, block.legs, block.line, motion, tick_s);
       for (std::size_t l = 0; l < lane_count; ++l) {
         const float expected = tick == 0 ? 0 : (block.line.length_m[l] - before[l]) / tick_s;
@@ -129,7 +129,7 @@ TEST(LineMotion, ArmsTimesJointSpeedsMakeTheSpeed) {
         }
         set(block, body, leg, muscle, l);
       }
-      lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+      lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
       line_motion(lines, block.scale, block.legs, block.line, motion, tick_s);
     }
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -159,7 +159,7 @@ TEST(LineMotion, EveryInstructionSetHasTheSameBitsAndANaNStaysInItsLane) {
       for (const Block* of : {&good, &bad}) {
         Block block = *of;
         Motion motion{};
-        lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+        lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
         line_motion(lines, block.scale, block.legs, block.line, motion, 0.01F);
         if (of == &bad && muscle != Muscle::tibialis_anterior && muscle_name(muscle) != "soleus") {
           EXPECT_TRUE(std::isnan(motion.knee_flexion_arm_m[bad_lane])) << muscle_name(muscle);
@@ -170,7 +170,7 @@ TEST(LineMotion, EveryInstructionSetHasTheSameBitsAndANaNStaysInItsLane) {
                                            motion.knee_flexion_arm_m,
                                            motion.ankle_dorsiflexion_arm_m,
                                            block.line.length_m,
-                                           block.end.to_m};
+                                           block.end.to};
         if (first.empty()) first = words;
         EXPECT_TRUE(same_bits(words, first, bad_lane)) << muscle_name(muscle);
       }

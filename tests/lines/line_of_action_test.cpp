@@ -45,7 +45,7 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
         set(block, body, leg[l], muscle, l);
         expected[l] = muscle_length(muscle, leg_scale(body), leg[l]);
       }
-      lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+      lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
       Lanes<float> flexion;
       knee_flexions(block.legs, flexion);
       for (std::size_t l = 0; l < lane_count; ++l) {
@@ -53,7 +53,7 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
         EXPECT_NEAR(flexion[l], knee_flexion(leg[l]), 2e-6);
         const auto elongation =
             static_cast<double>(block.line.length_m[l]) - static_cast<double>(block.line.rest_length_m[l]);
-        EXPECT_NEAR(block.end.to_m[l], elongation, 1e-7);
+        EXPECT_NEAR(block.end.to[l], elongation, 1e-7);
         EXPECT_NEAR(block.line.force_n[l], -static_cast<double>(block.line.stiffness_n_per_m[l]) * elongation, 1e-4);
       }
     }
@@ -73,7 +73,7 @@ TEST(LineOfAction, AMemberAloneHasItsOwnPathsLength) {
       set(block, body, leg, muscle, l);
       expected[l] = member_length(member, leg_scale(body), leg);
     }
-    lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+    lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
     for (std::size_t l = 0; l < lane_count; ++l) EXPECT_NEAR(block.line.length_m[l], expected[l], 4e-6) << member.name;
   }
 }
@@ -89,10 +89,10 @@ TEST(LineOfAction, StandingStillNothingIsStretchedAndTheFrameIsThePlans) {
       plan[l] = make_muscle_plan(body, muscle).value();
       set(block, body, anatomical_leg(body), muscle, l);
     }
-    lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+    lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
     for (std::size_t l = 0; l < lane_count; ++l) {
-      EXPECT_NEAR(block.end.to_m[l], 0, 3e-7);  // the rounding of joint centres a metre off the ground
-      EXPECT_EQ(block.end.from_m[l], block.end.to_m[l]);
+      EXPECT_NEAR(block.end.to[l], 0, 3e-7);  // the rounding of joint centres a metre off the ground
+      EXPECT_EQ(block.end.from[l], block.end.to[l]);
       EXPECT_LT(length(at(block.line.start_m, l) - plan[l].start_m), 1e-6);
       const Quat<double> q = at(block.line.rotation, l), r = plan[l].rotation;
       EXPECT_NEAR(std::abs(q.x * r.x + q.y * r.y + q.z * r.z + q.w * r.w), 1, 1e-6);
@@ -119,7 +119,7 @@ TEST(LineOfAction, TheFrameIsOrthonormalAndLiesAlongTheDrawnLine) {
                         ? leg.hip_m + rotated(leg.thigh, {scale.across * p.x, scale.thigh * p.y, scale.across * p.z})
                         : leg.knee_m + rotated(leg.shank, {scale.across * p.x, scale.shank * p.y, scale.across * p.z});
       }
-      lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+      lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
       for (std::size_t l = 0; l < lane_count; ++l) {
         const Quat<double> q = at(block.line.rotation, l);
         EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1, 2e-6);
@@ -157,7 +157,7 @@ TEST(LineOfAction, LengthAndFrameAreContinuousInTheJoints) {
                            mix(from.ankle_deg, to.ankle_deg)}),
               muscle, l);
         }
-        lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+        lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
         for (std::size_t l = 0; l < lane_count; ++l) {
           const auto now = static_cast<double>(block.line.length_m[l]);
           const Quat<double> q = at(block.line.rotation, l), p = frame_before;
@@ -207,8 +207,8 @@ TEST(LineOfAction, ALeftLegIsTheRightOnesMirrorImage) {
       gather_leg(pose_of(leg, right), right, of_right.legs, l);
       gather_leg(pose_of(mirror_image(leg), left), left, of_left.legs, l);
     }
-    lines_of_action(lines, of_right.scale, of_right.legs, of_right.line, of_right.end);
-    lines_of_action(lines, of_left.scale, of_left.legs, of_left.line, of_left.end);
+    lines_of_action(lines, of_right.scale, of_right.legs, FarEnd::held, of_right.line, of_right.end);
+    lines_of_action(lines, of_left.scale, of_left.legs, FarEnd::held, of_left.line, of_left.end);
     EXPECT_EQ(std::memcmp(&of_right.line, &of_left.line, sizeof of_left.line), 0);
   }
 }
@@ -249,7 +249,7 @@ TEST(LineOfAction, WalkingFarAwayOrAnotherWayChangesNoLength) {
       for (std::size_t l = 0; l < lane_count; ++l) {
         set(block, body, posed(body, angles, random.turn(180), random.place(l == 0 ? 0 : 20)), muscle, l);
       }
-      lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+      lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
       for (std::size_t l = 1; l < lane_count; ++l) EXPECT_NEAR(block.line.length_m[l], block.line.length_m[0], 1e-5);
     }
   }
@@ -260,21 +260,21 @@ TEST(LineOfAction, ATickBeginsWhereTheLastOneEnded) {
   const Body body = make_body({1.9F, 90}).value();
   const MuscleLines lines = make_muscle_lines(Muscle::quadriceps);
   Block block, pulled;
-  EndForce<Lanes<float>> force{};
-  EndDisplacement<Lanes<float>> last{};
-  EndForce<Lanes<float>> last_force{};
+  EndDrive<Lanes<float>> force{};
+  EndDrive<Lanes<float>> last{};
+  EndDrive<Lanes<float>> last_force{};
   for (int tick = 0; tick < 5; ++tick) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const LegFrames<double> leg = random.leg(body);
       set(block, body, leg, Muscle::quadriceps, l);
       set(pulled, body, leg, Muscle::quadriceps, l);
     }
-    lines_of_action(lines, block.scale, block.legs, block.line, block.end);
-    lines_of_action(lines, pulled.scale, pulled.legs, pulled.line, force);
+    lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
+    lines_of_action(lines, pulled.scale, pulled.legs, FarEnd::sliding, pulled.line, force);
     for (std::size_t l = 0; l < lane_count; ++l) {
-      EXPECT_EQ(block.end.from_m[l], tick == 0 ? block.end.to_m[l] : last.to_m[l]);
-      EXPECT_EQ(force.from_n[l], tick == 0 ? force.to_n[l] : last_force.to_n[l]);
-      EXPECT_EQ(force.to_n[l], -pulled.line.force_n[l]);  // the load is the spring's opposite
+      EXPECT_EQ(block.end.from[l], tick == 0 ? block.end.to[l] : last.to[l]);
+      EXPECT_EQ(force.from[l], tick == 0 ? force.to[l] : last_force.to[l]);
+      EXPECT_EQ(force.to[l], -pulled.line.force_n[l]);  // the load is the spring's opposite
     }
     last = block.end;
     last_force = force;
@@ -291,8 +291,8 @@ TEST(LineOfAction, ANaNStaysInItsLane) {
   }
   Block bad = good;
   bad.legs.thigh.x[3] = bad.legs.hip_m.z[3] = std::numeric_limits<float>::quiet_NaN();
-  lines_of_action(lines, good.scale, good.legs, good.line, good.end);
-  lines_of_action(lines, bad.scale, bad.legs, bad.line, bad.end);
+  lines_of_action(lines, good.scale, good.legs, FarEnd::held, good.line, good.end);
+  lines_of_action(lines, bad.scale, bad.legs, FarEnd::held, bad.line, bad.end);
   for (std::size_t l = 0; l < lane_count; ++l) {
     if (l == 3) {
       EXPECT_TRUE(std::isnan(bad.line.length_m[l]));
@@ -300,7 +300,7 @@ TEST(LineOfAction, ANaNStaysInItsLane) {
     }
     EXPECT_EQ(good.line.length_m[l], bad.line.length_m[l]);
     EXPECT_EQ(good.line.start_m.z[l], bad.line.start_m.z[l]);
-    EXPECT_EQ(good.end.to_m[l], bad.end.to_m[l]);
+    EXPECT_EQ(good.end.to[l], bad.end.to[l]);
   }
 }
 

@@ -132,7 +132,7 @@ TEST(MomentArms, AreThoseOfThePublishedModelOverItsWholeMap) {
 
 /// Arms in lanes of sixteen poses of one body.
 LineMotion<Lanes<float>> motion_of(const MuscleLines& lines, Block& block) {
-  lines_of_action(lines, block.scale, block.legs, block.line, block.end);
+  lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
   LineMotion<Lanes<float>> motion{};
   line_motion(lines, block.scale, block.legs, block.line, motion, 0.01F);
   return motion;

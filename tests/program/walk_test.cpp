@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 
+#include "assets/muscles/muscle_table.h"
 #include "components/gait_style.h"
 #include "components/muscle.h"
 #include "demo/walk/walk_tables.h"

@@ -193,8 +193,8 @@ TEST(Frontier, DrivesAreLinearBetweenTicks) {
     const double from_s = static_cast<double>(t) * frontier_tick_s;
     const auto end = drive.end(from_s, from_s + 0.5 * frontier_tick_s);
     const auto a = static_cast<double>(drive.end_m[t][3]), b = static_cast<double>(drive.end_m[t + 1][3]);
-    EXPECT_NEAR(static_cast<double>(end.from_m[3]), a, 1e-7);
-    EXPECT_NEAR(static_cast<double>(end.to_m[3]), 0.5 * (a + b), 1e-7);
+    EXPECT_NEAR(static_cast<double>(end.from[3]), a, 1e-7);
+    EXPECT_NEAR(static_cast<double>(end.to[3]), 0.5 * (a + b), 1e-7);
   }
 }
 

@@ -9,6 +9,7 @@
 #include "components/gait.h"
 #include "engine/snapshot_bytes.h"
 #include "systems/simulation.h"
+#include "systems/snapshot/simulation_snapshot_records.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
@@ -204,14 +205,16 @@ TEST(Snapshot, CutOrPaddedItIsRefused) {
   expect_refused(simulation, bytes, "cut or padded");
 }
 
-TEST(Snapshot, NewerVersionsAndOtherByteOrdersAreRefusedByName) {
+TEST(Snapshot, OtherVersionsAndByteOrdersAreRefusedByName) {
   Simulation simulation;
   few(simulation);
   Bytes bytes = saved(simulation);
+  for (const auto& [version, name] : {std::pair(1, "version 1"), std::pair(3, "version 3")}) {
+    bytes[8] = static_cast<std::byte>(version);
+    reseal_snapshot(bytes);
+    expect_refused(simulation, bytes, name);
+  }
   bytes[8] = std::byte{2};
-  reseal_snapshot(bytes);
-  expect_refused(simulation, bytes, "version 2");
-  bytes[8] = std::byte{1};
   std::swap(bytes[12], bytes[15]);
   std::swap(bytes[13], bytes[14]);
   reseal_snapshot(bytes);
@@ -231,8 +234,10 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   Simulation simulation, fresh;
   few(simulation);
   Bytes bytes = saved(simulation);
-  constexpr std::size_t front = SnapshotLayout::header_bytes + 40, fingerprint = 184;
-  bytes[front + fingerprint] ^= std::byte{1};
+  FrontHeader header;
+  std::memcpy(&header, &bytes[SnapshotLayout::header_bytes], sizeof(header));
+  const std::size_t resources = SnapshotLayout::header_bytes + sizeof(header) + header.modules * sizeof(SavedModule);
+  bytes[resources + offsetof(SavedResource, fingerprint)] ^= std::byte{1};
   ASSERT_TRUE(reseal_snapshot(bytes));
   const auto done = fresh.restore(bytes);
   ASSERT_FALSE(done);

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "systems/muscles/simulation_muscles.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {
@@ -71,7 +71,7 @@ Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMus
   const auto mesh = bend_block(choice.reduced.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   ReducedOptions options;
-  options.far_end = choice.drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;
+  options.far_end = far_end_of(choice);
   options.frame_loads = choice.inertia;
   options.corrected = choice.reduced.corrected;
   options.foundation_hz = foundation_of(choice);

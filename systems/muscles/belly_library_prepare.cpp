@@ -8,8 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "systems/people/simulation_spawn.h"
-#include "systems/simulation.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {
@@ -94,11 +93,6 @@ void BellyLibrary::prepare_solvers(Muscle muscle, const LegMuscles& choice, doub
       (void)belly(plan, choice, tick_s);
     }
   }
-}
-
-Result<void> Simulation::prepare(const LegMuscles& choice) {
-  if (auto done = bellies_.prepare(choice, tick_s(), jobs_); !done) return fail("prepare: " + done.error().message);
-  return {};
 }
 
 }  // namespace mobil

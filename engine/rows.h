@@ -1,12 +1,10 @@
 #pragma once
-// Rows in and out of blocks, for what the front door computes of one person.
+// One row in all lanes of a block, and a lane of a block as a row: for what is computed of one entity off the tick.
 
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <optional>
 
-#include "components/gait.h"
 #include "components/lanes.h"
 
 namespace mobil {
@@ -27,17 +25,24 @@ C<Lanes<float>> broadcast(const C<float>& row) {
   return block;
 }
 
-/// Lane 0 of a block as a row.
+/// One lane of a block as a row, and a row into one lane of a block.
 template <template <class> class C>
-C<float> first_lane(const C<Lanes<float>>& block) {
+C<float> row_of(const C<Lanes<float>>& block, std::size_t lane) {
   C<float> row;
-  const auto* in = reinterpret_cast<const std::byte*>(&block);
+  const auto* in = reinterpret_cast<const std::byte*>(&block) + 4 * lane;
   auto* out = reinterpret_cast<std::byte*>(&row);
   for (std::size_t w = 0; w < sizeof(row) / 4; ++w) std::memcpy(out + 4 * w, in + 4 * w * lane_count, 4);
   return row;
 }
-
-/// Where a walker was some seconds before, as far as the present step and one like it before that tell.
-std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds);
+template <template <class> class C>
+void put_row(const C<float>& row, C<Lanes<float>>& block, std::size_t lane) {
+  const auto* in = reinterpret_cast<const std::byte*>(&row);
+  auto* out = reinterpret_cast<std::byte*>(&block) + 4 * lane;
+  for (std::size_t w = 0; w < sizeof(row) / 4; ++w) std::memcpy(out + 4 * w * lane_count, in + 4 * w, 4);
+}
+template <template <class> class C>
+C<float> first_lane(const C<Lanes<float>>& block) {
+  return row_of(block, 0);
+}
 
 }  // namespace mobil

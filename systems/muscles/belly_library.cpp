@@ -1,4 +1,5 @@
-// Templates and solvers of leg muscles.
+#include "systems/muscles/belly_library.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
-#include "systems/muscles/simulation_muscles.h"
 
 namespace mobil {
 namespace {
@@ -16,10 +16,6 @@ namespace {
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
 constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
 constexpr double most_steps = 1e6;                         // a tick
-
-bool same(const Material& a, const Material& b) {
-  return a.density_kg_m3 == b.density_kg_m3 && a.young_pa == b.young_pa && a.poisson == b.poisson;
-}
 
 /// Of the critical step: the consistent mass is lighter where it matters.
 Mass stepped_mass(const LegMuscles& choice) {
@@ -54,10 +50,6 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
   return steps_of(tick_s, *choice.dt_s);
 }
 
-Error of_muscle(Muscle muscle, const Error& error) {
-  return {fmt::format("{}: {}", muscle_name(muscle), error.message)};
-}
-
 }  // namespace
 
 Result<void> check_choice(const LegMuscles& choice, double tick_s) {
@@ -85,7 +77,7 @@ double foundation_of(const LegMuscles& choice) {
 }
 
 bool same_tissue(const LegMuscles& a, const LegMuscles& b) {
-  return same(a.material, b.material) && a.element == b.element && a.cells == b.cells;
+  return a.material == b.material && a.element == b.element && a.cells == b.cells;
 }
 
 double middle_of_range(double value, double width) {
@@ -94,15 +86,6 @@ double middle_of_range(double value, double width) {
   while (at * width < value) at *= step;
   while (at > value * width) at /= step;
   return at;
-}
-
-bool has_control_points(const LegMuscles& choice) {
-  return choice.method != Method::none && (choice.method != Method::reduced || choice.reduced.control_points);
-}
-
-bool feels_frame(const LegMuscles& choice) {
-  const bool moves = choice.method == Method::reduced && choice.reduced.moving;
-  return choice.inertia && (moves || has_control_points(choice));
 }
 
 std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(Muscle muscle,
@@ -121,7 +104,7 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
   auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   MuscleOptions options;
-  options.far_end = choice.drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;
+  options.far_end = far_end_of(choice);
   options.damping_per_s = choice.damping_per_s;
   options.lowest_ratio = lowest_ratio;
   options.highest_ratio = highest_ratio;
@@ -175,69 +158,24 @@ Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTempl
   return solvers_.back().solver;
 }
 
-Result<BellyLibrary::Common> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice,
-                                                  const BellyScale<float>& scale) {
+Result<SharedBelly> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale,
+                                         double tick_s) {
+  SharedBelly belly;
   const auto made = shape(muscle, choice);
-  if (!made) return tl::unexpected(made.error());
-  Common common{*made, nullptr};
-  if (choice.method != Method::reduced) return common;
-  auto along = basis(muscle, choice, scale);
-  if (!along) return tl::unexpected(along.error());
-  common.basis = std::move(*along);
-  return common;
-}
-
-Result<std::vector<Belly>> BellyLibrary::bellies(const Body& body, const LegMuscles& choice, double tick_s) {
-  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
-  std::vector<Belly> all;
-  for (std::size_t m = 0; m < muscles().size(); ++m) {
-    if (!choice.muscles[m]) continue;
-    const auto muscle = static_cast<Muscle>(m);
-    const auto plan = make_muscle_plan(body, muscle);
-    if (!plan) return tl::unexpected(of_muscle(muscle, plan.error()));
-    auto made = belly(*plan, choice, tick_s);
-    if (!made) return tl::unexpected(of_muscle(muscle, made.error()));
-    all.push_back(std::move(*made));
-  }
-  return all;
-}
-
-Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s) {
-  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
-  Belly belly;
-  belly.plan = plan;
-  const auto made = shape(plan.muscle, choice);
   if (!made) return tl::unexpected(made.error());
   belly.shape = *made;
   if (choice.method == Method::none) return belly;
   if (choice.method == Method::reduced) {
-    auto along = basis(plan.muscle, choice, plan.scale);
+    auto along = basis(muscle, choice, scale);
     if (!along) return tl::unexpected(along.error());
-    ReducedBellies one;
-    if (auto solved = solve_bellies(**along, {&plan.scale, 1}, one); !solved) return tl::unexpected(solved.error());
-    const double damping = (*along)->options.damping_per_s;
-    std::vector<Lanes<float>> words(
-        std::max(reduced_motion_width(one.vectors, one.inputs), reduced_shape_width(one.vectors, one.inputs)));
-    const auto first_lanes = [&](std::size_t width) {
-      std::vector<float> row(width);
-      for (std::size_t w = 0; w < width; ++w) row[w] = words[w][0];
-      return row;
-    };
-    write_motions(one, damping, static_cast<double>(static_cast<float>(tick_s)), words[0].lane);
-    belly.motion = first_lanes(reduced_motion_width(one.vectors, one.inputs));
-    if (choice.reduced.control_points) {
-      write_shapes(one, damping, words[0].lane);
-      belly.rest_shape = first_lanes(reduced_shape_width(one.vectors, one.inputs));
-    }
     belly.basis = std::move(*along);
-    belly.motions = std::make_shared<const ReducedBelly>(belly_of(one, 0));
     return belly;
   }
-  const auto count = steps(*belly.shape->shape, choice, plan.scale, tick_s);
+  const auto count = steps(*belly.shape->shape, choice, scale, tick_s);
   if (!count) return tl::unexpected(count.error());
   belly.steps = *count;
   const auto solve_with = [&](Method method, std::shared_ptr<const BellySolver>& to) -> Result<void> {
-    auto found = solver(*belly.shape, method, choice.mass, tick_s / belly.steps, plan.scale);
+    auto found = solver(*belly.shape, method, choice.mass, tick_s / belly.steps, scale);
     if (!found) return tl::unexpected(found.error());
     to = std::move(*found);
     return {};
@@ -248,6 +186,33 @@ Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choi
   if (choice.inertia) {
     if (auto ok = solve_with(Method::statics, belly.resting); !ok) return tl::unexpected(ok.error());
   }
+  return belly;
+}
+
+Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s) {
+  if (auto ok = check_choice(choice, tick_s); !ok) return tl::unexpected(ok.error());
+  auto common = shared(plan.muscle, choice, plan.scale, tick_s);
+  if (!common) return tl::unexpected(common.error());
+  Belly belly{std::move(*common), plan, {}, {}, {}};
+  if (choice.method != Method::reduced) return belly;
+  const ReducedBasis& basis = *belly.basis;
+  ReducedBellies one;
+  if (auto solved = solve_bellies(basis, {&plan.scale, 1}, one); !solved) return tl::unexpected(solved.error());
+  const double damping = basis.options.damping_per_s;
+  std::vector<Lanes<float>> words(
+      std::max(reduced_motion_width(one.vectors, one.inputs), reduced_shape_width(one.vectors, one.inputs)));
+  const auto first_lanes = [&](std::size_t width) {
+    std::vector<float> row(width);
+    for (std::size_t w = 0; w < width; ++w) row[w] = words[w][0];
+    return row;
+  };
+  write_motions(one, damping, static_cast<double>(static_cast<float>(tick_s)), words[0].lane);
+  belly.motion = first_lanes(reduced_motion_width(one.vectors, one.inputs));
+  if (choice.reduced.control_points) {
+    write_shapes(one, damping, words[0].lane);
+    belly.rest_shape = first_lanes(reduced_shape_width(one.vectors, one.inputs));
+  }
+  belly.motions = std::make_shared<const ReducedBelly>(belly_of(one, 0));
   return belly;
 }
 

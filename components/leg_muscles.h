@@ -1,0 +1,83 @@
+#pragma once
+// What can be chosen of leg muscles: which, by what method, of what tissue, with which effects.
+
+#include <cstdint>
+#include <optional>
+
+#include "components/muscle.h"
+
+namespace mobil {
+
+/// How the far end of a belly is driven: `displacement` makes it follow the line of action exactly, `force` pulls it
+/// with the spring force of the paper's equations 2 and 3.
+enum class Drive : std::uint8_t { displacement, force };
+
+/// Bellies that move along a few vectors of a finer mesh (Method::reduced).
+struct ReducedChoice {
+  std::uint32_t vectors = 12;  // 1–32
+  bool moving = true;          // false: the static answer alone, which has no state
+  bool corrected = true;       // the mesh's own error extrapolated away (assets/reduction/reduced_basis.h)
+  Cells cells = {4, 4, 16};    // of the mesh that the vectors are of; has all nodes of LegMuscles::cells
+  /// Whether someone looks: control points are placed (NodalDisplacement). Without, the state alone goes on.
+  bool control_points = true;
+  /// Whether what control points did is told (BellyReport), which takes more than half as long as placing them.
+  bool reported = true;
+
+  friend bool operator==(const ReducedChoice&, const ReducedChoice&) = default;
+};
+
+/// How one muscle is simulated, at its person's other choices.
+struct MuscleMethod {
+  Method method = Method::ecd;
+  ReducedChoice reduced{};  // of Method::reduced
+};
+
+/// Alike in all that the method depends on.
+inline bool same_method(const MuscleMethod& a, const MuscleMethod& b) {
+  return a.method == b.method && (a.method != Method::reduced || a.reduced == b.reduced);
+}
+
+/// How leg muscles deform. Every choice is a matter of which parts a muscle has (systems/deformation/muscle_kind.h).
+struct LegMuscles {
+  /// Which ones: the groups unless a scene comes close (muscle_members()) or calls for few.
+  MuscleSet muscles{(1U << muscle_group_count) - 1};
+  Drive drive = Drive::displacement;
+  Method method = Method::ecd;
+  ReducedChoice reduced{};  // of Method::reduced
+  Material material{};
+  Element element = Element::full;
+  Mass mass = Mass::lumped;        // of CAA; ECD's is lumped, ICD's consistent, static has none
+  double damping_per_s = 8;        // Rayleigh's α, 0–1000
+  double stiffness_damping_s = 0;  // Rayleigh's β, 0–1
+  bool inertia = false;            // gravity and the acceleration of the muscle's frame
+  bool line_motion = false;        // lengthening speed and moment arms: component LineMotion
+  /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: 7 Hz with
+  /// inertia, where a belly would sag by its own length without, and none otherwise.
+  std::optional<double> foundation_hz{};
+  /// 81 nodes, the paper's choice for real time; meshes of {4, 4, 16}, {8, 8, 32} … have all its nodes.
+  Cells cells = {2, 2, 8};
+  /// Longest step; a tick is cut into equal ones no longer than that. Left out: of ECD and ICD 0.9 of each individual's
+  /// own critical step, of CAA the tick. Static has no steps.
+  std::optional<double> dt_s{};
+
+  friend bool operator==(const LegMuscles&, const LegMuscles&) = default;
+};
+
+/// Whether a muscle of this choice has control points (NodalDisplacement); whether these are reported (BellyReport);
+/// and whether it feels its frame's motion (FrameLoad).
+constexpr bool has_control_points(const LegMuscles& choice) {
+  return choice.method != Method::none && (choice.method != Method::reduced || choice.reduced.control_points);
+}
+constexpr bool is_reported(const LegMuscles& choice) {
+  return has_control_points(choice) && (choice.method != Method::reduced || choice.reduced.reported);
+}
+constexpr bool feels_frame(const LegMuscles& choice) {
+  const bool moves = choice.method == Method::reduced && choice.reduced.moving;
+  return choice.inertia && (moves || has_control_points(choice));
+}
+/// What the far end of its belly may do: held or sliding.
+constexpr FarEnd far_end_of(const LegMuscles& choice) {
+  return choice.drive == Drive::displacement ? FarEnd::held : FarEnd::sliding;
+}
+
+}  // namespace mobil

@@ -1,0 +1,74 @@
+// A system of one's own: walkers tire. A component keeps how tired each is; a system that runs between the library's
+// own lowers the speed that they walk at, one step after the other. Nothing of the library changes.
+//
+// Prints each walker's speed, and exits with 1 where the tired one did not slow down or the other one did.
+
+#include <cmath>
+#include <cstdio>
+
+#include "systems/simulation.h"
+
+using mobil::Lanes, mobil::Whole;
+
+/// How tired a walker is, 0 to 1; what part of the speed asked for the system has left, and in which request; and the
+/// steps counted so far. All zero: fresh.
+template <class F>
+struct Fatigue {
+  F level, left;
+  Whole<F> revision, steps;
+};
+
+/// At each step a walker tires by half a percent at 1 m/s, faster in proportion to the square of speed; wholly tired
+/// they walk at half the speed asked for. `before` is the clock of the tick before: the gait decided here is then there
+/// when this tick's heel strikes ask for it.
+void tire(mobil::Previous<mobil::GaitState> before, mobil::Gait<Lanes<float>>& gait, Fatigue<Lanes<float>>& fatigue) {
+  for (std::size_t lane = 0; lane < mobil::lane_count; ++lane) {
+    if (before->steps[lane] == fatigue.steps[lane]) continue;
+    fatigue.steps[lane] = before->steps[lane];
+    const bool ours = fatigue.left[lane] > 0 && fatigue.revision[lane] == gait.revision[lane];
+    const float asked = gait.speed_m_s[lane] / (ours ? fatigue.left[lane] : 1.0F);
+    fatigue.level[lane] = std::fmin(fatigue.level[lane] + 0.005F * gait.speed_m_s[lane] * gait.speed_m_s[lane], 1.0F);
+    const float left = 1 - 0.5F * fatigue.level[lane];
+    const float slower = asked * left / std::fmax(gait.speed_m_s[lane], 1e-6F);
+    gait.speed_m_s[lane] *= slower;  // steps get shorter and rarer alike
+    gait.step_length_m[lane] *= std::sqrt(slower);
+    gait.step_frequency_hz[lane] *= std::sqrt(slower);
+    fatigue.left[lane] = left;
+    fatigue.revision[lane] = ++gait.revision[lane];  // a new request: steps are solved anew
+  }
+}
+
+mobil::Module fatigue_module() {
+  return {.name = "fatigue",
+          .parts = {mobil::component_part<Fatigue>()},
+          .systems = [](mobil::ScheduleBuilder& systems) { systems.add("fatigue", &tire); }};
+}
+
+int main() {
+  mobil::Simulation simulation({.modules = {fatigue_module()}});
+  mobil::Entity walker[2];
+  for (mobil::Entity& one : walker) {
+    const auto spawned = simulation.spawn({}, {.speed_m_s = 1.6F});
+    if (!spawned) {
+      std::fprintf(stderr, "%s\n", spawned.error().message.c_str());
+      return 2;
+    }
+    one = *spawned;
+  }
+  simulation.world().add(walker[0], Fatigue<float>{});  // the other one never tires, and costs nothing
+
+  for (int second = 0; second < 40; ++second) {
+    for (int tick = 0; tick < 60; ++tick) simulation.tick();
+    if (second % 10 != 9) continue;
+    std::printf("%2d s  tired %.2f: %.2f m/s   fresh: %.2f m/s\n", second + 1,
+                static_cast<double>(simulation.get<Fatigue>(walker[0])->level),
+                static_cast<double>(simulation.get<mobil::Gait>(walker[0])->speed_m_s),
+                static_cast<double>(simulation.get<mobil::Gait>(walker[1])->speed_m_s));
+  }
+  const float tired = simulation.get<mobil::CentreOfMass>(walker[0])->position_m.z;
+  const float fresh = simulation.get<mobil::CentreOfMass>(walker[1])->position_m.z;
+  std::printf("after 40 s the tired one is %.1f m behind\n", static_cast<double>(fresh - tired));
+  const bool slowed = simulation.get<mobil::Gait>(walker[0])->speed_m_s < 1.4F;
+  const bool stayed = simulation.get<mobil::Gait>(walker[1])->speed_m_s == 1.6F;
+  return slowed && stayed && fresh - tired > 2 ? 0 : 1;
+}

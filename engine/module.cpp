@@ -1,0 +1,39 @@
+#include "engine/module.h"
+
+#include <algorithm>
+
+namespace mobil {
+
+const Module* module_of(std::span<const Module> modules, std::uint64_t part) {
+  for (const Module& module : modules) {
+    for (const KeyPart& own : module.parts) {
+      if (own.id == part) return &module;
+    }
+  }
+  return nullptr;
+}
+
+Result<Schedule> make_schedule(std::span<const Module> modules, std::pmr::memory_resource* memory) {
+  ScheduleBuilder systems;
+  for (std::size_t m = 0; m < modules.size(); ++m) {
+    const Module& module = modules[m];
+    const auto before = modules.first(m);
+    const auto same_name = [&](const Module& other) { return other.name == module.name; };
+    if (module.name.empty() || std::any_of(before.begin(), before.end(), same_name)) {
+      return fail("modules: number " + std::to_string(m) + " is named '" + module.name +
+                  "', which is empty or another one's name; give each its own");
+    }
+    for (const KeyPart& part : module.parts) {
+      const Module* const other = module_of(before, part.id);
+      if (other == nullptr) continue;
+      return fail("modules: '" + module.name + "' and '" + other->name + "' both claim " + std::string(part.name) +
+                  "; list it in one of them");
+    }
+    if (!module.systems) continue;
+    systems.begin_module(module.name);
+    module.systems(systems);
+  }
+  return systems.build(memory);
+}
+
+}  // namespace mobil

@@ -1,0 +1,47 @@
+#pragma once
+// One muscle's belly: what it shares with others, and what is its own.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "assets/fem/axial_stiffness.h"
+#include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
+#include "assets/muscles/muscle_plan.h"
+#include "assets/reduction/reduced_basis.h"
+#include "components/leg_muscles.h"
+
+namespace mobil {
+
+struct MuscleLines;  // systems/lines/muscle_lines.h
+
+/// What all people share whose muscles of a kind are alike but for size.
+struct BellyTemplate {
+  LegMuscles choice;
+  Muscle muscle{};
+  std::shared_ptr<const MuscleTemplate> shape;
+  std::shared_ptr<const MuscleLines> lines;
+  AxialStiffness axial;
+  StaticStretch stretch;  // of the template's own size
+};
+
+/// What muscles of one choice and about one size share. Those of alike ones share a table.
+struct SharedBelly {
+  const BellyTemplate* shape = nullptr;
+  std::uint32_t steps = 1;                     // a tick
+  std::shared_ptr<const BellySolver> solver;   // of ICD, CAA and static
+  std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; else null
+  std::shared_ptr<const ReducedBasis> basis;   // of reduced
+
+  friend bool operator==(const SharedBelly&, const SharedBelly&) = default;
+};
+
+/// One muscle of one person.
+struct Belly : SharedBelly {
+  MusclePlan plan;
+  std::shared_ptr<const ReducedBelly> motions;  // of reduced: this body's own
+  std::vector<float> motion, rest_shape;        // and its rows, ReducedMotion and ReducedShape
+};
+
+}  // namespace mobil

@@ -1,0 +1,130 @@
+#include "systems/deformation/belly_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "components/fade.h"
+#include "engine/rows.h"
+#include "systems/deformation/deformation.h"
+#include "systems/deformation/fade.h"
+
+namespace mobil {
+namespace {
+
+struct alignas(64) Words {
+  float lane[lane_count];
+};
+
+BellyLoad at_start(BellyLoad load) {
+  load.to = load.from;
+  if (load.frame) {
+    load.frame->constant_to = load.frame->constant_from;
+    load.frame->gradient_to = load.frame->gradient_from;
+  }
+  return load;
+}
+
+}  // namespace
+
+void solve_static(const StaticBelly& belly, const BellyLoad& load, int solutions, std::vector<float>& displacement) {
+  std::vector<Words> block(displacement.size());
+  for (std::size_t i = 0; i < block.size(); ++i) std::fill_n(block[i].lane, lane_count, displacement[i]);
+  std::vector<Words> scratch(scratch_floats(belly.shape, Method::statics) / lane_count + 1);
+  const auto scale = broadcast(belly.scale);
+  FrameLoad<Lanes<float>> frame;
+  if (load.frame) frame = broadcast(*load.frame);
+  BellyReport<Lanes<float>> report;
+  const BellyBlock bellies{belly.shape,
+                           scale,
+                           block.data()->lane,
+                           block.data()->lane,
+                           report,
+                           Stiffness::individual,
+                           load.frame ? &frame : nullptr,
+                           false};
+  const auto end = broadcast(EndDrive<float>{load.from, load.to});
+  for (int i = 0; i < solutions; ++i) {
+    deform_implicit(bellies, belly.solver, {load.far_end, end}, 1, 1.0F, scratch.data()->lane);
+  }
+  for (std::size_t i = 0; i < block.size(); ++i) displacement[i] = block[i].lane[0];
+}
+
+std::vector<float> static_velocity(const StaticBelly& belly, const BellyLoad& load,
+                                   const std::vector<float>& displacement) {
+  constexpr float least = 1e-6F;  // of what drives the far face, m or N, that a shape in proportion to it is scaled by
+  const bool scales = std::abs(load.to) > least;
+  std::vector<float> before = displacement;
+  if (scales) {
+    for (float& u : before) u *= load.from / load.to;
+  }
+  if (load.frame || !scales) {
+    if (load.frame) before = displacement;
+    solve_static(belly, at_start(load), load.frame ? static_solutions::once : static_solutions::from_nothing, before);
+  }
+  std::vector<float> velocity(displacement.size());
+  for (std::size_t i = 0; i < velocity.size(); ++i) velocity[i] = (displacement[i] - before[i]) / load.tick_s;
+  return velocity;
+}
+
+BellyMotion stretched(const Belly& belly, const LineOfAction<float>& line, const BellyLoad& load) {
+  const auto& [across, along] = belly.plan.scale;
+  const float per_metre = load.far_end == FarEnd::held ? 1.0F : 1 / line.stiffness_n_per_m;
+  const float length = line.length_m - line.rest_length_m, speed = per_metre * (load.to - load.from) / load.tick_s;
+  const std::size_t width = nodal_width(belly.shape->shape->mesh.cells);
+  BellyMotion motion{std::vector<float>(width), std::vector<float>(width)};
+  const float sideways = across / along;
+  for (std::size_t i = 0; i < width; ++i) {
+    const auto share = static_cast<float>(belly.shape->stretch.displacement[i]);
+    motion.displacement[i] = (i % 3 == 2 ? length : length * sideways) * share;
+    motion.velocity[i] = (i % 3 == 2 ? speed : speed * sideways) * share;
+  }
+  return motion;
+}
+
+void settle_belly(const Belly& belly, const BellySolver& solver, const BellyLoad& load, int solutions,
+                  BellyMotion& motion, bool moves) {
+  const StaticBelly of{*belly.shape->shape, solver, belly.plan.scale};
+  solve_static(of, load, solutions, motion.displacement);
+  if (moves) motion.velocity = static_velocity(of, load, motion.displacement);
+}
+
+BellyLoad load_of(const World& world, Entity muscle, float tick_s) {
+  BellyLoad load;
+  load.tick_s = tick_s;
+  if (const auto end = world.get<EndDrive>(muscle)) {
+    load.far_end = static_cast<FarEnd>(world.get<FarEnd>(muscle).value_or(0));
+    load.from = end->from;
+    load.to = end->to;
+  }
+  if (const auto frame = world.get<FrameLoad>(muscle)) load.frame = *frame;
+  return load;
+}
+
+void add_fade(const World& world, Entity muscle, float tick_s, BellyMotion& motion) {
+  const auto fade = world.get<Fade>(muscle);
+  if (!fade) return;
+  const FadeShare share = fade_share(static_cast<float>(fade->ticks) * tick_s);
+  const std::vector<float> start = field_of<FadeStart>(world, muscle);
+  const std::size_t width = motion.displacement.size();
+  for (std::size_t i = 0; i < width; ++i) {
+    motion.displacement[i] += share.displacement * start[i] + share.velocity * start[width + i];
+    motion.velocity[i] += share.displacement_rate * start[i] + share.velocity_rate * start[width + i];
+  }
+}
+
+std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& after) {
+  constexpr float least_m = 1e-5F;
+  constexpr float top = 4.0F / 27;  // of x(1 − x)²
+  const std::size_t width = before.displacement.size();
+  std::vector<float> fade(2 * width);
+  bool seen = false;
+  for (std::size_t i = 0; i < width; ++i) {
+    fade[i] = before.displacement[i] - after.displacement[i];
+    fade[width + i] = before.velocity[i] - after.velocity[i];
+    seen = seen || std::abs(fade[i]) > least_m || top * fade_s * std::abs(fade[width + i]) > least_m;
+  }
+  if (!seen) fade.clear();
+  return fade;
+}
+
+}  // namespace mobil

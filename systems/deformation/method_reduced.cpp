@@ -1,0 +1,205 @@
+#include "systems/deformation/method_reduced.h"
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "systems/deformation/reduced.h"
+#include "systems/deformation/reduced_bellies.h"
+
+namespace mobil {
+namespace {
+
+void move(Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
+          const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedMotion> motion,
+          Field<ReducedState> state) {
+  deform_reduced({*basis, scale, state.data, motion.data, frame.block, state.next, motion.next},
+                 {basis->options.far_end, end}, tick_s);
+}
+
+/// A block whose state is only read here.
+ReducedBlock read_only(const ReducedBasis& basis, const BellyScale<Lanes<float>>& scale, const float* state,
+                       const float* motion, const FrameLoad<Lanes<float>>* frame) {
+  return {basis, scale, const_cast<float*>(state), motion, frame};
+}
+
+void place(Shared<ReducedBasis> basis, const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end,
+           Maybe<FrameLoad> frame, Field<const ReducedState> state, Field<const ReducedShape> shape,
+           Field<NodalDisplacement> displacement) {
+  ReducedBlock block = read_only(*basis, scale, state.data, nullptr, frame.block);
+  block.next_state = state.next;
+  place_control_points(block, {shape.data, displacement.data, false, shape.next}, {basis->options.far_end, end});
+}
+
+void place_still(Shared<ReducedBasis> basis, TagValue<ReducedStatic>, const BellyScale<Lanes<float>>& scale,
+                 const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedShape> shape,
+                 Field<NodalDisplacement> displacement) {
+  place_static(read_only(*basis, scale, nullptr, nullptr, frame.block),
+               {shape.data, displacement.data, false, shape.next}, {basis->options.far_end, end});
+}
+
+/// Of moving bellies and of static ones. (With several inputs the motion's participations are read.)
+void report(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
+            const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
+            MaybeField<ReducedMotion> motion, MaybeField<ReducedState> state, Field<const ReducedShape> shape,
+            Field<const NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+  const ControlPoints points{shape.data, const_cast<float*>(displacement.data)};  // read-only here
+  report_reduced(read_only(*basis, scale, state.data, motion.data, frame.block), *control, points,
+                 {basis->options.far_end, end}, tick_s, report);
+}
+
+Module reduced_module() {
+  return {.name = "deformation, reduced",
+          .parts = {key_part(Shared<ReducedBasis>{}), key_part(FieldWidth<ReducedState>{}),
+                    key_part(FieldWidth<ReducedMotion>{}), key_part(FieldWidth<ReducedShape>{}),
+                    key_part(TagValue<ReducedStatic>{})},
+          .systems = [](ScheduleBuilder& systems) {
+            systems.add("deformation, reduced", &move)
+                .add("control points", &place)
+                .after("deformation, static")
+                .add("control points, static", &place_still)
+                .after("control points")
+                .add("reports", &report)
+                .after("deformation, static");
+          }};
+}
+
+void reduced_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {
+  const ReducedBasis& basis = *kind.basis;
+  const ReducedChoice& choice = kind.method.reduced;
+  const auto field = [&]<class Tag>(Tag, std::size_t width) {
+    parts.push_back(key_part(FieldWidth<Tag>{static_cast<std::uint32_t>(width)}));
+  };
+  parts.push_back(key_part(kind.basis));
+  if (choice.moving) {
+    field(ReducedState{}, reduced_state_width(basis.vectors));
+  } else {
+    parts.push_back(key_part(TagValue<ReducedStatic>{1}));
+  }
+  const bool reported = choice.control_points && choice.reported;
+  if (choice.moving || (reported && basis.inputs > 1)) {  // there the report reads participations
+    field(ReducedMotion{}, reduced_motion_width(basis.vectors, basis.inputs));
+  }
+  if (choice.control_points) field(ReducedShape{}, reduced_shape_width(basis.vectors, basis.inputs));
+}
+
+bool recognise(const TableKey& key, MuscleKind& kind) {
+  if (kind.basis.resource == nullptr) return false;
+  const ReducedBasis& basis = *kind.basis;
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  kind.method = {Method::reduced,
+                 {basis.vectors, !has(type_id<ReducedStatic>()), basis.options.corrected, basis.cells,
+                  has(type_id<ReducedShape>()), has(type_id<BellyReport<float>>())}};
+  return true;
+}
+
+/// The inputs of a reduced belly and their rates.
+struct Inputs {
+  std::array<double, 1 + frame_inputs> value{}, rate{};
+  std::size_t count = 1;
+
+  std::span<const double> values() const { return {value.data(), count}; }
+  std::span<const double> rates() const { return {rate.data(), count}; }
+};
+
+Inputs inputs_of(const BellyLoad& load, std::uint32_t count) {
+  Inputs inputs;
+  inputs.count = count;
+  const auto set = [&](std::size_t i, float from, float to) {
+    inputs.value[i] = static_cast<double>(to);
+    inputs.rate[i] = (static_cast<double>(to) - static_cast<double>(from)) / static_cast<double>(load.tick_s);
+  };
+  set(0, load.from, load.to);
+  if (count == 1 || !load.frame) return inputs;
+  const FrameLoad<float>& f = *load.frame;
+  const std::pair<const Vec3<float>*, const Vec3<float>*> rows[] = {{&f.constant_from, &f.constant_to},
+                                                                    {&f.gradient_from.x, &f.gradient_to.x},
+                                                                    {&f.gradient_from.y, &f.gradient_to.y},
+                                                                    {&f.gradient_from.z, &f.gradient_to.z}};
+  std::size_t next = 1;
+  for (const auto& [from, to] : rows) {
+    set(next++, from->x, to->x);
+    set(next++, from->y, to->y);
+    set(next++, from->z, to->z);
+  }
+  return inputs;
+}
+
+/// Motions at the speed of their static answers: behind these by as much as damping holds them back, or right there.
+std::vector<float> state_with_loads(const ReducedBelly& belly, const Inputs& inputs, double damping_per_s) {
+  std::vector<float> state(reduced_state_width(belly.vectors));
+  for (std::size_t j = 0; j < belly.vectors; ++j) {
+    double rate = inputs.rate[0];  // with one input a motion is kept over its participation
+    if (inputs.count > 1) {
+      rate = 0;
+      for (std::size_t i = 0; i < inputs.count; ++i) rate += belly.participation[j][i] * inputs.rate[i];
+    }
+    state[2 * j] = static_cast<float>(-damping_per_s / belly.omega_1_s[j] * rate);
+    state[2 * j + 1] = static_cast<float>(rate);
+  }
+  return state;
+}
+
+/// The state that goes on from `motion`.
+std::vector<float> reduced_state(const Belly& belly, const BellyLoad& load, const BellyMotion& motion) {
+  const ReducedBasis& basis = *belly.basis;
+  const Inputs inputs = inputs_of(load, basis.inputs);
+  std::vector<float> state(reduced_state_width(basis.vectors));
+  fit_state(basis, *belly.motions, inputs.values(), inputs.rates(), motion.displacement, motion.velocity, state);
+  return state;
+}
+
+/// What a state shows; an empty one: the static answer.
+BellyMotion reduced_motion(const ReducedBasis& basis, const ReducedBelly& belly, const BellyLoad& load,
+                           const std::vector<float>& state) {
+  const Inputs inputs = inputs_of(load, basis.inputs);
+  const std::size_t width = 3 * basis.control_weight.size();
+  BellyMotion motion{std::vector<float>(width), std::vector<float>(width)};
+  show_state(basis, belly, inputs.values(), inputs.rates(), state.empty() ? state_with_loads(belly, inputs, 0) : state,
+             motion.displacement, motion.velocity);
+  return motion;
+}
+
+std::optional<BellyMotion> computed(const World& world, Entity muscle, float tick_s, LastReducedBelly& last) {
+  const BellyScale<float> scale = *world.get<BellyScale>(muscle);
+  const auto* basis = world.shared<ReducedBasis>(muscle);
+  if (last.basis != basis || last.scale.across != scale.across || last.scale.along != scale.along) {
+    ReducedBellies one;
+    if (!solve_bellies(*basis, {&scale, 1}, one)) return std::nullopt;  // cannot happen: the same was solved before
+    last = {basis, scale, belly_of(one, 0)};
+  }
+  return reduced_motion(*basis, last.belly, load_of(world, muscle, tick_s), field_of<ReducedState>(world, muscle));
+}
+
+Beginning begin(const NextBelly& next, bool moves) {
+  Beginning from;
+  const ReducedBasis& basis = *next.belly.basis;
+  if (next.choice.reduced.moving) {
+    from.state =
+        moves ? state_with_loads(*next.belly.motions, inputs_of(next.load, basis.inputs), basis.options.damping_per_s)
+              : std::vector<float>(reduced_state_width(basis.vectors));
+  }
+  if (has_control_points(next.choice)) {
+    from.displacement = reduced_motion(basis, *next.belly.motions, next.load, from.state).displacement;
+  }
+  return from;
+}
+
+Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
+  Beginning from;
+  if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, past.shown);
+  if (!has_control_points(next.choice)) return from;
+  BellyMotion after =
+      keeps ? past.computed : reduced_motion(*next.belly.basis, *next.belly.motions, next.load, from.state);
+  if (past.seen) from.fade = fade_between(past.shown, after);
+  from.displacement = std::move(after.displacement);
+  return from;
+}
+
+}  // namespace
+
+constinit const DeformationMethod reduced_method = {Method::reduced, &reduced_module, &reduced_parts, &recognise,
+                                                    &computed,       &begin,          &go_on};
+
+}  // namespace mobil

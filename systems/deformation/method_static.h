@@ -1,0 +1,10 @@
+#pragma once
+// Bellies that take the static answer to each tick's load.
+
+#include "systems/deformation/method.h"
+
+namespace mobil {
+
+extern const DeformationMethod static_method;
+
+}  // namespace mobil

@@ -1,0 +1,88 @@
+#include "systems/deformation/method_stepped.h"
+
+#include <algorithm>
+
+#include "systems/deformation/deformation.h"
+
+namespace mobil {
+namespace {
+
+void deform(Shared<MuscleTemplate> shape, TagValue<Substeps> substeps, float tick_s, Scratch<ScratchFloats> scratch,
+            const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
+            Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity, BellyReport<Lanes<float>>& report) {
+  deform_explicit({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
+                  {shape->options.far_end, end}, static_cast<std::uint32_t>(substeps.value), tick_s, scratch.data);
+}
+
+void solve(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<SolvedSteps> steps, float tick_s,
+           Scratch<ScratchFloats> scratch, const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end,
+           Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity,
+           BellyReport<Lanes<float>>& report) {
+  deform_implicit({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
+                  *solver, {shape->options.far_end, end}, static_cast<std::uint32_t>(steps.value), tick_s,
+                  scratch.data);
+}
+
+void stepped_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {
+  const MuscleTemplate& shape = *kind.shape;
+  const auto width = static_cast<std::uint32_t>(nodal_width(shape.mesh.cells));
+  parts.push_back(key_part(TagValue<ScratchFloats>{scratch_floats(shape, kind.method.method)}));
+  parts.push_back(key_part(FieldWidth<NodalVelocity>{width}));
+  if (kind.method.method == Method::ecd) {
+    parts.push_back(key_part(TagValue<Substeps>{kind.steps}));
+  } else {
+    parts.push_back(key_part(TagValue<SolvedSteps>{kind.steps}));
+    parts.push_back(key_part(kind.solver));
+  }
+}
+
+template <Method method>
+bool recognise(const TableKey& key, MuscleKind& kind) {
+  const KeyPart* const steps = find_part(key, method == Method::ecd ? type_id<Substeps>() : type_id<SolvedSteps>());
+  if (steps == nullptr || kind.shape.resource == nullptr) return false;
+  if (method != Method::ecd && (kind.solver.resource == nullptr || kind.solver->method != method)) return false;
+  kind.method.method = method;
+  kind.steps = static_cast<std::uint32_t>(steps->value);
+  return kind.steps == steps->value;
+}
+
+std::optional<BellyMotion> computed(const World& world, Entity muscle, float, LastReducedBelly&) {
+  return BellyMotion{field_of<NodalDisplacement>(world, muscle), field_of<NodalVelocity>(world, muscle)};
+}
+
+Beginning begin(const NextBelly& next, bool moves) {
+  BellyMotion motion = stretched(next.belly, next.line, next.load);
+  if (next.choice.inertia) {
+    settle_belly(next.belly, *next.belly.resting, next.load,
+                 moves ? static_solutions::from_nearby : static_solutions::from_nothing, motion, moves);
+  }
+  if (!moves) std::fill(motion.velocity.begin(), motion.velocity.end(), 0.0F);
+  return {std::move(motion.displacement), std::move(motion.velocity), {}, {}};
+}
+
+Beginning go_on(const NextBelly&, const PastBelly& past, bool) {
+  return {past.shown.displacement, past.shown.velocity, {}, {}};
+}
+
+Module explicit_module() {
+  return {.name = "deformation, explicit",
+          .parts = {key_part(TagValue<Substeps>{}), key_part(FieldWidth<NodalVelocity>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("deformation", &deform); }};
+}
+
+Module implicit_module() {
+  return {.name = "deformation, implicit",
+          .parts = {key_part(TagValue<SolvedSteps>{}), key_part(Shared<BellySolver>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("deformation, solved", &solve).after("deformation"); }};
+}
+
+}  // namespace
+
+constinit const DeformationMethod explicit_method = {
+    Method::ecd, &explicit_module, &stepped_parts, &recognise<Method::ecd>, &computed, &begin, &go_on};
+constinit const DeformationMethod implicit_method = {
+    Method::icd, &implicit_module, &stepped_parts, &recognise<Method::icd>, &computed, &begin, &go_on};
+constinit const DeformationMethod newmark_method = {Method::caa, nullptr, &stepped_parts, &recognise<Method::caa>,
+                                                    &computed,   &begin,  &go_on};
+
+}  // namespace mobil

@@ -1,0 +1,11 @@
+#pragma once
+// Bellies whose displacements and velocities of nodes are the state: explicit central differences (ECD), and the
+// implicit ones that solve for each step (ICD, CAA).
+
+#include "systems/deformation/method.h"
+
+namespace mobil {
+
+extern const DeformationMethod explicit_method, implicit_method, newmark_method;
+
+}  // namespace mobil

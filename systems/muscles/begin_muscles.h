@@ -1,0 +1,51 @@
+#pragma once
+// Muscles that begin, on one person or on many at once, sixteen to a block.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <tl/expected.hpp>
+#include <vector>
+
+#include "components/leg_frames.h"
+#include "components/muscle.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/world.h"
+#include "systems/muscles/belly_library.h"
+#include "systems/people/simulation_people.h"
+
+namespace mobil {
+
+/// Of a person's muscle what its rows say of its size.
+struct MuscleSize {
+  BellyScale<float> scale{};
+  LegScale<float> leg_scale{};
+  float rest_length_m = 0;
+};
+MuscleSize size_of(const MusclePlan& plan);
+
+/// What could not be made, and of which of the people.
+struct NotMade {
+  std::size_t person = 0;
+  Error error;
+};
+
+/// The present tick, and what muscles share.
+struct MuscleTime {
+  std::uint32_t tick;
+  double tick_s;
+};
+
+/// Muscles of a choice in range begin on people who are in the world and have none of them, at rest where these stand
+/// (with inertia under the load of that moment). `size` and `own`: one of each muscle chosen, in the table's order,
+/// person after person; `own` is written. Entities are appended to `made` as they come, for which there is room:
+/// after an error, or when memory runs out, the caller undoes them. Errors: a fixed step above an individual's critical
+/// step, which names the muscle and the limit.
+tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice,
+                                          const MuscleTime& time, const Jobs& jobs, std::span<const Entity> people,
+                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own,
+                                          std::vector<Entity>& made);
+
+}  // namespace mobil

@@ -1,0 +1,90 @@
+#pragma once
+// What people share whose muscles are chosen alike: meshes, factorised operators, bases; each made once.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "assets/fem/belly_solver.h"
+#include "assets/muscles/muscle_plan.h"
+#include "assets/muscles/muscle_table.h"
+#include "assets/reduction/reduced_basis.h"
+#include "components/leg_muscles.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "systems/deformation/belly.h"
+
+namespace mobil {
+
+/// Templates, solvers and bases, made when they are first asked for and kept. Solvers and bases are those of bodies in
+/// the middle of a range of sizes: what one gets depends on one's own size alone.
+class BellyLibrary {
+ public:
+  /// What a muscle of that size and choice (in range) shares with others. Errors: a `dt_s` above its critical step,
+  /// which names the limit.
+  Result<SharedBelly> shared(Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale, double tick_s);
+  /// The same with what is its own.
+  Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
+  /// Makes all that bodies of usual size share: templates and bases by jobs, solvers one after the other. Errors: as
+  /// above.
+  Result<void> prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs);
+
+ private:
+  friend class ResourceList;  // systems/snapshot/simulation_resources.h
+
+  struct Solver {
+    const BellyTemplate* shape;
+    std::shared_ptr<const BellySolver> solver;
+  };
+  /// Made with most_vectors; the others are the first ones of those.
+  struct BasisKey {
+    double ratio, product;  // in the middle of the bodies that it is for
+    bool operator==(const BasisKey&) const = default;
+  };
+  struct Basis {
+    Muscle muscle;
+    LegMuscles choice;
+    double middle_ratio, middle_product;
+    std::shared_ptr<const ReducedBasis> whole;
+    std::vector<std::shared_ptr<const ReducedBasis>> cut;
+  };
+
+  Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
+  /// The template, or null; and one that differs in what the tissue itself does not depend on, or null.
+  std::pair<const BellyTemplate*, const BellyTemplate*> find_shape(Muscle muscle, const LegMuscles& choice) const;
+  static Result<std::unique_ptr<BellyTemplate>> make_shape(Muscle muscle, const LegMuscles& choice,
+                                                           const BellyTemplate* alike);
+  Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
+                                                    const BellyScale<float>& scale);
+  Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,
+                                                    const BellyScale<float>& scale);
+  static BasisKey basis_key(const LegMuscles& choice, double ratio, double product);
+  static std::vector<BasisKey> usual_bases(const LegMuscles& choice);
+  Basis* find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
+  static Result<Basis> make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
+  static std::shared_ptr<const ReducedBasis> cut(Basis& made, std::uint32_t vectors);
+  void prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s);
+
+  std::vector<std::unique_ptr<BellyTemplate>> templates_;
+  std::vector<Solver> solvers_;
+  std::vector<Basis> bases_;
+};
+
+/// Of bellies against their templates, what people of usual build have: across over along, and across times along. One
+/// person in a thousand is beyond; with vectors of the usual mesh those are prepared for too.
+namespace usual_sizes {
+inline constexpr double least_ratio = 0.80, most_ratio = 1.26, least_product = 0.6, most_product = 1.3;
+inline constexpr double rare_ratio = 1.05;  // times more or less
+}  // namespace usual_sizes
+/// Whether a choice is in range, as far as that does not take a body to say.
+Result<void> check_choice(const LegMuscles& choice, double tick_s);
+/// Of a choice in range: the sideways foundation, Hz.
+double foundation_of(const LegMuscles& choice);
+bool same_tissue(const LegMuscles& a, const LegMuscles& b);
+/// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
+/// multiplication alone: the same on every machine.
+double middle_of_range(double value, double width);
+
+}  // namespace mobil

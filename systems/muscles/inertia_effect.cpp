@@ -1,0 +1,37 @@
+#include "systems/muscles/inertia_effect.h"
+
+#include "engine/rows.h"
+#include "systems/lines/frame_motion.h"
+
+namespace mobil {
+namespace {
+
+Module module() {
+  return {.name = "inertia",
+          .parts = {component_part<FrameLoad>(), component_part<FrameHistory>()},
+          .systems = [](ScheduleBuilder& systems) { systems.add("frame motion", &frame_motion); }};
+}
+
+bool wanted(const MuscleKind& kind) {
+  return kind.inertia;
+}
+
+/// The motion of the muscle's frame up to now, as far as it is known, as the ticks before would have recorded it.
+void begin(const EffectStart& start, RowValues& values) {
+  if (start.world.has<FrameHistory>(start.entity) && start.world.has<FrameLoad>(start.entity)) return;
+  look_back(start.world, start.human, start.tick, start.tick_s, start.recent);
+  FrameHistory<Lanes<float>> history{};
+  FrameLoad<Lanes<float>> load{};
+  for (const Pose<float>& pose : start.recent.poses) {
+    const auto line = first_line(start.lines, start.leg_scale, FarEnd::held, {}, pose, start.side).line;
+    frame_motion(broadcast(line), history, load, start.tick_s);
+  }
+  values.set(first_lane(history));
+  values.set(first_lane(load));
+}
+
+}  // namespace
+
+constinit const MuscleEffect inertia_effect = {&module, &wanted, &begin};
+
+}  // namespace mobil

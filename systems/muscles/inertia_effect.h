@@ -1,0 +1,10 @@
+#pragma once
+// The effect LegMuscles::inertia: gravity and the acceleration of the muscle's frame, as loads of the belly.
+
+#include "systems/muscles/muscle_effect.h"
+
+namespace mobil {
+
+extern const MuscleEffect inertia_effect;
+
+}  // namespace mobil

@@ -1,0 +1,40 @@
+#include "systems/muscles/line_motion_effect.h"
+
+#include "engine/rows.h"
+#include "systems/lines/line_motion.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/muscles/owner_legs.h"
+
+namespace mobil {
+namespace {
+
+void move_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
+                Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LineOfAction<Lanes<float>>& line,
+                LineMotion<Lanes<float>>& motion, float tick_s) {
+  line_motion(*lines, scale, legs_of(posts, owner, ahead), line, motion, tick_s);
+}
+
+Module module() {
+  return {.name = "line motion", .parts = {component_part<LineMotion>()}, .systems = [](ScheduleBuilder& systems) {
+            systems.add("line motion", &move_lines);
+          }};
+}
+
+bool wanted(const MuscleKind& kind) {
+  return kind.line_motion;
+}
+
+/// A line that has just begun does not lengthen yet.
+void begin(const EffectStart& start, RowValues& values) {
+  if (start.world.has<LineMotion>(start.entity)) return;
+  LineMotion<Lanes<float>> motion{};
+  line_motion(start.lines, broadcast(start.leg_scale), leg_of(*start.world.get<Pose>(start.human), start.side),
+              broadcast(start.line), motion, start.tick_s);
+  values.set(first_lane(motion));
+}
+
+}  // namespace
+
+constinit const MuscleEffect line_motion_effect = {&module, &wanted, &begin};
+
+}  // namespace mobil

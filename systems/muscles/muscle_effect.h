@@ -1,0 +1,77 @@
+#pragma once
+// An effect of a muscle beside its method, as one value: the parts that it puts on the row, what these begin with, and
+// its systems. Each has a file of its own here (line_motion_effect, inertia_effect) and a row in `muscle_effects`.
+
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "components/leg_frames.h"
+#include "components/leg_muscles.h"
+#include "components/pose.h"
+#include "engine/module.h"
+#include "engine/world.h"
+#include "systems/deformation/method.h"
+#include "systems/muscles/recent_poses.h"
+
+namespace mobil {
+
+/// Values that rows begin with, by part: whole rows of components and fields.
+class RowValues {
+ public:
+  template <template <class> class C>
+  void set(const C<float>& row) {
+    set(type_id<C<float>>(), &row, sizeof(row) / 4);
+  }
+  template <class Tag>
+  void set_field(std::span<const float> row) {
+    if (!row.empty()) set(type_id<Tag>(), row.data(), row.size());
+  }
+  template <template <class> class C>
+  std::optional<C<float>> get() const {
+    const float* const words = find(type_id<C<float>>());
+    if (words == nullptr) return std::nullopt;
+    C<float> row;
+    std::memcpy(&row, words, sizeof(row));
+    return row;
+  }
+  /// A part's words; null where it has none here: it keeps what the row has, or begins with zeros.
+  const float* find(std::uint64_t part) const;
+
+ private:
+  struct Value {
+    std::uint64_t part;
+    std::size_t first, words;
+  };
+  void set(std::uint64_t part, const void* words, std::size_t count);
+
+  std::vector<Value> values_;
+  std::vector<float> words_;
+};
+
+/// A muscle that begins with an effect. `entity` may be stale: then it has nothing of the effect yet.
+struct EffectStart {
+  const World& world;
+  Entity entity, human;
+  Side side;
+  const MuscleLines& lines;
+  const LegScale<float>& leg_scale;
+  const LineOfAction<float>& line;
+  std::uint32_t tick;
+  float tick_s;
+  RecentPoses& recent;
+};
+
+struct MuscleEffect {
+  /// Its systems, and every part that it puts on rows.
+  Module (*module)();
+  bool (*wanted)(const MuscleKind& kind);
+  /// The values that its parts begin with; those of a muscle that has them go on.
+  void (*begin)(const EffectStart& start, RowValues& values);
+};
+
+std::span<const MuscleEffect> muscle_effects();
+
+}  // namespace mobil

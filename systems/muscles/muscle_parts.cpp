@@ -1,0 +1,213 @@
+#include "systems/muscles/muscle_parts.h"
+
+#include <algorithm>
+#include <string>
+
+#include "components/fade.h"
+#include "engine/snapshot.h"
+#include "systems/deformation/fade.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/muscles/muscle_effect.h"
+#include "systems/muscles/owner_legs.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::uint32_t most_steps = 1'000'000;  // a tick
+
+void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
+                  Shared<MuscleLines> lines, TagValue<FarEnd> far_end, const LegScale<Lanes<float>>& scale,
+                  LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
+  lines_of_action(*lines, scale, legs_of(posts, owner, ahead), static_cast<FarEnd>(far_end.value), line, end);
+}
+
+void fade(float tick_s, Field<const NodalDisplacement> displacement, Field<const FadeStart> start,
+          Fade<Lanes<float>>& since, Field<ShownDisplacement> shown) {
+  fade_out(displacement.data, start.data, displacement.words, since, shown.data, tick_s);
+}
+
+Result<void> check_key(const TableKey& key, const World& world) {
+  const bool ours = std::any_of(key.begin(), key.end(), [](const KeyPart& part) {
+    return std::ranges::binary_search(muscle_part_ids(), part.id);
+  });
+  if (!ours || muscle_kind(key, world)) return {};
+  return fail("the snapshot does not agree with itself (the parts of a muscle); give one that `save` made");
+}
+
+/// Sides that lists are read by, those of the lanes without a row too.
+Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
+  const std::uint32_t owner = saved.column(table, type_id<MuscleOwner<float>>());
+  if (owner == Table::no_column) return {};
+  const auto lanes = static_cast<std::uint32_t>((saved.tables[table].rows + lane_count - 1) / lane_count * lane_count);
+  std::uint32_t all = 0;
+  for (std::uint32_t row = 0; row < lanes; ++row) all |= saved.word(table, row, owner + 2);
+  if (all <= 1) return {};
+  return fail("the snapshot does not agree with itself (the side of a muscle); give one that `save` made");
+}
+
+/// What each effect puts on a row.
+const std::vector<std::vector<KeyPart>>& effect_parts() {
+  static const std::vector<std::vector<KeyPart>> all = [] {
+    std::vector<std::vector<KeyPart>> of;
+    for (const MuscleEffect& effect : muscle_effects()) of.push_back(effect.module().parts);
+    return of;
+  }();
+  return all;
+}
+
+/// The kind that a key's tags and resources tell of; nothing where they tell of no muscle.
+std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const auto shared = [&]<class T>(Shared<T>& to) {
+    if (const KeyPart* const part = find_part(key, type_id<T>()))
+      to = {static_cast<const T*>(world.resource(part->value)), part->value};
+  };
+  const KeyPart* const muscle = find_part(key, type_id<Muscle>());
+  const KeyPart* const far_end = find_part(key, type_id<FarEnd>());
+  if (muscle == nullptr || far_end == nullptr || muscle->value >= most_muscles) return std::nullopt;
+  if (far_end->value > static_cast<std::uint64_t>(FarEnd::sliding)) return std::nullopt;
+  MuscleKind kind;
+  kind.muscle = static_cast<Muscle>(muscle->value);
+  kind.far_end = static_cast<FarEnd>(far_end->value);
+  kind.inertia = has(type_id<FrameLoad<float>>());
+  kind.line_motion = has(type_id<LineMotion<float>>());
+  kind.fading = has(type_id<Fade<float>>());
+  shared(kind.lines);
+  shared(kind.shape);
+  shared(kind.solver);
+  shared(kind.basis);
+  if (kind.lines.resource == nullptr) return std::nullopt;
+  kind.method.method = Method::none;
+  for (const DeformationMethod& method : deformation_methods()) {
+    if (method.recognise(key, kind)) break;
+  }
+  return kind;
+}
+
+/// Whether what is shared fits the kind, and each other.
+bool fits_together(const MuscleKind& kind) {
+  const auto* shape = kind.shape.resource;
+  const auto* basis = kind.basis.resource;
+  if (kind.steps < 1 || kind.steps > most_steps) return false;
+  if (shape != nullptr && shape->options.far_end != kind.far_end) return false;
+  if (basis == nullptr) return true;
+  return basis->options.far_end == kind.far_end && (!basis->options.frame_loads || kind.inertia) &&
+         (shape == nullptr || basis->options.control_cells == shape->mesh.cells);
+}
+
+bool same_parts(std::vector<KeyPart> due, const TableKey& key) {
+  std::ranges::sort(due, {}, &KeyPart::id);
+  std::vector<KeyPart> there;
+  std::ranges::copy_if(key, std::back_inserter(there),
+                       [](const KeyPart& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); });
+  return due == there;
+}
+
+}  // namespace
+
+Module muscles_module() {
+  return {.name = "muscles",
+          .parts = {component_part<MuscleOwner>(), component_part<LegScale>(), component_part<LineOfAction>(),
+                    component_part<EndDrive>(), key_part(TagValue<FarEnd>{}), key_part(TagValue<Muscle>{}),
+                    key_part(Shared<MuscleLines>{}), component_part<BellyScale>(), key_part(Shared<MuscleTemplate>{}),
+                    key_part(FieldWidth<NodalDisplacement>{}), component_part<BellyReport>(),
+                    key_part(TagValue<ScratchFloats>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("lines of action", &follow_lines); },
+          .check_key = &check_key,
+          .check_rows = &check_rows};
+}
+
+Module fade_module() {
+  return {
+      .name = "fade",
+      .parts = {component_part<Fade>(), key_part(FieldWidth<FadeStart>{}), key_part(FieldWidth<ShownDisplacement>{})},
+      .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade); }};
+}
+
+std::vector<Module> muscle_modules() {
+  std::vector<Module> all = {muscles_module()};
+  for (const MuscleEffect& effect : muscle_effects()) all.push_back(effect.module());
+  for (const DeformationMethod& method : deformation_methods()) {
+    if (method.module != nullptr) all.push_back(method.module());
+  }
+  all.push_back(fade_module());
+  return all;
+}
+
+MuscleKind kind_of(World& world, Muscle muscle, const LegMuscles& choice, const SharedBelly& belly) {
+  MuscleKind kind;
+  kind.muscle = muscle;
+  kind.method = {choice.method, choice.reduced};
+  kind.far_end = far_end_of(choice);
+  kind.inertia = feels_frame(choice);
+  kind.line_motion = choice.line_motion;
+  kind.steps = belly.steps;
+  kind.lines = world.share(belly.shape->lines);
+  if (has_control_points(choice)) kind.shape = world.share(belly.shape->shape);
+  if (belly.solver != nullptr) kind.solver = world.share(belly.solver);
+  if (belly.basis != nullptr) kind.basis = world.share(belly.basis);
+  return kind;
+}
+
+std::vector<KeyPart> muscle_parts(const MuscleKind& kind) {
+  std::vector<KeyPart> parts = {component_part<MuscleOwner>(),
+                                component_part<LegScale>(),
+                                component_part<LineOfAction>(),
+                                component_part<EndDrive>(),
+                                key_part(TagValue<FarEnd>{static_cast<std::uint64_t>(kind.far_end)}),
+                                key_part(TagValue<Muscle>{static_cast<std::uint64_t>(kind.muscle)}),
+                                key_part(kind.lines)};
+  if (const DeformationMethod* const method = deformation_method(kind.method.method)) {
+    parts.push_back(component_part<BellyScale>());
+    method->parts(kind, parts);
+  }
+  if (kind.shape.resource != nullptr) {
+    const auto width = static_cast<std::uint32_t>(nodal_width(kind.shape->mesh.cells));
+    parts.push_back(key_part(kind.shape));
+    parts.push_back(key_part(FieldWidth<NodalDisplacement>{width}));
+    if (kind.method.method != Method::reduced || kind.method.reduced.reported) {
+      parts.push_back(component_part<BellyReport>());
+    }
+    if (kind.fading) {
+      parts.push_back(component_part<Fade>());
+      parts.push_back(key_part(FieldWidth<FadeStart>{2 * width}));
+      parts.push_back(key_part(FieldWidth<ShownDisplacement>{width}));
+    }
+  }
+  for (std::size_t e = 0; e < muscle_effects().size(); ++e) {
+    if (!muscle_effects()[e].wanted(kind)) continue;
+    parts.insert(parts.end(), effect_parts()[e].begin(), effect_parts()[e].end());
+  }
+  return parts;
+}
+
+std::optional<MuscleKind> muscle_kind(const TableKey& key, const World& world) {
+  const auto kind = recognised(key, world);
+  if (!kind || !fits_together(*kind) || !same_parts(muscle_parts(*kind), key)) return std::nullopt;
+  return kind;
+}
+
+MuscleMethod muscle_method(const World& world, Entity muscle) {
+  const auto place = world.find(muscle);
+  const auto kind = place ? recognised(place.table->key(), world) : std::nullopt;
+  return kind ? kind->method : MuscleMethod{Method::none};
+}
+
+std::optional<MuscleKind> muscle_kind(const World& world, Entity muscle) {
+  const auto place = world.find(muscle);
+  return place ? muscle_kind(place.table->key(), world) : std::nullopt;
+}
+
+std::span<const std::uint64_t> muscle_part_ids() {
+  static const std::vector<std::uint64_t> ids = [] {
+    std::vector<std::uint64_t> all;
+    for (const Module& module : muscle_modules()) {
+      for (const KeyPart& part : module.parts) all.push_back(part.id);
+    }
+    std::ranges::sort(all);
+    return all;
+  }();
+  return ids;
+}
+
+}  // namespace mobil

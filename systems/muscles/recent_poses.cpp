@@ -1,0 +1,52 @@
+#include "systems/muscles/recent_poses.h"
+
+#include <cstddef>
+
+#include "engine/rows.h"
+#include "engine/world.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/people/walker_past.h"
+
+namespace mobil {
+
+LegFrames<Lanes<float>> leg_of(const Pose<float>& pose, Side side) {
+  LegFrames<Lanes<float>> leg;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) gather_leg(pose, side, leg, lane);
+  return leg;
+}
+
+FirstLine first_line(const MuscleLines& lines, const LegScale<float>& scale, FarEnd far_end,
+                     const LineOfAction<float>& rest, const Pose<float>& pose, Side side) {
+  auto line = broadcast(rest);
+  EndDrive<Lanes<float>> end{};
+  lines_of_action(lines, broadcast(scale), leg_of(pose, side), far_end, line, end);
+  return {first_lane(line), first_lane(end)};
+}
+
+void look_back(const World& world, Entity human, std::uint32_t tick, float tick_s, RecentPoses& recent) {
+  if (recent.human == human && recent.tick == tick) return;
+  recent.human = {};  // not valid, should reserve throw
+  recent.poses.clear();
+  recent.poses.reserve(4);
+  recent.human = human;
+  recent.tick = tick;
+  const auto state = world.get<GaitState>(human);
+  if (!state) {
+    recent.poses.push_back(*world.get<Pose>(human));
+    return;
+  }
+  const auto sizes = broadcast(*world.get<BodySize>(human));
+  const auto plan = *world.get<StepPlan>(human);
+  for (const float ticks : {3.0F, 2.0F, 1.0F, 0.0F}) {
+    const auto then = earlier(*state, plan, ticks * tick_s);
+    if (!then) continue;
+    Pose<Lanes<float>> pose;
+    JointAngles<Lanes<float>> angles;
+    Feet<Lanes<float>> feet;
+    pose_skeleton(sizes, broadcast(plan), broadcast(*then), pose, angles, feet);
+    recent.poses.push_back(first_lane(pose));
+  }
+}
+
+}  // namespace mobil

@@ -1,0 +1,16 @@
+#pragma once
+// The skeleton as modules (engine/module.h): people who walk, what the ground does to them, and what all people have,
+// also those whose host animates the skeleton.
+
+#include "engine/module.h"
+
+namespace mobil {
+
+/// Gait and kinematics: from StepPlan and GaitState to Pose, JointAngles, Feet and CentreOfMass.
+Module walking_module();
+/// Ground reaction and joint moments of walkers who have MotionHistory, for the tick before the present one.
+Module forces_module();
+/// What posed people and walkers have in common: BodySize, Pose, and both legs as their muscles look them up.
+Module skeleton_module();
+
+}  // namespace mobil

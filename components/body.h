@@ -77,4 +77,11 @@ struct BodySize {
   F mass_kg;
 };
 
+/// What was asked of a body besides its sizes: a BodyRequest is both.
+template <class F>
+struct Physique {
+  F endo, meso, ecto;  // Biotype
+  Whole<F> constitution;
+};
+
 }  // namespace mobil

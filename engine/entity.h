@@ -43,6 +43,14 @@ class EntityRegister {
     if (slots > slots_.capacity()) slots_.reserve(std::max(slots, 2 * slots_.capacity()));
   }
 
+  /// Indices given out so far, also those of entities that are gone.
+  std::size_t size() const { return slots_.size(); }
+  /// The living entity of an index; a stale handle where there is none.
+  Entity at(std::uint32_t index) const {
+    return index < slots_.size() && slots_[index].location.table != nobody ? Entity{index, slots_[index].generation}
+                                                                           : Entity{};
+  }
+
   Entity create() {
     std::uint32_t index = first_free_;
     if (index == nobody) {

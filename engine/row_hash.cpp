@@ -65,21 +65,10 @@ struct LaneHashes {
   std::uint64_t lane(std::size_t l) const { return std::uint64_t{high[l]} << 32 | low[l]; }
 };
 
-/// All that rows of a table have in common and do not hold themselves.
-std::uint64_t hash_of(const TableKey& key) {
-  std::uint64_t hash = 0;
-  for (const KeyPart& part : key) {
-    hash = mix64(hash ^ part.id);
-    if (part.kind != PartKind::shared) hash = mix64(hash + part.value);
-  }
-  return hash;
-}
-
 }  // namespace
 
-void hash_rows(const Table& table, std::size_t first, std::size_t end, std::span<const IgnoredWords> ignored,
-               std::uint64_t* out) {
-  const std::uint64_t seed = hash_of(table.key());
+void hash_rows(const Table& table, std::size_t first, std::size_t end, std::uint64_t seed,
+               std::span<const IgnoredWords> ignored, std::uint64_t* out) {
   for (std::size_t b = first; b < end; ++b) {
     LaneHashes hashes(seed);
     const float* block = table.block(b);

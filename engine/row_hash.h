@@ -23,11 +23,10 @@ struct IgnoredWords {
 };
 
 /// One number for each row of the blocks from `first` up to `end`, the first one's in out[0] (sixteen a block, and room
-/// for as many): of all its words but those ignored, with which parts these are, and of the table's tags. Where in the
-/// table a row lies does not matter, nor which shared resources it has. One changed word always changes its row's
-/// number.
-void hash_rows(const Table& table, std::size_t first, std::size_t end, std::span<const IgnoredWords> ignored,
-               std::uint64_t* out);
+/// for as many): of all its words but those ignored, and of `seed`, which stands for the table's key. Where in the
+/// table a row lies does not matter. One changed word always changes its row's number.
+void hash_rows(const Table& table, std::size_t first, std::size_t end, std::uint64_t seed,
+               std::span<const IgnoredWords> ignored, std::uint64_t* out);
 
 /// One number for bytes and how many they are. Changes within one aligned word of four always change it.
 std::uint64_t hash_bytes(const void* bytes, std::size_t count);

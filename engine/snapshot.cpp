@@ -288,6 +288,7 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
     world.tables_[at].reserve(from.rows);
   }
   world.entities_.slots_.reserve(saved.slots.size());
+  world.members_.reserve(saved.slots.size());
   return {};
 }
 
@@ -335,6 +336,17 @@ void WorldSnapshot::commit(World& world, const SavedWorld& saved, const Jobs& jo
             });
       },
       &blocks);
+  relate_all(world);
+}
+
+void WorldSnapshot::relate_all(World& world) noexcept {
+  if (world.owner_part_ == 0) return;
+  world.members_.clear();
+  world.members_.grow(world.entities_.size());
+  for (auto index = static_cast<std::uint32_t>(world.entities_.size()); index-- > 0;) {  // each goes to the front
+    const Entity entity = world.entities_.at(index);
+    if (world.alive(entity)) world.relate(entity);
+  }
 }
 
 void WorldSnapshot::give_up(World& world) noexcept {

@@ -1,7 +1,7 @@
 #pragma once
 // The state of a World as bytes, and back: rows, entities and who is alive, down to the last bit. It knows nothing of
 // what tables mean: shared resources are numbers here, which the caller translates, and what else goes into a snapshot
-// is the caller's (the front door: systems/snapshot/simulation_snapshot.h). Layout: engine/snapshot_bytes.h.
+// is the caller's (the front door: systems/snapshot/snapshot_file.h). Layout: engine/snapshot_bytes.h.
 
 #include <cstddef>
 #include <cstdint>
@@ -78,6 +78,7 @@ class WorldSnapshot {
  private:
   Result<KeyPart> known_part(const World& world, const SavedPart& part, std::span<const KeyPart> known,
                              std::span<const SharedNumber> shared) const;
+  static void relate_all(World& world) noexcept;
 
   std::vector<std::uint32_t> table_;  // of the world, by table saved
   std::vector<std::uint32_t> saved_;  // the other way round

@@ -11,6 +11,8 @@ World::World(std::pmr::memory_resource* memory)
       tables_(memory),
       table_hash_(memory),
       resources_(memory),
+      resource_content_(memory),
+      members_(memory),
       scratch_(memory),
       identity_(std::make_shared<const char>()) {}
 
@@ -51,6 +53,7 @@ Entity World::create_from(std::span<const PartValue> parts) {
   key_from(parts);
   Entity entity;
   write_from(create_row(scratch_, entity), parts);
+  relate(entity);
   return entity;
 }
 
@@ -59,6 +62,7 @@ Status World::remake_from(Entity entity, std::span<const PartValue> parts) {
   key_from(parts);
   if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
   write_from(find(entity), parts);
+  relate(entity);
   return Status::ok;
 }
 
@@ -74,6 +78,7 @@ Status World::remake_from(Entity entity, std::span<const PartValue> parts, std::
   key_remade(entity, parts, owned);
   if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
   write_from(find(entity), parts);
+  relate(entity);
   return Status::ok;
 }
 
@@ -93,6 +98,7 @@ void World::reserve(std::span<const PartValue> parts, std::uint32_t rows) {
 Place<Table> World::create_row(const TableKey& key, Entity& entity) {
   const std::uint32_t table = table_of(key);
   tables_[table].reserve_row();
+  reserve_entities(1);
   entity = entities_.create();
   const std::uint32_t row = tables_[table].add_row(entity);
   *entities_.find(entity) = {table, row};
@@ -105,6 +111,7 @@ Status World::destroy(Entity entity) {
   const std::uint32_t row = location->row;
   const Entity moved = tables_[location->table].remove_row(row);
   if (auto* theirs = entities_.find(moved)) theirs->row = row;
+  forget(entity);
   entities_.destroy(entity);
   return Status::ok;
 }
@@ -114,6 +121,7 @@ void World::undo_create(std::span<const Entity> entities) {
     const auto [table, row] = *entities_.find(entities[i]);
     const Entity moved = tables_[table].remove_row(row);
     if (auto* theirs = entities_.find(moved)) theirs->row = row;
+    forget(entities[i]);
     entities_.undo_create(entities[i]);
   }
 }
@@ -128,7 +136,7 @@ void World::create_many(std::span<const PartValue> parts, std::span<Entity> enti
     std::uint32_t first, count;
   } work{tables_[index], parts, tables_[index].row_count(), static_cast<std::uint32_t>(entities.size())};
   work.table.reserve(work.first + work.count);
-  entities_.reserve(entities.size());
+  reserve_entities(entities.size());
   const std::size_t first_block = work.first / lane_count;
   const std::size_t blocks = (work.first + work.count - 1) / lane_count + 1 - first_block;
   const auto write = [](void* context, std::size_t begin, std::size_t end) {
@@ -147,6 +155,7 @@ void World::create_many(std::span<const PartValue> parts, std::span<Entity> enti
     *entities_.find(entities[i]) = {index, work.first + i};
   }
   work.table.append(entities);
+  for (const Entity entity : entities) relate(entity);
 }
 
 namespace {
@@ -234,7 +243,10 @@ void World::destroy_together(std::span<const Entity> entities, const Jobs& jobs)
     end = end_of_table(first);
     tables_[first->table].drop_last(static_cast<std::uint32_t>(end - first));
   }
-  for (const Entity entity : entities) entities_.destroy(entity);
+  for (const Entity entity : entities) {
+    forget(entity);
+    entities_.destroy(entity);
+  }
 }
 
 void World::move(Entity entity, const TableKey& key) {
@@ -263,6 +275,7 @@ Status World::add_parts(Entity entity, std::span<const PartValue> parts) {
   for (const PartValue& value : parts) {
     if (is_new(value)) write_from(find(entity), {&value, 1});
   }
+  relate(entity);
   return Status::ok;
 }
 
@@ -271,6 +284,7 @@ Status World::remove_parts(Entity entity, std::initializer_list<std::uint64_t> i
   scratch_ = find(entity).table->key();
   std::erase_if(scratch_, [&](const KeyPart& part) { return std::find(ids.begin(), ids.end(), part.id) != ids.end(); });
   if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
+  relate(entity);
   return Status::ok;
 }
 
@@ -298,6 +312,7 @@ Status World::remove_part(Entity entity, std::uint64_t id) {
   scratch_ = find(entity).table->key();
   scratch_.erase(lower_bound(scratch_, id));
   move(entity, scratch_);
+  relate(entity);
   return Status::ok;
 }
 
@@ -333,12 +348,33 @@ Status World::write_field(Entity entity, std::uint64_t id, std::span<const float
   return Status::ok;
 }
 
-std::uint64_t World::own(std::shared_ptr<const void> resource) {
+std::uint64_t World::own(std::shared_ptr<const void> resource, std::uint64_t content) {
   for (std::uint64_t i = 0; i < resources_.size(); ++i) {
     if (resources_[i] == resource) return i;
   }
+  resource_content_.reserve(resources_.size() + 1);
   resources_.push_back(std::move(resource));
+  resource_content_.push_back(content);
   return resources_.size() - 1;
+}
+
+/// Puts an entity among the members of the owner that its row names. Room was made when it was created.
+void World::relate(Entity entity) {
+  if (owner_part_ == 0) return;
+  members_.grow(entities_.size());
+  const auto place = find(entity);
+  const std::uint32_t column = place.table->column(owner_part_);
+  if (column == Table::no_column) return members_.unlink(entity.index);
+  Entity owner;
+  place.table->read(place.row, column, sizeof(owner) / 4, &owner);
+  if (!alive(owner) || owner == entity) return members_.unlink(entity.index);
+  members_.link(owner.index, entity.index);
+}
+
+void World::forget(Entity entity) {
+  if (owner_part_ == 0) return;
+  members_.unlink(entity.index);
+  members_.release(entity.index);
 }
 
 }  // namespace mobil

@@ -27,6 +27,7 @@
 #include "engine/entity.h"
 #include "engine/jobs.h"
 #include "engine/key.h"
+#include "engine/members.h"
 #include "engine/table.h"
 
 namespace mobil {
@@ -81,7 +82,10 @@ class World {
   /// Room for what `remake_from` with the same arguments makes of that entity, and of others like it: `rows` in all.
   void reserve_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned,
                       std::uint32_t rows);
-  void reserve_entities(std::size_t more) { entities_.reserve(more); }
+  void reserve_entities(std::size_t more) {
+    entities_.reserve(more);
+    if (owner_part_ != 0) members_.reserve(entities_.size() + more);
+  }
   /// Several parts more at once, those of them that are not there.
   Status add_parts(Entity entity, std::span<const PartValue> parts);
   /// Several parts less at once, those of them that are there.
@@ -144,15 +148,35 @@ class World {
     return write_field(entity, type_id<Tag>(), in);
   }
 
+  /// The component whose first two words are the index and generation of the entity that a row belongs to: said once,
+  /// while the world is empty. Whoever names a living owner is among its members from then on, until one of them is
+  /// gone or the row names another; systems must not write it.
+  void set_owner_part(const KeyPart& part) { owner_part_ = part.id; }
+  std::uint64_t owner_part() const { return owner_part_; }
+  /// Calls `f(member)` for each entity that belongs to `owner`, in ascending order of their indices. `f` changes
+  /// nothing.
+  template <class F>
+  void each_member(Entity owner, F&& f) const {
+    if (!alive(owner)) return;
+    for (std::uint32_t m = members_.first(owner.index); m != Members::nobody; m = members_.next(m)) f(entities_.at(m));
+  }
+  /// The first of those, a stale handle where there is none.
+  Entity first_member(Entity owner) const {
+    return alive(owner) ? entities_.at(members_.first(owner.index)) : Entity{};
+  }
+  /// A stale handle where it belongs to nobody alive.
+  Entity owner_of(Entity member) const { return alive(member) ? entities_.at(members_.owner(member.index)) : Entity{}; }
+
   /// Takes a share in an immutable resource until the world ends. The same resource gives the same handle again.
+  /// `content`: a hash of it, where it is part of the state of rows that share it.
   template <class T>
-  Shared<T> share(std::shared_ptr<const T> resource) {
+  Shared<T> share(std::shared_ptr<const T> resource, std::uint64_t content = 0) {
     const T* raw = resource.get();
-    return {raw, own(std::move(resource))};
+    return {raw, own(std::move(resource), content)};
   }
   /// The same of a resource whose type is known as a part alone: key_part(Shared<T>{}).
   KeyPart share_as(KeyPart part, std::shared_ptr<const void> resource) {
-    part.value = own(std::move(resource));
+    part.value = own(std::move(resource), 0);
     return part;
   }
   /// The resource of that index, null when there is none.
@@ -160,6 +184,7 @@ class World {
     return index < resources_.size() ? resources_[index].get() : nullptr;
   }
   std::uint64_t resource_count() const { return resources_.size(); }
+  std::uint64_t resource_content(std::uint64_t index) const { return resource_content_[index]; }
 
   /// The number of its table among `tables()`, and its row; null when stale. Until the next change of structure.
   const EntityRegister::Location* locate(Entity entity) const { return entities_.find(entity); }
@@ -185,7 +210,9 @@ class World {
   tl::expected<KeyPart, Status> part_of(Entity entity, std::uint64_t id) const;
   Status read_field(Entity entity, std::uint64_t id, std::span<float> out) const;
   Status write_field(Entity entity, std::uint64_t id, std::span<const float> in);
-  std::uint64_t own(std::shared_ptr<const void> resource);
+  std::uint64_t own(std::shared_ptr<const void> resource, std::uint64_t content);
+  void relate(Entity entity);
+  void forget(Entity entity);
   void key_from(std::span<const PartValue> parts);
   void key_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned);
   void write_from(Place<Table> place, std::span<const PartValue> parts);
@@ -208,6 +235,9 @@ class World {
   std::pmr::deque<Table> tables_;
   std::pmr::vector<std::uint64_t> table_hash_;  // of their keys
   std::pmr::vector<std::shared_ptr<const void>> resources_;
+  std::pmr::vector<std::uint64_t> resource_content_;
+  Members members_;
+  std::uint64_t owner_part_ = 0;
   TableKey scratch_;  // the key being put together, kept for its memory
   std::shared_ptr<const char> identity_;
 };
@@ -220,6 +250,7 @@ Entity World::create(const P&... parts) {
   Entity entity;
   [[maybe_unused]] const Place<Table> place = create_row(scratch_, entity);
   (write_part(place, parts), ...);
+  relate(entity);
   return entity;
 }
 
@@ -232,13 +263,16 @@ Status World::remake(Entity entity, const P&... parts) {
   if (!(scratch_ == find(entity).table->key())) move(entity, scratch_);
   [[maybe_unused]] const Place<Table> place = find(entity);
   (write_part(place, parts), ...);
+  relate(entity);
   return Status::ok;
 }
 
 template <class P>
 Status World::add(Entity entity, const P& part) {
   const Status status = add_part(entity, key_part(part));
-  if (status == Status::ok) write_part(find(entity), part);
+  if (status != Status::ok) return status;
+  write_part(find(entity), part);
+  relate(entity);
   return status;
 }
 
@@ -247,6 +281,7 @@ Status World::set(Entity entity, const C<float>& row) {
   const auto part = part_of(entity, type_id<C<float>>());
   if (!part) return part.error();
   write_part(find(entity), row);
+  if (part->id == owner_part_) relate(entity);
   return Status::ok;
 }
 

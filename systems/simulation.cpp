@@ -2,19 +2,20 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "assets/body/anthropometry.h"
 #include "components/fade.h"
-#include "components/leg_frames.h"
-#include "engine/rows.h"
-#include "systems/forces/forces.h"
-#include "systems/gait/gait.h"
-#include "systems/kinematics/kinematics.h"
-#include "systems/muscles/change_muscles.h"
+#include "engine/each.h"
+#include "engine/row_hash.h"
+#include "engine/state_hash.h"
+#include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/walker_past.h"
+#include "systems/people/ground_forces.h"
+#include "systems/people/person.h"
+#include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
 
 namespace mobil {
@@ -26,27 +27,11 @@ Clock make_clock(const SimulationOptions& options) {
   return *clock;
 }
 
-/// The motion of a person up to now, as two ticks of the system of forces would have recorded it.
-MotionHistory<float> recent_motion(const BodySize<float>& size, const StepPlan<float>& plan,
-                                   const GaitState<float>& state, float tick_s) {
-  MotionHistory<Lanes<float>> history{};
-  const auto sizes = broadcast(size);
-  const auto plans = broadcast(plan);
-  for (const float ago : {tick_s, 0.0F}) {
-    GaitState<float> at_start = state;
-    at_start.time_s = 0;
-    const auto states = broadcast(earlier(state, plan, ago).value_or(at_start));
-    Pose<Lanes<float>> pose;
-    JointAngles<Lanes<float>> angles;
-    Feet<Lanes<float>> feet;
-    CentreOfMass<Lanes<float>> centre;
-    GroundReaction<Lanes<float>> ground;
-    JointMoments<Lanes<float>> moments;
-    pose_skeleton(sizes, plans, states, pose, angles, feet);
-    centre_of_mass(sizes, pose, centre);
-    joint_forces(sizes, pose, feet, centre, plans, states, history, ground, moments, tick_s);
-  }
-  return first_lane(history);
+/// An error with the name of the call that it is of.
+template <class T>
+Result<T> named(const char* call, Result<T> result) {
+  if (result) return result;
+  return fail(fmt::format("{}: {}", call, result.error().message));
 }
 
 }  // namespace
@@ -55,6 +40,7 @@ Simulation::Simulation(const SimulationOptions& options)
     : world_(options.memory),
       clock_(make_clock(options)),
       modules_(standard_modules()),
+      library_(std::make_unique<BellyLibrary>()),
       work_(std::make_unique<MuscleWork>()) {
   if (options.jobs) {
     jobs_ = *options.jobs;
@@ -62,65 +48,95 @@ Simulation::Simulation(const SimulationOptions& options)
     threads_.emplace(options.threads);
     jobs_ = threads_->jobs();
   }
+  world_.set_owner_part(component_part<MuscleOwner>());
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
-    for (const NamedResource& named : module.resources) world_.share_as(named.part, named.resource);
+    for (const NamedResource& one : module.resources) world_.share_as(one.part, one.resource);
   }
   auto schedule = make_schedule(modules_, options.memory);
   if (!schedule) throw std::invalid_argument(schedule.error().message);
-  schedule_ = std::move(*schedule);
+  schedule_ = std::make_unique<Schedule>(std::move(*schedule));
 }
 
 Simulation::~Simulation() = default;
 
-Result<void> Simulation::change_gait(Entity entity, const GaitRequest& request) {
-  const PersonRecord* human = person(entity);
-  if (human == nullptr) return fail("change_gait: that person is not there (a stale handle); spawn one first");
-  if (human->posed) return fail("change_gait: this person's host animates the skeleton; spawn a walker instead");
-  auto gait = resolve_gait(*make_body(human->body), request);
-  if (!gait) return tl::unexpected(gait.error());
-  const Gait<float> before = *world_.get<Gait>(entity);
-  gait->heading_rad = before.heading_rad;
-  gait->revision = before.revision + 1;
-  world_.set(entity, *gait);
+MuscleScene Simulation::muscle_scene() {
+  return {world_, *library_, *work_, jobs_, {tick_, tick_s()}};
+}
+
+Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<Entity> entities) {
+  if (people.size() != entities.size()) {
+    return fail(
+        fmt::format("spawn: {} people, and room for the handles of {}; give as many", people.size(), entities.size()));
+  }
+  auto made = spawn_people(muscle_scene(), people, entities);
+  if (!made) return fail(fmt::format("spawn: person {}: {}", made.error().person, made.error().error.message));
   return {};
 }
 
-Result<void> Simulation::turn_to(Entity entity, float heading_rad) {
-  const PersonRecord* human = person(entity);
-  if (human == nullptr) return fail("turn_to: that person is not there (a stale handle); spawn one first");
-  if (human->posed) return fail("turn_to: this person's host animates the skeleton; turn the pose instead");
-  if (!(std::fabs(heading_rad) < 1e4F))
-    return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
-  Gait<float> gait = *world_.get<Gait>(entity);
-  gait.heading_rad = heading_rad;
-  world_.set(entity, gait);
-  return {};
+Result<Entity> Simulation::spawn(const BodyRequest& body, const GaitRequest& gait) {
+  const SpawnRequest request{.body = body, .gait = gait};
+  Entity entity;
+  auto made = spawn_people(muscle_scene(), {&request, 1}, {&entity, 1});
+  if (!made) return tl::unexpected(made.error().error);
+  return entity;
 }
 
-Status Simulation::add_forces(Entity entity) {
-  const PersonRecord* human = person(entity);
-  if (human == nullptr) return Status::stale_entity;
-  if (human->posed) return Status::missing;
-  if (world_.has<MotionHistory>(entity)) return Status::ok;
-  const auto tick_s = static_cast<float>(clock_.tick_s());
-  const MotionHistory<float> motion = recent_motion(*world_.get<BodySize>(entity), *world_.get<StepPlan>(entity),
-                                                    *world_.get<GaitState>(entity), tick_s);
-  return world_.add_parts(
-      entity, std::array<PartValue, 3>{
-                  part_value(motion), {component_part<GroundReaction>()}, {component_part<JointMoments>()}});
+Result<Entity> Simulation::spawn_posed(const BodyRequest& body) {
+  return mobil::spawn_posed(world_, body);
 }
 
-Status Simulation::remove_forces(Entity entity) {
-  if (find(entity) == nullptr) return Status::stale_entity;
-  if (!world_.has<MotionHistory>(entity)) return Status::ok;
-  return world_.remove_parts(
-      entity, {type_id<MotionHistory<float>>(), type_id<GroundReaction<float>>(), type_id<JointMoments<float>>()});
+Status Simulation::set_pose(Entity human, const Pose<float>& pose) {
+  return mobil::set_pose(world_, human, pose);
+}
+
+Status Simulation::despawn(std::span<const Entity> people) {
+  return despawn_people(world_, jobs_, people);
+}
+
+Status Simulation::despawn(Entity human) {
+  return despawn(std::span(&human, 1));
 }
 
 Result<void> Simulation::prepare(const LegMuscles& choice) {
-  if (auto done = bellies_.prepare(choice, tick_s(), jobs_); !done) return fail("prepare: " + done.error().message);
-  return {};
+  return named("prepare", library_->prepare(choice, tick_s(), jobs_));
+}
+
+Result<void> Simulation::change_gait(Entity human, const GaitRequest& gait) {
+  return mobil::change_gait(world_, human, gait);
+}
+
+Result<void> Simulation::turn_to(Entity human, float heading_rad) {
+  return mobil::turn_to(world_, human, heading_rad);
+}
+
+Status Simulation::add_forces(Entity human) {
+  return mobil::add_forces(world_, human, static_cast<float>(tick_s()));
+}
+
+Status Simulation::remove_forces(Entity human) {
+  return mobil::remove_forces(world_, human);
+}
+
+Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
+  return named("add_leg_muscles", mobil::add_leg_muscles(muscle_scene(), human, choice));
+}
+
+Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
+  return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
+}
+
+Status Simulation::remove_leg_muscles(Entity human) {
+  return mobil::remove_leg_muscles(world_, jobs_, human);
+}
+
+Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
+  return named("set_method", mobil::set_method(muscle_scene(), human, muscle, method));
+}
+
+MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
+  const Entity right_one = this->muscle(human, muscle, right);
+  return muscle_method(world_, world_.alive(right_one) ? right_one : this->muscle(human, muscle, left));
 }
 
 Ticks Simulation::advance(double seconds) {
@@ -130,30 +146,81 @@ Ticks Simulation::advance(double seconds) {
 }
 
 void Simulation::tick() {
-  schedule_->run(world_, {static_cast<float>(clock_.tick_s()), tick_}, jobs_);
+  const auto dt_s = static_cast<float>(clock_.tick_s());
+  schedule_->run(world_, {dt_s, tick_}, jobs_);
   ++tick_;
-  end_fades();
+  end_fades(world_, dt_s, *work_);
+}
+
+StepReport Simulation::report() const {
+  StepReport report{tick_, {}};
+  const auto systems = schedule_->systems();
+  const auto timings = schedule_->timings();
+  report.systems.reserve(systems.size());
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const Timing& t = timings[s];
+    report.systems.push_back({systems[s].name, systems[s].module, t.last_seconds, t.last_rows, t.seconds, t.rows});
+  }
+  return report;
+}
+
+SnapshotWork& Simulation::snapshot_work() const {
+  if (snapshots_ == nullptr) snapshots_ = std::make_unique<SnapshotWork>();
+  return *snapshots_;
+}
+
+std::size_t Simulation::snapshot_bytes() const {
+  return mobil::snapshot_bytes({world_, *library_, modules_, jobs_}, snapshot_work());
+}
+
+Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
+  return save_snapshot({world_, *library_, modules_, jobs_}, {clock_.tick_units(), clock_.remainder_units(), tick_},
+                       snapshot_work(), out);
+}
+
+Result<void> Simulation::restore(std::span<const std::byte> in) {
+  const auto done =
+      restore_snapshot({world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), in);
+  if (!done) return fail("restore: " + done.error().message);
+  work_->recent = {};
+  tick_ = done->tick;
+  clock_.set_remainder_units(done->remainder_units);
+  return {};
+}
+
+std::uint64_t Simulation::state_hash() const {
+  return mix64(mobil::state_hash(world_, jobs_) + mix64(tick_));
+}
+
+bool Simulation::is_person(Entity entity) const {
+  return mobil::is_person(world_, entity);
+}
+
+std::vector<Entity> Simulation::people() const {
+  std::vector<Entity> all;
+  each_block<Physique>(world_, [&](const Rows& rows, const Physique<Lanes<float>>&) {
+    all.insert(all.end(), rows.entity, rows.entity + rows.live);
+  });
+  return all;
+}
+
+std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
+  return muscles_of(world_, human);
 }
 
 std::optional<Human> Simulation::human(Entity entity) const {
-  const PersonRecord* of = person(entity);
-  if (of == nullptr) return std::nullopt;
-  Human human{entity, *make_body(of->body), world_.get<Gait>(entity).value_or(Gait<float>{}), {}, {}, of->posed};
-  for (const OwnMuscle& own : of->muscles) {
-    human.muscles.push_back(
-        {*make_muscle_plan(human.body, own.muscle), own.entity, muscle_method(world_, own.entity[right])});
+  if (!is_person(entity)) return std::nullopt;
+  Human human{
+      entity, *make_body(body_request(world_, entity)),         world_.get<Gait>(entity).value_or(Gait<float>{}),
+      {},     choice_of(world_, entity).value_or(LegMuscles{}), is_posed(world_, entity)};
+  for (const OwnMuscle& own : muscles(entity)) {
+    human.muscles.push_back({*make_muscle_plan(human.body, own.muscle), own.entity, method(entity, own.muscle)});
   }
-  if (!of->muscles.empty()) human.leg_muscles = people_.choice(*of);
   return human;
 }
 
-Entity Simulation::muscle(Entity entity, Muscle muscle, Side side) const {
-  const PersonRecord* owner = person(entity);
-  if (owner == nullptr) return {};
-  for (const OwnMuscle& m : owner->muscles) {
-    if (m.muscle == muscle) return m.entity[side];
-  }
-  return {};
+Entity Simulation::muscle(Entity human, Muscle muscle, Side side) const {
+  return muscle_of(world_, human, muscle, side);
 }
 
 NodalView Simulation::nodal_displacement(Entity muscle) const {

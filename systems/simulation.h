@@ -34,8 +34,8 @@
 #include "engine/module.h"
 #include "engine/schedule.h"
 #include "engine/world.h"
-#include "systems/muscles/belly_library.h"
-#include "systems/people/simulation_people.h"
+#include "systems/muscles/begin_muscles.h"
+#include "systems/people/spawn.h"
 
 namespace mobil {
 
@@ -66,21 +66,10 @@ struct Human {
   bool posed = false;                // its host animates the skeleton: no gait
 };
 
-/// One person of many to come, at a place on the ground, walking where they look (rad about +Y, 0 toward +Z, positive
-/// to the left).
-struct SpawnRequest {
-  BodyRequest body{};
-  GaitRequest gait{};
-  float x_m = 0, z_m = 0, heading_rad = 0;
-  std::optional<LegMuscles> muscles{};
-  /// Of who will be managed by a Relevance: with room for what it decides, so that managing them moves nothing.
-  bool managed = false;
-};
-
 /// What one system cost: time of all threads together, and entities that it worked on.
 struct SystemReport {
   std::string_view name, module;  // good as long as the simulation
-  double seconds = 0;     // in the last tick
+  double seconds = 0;             // in the last tick
   std::uint64_t entities = 0;
   double total_seconds = 0;  // in all ticks since the schedule's timings were last reset
   std::uint64_t total_entities = 0;
@@ -99,10 +88,9 @@ struct NodalView {
   std::uint32_t nodes = 0;
 };
 
-struct MuscleWork;  // systems/muscles/change_muscles.h
-struct MuscleSize;  // systems/muscles/begin_muscles.h
-struct NotMade;
-struct SnapshotWork;  // systems/snapshot/simulation_snapshot_work.h
+struct MuscleWork;    // systems/muscles/change_muscles.h
+struct MuscleScene;   // systems/muscles/leg_muscles.h
+struct SnapshotWork;  // systems/snapshot/snapshot.h
 
 class Simulation {
  public:
@@ -201,9 +189,11 @@ class Simulation {
   }
   /// A person with body and plans of muscles, made when asked for (some microseconds); nothing for a stale handle.
   std::optional<Human> human(Entity entity) const;
-  /// What is kept of a person; null for a stale handle. Until somebody comes or goes.
-  const PersonRecord* person(Entity entity) const { return world_.alive(entity) ? people_.find(entity) : nullptr; }
-  const People& people() const { return people_; }
+  /// All people, in the order of their rows; until somebody comes or goes.
+  std::vector<Entity> people() const;
+  bool is_person(Entity entity) const;
+  /// A person's muscles in the table's order; empty for a stale handle and without muscles.
+  std::vector<OwnMuscle> muscles(Entity human) const;
   /// A person's muscle; a stale handle where there is none.
   Entity muscle(Entity human, Muscle muscle, Side side) const;
 
@@ -220,26 +210,18 @@ class Simulation {
   std::span<const Module> modules() const { return modules_; }
 
  private:
-  class Batch;
-  tl::expected<void, NotMade> spawn_all(std::span<const SpawnRequest> people, std::span<Entity> entities);
-  tl::expected<void, NotMade> begin(Batch& batch, std::span<const Entity> people, std::span<const MuscleSize> size,
-                                    const LegMuscles& choice);
-  Result<void> set_muscles(PersonRecord& person, const LegMuscles& choice);
-  void end_fades();
+  MuscleScene muscle_scene();
   SnapshotWork& snapshot_work() const;
-  Result<void> restore_checked(std::span<const std::byte> in);
-  PersonRecord* find(Entity entity) { return const_cast<PersonRecord*>(person(entity)); }
 
   World world_;
   Clock clock_;
   std::optional<Threads> threads_;
   Jobs jobs_;
   std::vector<Module> modules_;
-  std::optional<Schedule> schedule_;
-  People people_;
-  BellyLibrary bellies_;
+  std::unique_ptr<Schedule> schedule_;
+  std::unique_ptr<BellyLibrary> library_;
   std::unique_ptr<MuscleWork> work_;
-  mutable std::shared_ptr<SnapshotWork> snapshots_;  // made when first needed
+  mutable std::unique_ptr<SnapshotWork> snapshots_;  // made when first needed
   std::uint32_t tick_ = 0;
 };
 

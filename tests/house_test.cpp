@@ -83,17 +83,8 @@ const std::map<std::pair<std::string, std::string>, std::string> not_yet = {
     {{"assets/muscles/muscle_table.h", "assets/fem/hexahedral_mesh.h"}, "muscle_cage() has no header of its own"},
     {{"assets/surfaces/surface_binding.h", "assets/fem/hexahedral_mesh.h"},
      "a surface is bound to cells; fem/ needs nothing of assets and could come first"},
-    {{"systems/muscles/simulation_methods.cpp", "systems/simulation.h"}, "defines members of Simulation"},
-    {{"systems/muscles/simulation_muscles.cpp", "systems/simulation.h"}, "defines members of Simulation"},
-    {{"systems/people/simulation_batch.h", "systems/muscles/change_muscles.h"}, "begins the muscles itself"},
-    {{"systems/people/simulation_batch.h", "systems/simulation.h"}, "works on Simulation from inside"},
-    {{"systems/people/simulation_poses.cpp", "systems/simulation.h"}, "defines members of Simulation"},
-    {{"systems/people/simulation_spawn.cpp", "systems/muscles/begin_muscles.h"}, "begins the muscles itself"},
-    {{"systems/people/simulation_spawn.cpp", "systems/muscles/change_muscles.h"}, "begins the muscles itself"},
-    {{"systems/people/simulation_spawn.cpp", "systems/simulation.h"}, "defines members of Simulation"},
-    {{"systems/relevance/simulation_relevance.h", "systems/simulation.h"}, "works on Simulation from outside"},
-    {{"systems/snapshot/simulation_hash.cpp", "systems/simulation.h"}, "defines members of Simulation"},
-    {{"systems/snapshot/simulation_snapshot.h", "systems/simulation.h"}, "works on Simulation from outside"},
+    {{"systems/relevance/relevance.h", "systems/simulation.h"}, "works on Simulation from outside"},
+    {{"systems/snapshot/snapshot_file.h", "systems/simulation.h"}, "works on Simulation from outside"},
 };
 
 /// The folder of a room that a file (as includes are written) lies in.

@@ -33,7 +33,7 @@ Vec3<float> scaled(const Vec3<double>& v, double by) {
 
 }  // namespace
 
-Result<Body> make_body(const BodyRequest& request) {
+Result<void> check_body(const BodyRequest& request) {
   std::string wrong = out_of_range("height", request.height_m, " m", 1.2F, 2.2F);
   if (wrong.empty()) wrong = out_of_range("mass", request.mass_kg, " kg", 30.0F, 200.0F);
   if (wrong.empty()) wrong = out_of_range("endomorphy", request.biotype.endo, "", 0.1F, 12.0F);
@@ -43,7 +43,11 @@ Result<Body> make_body(const BodyRequest& request) {
     wrong = "body: constitution is none of thin, average, athletic, heavy; choose one of them";
   if (wrong.empty()) wrong = not_living(request);
   if (!wrong.empty()) return fail(wrong);
+  return {};
+}
 
+Result<Body> make_body(const BodyRequest& request) {
+  if (auto ok = check_body(request); !ok) return tl::unexpected(ok.error());
   Body body{};
   body.request = request;
   body.composition = body_composition(request);

@@ -43,6 +43,8 @@ constexpr UnitBody make_unit_body();
 /// no living body of that height has. Where height, mass, biotype and constitution contradict each other less grossly,
 /// one gives way and `composition` notes it.
 Result<Body> make_body(const BodyRequest& request);
+/// Whether `make_body` would make it; the same errors.
+Result<void> check_body(const BodyRequest& request);
 
 constexpr UnitBody make_unit_body() {
   using enum Segment;

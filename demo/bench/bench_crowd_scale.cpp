@@ -16,7 +16,7 @@
 #include "demo/bench/bench_crowd_scene.h"
 #include "demo/bench/bench_fem.h"
 #include "demo/bench/bench_fem_rivals.h"
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

@@ -7,7 +7,6 @@
 #include "components/fade.h"
 #include "demo/bench/bench_measure.h"
 #include "demo/crowd/heap_count.h"
-#include "systems/people/simulation_people.h"
 
 namespace mobil {
 namespace {
@@ -116,11 +115,8 @@ std::size_t far_bytes(const CrowdScene& scene) {
   for (const CrowdWalker& walker : scene.walkers()) {
     if (walker.near && scene.request().near < scene.walkers().size()) continue;
     std::size_t bytes = sizeof(CrowdWalker) + row_bytes(simulation.world(), walker.entity);
-    const PersonRecord& person = *simulation.person(walker.entity);
-    bytes += sizeof(PersonRecord) + person.muscles.size() * sizeof(OwnMuscle);
-    for (const OwnMuscle& own : person.muscles) {
-      for (const Entity muscle : own.entity) bytes += row_bytes(simulation.world(), muscle);
-    }
+    simulation.world().each_member(walker.entity,
+                                   [&](Entity muscle) { bytes += row_bytes(simulation.world(), muscle); });
     return bytes;
   }
   return 0;

@@ -8,7 +8,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "systems/gait/gait.h"
-#include "systems/relevance/simulation_relevance_rows.h"
+#include "systems/relevance/packed_rungs.h"
 
 namespace mobil {
 namespace {
@@ -49,10 +49,7 @@ LegMuscles CrowdScene::first_muscles() const {
 }
 
 std::size_t CrowdScene::bytes_of_people() const {
-  std::size_t bytes = memory_.lent();
-  for (const PersonRecord& person : simulation_->people().all())
-    bytes += sizeof(person) + person.muscles.capacity() * sizeof(OwnMuscle);
-  return bytes;
+  return memory_.lent();
 }
 
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request, const Progress& progress) {
@@ -159,7 +156,7 @@ Result<void> CrowdScene::come(std::size_t slot, std::size_t count) {
     request.z_m = walker.z_m;
     request.heading_rad = walker.heading_rad;
     if (request_.effects.muscles) request.muscles = muscles_;
-    request.managed = relevance_ != nullptr;
+    if (relevance_ != nullptr) request.parts = relevance_parts();
   };
   for (std::size_t i = 0; i < count; ++i) {
     CrowdWalker& walker = walkers_[slot + i];

@@ -13,7 +13,7 @@
 
 #include "demo/crowd/crowd_people.h"
 #include "engine/error.h"
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 
 namespace mobil {

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "demo/effects/accuracy_reference.h"
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

@@ -11,7 +11,7 @@
 #include "demo/effects/accuracy_measure.h"
 #include "demo/walk/figure.h"
 #include "systems/relevance/accuracy_table.h"
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

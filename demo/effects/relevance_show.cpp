@@ -8,7 +8,7 @@
 
 #include "demo/bench/bench_crowd.h"
 #include "demo/effects/accuracy_measure.h"
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

@@ -24,6 +24,7 @@ struct MuscleKind {
   bool inertia = false, line_motion = false;  // effects
   bool fading = false;                        // a change of method has left something over
   std::uint32_t steps = 1;                    // a tick
+  Shared<LegMuscles> choice{};                // tissue and effects; muscles and method are as in a LegMuscles{}
   Shared<MuscleLines> lines{};
   Shared<MuscleTemplate> shape{};  // whose nodes are the control points; null without
   Shared<BellySolver> solver{};    // null where the method has none

@@ -219,8 +219,7 @@ class Block {
 };
 
 /// Both sides' rows.
-void create_rows(World& world, const Jobs& jobs, const Group& group, std::size_t muscles, std::span<OwnMuscle> own,
-                 std::vector<Entity>& all_made) {
+void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector<Entity>& all_made) {
   for (const Side side : {right, left}) {
     std::vector<PartValue> parts;
     for (const KeyPart& part : group.parts) {
@@ -231,7 +230,6 @@ void create_rows(World& world, const Jobs& jobs, const Group& group, std::size_t
     std::vector<Entity> made(group.who.size());
     world.create_many(parts, made, jobs);
     all_made.insert(all_made.end(), made.begin(), made.end());
-    for (std::size_t i = 0; i < made.size(); ++i) own[group.who[i] * muscles + group.muscle].entity[side] = made[i];
   }
 }
 
@@ -243,8 +241,7 @@ MuscleSize size_of(const MusclePlan& plan) {
 
 tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice,
                                           const MuscleTime& time, const Jobs& jobs, std::span<const Entity> people,
-                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own,
-                                          std::vector<Entity>& made) {
+                                          std::span<const MuscleSize> size, std::vector<Entity>& made) {
   const std::size_t muscles = choice.muscles.count();
   std::vector<Group> groups;
   for (std::size_t at = 0, number = 0; number < choice.muscles.size(); ++number) {
@@ -259,10 +256,9 @@ tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, c
       std::size_t g = first;
       while (g < groups.size() && groups[g].common != *common) ++g;
       if (g == groups.size()) {
-        groups.push_back({at, kind_of(world, muscle, choice, *common), std::move(*common), {}, {}, {}, {}});
+        groups.push_back({at, kind_of(world, library, muscle, choice, *common), std::move(*common), {}, {}, {}, {}});
       }
       groups[g].who.push_back(i);
-      own[i * muscles + at] = {muscle, {}};
     }
     ++at;
   }
@@ -284,7 +280,7 @@ tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, c
   for (const Task& task : tasks) {
     if (!task.done) return tl::unexpected(NotMade{groups[task.group].who[task.block * lane_count], task.done.error()});
   }
-  for (const Group& group : groups) create_rows(world, jobs, group, muscles, own, made);
+  for (const Group& group : groups) create_rows(world, jobs, group, made);
   return {};
 }
 

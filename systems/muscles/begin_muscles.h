@@ -14,7 +14,7 @@
 #include "engine/jobs.h"
 #include "engine/world.h"
 #include "systems/muscles/belly_library.h"
-#include "systems/people/simulation_people.h"
+#include "systems/people/spawn.h"
 
 namespace mobil {
 
@@ -26,10 +26,10 @@ struct MuscleSize {
 };
 MuscleSize size_of(const MusclePlan& plan);
 
-/// What could not be made, and of which of the people.
-struct NotMade {
-  std::size_t person = 0;
-  Error error;
+/// One of a person's muscles, by side.
+struct OwnMuscle {
+  Muscle muscle{};
+  std::array<Entity, 2> entity{};
 };
 
 /// The present tick, and what muscles share.
@@ -39,13 +39,12 @@ struct MuscleTime {
 };
 
 /// Muscles of a choice in range begin on people who are in the world and have none of them, at rest where these stand
-/// (with inertia under the load of that moment). `size` and `own`: one of each muscle chosen, in the table's order,
-/// person after person; `own` is written. Entities are appended to `made` as they come, for which there is room:
+/// (with inertia under the load of that moment). `size`: of each muscle chosen, in the table's order, person after
+/// person. Entities are appended to `made` as they come, for which there is room:
 /// after an error, or when memory runs out, the caller undoes them. Errors: a fixed step above an individual's critical
 /// step, which names the muscle and the limit.
 tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice,
                                           const MuscleTime& time, const Jobs& jobs, std::span<const Entity> people,
-                                          std::span<const MuscleSize> size, std::span<OwnMuscle> own,
-                                          std::vector<Entity>& made);
+                                          std::span<const MuscleSize> size, std::vector<Entity>& made);
 
 }  // namespace mobil

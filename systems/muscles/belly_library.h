@@ -27,12 +27,14 @@ class BellyLibrary {
   Result<SharedBelly> shared(Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale, double tick_s);
   /// The same with what is its own.
   Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
+  /// A choice's tissue and effects, once each: all but which muscles and by what method.
+  std::shared_ptr<const LegMuscles> choice(const LegMuscles& choice);
   /// Makes all that bodies of usual size share: templates and bases by jobs, solvers one after the other. Errors: as
   /// above.
   Result<void> prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs);
 
  private:
-  friend class ResourceList;  // systems/snapshot/simulation_resources.h
+  friend class ResourceList;  // systems/snapshot/snapshot_resources.h
 
   struct Solver {
     const BellyTemplate* shape;
@@ -67,6 +69,7 @@ class BellyLibrary {
   static std::shared_ptr<const ReducedBasis> cut(Basis& made, std::uint32_t vectors);
   void prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s);
 
+  std::vector<std::shared_ptr<const LegMuscles>> choices_;
   std::vector<std::unique_ptr<BellyTemplate>> templates_;
   std::vector<Solver> solvers_;
   std::vector<Basis> bases_;
@@ -83,6 +86,8 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s);
 /// Of a choice in range: the sideways foundation, Hz.
 double foundation_of(const LegMuscles& choice);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);
+/// One number for all fields.
+std::uint64_t hash_of(const LegMuscles& choice);
 /// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
 /// multiplication alone: the same on every machine.
 double middle_of_range(double value, double width);

@@ -25,7 +25,6 @@ struct NextMuscle {
   Entity muscle;
   RowValues values;
   std::vector<PartValue> parts;
-  bool fades;
 };
 
 /// The control points' mesh; nothing where a muscle has no belly.
@@ -98,12 +97,12 @@ void set_belly(const Beginning& from, const Belly& belly, RowValues& values) {
   values.set_field<ShownDisplacement>(shown);
 }
 
-NextMuscle next_muscle(World& world, MuscleWork& work, const OneChange& change) {
+NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, const OneChange& change) {
   const Belly& belly = change.belly;
   const auto tick_s = static_cast<float>(change.time.tick_s);
-  MuscleKind kind = kind_of(world, belly.plan.muscle, change.choice, belly);
+  MuscleKind kind = kind_of(world, library, belly.plan.muscle, change.choice, belly);
   const FirstLine at = present_line(world, change);
-  NextMuscle next{change.muscle, {}, {}, false};
+  NextMuscle next{change.muscle, {}, {}};
   next.values.set(MuscleOwner<float>{change.human.index, change.human.generation, change.side});
   next.values.set(belly.plan.leg_scale);
   next.values.set(at.line);
@@ -119,7 +118,7 @@ NextMuscle next_muscle(World& world, MuscleWork& work, const OneChange& change) 
     load.frame =
         next.values.get<FrameLoad>().value_or(world.get<FrameLoad>(change.muscle).value_or(FrameLoad<float>{}));
   const Beginning from = beginning(world, work, change, {belly, change.choice, at.line, load});
-  kind.fading = next.fades = !from.fade.empty();
+  kind.fading = !from.fade.empty();
   set_belly(from, belly, next.values);
   for (const KeyPart& part : muscle_parts(kind)) {
     next.parts.push_back({part, has_column(part.kind) ? next.values.find(part.id) : nullptr});
@@ -133,8 +132,8 @@ std::uint32_t fade_ticks(float tick_s) {
   return static_cast<std::uint32_t>(std::ceil(fade_s / tick_s * (1 - 1e-5F)));
 }
 
-void change_muscles(World& world, MuscleWork& work, const MuscleChange& change, std::span<const Belly> bellies,
-                    std::span<const OwnMuscle> own) {
+void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
+                    std::span<const Belly> bellies, std::span<const OwnMuscle> own) {
   // All that takes memory comes first. A muscle's rows come from and go to tables of that muscle alone, so that none of
   // those that go before takes the room of another.
   std::vector<NextMuscle> next;
@@ -142,19 +141,9 @@ void change_muscles(World& world, MuscleWork& work, const MuscleChange& change, 
   for (std::size_t m = 0; m < bellies.size(); ++m) {
     for (const Side side : {right, left}) {
       if (!world.alive(own[m].entity[side])) continue;
-      next.push_back(next_muscle(world, work, {change, side, bellies[m], own[m].entity[side]}));
+      next.push_back(next_muscle(world, library, work, {change, side, bellies[m], own[m].entity[side]}));
       world.reserve_remade(next.back().muscle, next.back().parts, muscle_part_ids(), 2);
     }
-  }
-  const std::size_t fading = work.fading.size();
-  try {
-    for (const NextMuscle& one : next) {
-      if (one.fades)
-        work.fading.push_back({one.muscle, change.time.tick + fade_ticks(static_cast<float>(change.time.tick_s))});
-    }
-  } catch (...) {
-    while (work.fading.size() > fading) work.fading.pop_back();
-    throw;
   }
   for (const NextMuscle& one : next) world.remake_from(one.muscle, one.parts, muscle_part_ids());
 }

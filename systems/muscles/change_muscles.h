@@ -2,8 +2,8 @@
 // Muscles that are there and become otherwise: another method, other effects, other tissue.
 
 #include <cstdint>
-#include <deque>
 #include <span>
+#include <vector>
 
 #include "engine/world.h"
 #include "systems/deformation/belly_motion.h"
@@ -12,15 +12,14 @@
 
 namespace mobil {
 
-/// Caches that changes share, and running fades ordered by the tick that they end at.
+/// What changes keep from one to the next to save work: nothing of it is state.
 struct MuscleWork {
-  struct Fading {
-    Entity muscle;
-    std::uint32_t ends;  // at that tick
-  };
   RecentPoses recent;
   LastReducedBelly last;
-  std::deque<Fading> fading;
+  // Tables with fades, of those seen so far; and whose fades ended after this tick.
+  std::size_t tables_seen = 0;
+  std::vector<std::size_t> fading;
+  std::vector<Entity> faded;
 };
 
 /// What a person's muscles are to be. Where it `goes_on`, so does what is shown, whatever the methods; else full
@@ -38,7 +37,7 @@ std::uint32_t fade_ticks(float tick_s);
 /// The entities of `own`, one for each belly, come to have just the muscle parts that their method and effects
 /// need; a host's parts stay with them, stale handles are passed over. Where memory runs out that throws
 /// std::bad_alloc, and nothing has changed.
-void change_muscles(World& world, MuscleWork& work, const MuscleChange& change, std::span<const Belly> bellies,
-                    std::span<const OwnMuscle> own);
+void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const MuscleChange& change,
+                    std::span<const Belly> bellies, std::span<const OwnMuscle> own);
 
 }  // namespace mobil

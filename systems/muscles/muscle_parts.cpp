@@ -72,11 +72,12 @@ std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
   kind.inertia = has(type_id<FrameLoad<float>>());
   kind.line_motion = has(type_id<LineMotion<float>>());
   kind.fading = has(type_id<Fade<float>>());
+  shared(kind.choice);
   shared(kind.lines);
   shared(kind.shape);
   shared(kind.solver);
   shared(kind.basis);
-  if (kind.lines.resource == nullptr) return std::nullopt;
+  if (kind.lines.resource == nullptr || kind.choice.resource == nullptr) return std::nullopt;
   kind.method.method = Method::none;
   for (const DeformationMethod& method : deformation_methods()) {
     if (method.recognise(key, kind)) break;
@@ -109,9 +110,9 @@ Module muscles_module() {
   return {.name = "muscles",
           .parts = {component_part<MuscleOwner>(), component_part<LegScale>(), component_part<LineOfAction>(),
                     component_part<EndDrive>(), key_part(TagValue<FarEnd>{}), key_part(TagValue<Muscle>{}),
-                    key_part(Shared<MuscleLines>{}), component_part<BellyScale>(), key_part(Shared<MuscleTemplate>{}),
-                    key_part(FieldWidth<NodalDisplacement>{}), component_part<BellyReport>(),
-                    key_part(TagValue<ScratchFloats>{})},
+                    key_part(Shared<LegMuscles>{}), key_part(Shared<MuscleLines>{}), component_part<BellyScale>(),
+                    key_part(Shared<MuscleTemplate>{}), key_part(FieldWidth<NodalDisplacement>{}),
+                    component_part<BellyReport>(), key_part(TagValue<ScratchFloats>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("lines of action", &follow_lines); },
           .check_key = &check_key,
           .check_rows = &check_rows};
@@ -134,7 +135,8 @@ std::vector<Module> muscle_modules() {
   return all;
 }
 
-MuscleKind kind_of(World& world, Muscle muscle, const LegMuscles& choice, const SharedBelly& belly) {
+MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const LegMuscles& choice,
+                   const SharedBelly& belly) {
   MuscleKind kind;
   kind.muscle = muscle;
   kind.method = {choice.method, choice.reduced};
@@ -142,6 +144,8 @@ MuscleKind kind_of(World& world, Muscle muscle, const LegMuscles& choice, const 
   kind.inertia = feels_frame(choice);
   kind.line_motion = choice.line_motion;
   kind.steps = belly.steps;
+  const auto kept = library.choice(choice);
+  kind.choice = world.share(kept, hash_of(*kept));
   kind.lines = world.share(belly.shape->lines);
   if (has_control_points(choice)) kind.shape = world.share(belly.shape->shape);
   if (belly.solver != nullptr) kind.solver = world.share(belly.solver);
@@ -156,6 +160,7 @@ std::vector<KeyPart> muscle_parts(const MuscleKind& kind) {
                                 component_part<EndDrive>(),
                                 key_part(TagValue<FarEnd>{static_cast<std::uint64_t>(kind.far_end)}),
                                 key_part(TagValue<Muscle>{static_cast<std::uint64_t>(kind.muscle)}),
+                                key_part(kind.choice),
                                 key_part(kind.lines)};
   if (const DeformationMethod* const method = deformation_method(kind.method.method)) {
     parts.push_back(component_part<BellyScale>());

@@ -10,6 +10,7 @@
 #include "engine/module.h"
 #include "engine/world.h"
 #include "systems/deformation/method.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 
@@ -21,7 +22,8 @@ Module fade_module();
 std::vector<Module> muscle_modules();
 
 /// The kind that a muscle of a choice becomes; `world` takes a share in what it shares.
-MuscleKind kind_of(World& world, Muscle muscle, const LegMuscles& choice, const SharedBelly& belly);
+MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const LegMuscles& choice,
+                   const SharedBelly& belly);
 /// The parts of a muscle of that kind, in no order.
 std::vector<KeyPart> muscle_parts(const MuscleKind& kind);
 /// The kind of muscle that has these parts; nothing where they are no muscle's or do not fit each other. Resources are

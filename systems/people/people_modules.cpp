@@ -1,10 +1,16 @@
 #include "systems/people/people_modules.h"
 
+#include <algorithm>
+#include <bit>
+#include <initializer_list>
+
+#include "assets/body/anthropometry.h"
 #include "components/body.h"
 #include "components/forces.h"
 #include "components/gait.h"
 #include "components/leg_frames.h"
 #include "components/pose.h"
+#include "engine/snapshot.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
@@ -15,6 +21,36 @@ namespace {
 
 void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
   post_legs(pose, posts.row);
+}
+
+/// A skeleton has all of its parts, and a walker all of those that gait and kinematics work on.
+Result<void> check_key(const TableKey& key, const World&) {
+  const auto count = [&](std::initializer_list<std::uint64_t> ids) {
+    return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_part(key, id) != nullptr; });
+  };
+  const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>(), type_id<Pose<float>>()});
+  const auto walk = count({type_id<Gait<float>>(), type_id<StepPlan<float>>(), type_id<GaitState<float>>(),
+                           type_id<JointAngles<float>>(), type_id<Feet<float>>(), type_id<CentreOfMass<float>>()});
+  if ((body == 0 || body == 3) && (walk == 0 || (walk == 6 && body == 3))) return {};
+  return fail("the snapshot does not agree with itself (the parts of a person); give one that `save` made");
+}
+
+/// Every body is one that can live.
+Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
+  const std::uint32_t size = saved.column(table, type_id<BodySize<float>>());
+  const std::uint32_t physique = saved.column(table, type_id<Physique<float>>());
+  if (size == Table::no_column || physique == Table::no_column) return {};
+  for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
+    const auto number = [&](std::uint32_t word) { return std::bit_cast<float>(saved.word(table, row, word)); };
+    const std::uint32_t constitution = saved.word(table, row, physique + 3);
+    const BodyRequest body{number(size),
+                           number(size + 1),
+                           {number(physique), number(physique + 1), number(physique + 2)},
+                           static_cast<Constitution>(constitution)};
+    if (constitution <= static_cast<std::uint32_t>(Constitution::heavy) && check_body(body)) continue;
+    return fail("the snapshot does not agree with itself (a person's body); give one that `save` made");
+  }
+  return {};
 }
 
 }  // namespace
@@ -42,8 +78,11 @@ Module forces_module() {
 
 Module skeleton_module() {
   return {.name = "skeleton",
-          .parts = {component_part<BodySize>(), component_part<Pose>(), key_part(Publishes<LegPost>{})},
-          .systems = [](ScheduleBuilder& systems) { systems.add("leg frames", &publish_legs); }};
+          .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<Pose>(),
+                    key_part(Publishes<LegPost>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("leg frames", &publish_legs); },
+          .check_key = &check_key,
+          .check_rows = &check_rows};
 }
 
 }  // namespace mobil

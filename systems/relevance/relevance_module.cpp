@@ -6,8 +6,8 @@
 
 #include "components/relevance.h"
 #include "engine/snapshot.h"
-#include "systems/relevance/simulation_ladder.h"
-#include "systems/relevance/simulation_relevance_rows.h"
+#include "systems/relevance/ladder.h"
+#include "systems/relevance/packed_rungs.h"
 
 namespace mobil {
 namespace {
@@ -35,6 +35,11 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 }
 
 }  // namespace
+
+std::span<const KeyPart> relevance_parts() {
+  static constexpr std::array parts = {component_part<Needs>(), component_part<Tiers>()};
+  return parts;
+}
 
 Module relevance_module() {
   return {.name = "relevance", .parts = {component_part<Needs>(), component_part<Tiers>()}, .check_rows = &check_rows};

@@ -20,11 +20,12 @@ std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
   Simulation simulation;
   const Entity human = simulation.spawn(who.body, who.gait).value();
   EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
-  std::vector<EndError> errors(simulation.person(human)->muscles.size());
+  const std::vector<OwnMuscle> muscles = simulation.muscles(human);
+  std::vector<EndError> errors(muscles.size());
   for (int tick = 0; tick < 60; ++tick) {
     simulation.tick();
     for (std::size_t m = 0; m < errors.size(); ++m) {
-      for (const Entity muscle : simulation.person(human)->muscles[m].entity) {
+      for (const Entity muscle : muscles[m].entity) {
         const auto line = *simulation.get<LineOfAction>(muscle);
         const auto belly = *simulation.get<BellyReport>(muscle);
         const double change = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
@@ -33,7 +34,7 @@ std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
         errors[m].largest_change_m = std::max(errors[m].largest_change_m, std::abs(change));
         if (choice.drive == Drive::force && choice.method == Method::statics) {
           EXPECT_LE(off, 0.03 * std::abs(change) + 2e-6)
-              << muscle_name(simulation.person(human)->muscles[m].muscle) << " lengthened by " << change;
+              << muscle_name(muscles[m].muscle) << " lengthened by " << change;
         }
       }
     }

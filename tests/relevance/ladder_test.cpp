@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "assets/muscles/muscle_table.h"
-#include "systems/relevance/simulation_ladder.h"
+#include "systems/relevance/ladder.h"
 
 namespace mobil {
 namespace {

@@ -12,7 +12,7 @@
 #include "assets/muscles/muscle_table.h"
 #include "demo/effects/accuracy_measure.h"
 #include "demo/effects/accuracy_reference.h"
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

@@ -237,12 +237,13 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
     simulation.tick();
     return static_cast<double>(memory.lent_bytes());
   };
-  const double few = grow_to(640), some = grow_to(1280), many = grow_to(2560);
-  const double each = (some - few) / 640, each_later = (many - some) / 1280;
+  // A table's memory grows by up to 2 MB at once: many enough that this is little.
+  const double few = grow_to(1280), some = grow_to(2560), many = grow_to(5120);
+  const double each = (some - few) / 1280, each_later = (many - some) / 2560;
   EXPECT_LT(each, 8192);                       // at the far tier
   EXPECT_NEAR(each_later, each, 0.25 * each);  // tables hold room for some more
-  EXPECT_LT(many, 1.25 * each * 2560);         // what there is besides people is little
-  while (people.size() > 640) {
+  EXPECT_LT(many, 1.25 * each * 5120);         // what there is besides people is little
+  while (people.size() > 1280) {
     EXPECT_EQ(simulation.despawn(people.back()), Status::ok);
     people.pop_back();
   }

@@ -23,7 +23,7 @@ inline std::string name(Method method) {
 
 inline std::vector<Entity> muscles_of(const Simulation& simulation, Entity human) {
   std::vector<Entity> all;
-  for (const auto& own : simulation.person(human)->muscles) {
+  for (const auto& own : simulation.muscles(human)) {
     all.insert(all.end(), own.entity.begin(), own.entity.end());
   }
   return all;

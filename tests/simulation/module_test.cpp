@@ -7,7 +7,7 @@
 
 #include "systems/muscles/muscle_parts.h"
 #include "systems/simulation.h"
-#include "systems/snapshot/simulation_snapshot.h"
+#include "systems/snapshot/snapshot_file.h"
 #include "tests/simulation/crowd_play.h"
 
 namespace mobil {

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include "systems/relevance/simulation_relevance.h"
-#include "systems/snapshot/simulation_snapshot.h"
+#include "systems/relevance/relevance.h"
+#include "systems/snapshot/snapshot_file.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"

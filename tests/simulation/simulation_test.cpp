@@ -211,7 +211,7 @@ TEST(Simulation, APulledBellyStaysFiniteAndLagsItsLine) {
     double asked = 0, missed = 0;
     for (int i = 0; i < 300; ++i) {
       simulation.tick();
-      for (const auto& own : simulation.person(human)->muscles) {
+      for (const auto& own : simulation.muscles(human)) {
         for (const Entity muscle : own.entity) {
           const auto line = *simulation.get<LineOfAction>(muscle);
           const auto report = *simulation.get<BellyReport>(muscle);
@@ -261,7 +261,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
     EXPECT_EQ(rows_with<BellyReport>(simulation.world()), 2 * muscle_group_count);
     EXPECT_EQ(rows_with<Pose>(simulation.world()), 2U);
     std::vector<Entity> muscles;
-    for (const auto& own : simulation.person(human)->muscles)
+    for (const auto& own : simulation.muscles(human))
       muscles.insert(muscles.end(), own.entity.begin(), own.entity.end());
     for (const Entity muscle : muscles) {
       EXPECT_TRUE(simulation.world().alive(muscle));

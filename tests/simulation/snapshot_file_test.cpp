@@ -11,7 +11,7 @@
 #include <set>
 #include <string>
 
-#include "systems/snapshot/simulation_snapshot.h"
+#include "systems/snapshot/snapshot_file.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 

@@ -9,7 +9,7 @@
 #include "components/gait.h"
 #include "engine/snapshot_bytes.h"
 #include "systems/simulation.h"
-#include "systems/snapshot/simulation_snapshot_records.h"
+#include "systems/snapshot/snapshot_records.h"
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
@@ -84,8 +84,7 @@ Told run(Simulation& simulation, std::vector<Entity> people, int ticks, std::uin
 TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
   Simulation simulation({.threads = 2});
   for (const std::uint64_t seed : {1, 2, 3}) {
-    std::vector<Entity> people;
-    for (const PersonRecord& person : simulation.people().all()) people.push_back(person.entity);
+    std::vector<Entity> people = simulation.people();
     people = run(simulation, people, 25, seed).people;
     const std::uint64_t before = simulation.state_hash(), world = hash_world(simulation);
     const Bytes bytes = saved(simulation);
@@ -95,7 +94,7 @@ TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
     EXPECT_EQ(simulation.state_hash(), before);
     EXPECT_EQ(hash_world(simulation), world);
     EXPECT_EQ(saved(simulation), bytes);
-    for (const Entity one : people) EXPECT_NE(simulation.person(one), nullptr);
+    for (const Entity one : people) EXPECT_TRUE(simulation.is_person(one));
     const Told again = run(simulation, people, 20, seed + 10);
     EXPECT_EQ(again.hashes, first.hashes);
     EXPECT_EQ(again.people, first.people);
@@ -142,9 +141,9 @@ TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
   const Entity late = *simulation.spawn({});
   const Entity later = *simulation.spawn({});
   restore(simulation, bytes);
-  EXPECT_EQ(simulation.person(late), nullptr);
+  EXPECT_FALSE(simulation.is_person(late));
   EXPECT_FALSE(simulation.world().alive(later));
-  EXPECT_NE(simulation.person(people[3]), nullptr);
+  EXPECT_TRUE(simulation.is_person(people[3]));
   EXPECT_TRUE(simulation.world().alive(simulation.muscle(people[3], Muscle::hamstrings, left)));
 }
 
@@ -242,7 +241,7 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   const auto done = fresh.restore(bytes);
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("otherwise"), std::string::npos) << done.error().message;
-  EXPECT_EQ(fresh.people().all().size(), 0U);
+  EXPECT_EQ(fresh.people().size(), 0U);
 }
 
 TEST(Snapshot, WithoutMemoryForItAllStaysAsItWas) {
@@ -253,7 +252,7 @@ TEST(Snapshot, WithoutMemoryForItAllStaysAsItWas) {
     CountingMemory memory;
     Simulation small({.memory = &memory});
     few(small);
-    ASSERT_EQ(small.despawn(small.people().all()[2].entity), Status::ok);
+    ASSERT_EQ(small.despawn(small.people()[2]), Status::ok);
     memory.refuse_after = granted;
     expect_refused(small, more, "memory");
     memory.refuse_after = SIZE_MAX;
@@ -272,7 +271,7 @@ void survive(Simulation& simulation, const Bytes& good, const Bytes& bad) {
   simulation.tick();
   simulation.state_hash();
   saved(simulation);
-  for (const PersonRecord& person : simulation.people().all()) EXPECT_TRUE(simulation.human(person.entity));
+  for (const Entity person : simulation.people()) EXPECT_TRUE(simulation.human(person));
   restore(simulation, good);
 }
 

@@ -56,8 +56,7 @@ Jobs backward() {
 Simulation& empty_world(bool by_threads) {
   static Simulation threads({.threads = 2}), jobs({.jobs = backward()});
   Simulation& of = by_threads ? threads : jobs;
-  std::vector<Entity> all;
-  for (const PersonRecord& one : of.people().all()) all.push_back(one.entity);
+  const std::vector<Entity> all = of.people();
   EXPECT_EQ(of.despawn(all), Status::ok);
   return of;
 }
@@ -128,7 +127,7 @@ TEST(SpawnBatch, OneWhoCannotBeKeepsAllAwayAndIsNamed) {
     EXPECT_EQ(message.find('\n'), std::string::npos);
     EXPECT_EQ(message.rfind("spawn: person " + std::to_string(at) + ": ", 0), 0U) << message;
     EXPECT_EQ(hash_world(simulation), before);
-    EXPECT_EQ(simulation.people().all().size(), people.size());
+    EXPECT_EQ(simulation.people().size(), people.size());
   };
   SpawnRequest wrong = people[0];
   wrong.body.height_m = 5;
@@ -162,7 +161,7 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
   const Entity gone = spawn_alone(simulation, people[2]);
   ASSERT_EQ(simulation.despawn(gone), Status::ok);
   const std::uint64_t before = hash_world(simulation);
-  const Entity muscle = simulation.person(made[0])->muscles[0].entity[0];
+  const Entity muscle = simulation.muscles(made[0])[0].entity[0];
   for (const std::vector<Entity>& wrong : {std::vector<Entity>{made[1], made[2], made[1]}, {made[0], gone}, {muscle}}) {
     EXPECT_EQ(simulation.despawn(wrong), Status::stale_entity);
     EXPECT_EQ(hash_world(simulation), before);
@@ -189,9 +188,9 @@ TEST(SpawnBatch, WhereMemoryRunsOutNobodyHasCome) {
     memory.refuse_after = SIZE_MAX;
     if (done) break;
     ASSERT_EQ(hash_world(simulation), before);
-    ASSERT_EQ(simulation.people().all().size(), first.size());
+    ASSERT_EQ(simulation.people().size(), first.size());
   }
-  EXPECT_EQ(simulation.people().all().size(), 2 * first.size());
+  EXPECT_EQ(simulation.people().size(), 2 * first.size());
 }
 
 TEST(SpawnBatch, PreparedOrNotPeopleAreTheSame) {
@@ -243,12 +242,12 @@ RC_GTEST_PROP(SpawnBatch, ComingAndGoingLeavesThoseWhoStayAlone, ()) {
     RC_ASSERT(simulation.despawn(leave) == Status::ok);
     for (const Entity gone : leave) RC_ASSERT(!simulation.human(gone));
     here = stay;
-    RC_ASSERT(simulation.people().all().size() == here.size());
+    RC_ASSERT(simulation.people().size() == here.size());
     std::size_t expected = here.size();
-    for (const auto& [human, i] : here) expected += 2 * simulation.person(human)->muscles.size();
+    for (const auto& [human, i] : here) expected += 2 * simulation.muscles(human).size();
     RC_ASSERT(rows(simulation.world()) == expected);
     for (const auto& [human, i] : here) {
-      RC_ASSERT(simulation.person(human)->muscles.size() == (request(i).muscles ? 2U : 0U));
+      RC_ASSERT(simulation.muscles(human).size() == (request(i).muscles ? 2U : 0U));
     }
   }
   for (int t = 0; t < 3; ++t) simulation.tick();

@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-#include "systems/snapshot/simulation_snapshot.h"
+#include "systems/snapshot/snapshot_file.h"
 
 namespace mobil {
 namespace {

@@ -29,7 +29,8 @@
 #include "engine/each.h"
 #include "engine/error.h"
 #include "systems/relevance/accuracy_table.h"
-#include "systems/relevance/simulation_ladder.h"
+#include "systems/relevance/ladder.h"
+#include "systems/relevance/relevance_module.h"
 #include "systems/simulation.h"
 
 namespace mobil {

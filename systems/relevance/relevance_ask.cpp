@@ -5,8 +5,9 @@
 #include <cmath>
 #include <string>
 
-#include "systems/relevance/simulation_relevance.h"
-#include "systems/relevance/simulation_relevance_rows.h"
+#include "systems/muscles/leg_muscles.h"
+#include "systems/relevance/packed_rungs.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {
@@ -90,11 +91,10 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
 }
 
 Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
-  const PersonRecord* human = simulation_.person(entity);
-  if (human == nullptr) return fail("manage: that person is not there (a stale handle); spawn one first");
+  if (!simulation_.is_person(entity)) return fail("manage: that person is not there (a stale handle); spawn one first");
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
-  if (human->muscles.empty()) {
+  if (simulation_.muscles(entity).empty()) {
     LegMuscles choice = options_.leg_muscles;
     choice.muscles = needs.muscles.value_or(scene_.muscles);
     choice.method = Method::none;
@@ -118,10 +118,11 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
   const bool anew = tiers.relative_size == 0;
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
   tiers.muscles = 0;
-  tiers.inertia = !human->muscles.empty() && simulation_.people().choice(*human).inertia ? 1 : 0;
+  const auto choice = choice_of(world, entity);
+  tiers.inertia = choice && choice->inertia ? 1 : 0;
   tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
   tiers.relative_size = options_.margin;
-  for (const OwnMuscle& own : human->muscles) {
+  for (const OwnMuscle& own : simulation_.muscles(entity)) {
     const auto m = static_cast<std::uint32_t>(own.muscle);
     set_bit(tiers.muscles, m, true);
     if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;

@@ -1,6 +1,6 @@
 #pragma once
-// What of the front door goes into a snapshot, as plain records without padding; numbers that a compiler may lay out as
-// it likes are words of their own. Part of the front door.
+// What a snapshot has beside a world, as plain records without padding; numbers that a compiler may lay out as it likes
+// are words of their own.
 
 #include <bit>
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace mobil {
 
 struct FrontHeader {
   std::int64_t tick_units, remainder_units;
-  std::uint32_t tick, people, muscles, choices, fading, resources, modules, spare;
+  std::uint32_t tick, resources, modules, spare;
 };
 
 struct SavedMethod {
@@ -29,22 +29,6 @@ struct SavedChoice {
   friend bool operator==(const SavedChoice& a, const SavedChoice& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 };
 
-struct SavedPerson {
-  std::uint32_t index, generation;
-  std::uint32_t height, mass, endo, meso, ecto;  // floats, bit by bit
-  std::uint32_t constitution, posed, choice, muscles;
-};
-
-struct SavedMuscle {
-  std::uint32_t muscle;
-  Entity entity[2];
-};
-
-struct SavedFading {
-  Entity muscle;
-  std::uint32_t ends;
-};
-
 /// A module that rows have parts of.
 struct SavedModule {
   char name[60];  // its beginning, zeros behind
@@ -52,7 +36,7 @@ struct SavedModule {
 };
 
 /// `named`: a module's, by names.
-enum class ResourceKind : std::uint32_t { unknown, shape, lines, solver, basis, named };
+enum class ResourceKind : std::uint32_t { unknown, choice, shape, lines, solver, basis, named };
 
 /// What a shared resource is made from, in one form: what it does not depend on is as in a LegMuscles{}.
 struct Recipe {
@@ -66,6 +50,7 @@ struct Recipe {
   friend bool operator==(const Recipe& a, const Recipe& b) { return std::memcmp(&a, &b, sizeof(a)) == 0; }
 };
 
+/// Of a choice of muscles the recipe's `choice` is the resource itself; its `muscle` is most_muscles: any.
 /// A resource that a table with rows has, by its number in the world that was saved; these ascend.
 struct SavedResource {
   Recipe recipe;
@@ -73,10 +58,8 @@ struct SavedResource {
   std::uint32_t number, spare;
 };
 
-SavedMethod pack(const MuscleMethod& method);
 SavedChoice pack(const LegMuscles& choice);
 /// Nothing where an enumeration or a truth value is none.
-std::optional<MuscleMethod> unpack(const SavedMethod& saved);
 std::optional<LegMuscles> unpack(const SavedChoice& saved);
 
 }  // namespace mobil

@@ -1,5 +1,5 @@
 // Who is seen, what their muscles need, and which method each gets.
-#include "systems/relevance/simulation_relevance.h"
+#include "systems/relevance/relevance.h"
 
 #include <algorithm>
 #include <bit>
@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "engine/rows.h"
-#include "systems/relevance/simulation_relevance_rows.h"
+#include "systems/relevance/packed_rungs.h"
 
 namespace mobil {
 namespace {

@@ -1,4 +1,4 @@
-#include "systems/snapshot/simulation_resources.h"
+#include "systems/snapshot/snapshot_resources.h"
 
 #include <fmt/format.h>
 
@@ -155,6 +155,8 @@ std::uint64_t resource_type(const Recipe& recipe) {
   switch (recipe.kind) {
     case ResourceKind::named:
       return recipe.along;
+    case ResourceKind::choice:
+      return type_id<LegMuscles>();
     case ResourceKind::shape:
       return type_id<MuscleTemplate>();
     case ResourceKind::lines:
@@ -172,6 +174,11 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
   for (std::size_t number = known_.size(); number < world.resource_count(); ++number) {
     const void* resource = world.resource(number);
     Known known;
+    for (const auto& made : library.choices_) {
+      if (made.get() != resource) continue;
+      known = {recipe_of(ResourceKind::choice, Muscle{}, *made), hash_of(*made)};
+      known.recipe.muscle = most_muscles;
+    }
     for (const auto& made : library.templates_) {
       if (made->shape.get() == resource) {
         known = {shape_recipe(ResourceKind::shape, *made), fingerprint(*made->shape)};
@@ -238,11 +245,17 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
   return fail(
       fmt::format("a mesh, solver or basis of {} comes out otherwise here than where the snapshot was made;"
                   " restore it with the program that made it, on a machine of the same kind",
-                  muscle_name(static_cast<Muscle>(saved.recipe.muscle))));
+                  saved.recipe.muscle < muscles().size() ? muscle_name(static_cast<Muscle>(saved.recipe.muscle))
+                                                         : std::string_view("a muscle")));
 }
 
 Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary& library) {
   const auto choice = unpack(recipe.choice);
+  if (choice && recipe.kind == ResourceKind::choice) {
+    const auto made = library.choice(*choice);
+    world.share(made, hash_of(*made));
+    return {};
+  }
   if (!choice || recipe.muscle >= muscles().size()) return fail("its recipe is damaged");
   const auto muscle = static_cast<Muscle>(recipe.muscle);
   const double across = number(recipe.across), along = number(recipe.along);

@@ -1,6 +1,6 @@
 #pragma once
 // The cheapest method that is good enough, and the best that a budget affords: the arithmetic of Relevance
-// (systems/relevance/simulation_relevance.h), which knows nothing of people.
+// (systems/relevance/relevance.h), which knows nothing of people.
 
 #include <array>
 #include <cstddef>

@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "systems/muscles/muscle_parts.h"
-#include "systems/relevance/simulation_relevance.h"
-#include "systems/relevance/simulation_relevance_rows.h"
+#include "systems/relevance/packed_rungs.h"
+#include "systems/relevance/relevance.h"
 
 namespace mobil {
 namespace {

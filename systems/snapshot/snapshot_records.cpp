@@ -1,4 +1,4 @@
-#include "systems/snapshot/simulation_snapshot_records.h"
+#include "systems/snapshot/snapshot_records.h"
 
 #include <algorithm>
 
@@ -12,8 +12,6 @@ double number(std::uint64_t bits) {
   return std::bit_cast<double>(bits);
 }
 
-}  // namespace
-
 SavedMethod pack(const MuscleMethod& method) {
   const ReducedChoice& reduced = method.reduced;
   return {static_cast<std::uint32_t>(method.method),
@@ -24,6 +22,22 @@ SavedMethod pack(const MuscleMethod& method) {
           reduced.control_points,
           reduced.reported};
 }
+
+std::optional<MuscleMethod> unpack(const SavedMethod& saved) {
+  if (saved.method > static_cast<std::uint32_t>(Method::none) || saved.moving > 1 || saved.corrected > 1 ||
+      saved.control_points > 1 || saved.reported > 1) {
+    return std::nullopt;
+  }
+  return MuscleMethod{static_cast<Method>(saved.method),
+                      {saved.vectors,
+                       saved.moving != 0,
+                       saved.corrected != 0,
+                       {saved.cells[0], saved.cells[1], saved.cells[2]},
+                       saved.control_points != 0,
+                       saved.reported != 0}};
+}
+
+}  // namespace
 
 SavedChoice pack(const LegMuscles& choice) {
   SavedChoice saved{};
@@ -45,20 +59,6 @@ SavedChoice pack(const LegMuscles& choice) {
   saved.has_dt = choice.dt_s.has_value();
   saved.method = pack(MuscleMethod{choice.method, choice.reduced});
   return saved;
-}
-
-std::optional<MuscleMethod> unpack(const SavedMethod& saved) {
-  if (saved.method > static_cast<std::uint32_t>(Method::none) || saved.moving > 1 || saved.corrected > 1 ||
-      saved.control_points > 1 || saved.reported > 1) {
-    return std::nullopt;
-  }
-  return MuscleMethod{static_cast<Method>(saved.method),
-                      {saved.vectors,
-                       saved.moving != 0,
-                       saved.corrected != 0,
-                       {saved.cells[0], saved.cells[1], saved.cells[2]},
-                       saved.control_points != 0,
-                       saved.reported != 0}};
 }
 
 std::optional<LegMuscles> unpack(const SavedChoice& saved) {

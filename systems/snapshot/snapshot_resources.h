@@ -10,7 +10,7 @@
 #include "engine/module.h"
 #include "engine/world.h"
 #include "systems/muscles/belly_library.h"
-#include "systems/snapshot/simulation_snapshot_records.h"
+#include "systems/snapshot/snapshot_records.h"
 
 namespace mobil {
 

@@ -1,4 +1,4 @@
-#include "systems/relevance/simulation_ladder.h"
+#include "systems/relevance/ladder.h"
 
 #include <algorithm>
 #include <bit>

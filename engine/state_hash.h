@@ -1,0 +1,16 @@
+#pragma once
+// The state of a world in one number.
+
+#include <cstdint>
+
+#include "engine/jobs.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+/// Of all rows with the parts that they have, each row with its members' (engine/members.h), and of shared resources
+/// that were given a content. The same whatever order entities came in, whatever rows they lie in and whatever handles
+/// they have; other components that hold handles make it depend on those.
+std::uint64_t state_hash(const World& world, const Jobs& jobs);
+
+}  // namespace mobil

@@ -1,0 +1,304 @@
+#include "systems/muscles/leg_muscles.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "assets/body/anthropometry.h"
+#include "components/fade.h"
+#include "engine/each.h"
+#include "systems/muscles/muscle_parts.h"
+#include "systems/people/person.h"
+
+namespace mobil {
+namespace {
+
+/// What a scene has made so far is undone unless it is `done`.
+class NewRows {
+ public:
+  NewRows(const MuscleScene& scene, std::size_t room, std::span<Entity> entities = {})
+      : scene_(scene), entities_(entities) {
+    made.reserve(room);
+  }
+  ~NewRows() {
+    if (done) return;
+    scene_.world.undo_create(made);
+    scene_.work.recent = {};  // others will have these handles
+    std::ranges::fill(entities_, Entity{});
+  }
+  NewRows(const NewRows&) = delete;
+  NewRows& operator=(const NewRows&) = delete;
+
+  std::vector<Entity> made;  // people and muscles as they came; there is room for all that will
+  bool done = false;
+
+ private:
+  const MuscleScene& scene_;
+  std::span<Entity> entities_;  // the caller's
+};
+
+tl::unexpected<Error> not_there() {
+  return fail("that person is not there (a stale handle); spawn one first");
+}
+
+/// The sizes of muscles that people asked for, one person's after the other's.
+class Sizes {
+ public:
+  explicit Sizes(std::span<const SpawnRequest> people) : people_(people), first_(people.size() + 1) {
+    for (std::size_t i = 0; i < people.size(); ++i) first_[i + 1] = first_[i] + count(i);
+    size_.resize(first_.back());
+  }
+  std::span<MuscleSize> of(std::size_t person) {
+    return std::span(size_).subspan(first_[person], first_[person + 1] - first_[person]);
+  }
+  std::size_t all() const { return size_.size(); }
+
+  Result<void> set(std::size_t person, const Body& body) {
+    auto at = of(person).begin();
+    for (std::size_t m = 0; at != of(person).end(); ++m) {
+      if (!people_[person].muscles->muscles[m]) continue;
+      const auto plan = make_muscle_plan(body, static_cast<Muscle>(m));
+      if (!plan) return tl::unexpected(plan.error());
+      *at++ = size_of(*plan);
+    }
+    return {};
+  }
+
+ private:
+  std::size_t count(std::size_t person) const {
+    return people_[person].muscles ? people_[person].muscles->muscles.count() : 0;
+  }
+
+  std::span<const SpawnRequest> people_;
+  std::vector<std::size_t> first_;
+  std::vector<MuscleSize> size_;
+};
+
+tl::expected<void, NotMade> check_choices(std::span<const SpawnRequest> people, double tick_s) {
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    if (!people[i].muscles || (i > 0 && people[i - 1].muscles == people[i].muscles)) continue;
+    if (auto ok = check_choice(*people[i].muscles, tick_s); !ok) return tl::unexpected(NotMade{i, ok.error()});
+  }
+  return {};
+}
+
+/// The muscles of some people who are in the world, each choice together. `first`: the number of the first of them.
+tl::expected<void, NotMade> begin_each_choice(const MuscleScene& scene, std::span<const SpawnRequest> people,
+                                              std::span<const Entity> entities, std::size_t first, Sizes& sizes,
+                                              std::vector<Entity>& made) {
+  std::vector<const LegMuscles*> choices;
+  for (const SpawnRequest& one : people) {
+    const auto same = [&](const LegMuscles* choice) { return *choice == *one.muscles; };
+    if (one.muscles && std::ranges::none_of(choices, same)) choices.push_back(&*one.muscles);
+  }
+  for (const LegMuscles* const choice : choices) {
+    std::vector<std::size_t> who;
+    std::vector<Entity> humans;
+    std::vector<MuscleSize> their;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      if (people[i].muscles != *choice) continue;
+      who.push_back(first + i);
+      humans.push_back(entities[i]);
+      const auto of = sizes.of(first + i);
+      their.insert(their.end(), of.begin(), of.end());
+    }
+    auto begun = begin_muscles(scene.world, scene.library, *choice, scene.time, scene.jobs, humans, their, made);
+    if (!begun) return tl::unexpected(NotMade{who[begun.error().person], begun.error().error});
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<OwnMuscle> muscles_of(const World& world, Entity person) {
+  std::vector<OwnMuscle> all;
+  world.each_member(person, [&](Entity member) {
+    const auto owner = world.get<MuscleOwner>(member);
+    const auto number = world.get<Muscle>(member);
+    if (!owner || !number) return;
+    const auto muscle = static_cast<Muscle>(*number);
+    auto at = std::ranges::find(all, muscle, &OwnMuscle::muscle);
+    if (at == all.end()) at = all.insert(at, {muscle, {}});
+    at->entity[owner->side] = member;
+  });
+  std::ranges::sort(all, {}, &OwnMuscle::muscle);
+  return all;
+}
+
+Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side) {
+  Entity found{};
+  world.each_member(person, [&](Entity member) {
+    if (world.get<Muscle>(member) == static_cast<std::uint64_t>(muscle) && world.get<MuscleOwner>(member)->side == side)
+      found = member;
+  });
+  return found;
+}
+
+std::optional<LegMuscles> choice_of(const World& world, Entity person) {
+  const std::vector<OwnMuscle> own = muscles_of(world, person);
+  if (own.empty()) return std::nullopt;
+  const Entity first = world.alive(own.front().entity[right]) ? own.front().entity[right] : own.front().entity[left];
+  LegMuscles choice = *world.shared<LegMuscles>(first);
+  const MuscleMethod method = muscle_method(world, first);
+  choice.method = method.method;
+  choice.reduced = method.reduced;
+  choice.muscles.reset();
+  for (const OwnMuscle& one : own) choice.muscles.set(static_cast<std::size_t>(one.muscle));
+  return choice;
+}
+
+tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<const SpawnRequest> people,
+                                         std::span<Entity> entities) {
+  constexpr std::size_t batch_size = 512;  // people whose rows are made before they are written
+  if (auto ok = check_choices(people, scene.time.tick_s); !ok) return ok;
+  Sizes sizes(people);
+  std::vector<Gait<float>> gait(people.size());
+  const auto set_sizes = [&](std::size_t i, const Body& body) { return sizes.set(i, body); };
+  if (auto ok = check_people(scene.jobs, people, gait, set_sizes); !ok) return ok;
+
+  NewRows rows(scene, people.size() + 2 * sizes.all(), entities);
+  for (std::size_t first = 0, count = 0; first < people.size(); first += count) {
+    const auto parts = people[first].parts;
+    for (count = 1; count < std::min(batch_size, people.size() - first); ++count) {
+      if (!std::ranges::equal(people[first + count].parts, parts)) break;
+    }
+    const auto some = people.subspan(first, count);
+    const auto made = entities.subspan(first, count);
+    create_walkers(scene.world, scene.jobs, some, std::span<const Gait<float>>(gait).subspan(first, count), made);
+    rows.made.insert(rows.made.end(), made.begin(), made.end());
+    if (auto begun = begin_each_choice(scene, some, made, first, sizes, rows.made); !begun) return begun;
+  }
+  rows.done = true;
+  return {};
+}
+
+Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> people) {
+  std::size_t count = people.size();
+  for (const Entity person : people) {
+    if (!is_person(world, person)) return Status::stale_entity;
+    world.each_member(person, [&](Entity) { ++count; });
+  }
+  if (!world.alive_once(people)) return Status::stale_entity;
+  std::vector<Entity> rows;
+  try {
+    rows.reserve(count);
+    for (const Entity person : people) {
+      world.each_member(person, [&](Entity member) { rows.push_back(member); });
+      rows.push_back(person);
+    }
+    world.destroy_many(rows, jobs);
+  } catch (const std::bad_alloc&) {  // one by one takes no memory
+    for (const Entity person : people) {
+      for (Entity member = world.first_member(person); world.alive(member); member = world.first_member(person))
+        world.destroy(member);
+      world.destroy(person);
+    }
+  }
+  return Status::ok;
+}
+
+Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
+  World& world = scene.world;
+  if (!is_person(world, person)) return not_there();
+  if (!muscles_of(world, person).empty()) return fail("this person has leg muscles; remove them first");
+  if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
+  const Body body = *make_body(body_request(world, person));
+  std::vector<MuscleSize> size;
+  for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
+    if (choice.muscles[m]) size.push_back(size_of(*make_muscle_plan(body, static_cast<Muscle>(m))));
+  }
+  NewRows rows(scene, 2 * size.size());
+  auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, {&person, 1}, size, rows.made);
+  if (!begun) return tl::unexpected(begun.error().error);
+  rows.done = true;
+  return {};
+}
+
+/// Muscles that are there keep their handles, others begin; those that are no longer asked for go.
+Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
+  World& world = scene.world;
+  if (!is_person(world, person)) return not_there();
+  const std::vector<OwnMuscle> before = muscles_of(world, person);
+  if (before.empty()) return fail("this person has no leg muscles; add them first");
+  if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
+  const Body body = *make_body(body_request(world, person));
+  LegMuscles new_ones = choice;
+  std::vector<OwnMuscle> stay;
+  std::vector<Belly> bellies;
+  std::vector<MuscleSize> size;
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (!choice.muscles[m]) continue;
+    const auto muscle = static_cast<Muscle>(m);
+    const MusclePlan plan = *make_muscle_plan(body, muscle);
+    const auto own = std::ranges::find(before, muscle, &OwnMuscle::muscle);
+    if (own == before.end()) {
+      size.push_back(size_of(plan));
+      continue;
+    }
+    new_ones.muscles.reset(m);
+    stay.push_back(*own);
+    auto belly = scene.library.belly(plan, choice, scene.time.tick_s);
+    if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message);
+    bellies.push_back(std::move(*belly));
+  }
+  NewRows rows(scene, 2 * size.size());
+  auto begun = begin_muscles(world, scene.library, new_ones, scene.time, scene.jobs, {&person, 1}, size, rows.made);
+  if (!begun) return tl::unexpected(begun.error().error);
+  change_muscles(world, scene.library, scene.work, {person, choice, false, scene.time}, bellies, stay);
+  rows.done = true;
+  for (const OwnMuscle& one : before) {
+    if (choice.muscles[static_cast<std::size_t>(one.muscle)]) continue;
+    for (const Entity muscle : one.entity) world.destroy(muscle);
+  }
+  return {};
+}
+
+Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
+  if (!is_person(world, person)) return Status::stale_entity;
+  std::array<Entity, 2 * MuscleSet{}.size()> rows;
+  std::size_t count = 0;
+  world.each_member(person, [&](Entity member) {
+    if (world.has<MuscleOwner>(member) && count < rows.size()) rows[count++] = member;
+  });
+  return world.destroy_many(std::span(rows).first(count), jobs);
+}
+
+Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method) {
+  World& world = scene.world;
+  if (!is_person(world, person)) return not_there();
+  const OwnMuscle own{muscle, {muscle_of(world, person, muscle, right), muscle_of(world, person, muscle, left)}};
+  const Entity one = world.alive(own.entity[right]) ? own.entity[right] : own.entity[left];
+  if (!world.alive(one)) return fail("this person has no such muscle; choose one of those in add_leg_muscles");
+  if (same_method(muscle_method(world, one), method)) return {};
+  LegMuscles choice = *world.shared<LegMuscles>(one);
+  choice.method = method.method;
+  choice.reduced = method.reduced;
+  const MusclePlan plan = *make_muscle_plan(*make_body(body_request(world, person)), muscle);
+  const auto belly = scene.library.belly(plan, choice, scene.time.tick_s);
+  if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message);
+  change_muscles(world, scene.library, scene.work, {person, choice, true, scene.time}, {&*belly, 1}, {&own, 1});
+  return {};
+}
+
+void end_fades(World& world, float tick_s, MuscleWork& work) {
+  const std::uint32_t ticks = fade_ticks(tick_s);
+  work.faded.clear();
+  for (; work.tables_seen < world.tables().size(); ++work.tables_seen) {
+    if (TableColumn<Fade>(world.tables()[work.tables_seen])) work.fading.push_back(work.tables_seen);
+  }
+  for (const std::size_t at : work.fading) {
+    const Table& table = world.tables()[at];
+    const TableColumn<Fade> fades(table);
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      const auto& fade = fades.at(table, b);
+      for (std::uint32_t lane = 0; lane < table.live(b); ++lane) {
+        if (fade.ticks[lane] >= ticks) work.faded.push_back(table.entities(b)[lane]);
+      }
+    }
+  }
+  for (const Entity muscle : work.faded) {
+    world.remove_parts(muscle, {type_id<Fade<float>>(), type_id<FadeStart>(), type_id<ShownDisplacement>()});
+  }
+}
+
+}  // namespace mobil

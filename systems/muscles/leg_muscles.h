@@ -1,0 +1,53 @@
+#pragma once
+// A person's leg muscles: they come with people, are added, change and go. Each muscle is an entity that belongs to its
+// person (World::each_member) and has the choice that it was made with.
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "components/leg_muscles.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/world.h"
+#include "systems/muscles/belly_library.h"
+#include "systems/muscles/change_muscles.h"
+#include "systems/people/spawn.h"
+
+namespace mobil {
+
+/// What is needed to make and change muscles.
+struct MuscleScene {
+  World& world;
+  BellyLibrary& library;
+  MuscleWork& work;
+  const Jobs& jobs;
+  MuscleTime time;
+};
+
+/// A person's muscles in the table's order; empty for a stale handle. A side that is gone has a stale handle.
+std::vector<OwnMuscle> muscles_of(const World& world, Entity person);
+/// A person's muscle of that side; a stale handle where there is none.
+Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side);
+/// What a person's muscles were chosen as: their tissue and effects, the method of the first one. Nothing without
+/// muscles.
+std::optional<LegMuscles> choice_of(const World& world, Entity person);
+
+/// All people with their muscles, or none; `entities` as long as `people`. Errors name the first person who cannot be.
+tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<const SpawnRequest> people,
+                                         std::span<Entity> entities);
+/// People and all that belongs to them go. Where one is stale or named twice, Status::stale_entity, and all stay.
+Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> people);
+
+/// As the members of Simulation of these names (systems/simulation.h); messages without that name.
+Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
+Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
+Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person);
+Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method);
+
+/// Fades that are over leave their rows. After a tick.
+void end_fades(World& world, float tick_s, MuscleWork& work);
+
+}  // namespace mobil

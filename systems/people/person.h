@@ -1,0 +1,32 @@
+#pragma once
+// One person in a world: a row with BodySize, Physique and Pose; a walker also with Gait and what follows from it. What
+// can be asked of one.
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "components/pose.h"
+#include "engine/error.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+bool is_person(const World& world, Entity entity);
+/// A person whose host animates the skeleton; false for a stale handle.
+bool is_posed(const World& world, Entity entity);
+/// What was asked of a person's body.
+BodyRequest body_request(const World& world, Entity person);
+/// The same as components.
+BodySize<float> body_size(const BodyRequest& request);
+Physique<float> physique(const BodyRequest& request);
+
+/// Asks a walker to walk otherwise, from the next step on. Errors: a stale handle, a posed person, a gait out of range;
+/// nothing has changed then.
+Result<void> change_gait(World& world, Entity person, const GaitRequest& request);
+/// Asks a walker to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left). Errors: a stale handle, a
+/// posed person, a heading that is not within ±10000.
+Result<void> turn_to(World& world, Entity person, float heading_rad);
+/// Where a posed person's skeleton is at the end of the next tick. Stale handles answer Status::stale_entity, walkers
+/// Status::missing.
+Status set_pose(World& world, Entity person, const Pose<float>& pose);
+
+}  // namespace mobil

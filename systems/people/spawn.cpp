@@ -1,0 +1,131 @@
+#include "systems/people/spawn.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "components/leg_frames.h"
+#include "components/pose.h"
+#include "engine/rows.h"
+#include "systems/gait/gait.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/people/person.h"
+
+namespace mobil {
+namespace {
+
+Result<void> check_place(const SpawnRequest& request) {
+  if (std::fabs(request.x_m) < 1e6F && std::fabs(request.z_m) < 1e6F && std::fabs(request.heading_rad) < 1e4F) {
+    return {};
+  }
+  return fail(fmt::format("a place of {} and {} m or a heading of {} rad is not within ±1000000 m and ±10000 rad",
+                          request.x_m, request.z_m, request.heading_rad));
+}
+
+Result<void> check(const SpawnRequest& request, Gait<float>& gait, std::size_t person,
+                   const std::function<Result<void>(std::size_t, const Body&)>& each) {
+  const auto body = make_body(request.body);
+  if (!body) return tl::unexpected(body.error());
+  auto resolved = resolve_gait(*body, request.gait);
+  if (!resolved) return tl::unexpected(resolved.error());
+  if (auto placed = check_place(request); !placed) return placed;
+  gait = *resolved;
+  gait.heading_rad = request.heading_rad;
+  return each(person, *body);
+}
+
+/// What kinematics makes of walkers' first instants, sixteen to a block.
+struct FirstInstants {
+  explicit FirstInstants(std::size_t blocks)
+      : size(std::make_unique_for_overwrite<BodySize<Lanes<float>>[]>(blocks)),
+        physique(std::make_unique_for_overwrite<Physique<Lanes<float>>[]>(blocks)),
+        gait(std::make_unique_for_overwrite<Gait<Lanes<float>>[]>(blocks)),
+        plan(std::make_unique<StepPlan<Lanes<float>>[]>(blocks)),
+        state(std::make_unique<GaitState<Lanes<float>>[]>(blocks)),
+        pose(std::make_unique_for_overwrite<Pose<Lanes<float>>[]>(blocks)),
+        angles(std::make_unique_for_overwrite<JointAngles<Lanes<float>>[]>(blocks)),
+        feet(std::make_unique_for_overwrite<Feet<Lanes<float>>[]>(blocks)),
+        centre(std::make_unique_for_overwrite<CentreOfMass<Lanes<float>>[]>(blocks)) {}
+
+  void make(std::size_t b, std::span<const SpawnRequest> people, std::span<const Gait<float>> gaits) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const std::size_t i = b * lane_count + lane < people.size() ? b * lane_count + lane : b * lane_count;
+      const SpawnRequest& request = people[i];
+      put_row(body_size(request.body), size[b], lane);
+      put_row(mobil::physique(request.body), physique[b], lane);
+      put_row(gaits[i], gait[b], lane);
+      state[b].line_x_m[lane] = request.x_m;
+      state[b].line_z_m[lane] = request.z_m;
+      state[b].heading_rad[lane] = request.heading_rad;
+    }
+    plan_first_step(size[b], gait[b], plan[b]);
+    pose_skeleton(size[b], plan[b], state[b], pose[b], angles[b], feet[b]);
+    centre_of_mass(size[b], pose[b], centre[b]);
+  }
+
+  std::vector<PartValue> parts(std::span<const KeyPart> more) const {
+    std::vector<PartValue> all = {
+        {component_part<BodySize>(), size.get()},       {component_part<Physique>(), physique.get()},
+        {component_part<Gait>(), gait.get()},           {component_part<StepPlan>(), plan.get()},
+        {component_part<GaitState>(), state.get()},     {component_part<Pose>(), pose.get()},
+        {component_part<JointAngles>(), angles.get()},  {component_part<Feet>(), feet.get()},
+        {component_part<CentreOfMass>(), centre.get()}, part_value(Publishes<LegPost>{})};
+    for (const KeyPart& part : more) all.push_back({part, nullptr});
+    return all;
+  }
+
+  std::unique_ptr<BodySize<Lanes<float>>[]> size;
+  std::unique_ptr<Physique<Lanes<float>>[]> physique;
+  std::unique_ptr<Gait<Lanes<float>>[]> gait;
+  std::unique_ptr<StepPlan<Lanes<float>>[]> plan;
+  std::unique_ptr<GaitState<Lanes<float>>[]> state;
+  std::unique_ptr<Pose<Lanes<float>>[]> pose;
+  std::unique_ptr<JointAngles<Lanes<float>>[]> angles;
+  std::unique_ptr<Feet<Lanes<float>>[]> feet;
+  std::unique_ptr<CentreOfMass<Lanes<float>>[]> centre;
+};
+
+}  // namespace
+
+tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
+                                         std::span<Gait<float>> gait,
+                                         const std::function<Result<void>(std::size_t, const Body&)>& each) {
+  std::atomic<std::size_t> wrong = people.size();  // the first of those who cannot be
+  in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (check(people[i], gait[i], i, each)) continue;
+      for (std::size_t before = wrong; i < before && !wrong.compare_exchange_weak(before, i);) {
+      }
+      return;
+    }
+  });
+  const std::size_t i = wrong;
+  if (i == people.size()) return {};
+  return tl::unexpected(NotMade{i, check(people[i], gait[i], i, each).error()});
+}
+
+void create_walkers(World& world, const Jobs& jobs, std::span<const SpawnRequest> people,
+                    std::span<const Gait<float>> gait, std::span<Entity> entities) {
+  const std::size_t blocks = (people.size() + lane_count - 1) / lane_count;
+  FirstInstants instants(blocks);
+  in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b) instants.make(b, people, gait);
+  });
+  world.create_many(instants.parts(people.front().parts), entities, jobs);
+}
+
+Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
+  const auto body = make_body(request);
+  if (!body) return tl::unexpected(body.error());
+  const BodySize<float> size = body_size(request);
+  Pose<Lanes<float>> standing;
+  pose_anatomical(broadcast(size), standing);
+  return world.create(size, physique(request), first_lane(standing), Publishes<LegPost>{});
+}
+
+}  // namespace mobil

@@ -1,0 +1,154 @@
+#include "systems/snapshot/snapshot.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "systems/snapshot/snapshot_check.h"
+
+namespace mobil {
+namespace {
+
+/// Lists of the front, each as long as its header says.
+struct SavedFront {
+  FrontHeader header{};
+  Records<SavedModule> modules;
+  Records<SavedResource> resources;
+};
+
+bool has_rows(const Module& module, const World& world) {
+  for (const Table& table : world.tables()) {
+    if (table.row_count() == 0) continue;
+    for (const KeyPart& part : module.parts) {
+      if (find_part(table.key(), part.id) != nullptr) return true;
+    }
+  }
+  return false;
+}
+
+SavedModule pack(const Module& module) {
+  SavedModule saved{};
+  module.name.copy(saved.name, sizeof(saved.name));
+  saved.version = module.version;
+  return saved;
+}
+
+/// How long the front's lists are. Marks resources that tables with rows have.
+FrontHeader count(const SnapshotScene& scene, std::vector<std::uint8_t>& used) {
+  FrontHeader header{};
+  for (const Module& module : scene.modules) header.modules += has_rows(module, scene.world) ? 1 : 0;
+  used.assign(scene.world.resource_count(), 0);
+  for (const Table& table : scene.world.tables()) {
+    if (table.row_count() == 0) continue;
+    for (const KeyPart& part : table.key()) {
+      if (part.kind == PartKind::shared) used[part.value] = 1;
+    }
+  }
+  header.resources = static_cast<std::uint32_t>(std::count(used.begin(), used.end(), 1));
+  return header;
+}
+
+SnapshotLayout layout_of(const World& world, const FrontHeader& header) {
+  SnapshotLayout layout = WorldSnapshot::layout(world);
+  layout.front = sizeof(FrontHeader) + header.modules * sizeof(SavedModule) + header.resources * sizeof(SavedResource);
+  return layout;
+}
+
+Result<SavedFront> read_front(std::span<const std::byte> bytes) {
+  ByteReader reader(bytes);
+  SavedFront front;
+  if (reader.take(front.header)) {
+    front.modules = reader.take_many<SavedModule>(front.header.modules);
+    front.resources = reader.take_many<SavedResource>(front.header.resources);
+  }
+  if (!reader.whole())
+    return fail("the snapshot does not agree with itself (the sizes of its lists); give one that `save` made");
+  return front;
+}
+
+Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
+                                     std::span<const std::byte> in) {
+  const auto open = open_snapshot(in, scene.jobs);
+  if (!open) return tl::unexpected(open.error());
+  const auto world = WorldSnapshot::read(*open);
+  if (!world) return tl::unexpected(world.error());
+  const auto front = read_front(open->front);
+  if (!front) return tl::unexpected(front.error());
+  const FrontHeader& header = front->header;
+  if (header.tick_units != present.tick_units || header.remainder_units < 0 ||
+      header.remainder_units >= present.tick_units) {
+    return fail(fmt::format("the snapshot's ticks are {} s long and this simulation's {} s; make one with that tick_s",
+                            std::ldexp(static_cast<double>(header.tick_units), -50),
+                            std::ldexp(static_cast<double>(present.tick_units), -50)));
+  }
+  if (auto ok = check_modules(front->modules, *world, scene.modules); !ok) return tl::unexpected(ok.error());
+  work.parts.clear();
+  for (const Module& module : scene.modules) {
+    work.parts.insert(work.parts.end(), module.parts.begin(), module.parts.end());
+  }
+  work.shared.clear();
+  work.resources.learn(scene.world, scene.library, scene.modules);
+  for (std::size_t i = 0; i < front->resources.size(); ++i) {
+    const SavedResource saved = front->resources[i];
+    const auto number = work.resources.number_of(saved, scene.world, scene.library, scene.modules);
+    if (!number) return tl::unexpected(number.error());
+    work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
+  }
+  const auto check = [&](const TableKey& key) { return check_key(key, scene.world, work.resources, scene.modules); };
+  if (auto ok = work.world.prepare(scene.world, *world, work.parts, work.shared, check); !ok)
+    return tl::unexpected(ok.error());
+  work.world.commit(scene.world, *world, scene.jobs);  // nothing fails from here on
+  return SnapshotTime{header.tick_units, header.remainder_units, header.tick};
+}
+
+}  // namespace
+
+std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work) {
+  return layout_of(scene.world, count(scene, work.used)).bytes();
+}
+
+Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime& time, SnapshotWork& work,
+                                  std::span<std::byte> out) {
+  work.resources.learn(scene.world, scene.library, scene.modules);
+  FrontHeader header = count(scene, work.used);
+  header.tick_units = time.tick_units;
+  header.remainder_units = time.remainder_units;
+  header.tick = time.tick;
+  const SnapshotLayout layout = layout_of(scene.world, header);
+  if (out.size() < layout.bytes())
+    return fail(fmt::format("save: the snapshot takes {} bytes, and there is room for {}; give snapshot_bytes()",
+                            layout.bytes(), out.size()));
+  ByteWriter writer(&out[layout.front_at()]);
+  writer.put(header);
+  for (const Module& module : scene.modules) {
+    if (has_rows(module, scene.world)) writer.put(pack(module));
+  }
+  for (std::uint32_t number = 0; number < work.used.size(); ++number) {
+    if (work.used[number] == 0) continue;
+    const auto& [recipe, fingerprint] = work.resources.known()[number];
+    if (recipe.kind == ResourceKind::unknown)
+      return fail(
+          "save: an entity has a shared resource that no module names; list it in a module's resources, or take it"
+          " off all that have it");
+    writer.put(SavedResource{recipe, fingerprint, number, 0});
+  }
+  WorldSnapshot::save(scene.world, layout, out.first(layout.bytes()), scene.jobs);
+  return layout.bytes();
+}
+
+Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
+                                      std::span<const std::byte> in) {
+  Result<SnapshotTime> done;
+  try {
+    done = restore_checked(scene, present, work, in);
+  } catch (const std::bad_alloc&) {
+    done = fail("there is no memory for it; give the simulation more");
+  }
+  if (!done) WorldSnapshot::give_up(scene.world);
+  return done;
+}
+
+}  // namespace mobil

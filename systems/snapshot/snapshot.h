@@ -1,0 +1,56 @@
+#pragma once
+// The state of a simulation as bytes, and back: a world's rows, entities and time, with what its shared resources are
+// made from. It knows nothing of people: modules say which parts there are and check their own (engine/module.h).
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/module.h"
+#include "engine/snapshot.h"
+#include "engine/world.h"
+#include "systems/muscles/belly_library.h"
+#include "systems/snapshot/snapshot_records.h"
+#include "systems/snapshot/snapshot_resources.h"
+
+namespace mobil {
+
+/// What a snapshot is taken of, `W` a World, const where it is only read.
+template <class W>
+struct SnapshotSceneOf {
+  W& world;
+  BellyLibrary& library;
+  std::span<const Module> modules;
+  const Jobs& jobs;
+};
+using SnapshotScene = SnapshotSceneOf<const World>;
+using RestoreScene = SnapshotSceneOf<World>;
+
+/// A clock's units (engine/clock.h) and the number of ticks.
+struct SnapshotTime {
+  std::int64_t tick_units = 0, remainder_units = 0;
+  std::uint32_t tick = 0;
+};
+
+/// What saving and restoring keep from one time to the next.
+struct SnapshotWork {
+  ResourceList resources;
+  WorldSnapshot world;
+  std::vector<std::uint8_t> used;  // resources, by number
+  std::vector<SharedNumber> shared;
+  std::vector<KeyPart> parts;  // of all modules
+};
+
+std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work);
+/// Bytes written. Errors: too little room; a shared resource that no module names.
+Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime& time, SnapshotWork& work,
+                                  std::span<std::byte> out);
+/// The time saved. `present`: of the simulation; its ticks must be as long. Errors: bytes that are no snapshot of this
+/// version, were altered, or do not fit the modules; what does not fit in memory. The world is unchanged then.
+Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
+                                      std::span<const std::byte> in);
+
+}  // namespace mobil

@@ -1,0 +1,82 @@
+#include "systems/snapshot/snapshot_check.h"
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "components/muscle.h"
+
+namespace mobil {
+namespace {
+
+tl::unexpected<Error> damaged(const char* what) {
+  return fail(std::string("the snapshot does not agree with itself (") + what + "); give one that `save` made");
+}
+
+}  // namespace
+
+Result<void> check_modules(const Records<SavedModule>& all_saved, const SavedWorld& world,
+                           std::span<const Module> modules) {
+  for (std::size_t i = 0; i < all_saved.size(); ++i) {
+    const SavedModule saved = all_saved[i];
+    const std::string_view name(saved.name, strnlen(saved.name, sizeof(saved.name)));
+    const auto same = [&](const Module& module) {
+      return std::string_view(module.name).substr(0, sizeof(saved.name)) == name;
+    };
+    const auto at = std::find_if(modules.begin(), modules.end(), same);
+    if (at == modules.end()) {
+      return fail("the snapshot has rows of a module named '" + std::string(name) +
+                  "', which this simulation does not have; give it to SimulationOptions::modules");
+    }
+    if (at->version != saved.version) {
+      return fail("the snapshot was made with version " + std::to_string(saved.version) + " of module '" +
+                  std::string(name) + "', and this program has version " + std::to_string(at->version) +
+                  "; restore it with the program that made it");
+    }
+  }
+  for (std::uint32_t t = 0; t < world.tables.size(); ++t) {
+    for (const Module& module : modules) {
+      bool has = false;
+      for (const KeyPart& known : module.parts) {
+        const auto part = world.part(t, known.id);
+        has = has || part;
+        if (part && (part->kind != static_cast<std::uint32_t>(known.kind) ||
+                     ((known.kind == PartKind::component || known.kind == PartKind::published) &&
+                      part->value != known.value))) {
+          return fail("the snapshot's " + std::string(known.name) +
+                      " is laid out otherwise than this program's; restore it with the program that made it");
+        }
+      }
+      if (!has || !module.check_rows) continue;
+      if (auto sound = module.check_rows(world, t); !sound) return sound;
+    }
+  }
+  return {};
+}
+
+Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
+                       std::span<const Module> modules) {
+  const auto recipe = [&](std::uint64_t id) -> const Recipe* {
+    const KeyPart* const part = find_part(key, id);
+    return part == nullptr ? nullptr : &resources.known()[part->value].recipe;
+  };
+  const KeyPart* const muscle = find_part(key, type_id<Muscle>());
+  for (const KeyPart& part : key) {
+    if (part.kind != PartKind::shared) continue;
+    const Recipe& of = resources.known()[part.value].recipe;
+    if (of.kind == ResourceKind::named || of.kind == ResourceKind::choice) continue;
+    if (muscle == nullptr || of.muscle != muscle->value) return damaged("the parts of a muscle");
+  }
+  const Recipe* const solver = recipe(type_id<BellySolver>());
+  const Recipe* const shape = recipe(type_id<MuscleTemplate>());
+  if (solver != nullptr && (shape == nullptr || !(solver->choice == shape->choice)))
+    return damaged("the parts of a muscle");
+  for (const Module& module : modules) {
+    if (!module.check_key) continue;
+    if (auto ok = module.check_key(key, world); !ok) return ok;
+  }
+  return {};
+}
+
+}  // namespace mobil

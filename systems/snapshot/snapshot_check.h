@@ -1,0 +1,20 @@
+#pragma once
+// Whether an untrusted snapshot fits the modules of a simulation.
+
+#include <span>
+
+#include "engine/module.h"
+#include "engine/snapshot.h"
+#include "engine/world.h"
+#include "systems/snapshot/snapshot_records.h"
+#include "systems/snapshot/snapshot_resources.h"
+
+namespace mobil {
+
+/// Parts are laid out as their modules have them, of the version that these have here, and their rows are sound.
+Result<void> check_modules(const Records<SavedModule>& saved, const SavedWorld& world, std::span<const Module> modules);
+/// A table's shared resources are those of one muscle; and what its modules make sure of.
+Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
+                       std::span<const Module> modules);
+
+}  // namespace mobil

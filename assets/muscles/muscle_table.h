@@ -15,7 +15,6 @@
 #include <span>
 #include <string_view>
 
-#include "assets/fem/hexahedral_mesh.h"
 #include "assets/muscles/leg_sections.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
@@ -124,14 +123,5 @@ MuscleSet muscle_members();
 
 /// The body that templates are made for: 1.80 m, 80 kg, average.
 inline constexpr double reference_body_height_m = 1.80, reference_body_mass_kg = 80;
-
-/// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
-/// follow the surface as it is drawn in that body. A single muscle's mesh has the muscle's volume; a group's encloses
-/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle.
-inline constexpr std::size_t cage_station_count = 9;
-using CageStations = std::array<CageStation, cage_station_count>;
-const CageStations& muscle_cage(Muscle muscle);
-/// How the elements of templates are graded: finer towards the ends, where bellies taper and are held.
-inline constexpr Grading belly_grading{.across = 1, .along = 1.5};
 
 }  // namespace mobil

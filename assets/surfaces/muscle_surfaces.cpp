@@ -10,6 +10,7 @@
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_shapes.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "assets/surfaces/muscle_cage.h"
 #include "systems/deformation/reduced.h"
 #include "systems/people/simulation_rows.h"
 

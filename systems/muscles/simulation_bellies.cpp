@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/surfaces/muscle_cage.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"

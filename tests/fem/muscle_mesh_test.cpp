@@ -9,6 +9,7 @@
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/muscle_cage.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_binding.h"
 #include "engine/geometry.h"

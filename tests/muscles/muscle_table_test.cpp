@@ -14,6 +14,7 @@
 #include "assets/muscles/leg_sections.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/muscle_cage.h"
 #include "tests/lines/leg_pose.h"
 #include "tests/simulation/people.h"
 

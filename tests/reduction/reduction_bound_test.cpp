@@ -1,5 +1,6 @@
 // A certificate: never below the error against the full model, and near enough to it to be of use.
 #include "tests/reduction/bound/reduction_bound.h"
+#include "assets/surfaces/muscle_cage.h"
 
 #include <gtest/gtest.h>
 

@@ -163,7 +163,6 @@ TEST(House, OptionalPartsStayOutOfTheCore) {
 
 /// Sources that have no header of their name beside them, and whose functions those are.
 const std::map<std::string, std::string> no_header_yet = {
-    {"assets/reduction/reduced_belly.cpp", "reduced_basis.h"},
     {"systems/deformation/explicit.cpp", "deformation.h"},
     {"systems/deformation/implicit.cpp", "deformation.h"},
     {"systems/deformation/reduced_report.cpp", "reduced.h"},

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"
 #include "assets/reduction/reduced_operators.h"
 #include "assets/reduction/reduced_training.h"

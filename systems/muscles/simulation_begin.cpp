@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "assets/reduction/reduced_bellies.h"
 #include "components/pose.h"
 #include "engine/access.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/simulation_spawn.h"
 

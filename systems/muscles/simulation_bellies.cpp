@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/reduction/reduced_bellies.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/simulation_muscles.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/reduction/reduced_bellies.h"
 #include "components/fade.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/fade.h"
-#include "systems/deformation/reduced_bellies.h"
 #include "systems/people/simulation_rows.h"
 
 namespace mobil {

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/reduced_belly.h"
 #include "engine/world.h"
 #include "systems/muscles/simulation_muscles.h"
 

@@ -14,7 +14,7 @@
 #include "assets/fem/muscle_template.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/reduced_belly.h"
 #include "components/body.h"
 #include "components/muscle.h"
 #include "engine/error.h"

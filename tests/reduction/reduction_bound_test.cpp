@@ -1,6 +1,5 @@
 // A certificate: never below the error against the full model, and near enough to it to be of use.
 #include "tests/reduction/bound/reduction_bound.h"
-#include "assets/surfaces/muscle_cage.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +11,8 @@
 
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/reduction/reduced_belly.h"
+#include "assets/surfaces/muscle_cage.h"
 #include "tests/reduction/reduction_truth.h"
 
 namespace mobil {

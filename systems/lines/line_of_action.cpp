@@ -128,10 +128,6 @@ void put_rows(const LegFrames<Lanes<float>>& legs, Side side, LegPost* posts) {
   }
 }
 
-void flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {
-  store(knee_flexion(load(legs.thigh), load(legs.shank)), flexion_rad);
-}
-
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -143,7 +139,6 @@ namespace {
 
 HWY_EXPORT(act_by_displacement);
 HWY_EXPORT(act_by_force);
-HWY_EXPORT(flexions);
 HWY_EXPORT(take_rows);
 HWY_EXPORT(put_rows);
 
@@ -218,10 +213,6 @@ void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& sca
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                      LineOfAction<Lanes<float>>& line, EndForce<Lanes<float>>& end) {
   HWY_DYNAMIC_DISPATCH(act_by_force)(lines, scale, legs, line, end);
-}
-
-void knee_flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {
-  HWY_DYNAMIC_DISPATCH(flexions)(legs, flexion_rad);
 }
 
 }  // namespace mobil

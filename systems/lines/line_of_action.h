@@ -36,7 +36,4 @@ void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& sca
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                      LineOfAction<Lanes<float>>& line, EndForce<Lanes<float>>& end);
 
-/// Knee flexion (rad) of sixteen legs, from their thigh and shank.
-void knee_flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad);
-
 }  // namespace mobil

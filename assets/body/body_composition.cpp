@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "assets/muscles/muscle_plan.h"
-
 namespace mobil {
 namespace {
 
@@ -81,6 +79,12 @@ double fat_share_of_mass_index(double body_mass_index) {
   constexpr double age = 25;
   const double percent = 64.5 - 848 / body_mass_index + 0.079 * age - 16.4 + 0.05 * age + 39.0 / body_mass_index;
   return std::clamp(0.01 * percent, least_fat, most_fat);
+}
+
+double physique_factor(const BodyRequest& request) {
+  constexpr std::array<double, 4> constitution = {0.85, 1.0, 1.20, 1.08};
+  const double meso = 1 + 0.06 * (static_cast<double>(request.biotype.meso) - 4);
+  return constitution[static_cast<std::size_t>(request.constitution)] * meso;
 }
 
 BodyComposition body_composition(const BodyRequest& request) {

@@ -70,12 +70,4 @@ inline constexpr std::array<VertebraLimit, 24> vertebra_limits = {{
     {9, 4, 2},  {17, 7, 6}, {20, 8, 7}, {20, 11, 7}, {15, 11, 7}, {10, 10, 3}, {20, 5, 40},  // C7–T1 to C1–C2
 }};
 
-/// The limit of that joint and motion, or null.
-constexpr const JointLimit* find_joint_limit(std::string_view joint, std::string_view motion) {
-  for (const JointLimit& limit : limb_limits) {
-    if (limit.joint == joint && limit.motion == motion) return &limit;
-  }
-  return nullptr;
-}
-
 }  // namespace mobil

@@ -10,7 +10,6 @@
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include "assets/body/anthropometry.h"
 #include "components/body.h"
@@ -25,14 +24,6 @@ constexpr UnitInertia make_unit_inertia();
 /// kg m², about the segment's centre of mass, in its own axes. Fat and muscle thicken no segment here: it grows with
 /// mass and with the square of height, as the sources' regressions have it.
 Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment);
-
-/// Several segments of a body in the anatomical position as one rigid body, it standing at x = z = 0. `inertia_kg_m2`:
-/// xx, yy, zz about its own centre, world axes.
-struct RigidSum {
-  double mass_kg = 0;
-  Vec3<double> centre_m{}, inertia_kg_m2{};
-};
-RigidSum rigid_sum(const Body& body, std::span<const Segment> segments);
 
 /// Where a segment's joint lies in the anatomical position, the body standing at x = z = 0, m.
 Vec3<double> joint_centre_m(const Body& body, Segment segment);

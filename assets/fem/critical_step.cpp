@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "assets/fem/top_eigenvalue.h"
 
@@ -20,10 +19,10 @@ std::vector<bool> moving_components(const Cells& cells, FarEnd end) {
   return moving;
 }
 
-StencilPencil make_pencil(const StiffnessTerms& terms, double across, double along, const StepCase& step_case,
-                          std::vector<bool> moving) {
+StencilPencil make_pencil(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
   const Cells& cells = terms.cells;
-  StencilPencil pencil{cells, std::vector<std::array<double, 9>>(terms.pair.size()), {}, std::move(moving)};
+  StencilPencil pencil{
+      cells, std::vector<std::array<double, 9>>(terms.pair.size()), {}, moving_components(cells, step_case.end)};
   const bool consistent = step_case.mass == Mass::consistent;
   if (consistent) pencil.mass.resize(terms.pair.size());
   const double foundation = step_case.foundation_1_s * step_case.foundation_1_s;
@@ -48,8 +47,7 @@ StencilPencil make_pencil(const StiffnessTerms& terms, double across, double alo
 }
 
 double top_eigenvalue(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
-  return top_eigenvalue_bound(
-      make_pencil(terms, across, along, step_case, moving_components(terms.cells, step_case.end)));
+  return top_eigenvalue_bound(make_pencil(terms, across, along, step_case));
 }
 
 /// How far, in parts of itself, a convex h(r) may lie below its chord from entry i to the next: it is above the chords
@@ -73,22 +71,6 @@ double central_difference_limit(double top_1_s2, double stiffness_damping_s) {
 
 double critical_step(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
   return central_difference_limit(top_eigenvalue(terms, across, along, step_case), step_case.stiffness_damping_s);
-}
-
-double element_critical_step(const HexahedralMesh& mesh, const Material& material, double across, double along,
-                             Element element) {
-  double top = 0;
-  constexpr std::array<std::size_t, 8> block_order = {0, 1, 3, 2, 4, 5, 7, 6};
-  for (std::uint32_t e = 0; e < element_count(mesh.cells); ++e) {
-    const Hexahedron h = element_nodes(mesh.cells, e);
-    HexahedralMesh one{{1, 1, 1}, {}};
-    for (const std::size_t corner : block_order) one.node.push_back(mesh.node[h[corner]]);
-    const auto terms = assemble(one, material, element);
-    if (!terms) return 0;
-    const auto pencil = make_pencil(*terms, across, along, FarEnd::free, std::vector<bool>(24, true));
-    top = std::max(top, top_eigenvalue_bound(pencil));
-  }
-  return central_difference_limit(top, 0);
 }
 
 CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCase& step_case, double lowest,

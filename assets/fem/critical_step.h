@@ -42,12 +42,6 @@ double central_difference_limit(double top_1_s2, double stiffness_damping_s);
 /// Deterministic.
 double critical_step(const StiffnessTerms& terms, double across, double along, const StepCase& step_case);
 
-/// 2 / max ω_e over the elements with lumped mass (s): no free vibration of an assembly is faster than its fastest
-/// element (Irons), so this is safe under any constraints, and some quarter too careful on a 3×3×9-node block. 0 where
-/// `assemble` would fail.
-double element_critical_step(const HexahedralMesh& mesh, const Material& material, double across, double along,
-                             Element element = Element::full);
-
 /// The critical step of every individual of a template, from a table over r = across / along. With q = S²·ω_f²,
 /// h(r, q) = S²·ω_max² is the largest eigenvalue of A + r·B + r²·C + q·P·M₁·P against M₁, P picking x and y. C is
 /// positive semidefinite and the largest eigenvalue convex, so interpolating h linearly in r and in q never falls below

@@ -84,6 +84,18 @@ Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const 
 Result<HexahedralMesh> bend_block(const Cells& cells, std::span<const CageStation> stations, double length_m,
                                   const Grading& grading = {});
 
+/// A template's mesh at one individual's size.
+template <class F>
+HexahedralMesh scaled(HexahedralMesh mesh, const BellyScale<F>& by) {
+  const auto across = static_cast<double>(by.across), along = static_cast<double>(by.along);
+  for (Vec3<double>& node : mesh.node) {
+    node.x *= across;
+    node.y *= across;
+    node.z *= along;
+  }
+  return mesh;
+}
+
 /// Volume enclosed by the trilinear elements, m³ (exact).
 double volume(const HexahedralMesh& mesh);
 

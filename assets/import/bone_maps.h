@@ -1,7 +1,7 @@
 #pragma once
 // Where each part of the anatomy's right leg comes to lie in one body: one map a bone, agreeing at the joint centres.
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 
 #include "assets/import/anatomy_folder.h"
 #include "components/body.h"

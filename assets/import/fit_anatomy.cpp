@@ -1,6 +1,5 @@
 #include "assets/import/fit_anatomy.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -1,6 +1,6 @@
 #include "assets/import/simplify_surface.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "assets/body/anthropometry.h"
+#include "assets/muscles/muscle_path.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -19,22 +20,13 @@ double area(const LegEllipse& e) {
   return e.aa * e.ll - e.al * e.al;
 }
 
-/// Origins of the bones' frames from the hip centre, the published leg straight.
-Vec bone_origin(LegBone bone) {
-  switch (bone) {
-    case LegBone::pelvis:
-    case LegBone::thigh:
-      return {0, 0, 0};
-    case LegBone::shank:
-      return {0, -published_leg::thigh_m, 0};
-    case LegBone::foot:
-      break;
-  }
-  return {0, -published_leg::leg_m, 0};
-}
+constexpr Quat<double> upright{0, 0, 0, 1};
+/// The published leg, straight, its hip in the origin.
+constexpr LegFrames<double> published_bones = {
+    {0, 0, 0}, {0, -published_leg::thigh_m, 0}, {0, -published_leg::leg_m, 0}, upright, upright, upright, upright};
 
 Vec place(const PathPoint& p) {
-  return bone_origin(p.bone) + p.at_m;
+  return bone_origin(p.bone, published_bones) + p.at_m;
 }
 
 struct BellySpan {
@@ -83,7 +75,7 @@ DrawnLine line_through_belly(const MemberMuscle& muscle) {
   }
   const Vec from_origin = target - place(line.anchor);
   if (dot(belly.top - place(line.anchor), from_origin) < 0) {
-    line.anchor = {muscle.path.front().bone, belly.top - bone_origin(muscle.path.front().bone)};
+    line.anchor = {muscle.path.front().bone, belly.top - bone_origin(muscle.path.front().bone, published_bones)};
   }
   const Vec anchor = place(line.anchor), z = normalised(target - anchor);
   line.start_m = dot(belly.top - anchor, z);

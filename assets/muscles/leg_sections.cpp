@@ -92,12 +92,6 @@ double leg_level(const LegFrame& leg, double height_m) {
   return down < leg.thigh_length ? down / leg.thigh_length : 1 + (down - leg.thigh_length) / leg.shank_length;
 }
 
-TubeStation leg_station(const LegFrame& leg, const LegSection& s) {
-  return {leg_point(leg, static_cast<double>(s.level), static_cast<double>(s.lateral), static_cast<double>(s.anterior)),
-          static_cast<double>(s.semi_1) * leg.unit, static_cast<double>(s.semi_2) * leg.unit,
-          static_cast<double>(s.angle_deg) * std::numbers::pi / 180};
-}
-
 std::optional<LegEllipse> leg_ellipse(std::span<const LegSection> sections, double level) {
   if (level < static_cast<double>(sections.front().level) || level > static_cast<double>(sections.back().level)) {
     return std::nullopt;

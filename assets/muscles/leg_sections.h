@@ -8,8 +8,8 @@
 #include <optional>
 #include <span>
 
-#include "assets/surfaces/tube.h"
 #include "components/body.h"
+#include "components/lanes.h"
 
 namespace mobil {
 
@@ -38,9 +38,6 @@ Vec3<double> leg_point(const LegFrame& leg, double level, double lateral_mm, dou
 
 /// The level of a height over the ground (m).
 double leg_level(const LegFrame& leg, double height_m);
-
-/// Stations for `loft`, whose reference direction must be forward (+z) and normal down: metres, world axes.
-TubeStation leg_station(const LegFrame& leg, const LegSection& section);
 
 /// The ellipse of a list of sections at one level, linear between them; nothing beyond their ends. Centre lateral and
 /// anterior, and the symmetric matrix that carries the unit circle onto it, in (anterior, lateral), mm.

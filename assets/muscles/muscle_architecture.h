@@ -1,6 +1,6 @@
 #pragma once
-// How the muscles of the leg are built inside: fibres, pennation, belly and tendon as published, and in a body of ours.
-// The simulation does not read these figures yet; `mobil body` writes them.
+// How the muscles of the leg are built inside: fibres, pennation, belly and tendon in a body of ours, from the
+// published columns of the table. The simulation does not read these figures yet; `mobil body` writes them.
 //
 // Sources.
 //   Fibres, pennation, belly: Ward, Eng, Smallwood & Lieber: Are current measurements of lower extremity muscle
@@ -9,11 +9,9 @@
 //   Tendon and the fibre length that belongs to it: the gait2392 model of OpenSim (Delp et al. 1990), with the length
 //     of the muscle's path there in the anatomical position. The tendon includes what of it lies within the belly. The
 //     model's quadriceps end on the kneecap.
-//   Plantaris is in neither: fibres, pennation and belly of Wickiewicz, Roy, Powell & Edgerton, Clin. Orthop.
-//     Relat. Res. 179, 1983; its tendon is what the path leaves beside the fibres.
+//   Where the model has no such muscle, its tendon is what the path leaves beside the fibres.
 //   Density 1060 kg/m³: Mendez & Keys, Metabolism 9, 1960. Volumes: assets/muscles/muscle_table.h.
 
-#include <string_view>
 #include <vector>
 
 #include "assets/muscles/muscle_table.h"
@@ -21,16 +19,7 @@
 
 namespace mobil {
 
-/// One member as it was published, m and degrees. `model_…`: gait2392's; 0 where it has none.
-struct MuscleArchitecture {
-  std::string_view name;
-  double fibre_m, pennation_deg, belly_m;
-  double model_fibre_m, model_tendon_m, model_path_m;
-};
 inline constexpr double cadaver_stature_m = 1.684, muscle_density_kg_m3 = 1060;
-
-/// The row of a member of the table.
-const MuscleArchitecture& muscle_architecture(const MemberMuscle& member);
 
 /// A muscle of one leg of one body in the anatomical position. Of a group: sums of volume, mass and both sections, and
 /// means of the lengths and the angle by the members' volumes in the reference body.

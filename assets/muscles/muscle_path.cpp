@@ -38,7 +38,7 @@ std::optional<Vec> touch(const Vec& a, const Vec& b, const Vec& axis, PathHold s
 
 }  // namespace
 
-KneeSpline knee_spline(const KneeTrack& track) {
+KneeSpline<double> knee_spline(const KneeTrack& track) {
   constexpr std::size_t n = knee_knots;
   // Second derivatives m: m₀ = mₙ₋₁ = 0, mᵢ₋₁ + 4mᵢ + mᵢ₊₁ = 6 (tᵢ₋₁ − 2tᵢ + tᵢ₊₁), by elimination.
   std::array<Vec, n> m{}, right{};
@@ -51,7 +51,7 @@ KneeSpline knee_spline(const KneeTrack& track) {
     right[i] = right[i] - (1 / diagonal[i - 1]) * right[i - 1];
   }
   for (std::size_t i = n - 2; i > 0; --i) m[i] = (1 / diagonal[i]) * (right[i] - m[i + 1]);
-  KneeSpline s{track[0], track[1] - track[0] - (1.0 / 6) * m[1], {}};
+  KneeSpline<double> s{track[0], track[1] - track[0] - (1.0 / 6) * m[1], {}};
   // The third derivative of piece k is mₖ₊₁ − mₖ; its jumps are the cubics' coefficients.
   Vec before{};
   for (std::size_t k = 0; k < n; ++k) {
@@ -64,7 +64,7 @@ KneeSpline knee_spline(const KneeTrack& track) {
 
 Vec track_at(const KneeTrack& track, double flexion_deg) {
   if (flexion_deg == 0) return track[0];  // what all of the below comes to there
-  const KneeSpline s = knee_spline(track);
+  const KneeSpline<double> s = knee_spline(track);
   const double u = flexion_deg / knee_knot_deg;
   Vec at = s.at_zero + u * s.slope;
   for (std::size_t k = 0; k < knee_knots; ++k) {
@@ -83,23 +83,17 @@ LegScale<double> leg_scale(const Body& body) {
   return leg_scale(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
 }
 
+Vec bone_origin(LegBone bone, const LegFrames<double>& leg) {
+  return bone == LegBone::shank ? leg.knee_m : bone == LegBone::foot ? leg.ankle_m : leg.hip_m;
+}
+
 Vec path_point(const PathPoint& p, const LegScale<double>& scale, const LegFrames<double>& leg) {
-  const Vec at = scaled(p, scale);
-  switch (p.bone) {
-    case LegBone::pelvis:
-      return leg.hip_m + rotated(leg.pelvis, at);
-    case LegBone::thigh:
-      return leg.hip_m + rotated(leg.thigh, at);
-    case LegBone::shank:
-      return leg.knee_m + rotated(leg.shank, at);
-    case LegBone::foot:
-      break;
-  }
-  return leg.ankle_m + rotated(leg.foot, at);
+  const std::array<Quat<double>, 4> turned = {leg.pelvis, leg.thigh, leg.shank, leg.foot};
+  return bone_origin(p.bone, leg) + rotated(turned[static_cast<std::size_t>(p.bone)], scaled(p, scale));
 }
 
 PathPoint path_end(const MemberMuscle& muscle, double flexion_deg) {
-  if (muscle.kneecap == nullptr) return muscle.path.back();
+  if (!muscle.kneecap) return muscle.path.back();
   return {LegBone::shank, track_at(*muscle.kneecap, flexion_deg)};
 }
 
@@ -139,7 +133,7 @@ struct BentLeg {
 template <class Visit>
 void follow_path(const MemberMuscle& muscle, const BentLeg& bent, Visit visit) {
   const PathPoint end = path_end(muscle, bent.flexion_deg);
-  const std::size_t own = muscle.path.size(), all = own + (muscle.kneecap != nullptr ? 1 : 0);
+  const std::size_t own = muscle.path.size(), all = own + (muscle.kneecap ? 1 : 0);
   const auto point = [&](std::size_t i) -> const PathPoint& { return i < own ? muscle.path[i] : end; };
   Vec before{};
   for (std::size_t i = 0; i < all; ++i) {

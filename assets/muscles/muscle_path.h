@@ -18,12 +18,8 @@ LegScale<double> leg_scale(const Body& body);
 /// Those of a leg of these segment lengths, m.
 LegScale<double> leg_scale(double thigh_m, double shank_m);
 
-/// Natural cubic spline through a track over knee flexion: t₀ + t₁u + Σ cₖ·max(u − k, 0)³, u = flexion / 20°.
-struct KneeSpline {
-  Vec3<double> at_zero, slope;
-  std::array<Vec3<double>, knee_knots> cubic;
-};
-KneeSpline knee_spline(const KneeTrack& track);
+/// The spline through a track.
+KneeSpline<double> knee_spline(const KneeTrack& track);
 Vec3<double> track_at(const KneeTrack& track, double flexion_deg);
 
 /// Knee flexion (rad) from the rotations of the two bones.
@@ -32,6 +28,8 @@ double knee_flexion(const LegFrames<double>& leg);
 /// The leg with shank and foot where the published knee rolls to; paths run there. In the anatomical position the same.
 LegFrames<double> rolled(const LegScale<double>& scale, const LegFrames<double>& leg);
 
+/// The origin of a bone's frame in that leg, m.
+Vec3<double> bone_origin(LegBone bone, const LegFrames<double>& leg);
 /// Where a point of a path is in that leg, as it is given (m).
 Vec3<double> path_point(const PathPoint& point, const LegScale<double>& scale, const LegFrames<double>& leg);
 /// What the path ends on at that knee flexion, as a point of its bone.

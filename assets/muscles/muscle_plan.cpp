@@ -45,12 +45,6 @@ double reference_belly_m(Muscle muscle) {
   return line.belly_m * along_scale(line, leg_scale(fraction::thigh * height, fraction::shank * height));
 }
 
-double physique_factor(const BodyRequest& request) {
-  constexpr std::array<double, 4> constitution = {0.85, 1.0, 1.20, 1.08};
-  const double meso = 1 + 0.06 * (static_cast<double>(request.biotype.meso) - 4);
-  return constitution[static_cast<std::size_t>(request.constitution)] * meso;
-}
-
 double member_volume_m3(const Body& body, const MemberMuscle& member) {
   const double regressed = handsfield_volume_cm3(member, static_cast<double>(body.request.height_m),
                                                  static_cast<double>(body.request.mass_kg));

@@ -42,11 +42,6 @@ double bar_stiffness(const Material& material, double section_m2, double rest_le
 /// Length of the belly of a muscle's template: that of the reference body.
 double reference_belly_m(Muscle muscle);
 
-/// What physique does to the volume of all the leg's muscles together: 0.85 thin, 1.20 athletic, 1.08 heavy, and 6 %
-/// more for each point of mesomorphy above 4 (or less, below). Our choice: the published volumes do not
-/// tell them apart. A body takes of it what its lean mass holds (BodyComposition::muscle_factor).
-double physique_factor(const BodyRequest& request);
-
 /// Volume of a member in a body: of the regression the part that goes with the limb's volume, times the body's muscle
 /// factor, and the part that does not. It rises with height, mass and mesomorphy.
 double member_volume_m3(const Body& body, const MemberMuscle& member);

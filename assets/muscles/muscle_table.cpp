@@ -4,94 +4,155 @@
 #include <vector>
 
 #include "assets/muscles/drawn_line.h"
-#include "assets/muscles/muscle_paths.h"
-#include "assets/muscles/muscle_sections.h"
+#include "assets/muscles/published_frames.h"
 
 namespace mobil {
 namespace {
 
-using enum Muscle;
-using enum Segment;
+using namespace published;
 
-// Name, group, path, kneecap, share of the limb's volume and its offset, bones it is attached to, sections.
-// Plantaris is not among the published regressions. Its belly is 9.6 cm long and 1.8 cm wide (means of 146 legs: Lee,
-// Heo, Kim, Hwang: Morphological classification of the plantaris muscle origin, a cadaveric study, 2025); as a spheroid
-// 0.53 as thick as wide, as its sections there are in the mean, it has 8.6 cm³. That this is 0.0015 of the limb's
-// volume takes their owners to be of 1.65 m and 60 kg, which is a guess.
-constexpr std::array<MemberMuscle, member_muscle_count> members = {{
-    {"semimembranosus", hamstrings, paths::semimembranosus, nullptr, 0.0319, 18.2, pelvis, shank_right,
-     sections::semimembranosus},
-    {"semitendinosus", hamstrings, paths::semitendinosus, nullptr, 0.0285, -16.8, pelvis, shank_right,
-     sections::semitendinosus},
-    {"biceps_femoris_long_head", hamstrings, paths::biceps_femoris_long_head, nullptr, 0.0256, 24.3, pelvis,
-     shank_right, sections::biceps_femoris_long_head},
-    {"biceps_femoris_short_head", hamstrings, paths::biceps_femoris_short_head, nullptr, 0.016, -13.8, thigh_right,
-     shank_right, sections::biceps_femoris_short_head},
-    {"rectus_femoris", quadriceps, paths::rectus_femoris, &paths::rectus_femoris_kneecap, 0.0371, 4.97, pelvis,
-     patella_right, sections::rectus_femoris},
-    {"vastus_medialis", quadriceps, paths::vastus_medialis, &paths::vastus_medialis_kneecap, 0.0631, -16.3, thigh_right,
-     patella_right, sections::vastus_medialis},
-    {"vastus_intermedius", quadriceps, paths::vastus_intermedius, &paths::vastus_intermedius_kneecap, 0.0273, 76.5,
-     thigh_right, patella_right, sections::vastus_intermedius},
-    {"vastus_lateralis", quadriceps, paths::vastus_lateralis, &paths::vastus_lateralis_kneecap, 0.125, -55.7,
-     thigh_right, patella_right, sections::vastus_lateralis},
-    {"gastrocnemius_medial", triceps_surae, paths::gastrocnemius_medial, nullptr, 0.0348, 9.42, thigh_right, foot_right,
-     sections::gastrocnemius_medial},
-    {"gastrocnemius_lateral", triceps_surae, paths::gastrocnemius_lateral, nullptr, 0.0199, 8.21, thigh_right,
-     foot_right, sections::gastrocnemius_lateral},
-    {"soleus", triceps_surae, paths::soleus, nullptr, 0.0507, 78.2, shank_right, foot_right, sections::soleus},
-    {"plantaris", triceps_surae, paths::plantaris, nullptr, 0.0015, 0, thigh_right, foot_right, sections::plantaris},
-    {"tibialis_anterior", tibialis_anterior, paths::tibialis_anterior, nullptr, 0.0161, 20.3, shank_right, foot_right,
-     sections::tibialis_anterior},
-}};
-
-/// Where the paths of groups are drawn; of muscles on their own that follows from their sections.
-struct GroupRow {
-  std::string_view name;
-  Muscle group;
-  DrawnLine drawn;
+// Groups one after the other, in the order of Muscle.
+// clang-format off
+constexpr MemberMuscle members[] = {
+#include "assets/muscles/rows/semimembranosus.inl"
+#include "assets/muscles/rows/semitendinosus.inl"
+#include "assets/muscles/rows/biceps_femoris_long_head.inl"
+#include "assets/muscles/rows/biceps_femoris_short_head.inl"
+#include "assets/muscles/rows/rectus_femoris.inl"
+#include "assets/muscles/rows/vastus_medialis.inl"
+#include "assets/muscles/rows/vastus_intermedius.inl"
+#include "assets/muscles/rows/vastus_lateralis.inl"
+#include "assets/muscles/rows/gastrocnemius_medial.inl"
+#include "assets/muscles/rows/gastrocnemius_lateral.inl"
+#include "assets/muscles/rows/soleus.inl"
+#include "assets/muscles/rows/plantaris.inl"
+#include "assets/muscles/rows/tibialis_anterior.inl"
 };
-constexpr std::array<GroupRow, muscle_group_count> groups = {{
+// clang-format on
+
+/// Whether all rows hold to something.
+template <class Rule>
+constexpr bool all_members(Rule rule) {
+  return std::all_of(std::begin(members), std::end(members), rule);
+}
+
+constexpr std::size_t members_named(std::string_view name) {
+  return static_cast<std::size_t>(
+      std::count_if(std::begin(members), std::end(members), [name](const MemberMuscle& m) { return m.name == name; }));
+}
+
+constexpr bool has_path(const MemberMuscle& m) {
+  LegBone before = LegBone::pelvis;
+  for (const PathPoint& p : m.path) {
+    if (p.bone < before) return false;
+    before = p.bone;
+    if (p.hold != PathHold::fixed && p.bone != LegBone::thigh && p.bone != LegBone::shank) return false;
+  }
+  if (m.path.empty() || m.path.front().hold != PathHold::fixed) return false;
+  return m.kneecap || (m.path.size() > 1 && m.path.back().hold == PathHold::fixed);
+}
+
+template <class Sections>
+constexpr bool descends(const Sections& sections) {
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    if (sections[i].semi_1 <= 0 || sections[i].semi_2 <= 0) return false;
+    if (i > 0 && sections[i].level <= sections[i - 1].level) return false;
+  }
+  return true;
+}
+
+constexpr bool has_shape(const MemberMuscle& m) {
+  return m.sections.size() > 1 && m.not_drawn + 1 < m.sections.size() && descends(m.sections) &&
+         descends(m.drawn_above) && descends(m.drawn_below);
+}
+
+constexpr bool has_architecture(const MemberMuscle& m) {
+  const bool modelled = m.model_fibre_m > 0 && m.model_tendon_m > 0 && m.model_path_m > 0;
+  const bool not_modelled = m.model_fibre_m == 0 && m.model_tendon_m == 0 && m.model_path_m == 0;
+  return m.fibre_m > 0 && m.belly_m > 0 && m.pennation_deg >= 0 && m.pennation_deg < 90 && (modelled || not_modelled);
+}
+
+/// What a muscle lies on lies on none itself: the surfaces are made in this order.
+constexpr bool lies_on_a_member(const MemberMuscle& m) {
+  return m.lies_on.empty() || std::any_of(std::begin(members), std::end(members), [&m](const MemberMuscle& beneath) {
+           return beneath.name == m.lies_on && beneath.lies_on.empty();
+         });
+}
+
+static_assert(all_members([](const MemberMuscle& m) { return !m.name.empty() && members_named(m.name) == 1; }),
+              "every muscle has a name of its own");
+static_assert(std::is_sorted(std::begin(members), std::end(members),
+                             [](const MemberMuscle& a, const MemberMuscle& b) { return a.group < b.group; }),
+              "the members of a group stand together, in the order of Muscle");
+static_assert(all_members(has_path), "a path runs down the leg between fixed points, its edges are of thigh and shank");
+static_assert(all_members([](const MemberMuscle& m) { return m.limb_share > 0; }), "every muscle has a volume");
+static_assert(all_members(has_shape), "every muscle has sections, from its upper end down");
+static_assert(all_members(has_architecture), "every muscle has fibres, and all three figures of the model or none");
+static_assert(all_members(lies_on_a_member), "a muscle lies on another of the table, which lies on none");
+
+constexpr std::span<const MemberMuscle> members_of_group(Muscle group) {
+  const auto in_group = [group](const MemberMuscle& m) { return m.group == group; };
+  const auto* const first = std::find_if(std::begin(members), std::end(members), in_group);
+  return {first, std::find_if_not(first, std::end(members), in_group)};
+}
+
+/// Where the path of a group is drawn; of muscles on their own that follows from their sections.
+constexpr std::array<MuscleRow, muscle_group_count> groups = {{
     {"hamstrings",
-     hamstrings,
-     {paths::semimembranosus[0], 0, end_of_path, LegBone::thigh, 0.0463, 0.2686, pelvis, shank_right}},
+     members_of_group(Muscle::hamstrings),
+     {.anchor = members_of_group(Muscle::hamstrings)[0].path[0],
+      .point = end_of_path,
+      .along = LegBone::thigh,
+      .start_m = 0.0463,
+      .belly_m = 0.2686,
+      .origin = Segment::pelvis,
+      .insertion = Segment::shank_right}},
     {"quadriceps",
-     quadriceps,
-     {{LegBone::thigh, {-0.0362, -0.0817, 0.0259}},
-      0,
-      end_of_path,
-      LegBone::thigh,
-      0,
-      0.285,
-      thigh_right,
-      patella_right}},
+     members_of_group(Muscle::quadriceps),
+     {.anchor = {LegBone::thigh, {-0.0362, -0.0817, 0.0259}},
+      .point = end_of_path,
+      .along = LegBone::thigh,
+      .belly_m = 0.285,
+      .origin = Segment::thigh_right,
+      .insertion = Segment::patella_right}},
     {"triceps_surae",
-     triceps_surae,
-     {{LegBone::shank, {-0.0056, -0.0083, -0.0294}},
-      2,
-      end_of_path,
-      LegBone::shank,
-      0,
-      0.2498,
-      shank_right,
-      foot_right}},
-    {"tibialis_anterior", tibialis_anterior, {}},
+     members_of_group(Muscle::triceps_surae),
+     {.anchor = {LegBone::shank, {-0.0056, -0.0083, -0.0294}},
+      .towards = 2,
+      .point = end_of_path,
+      .along = LegBone::shank,
+      .belly_m = 0.2498,
+      .origin = Segment::shank_right,
+      .insertion = Segment::foot_right}},
+    {"tibialis_anterior", members_of_group(Muscle::tibialis_anterior), {}},
 }};
+static_assert(std::all_of(groups.begin(), groups.end(),
+                          [](const MuscleRow& g) {
+                            return g.members.size() == 1 || g.drawn.towards < g.members.size();
+                          }),
+              "every group has members, and is drawn towards one of them");
+static_assert(groups.size() + std::size(members) <= most_muscles);
 
 /// Groups, then the members of those that have several.
 std::vector<MuscleRow> make_rows() {
-  std::vector<MuscleRow> rows, single;
-  for (const GroupRow& g : groups) {
-    const auto in_group = [&g](const MemberMuscle& m) { return m.group == g.group; };
-    const auto first = std::find_if(members.begin(), members.end(), in_group);
-    const std::span<const MemberMuscle> own{first, std::find_if_not(first, members.end(), in_group)};
-    rows.push_back({g.name, own, own.size() == 1 ? line_through_belly(own[0]) : g.drawn});
-    if (own.size() == 1) continue;
-    for (const MemberMuscle& m : own) single.push_back({m.name, {&m, 1}, line_through_belly(m)});
+  std::vector<MuscleRow> rows(groups.begin(), groups.end());
+  for (MuscleRow& group : rows) {
+    if (group.members.size() == 1) group.drawn = line_through_belly(group.members[0]);
   }
-  rows.insert(rows.end(), single.begin(), single.end());
+  for (const MuscleRow& group : groups) {
+    if (group.members.size() == 1) continue;
+    for (const MemberMuscle& m : group.members) rows.push_back({m.name, {&m, 1}, line_through_belly(m)});
+  }
   return rows;
 }
+
+constexpr std::array<LegSection, 7> tendon = {{{1.580F, 3, -39.5F, 20, 1.8F, 95},
+                                               {1.660F, 0, -37, 16, 2.5F, 95},
+                                               {1.760F, -3, -33.5F, 11, 3.2F, 95},
+                                               {1.860F, -5, -33.5F, 8, 4.2F, 95},
+                                               {1.960F, -5, -37, 7, 5, 95},
+                                               {2.030F, -4, -42, 8, 4.5F, 95},
+                                               {2.090F, -1, -48, 10, 3.5F, 95}}};
 
 }  // namespace
 
@@ -122,16 +183,15 @@ MuscleSet muscle_members() {
 }
 
 const KneeTrack& knee_rolling() {
-  return paths::rolling;
+  return rolling;
 }
 
 std::span<const MemberMuscle> member_muscles() {
   return members;
 }
 
-const MemberMuscle* find_member_muscle(std::string_view name) {
-  const auto found = std::find_if(members.begin(), members.end(), [name](const auto& m) { return m.name == name; });
-  return found == members.end() ? nullptr : &*found;
+std::span<const LegSection> calcaneal_tendon() {
+  return tendon;
 }
 
 double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double mass_kg) {

@@ -1,12 +1,14 @@
 #pragma once
 // The muscles of a leg as published figures: where each one runs, how large it is, what it looks like. To add a muscle
-// is to add rows.
+// is to add a row: a file in assets/muscles/rows, and its name in muscle_table.cpp.
 //
 // Sources. Paths: the gait2392 model of OpenSim (CC BY 3.0; Delp, Loan, Hoy, Zajac, Topp, Rosen: An interactive
-// graphics-based model of the lower extremity, IEEE Trans. Biomed. Eng. 37, 1990). Volumes: regression of Handsfield,
-// Meyer, Hart, Abel, Blemker: Relationships of 35 lower limb muscles to height and body mass, J. Biomech. 47, 2014.
-// Sections: measured for this project from the surfaces of BodyParts3D 3.0 (© The Database Center for Life Science,
-// licensed under CC Attribution-Share Alike 2.1 Japan), a man of about 1.69 m.
+// graphics-based model of the lower extremity, IEEE Trans. Biomed. Eng. 37, 1990); what is an edge here is there a
+// point that bends the path from or up to some knee flexion, and the edge takes over within a few degrees of it.
+// Volumes: regression of Handsfield, Meyer, Hart, Abel, Blemker: Relationships of 35 lower limb muscles to height and
+// body mass, J. Biomech. 47, 2014. Sections: measured for this project from the surfaces of BodyParts3D 3.0 (© The
+// Database Center for Life Science, licensed under CC Attribution-Share Alike 2.1 Japan), a man of about 1.69 m: area,
+// centroid and second moments of the cut of each surface. Fibres and tendons: assets/muscles/muscle_architecture.h.
 
 #include <array>
 #include <cstddef>
@@ -15,7 +17,7 @@
 #include <span>
 #include <string_view>
 
-#include "assets/fem/hexahedral_mesh.h"
+#include "assets/muscles/fixed_list.h"
 #include "assets/muscles/leg_sections.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
@@ -54,20 +56,41 @@ inline constexpr std::size_t knee_knots = 7;
 inline constexpr double knee_knot_deg = 20;
 using KneeTrack = std::array<Vec3<double>, knee_knots>;
 
-/// One muscle of the leg as it was published.
+/// That spline: t₀ + t₁u + Σ cₖ·max(u − k, 0)³, u = flexion / 20°.
+template <class F>
+struct KneeSpline {
+  Vec3<F> at_zero, slope;
+  std::array<Vec3<F>, knee_knots> cubic;
+};
+
+/// One muscle of the leg as it was published: a row of the table, assets/muscles/rows/NAME.inl. What has no value here
+/// must be given; muscle_table.cpp checks the rest when it is compiled.
 struct MemberMuscle {
   std::string_view name;
   Muscle group;
-  std::span<const PathPoint> path;  // origin first
-  const KneeTrack* kneecap;         // what a path ends on after its last point, or null
+  Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
+
+  FixedList<PathPoint, 6> path;                     // origin first
+  std::optional<KneeTrack> kneecap = std::nullopt;  // what a path ends on after its last point
+
   /// Volume (cm³) = limb_share · (47 · mass · height + 1285) + offset_cm3, in kg and m.
   double limb_share, offset_cm3;
-  Segment origin, insertion;  // right side: what the surface beyond the belly's ends follows
-  /// The muscle's shape, upper end first, tendon included: see assets/muscles/leg_sections.h for what a section means.
-  std::span<const LegSection> sections;
-};
 
-inline constexpr std::size_t member_muscle_count = 13;
+  /// Inside: see assets/muscles/muscle_architecture.h. `model_…`: gait2392's; 0 where it has none.
+  double fibre_m, pennation_deg, belly_m;
+  double model_fibre_m = 0, model_tendon_m = 0, model_path_m = 0;
+
+  /// The muscle's shape as measured, upper end first, tendon included (the quadriceps down to the kneecap): see
+  /// assets/muscles/leg_sections.h for what a section means.
+  FixedList<LegSection, 16> sections;
+  /// How the drawn shape differs, whose ends are where the muscle is attached: without the last `not_drawn` measured
+  /// sections, which do not suit this skeleton's kneecap or bones, and with others above and below.
+  std::size_t not_drawn = 0;
+  FixedList<LegSection, 4> drawn_above = {};
+  FixedList<LegSection, 12> drawn_below = {};
+  std::string_view lies_on = {};     // the member that it covers and is pushed out by
+  bool in_calcaneal_tendon = false;  // it goes on in that
+};
 
 /// How far the published knee carries shank and foot from where the pin has them, with all that is fixed to them: along
 /// the shank's axes, m, at the published leg's size. Nothing in the anatomical position.
@@ -76,8 +99,8 @@ const KneeTrack& knee_rolling();
 /// All published muscles, groups one after the other in the order of Muscle.
 std::span<const MemberMuscle> member_muscles();
 
-/// The muscle of that name, or null.
-const MemberMuscle* find_member_muscle(std::string_view name);
+/// The calcaneal tendon as drawn, under the calf's muscles down to the heel.
+std::span<const LegSection> calcaneal_tendon();
 
 /// Volume of a member in a body of that height and mass, cm³ (Handsfield et al. 2014).
 double handsfield_volume_cm3(const MemberMuscle& muscle, double height_m, double mass_kg);
@@ -124,14 +147,5 @@ MuscleSet muscle_members();
 
 /// The body that templates are made for: 1.80 m, 80 kg, average.
 inline constexpr double reference_body_height_m = 1.80, reference_body_mass_kg = 80;
-
-/// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
-/// follow the surface as it is drawn in that body. A single muscle's mesh has the muscle's volume; a group's encloses
-/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle.
-inline constexpr std::size_t cage_station_count = 9;
-using CageStations = std::array<CageStation, cage_station_count>;
-const CageStations& muscle_cage(Muscle muscle);
-/// How the elements of templates are graded: finer towards the ends, where bellies taper and are held.
-inline constexpr Grading belly_grading{.across = 1, .along = 1.5};
 
 }  // namespace mobil

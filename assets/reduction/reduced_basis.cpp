@@ -2,15 +2,17 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"
 #include "assets/reduction/reduced_operators.h"
 #include "assets/reduction/reduced_training.h"
+#include "assets/reduction/symmetric_eigen.h"
 
 namespace mobil {
 namespace {
@@ -155,12 +157,11 @@ std::vector<double> fit_of(const ReducedBasis& basis) {
   for (Index row = 0; row < rows; ++row) weight(row) = basis.control_weight[static_cast<std::size_t>(row / 3)];
   const MatrixXd weighted = weight.asDiagonal() * phi;
   // Control points may be too few to tell all vectors apart: what they cannot see is left out of every one.
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(phi.transpose() * weighted);
-  const double least = 1e-6 * solver.eigenvalues()(count - 1);
+  const SymmetricEigen gram = symmetric_eigen(phi.transpose() * weighted);
+  const double least = 1e-6 * gram.values(count - 1);
   const Eigen::VectorXd inverse =
-      solver.eigenvalues().unaryExpr([least](double value) { return value > least ? 1 / value : 0.0; });
-  return row_major(solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose() *
-                   weighted.transpose());
+      gram.values.unaryExpr([least](double value) { return value > least ? 1 / value : 0.0; });
+  return row_major(gram.vectors * inverse.asDiagonal() * gram.vectors.transpose() * weighted.transpose());
 }
 
 /// The template scaled so: across and along.
@@ -207,11 +208,11 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
     add(body->kicks, 1);
   }
   const auto columns = all.leftCols(size);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner(columns, mass_times(given.terms, columns)));
+  const SymmetricEigen gram = symmetric_eigen(inner(columns, mass_times(given.terms, columns)));
   // smaller ones are rounding's
-  const Index real = (solver.eigenvalues().array() > 1e-14 * solver.eigenvalues()(size - 1)).count();
+  const Index real = (gram.values.array() > 1e-14 * gram.values(size - 1)).count();
   const Index count = std::min(Index{most_vectors}, real);
-  Columns vectors = columns * solver.eigenvectors().rowwise().reverse().leftCols(count);
+  Columns vectors = columns * gram.vectors.rowwise().reverse().leftCols(count);
   orthonormalise(given.terms, Columns(vectors.rows(), 0), Columns(vectors.rows(), 0), vectors);
   Columns fields(vectors.rows(), lifts + vectors.cols());
   fields << first->lift, vectors;

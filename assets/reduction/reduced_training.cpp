@@ -1,9 +1,11 @@
 #include "assets/reduction/reduced_training.h"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
+
+#include "assets/reduction/symmetric_eigen.h"
 
 namespace mobil {
 namespace {
@@ -76,8 +78,8 @@ Vibrations vibrations(const Training& training, const MovingOperator& inverse, c
     inverse.solve(start);
   }
   const auto basis = space.leftCols(size);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner(basis, applied(terms, stiffness, basis)));
-  return {solver.eigenvalues(), basis * solver.eigenvectors(), mass_space.leftCols(size) * solver.eigenvectors()};
+  const SymmetricEigen eigen = symmetric_eigen(inner(basis, applied(terms, stiffness, basis)));
+  return {eigen.values, basis * eigen.vectors, mass_space.leftCols(size) * eigen.vectors};
 }
 
 /// E[y·yᵀ] of ÿ_j + α·ẏ_j + ω_j²·y_j = white noise of covariances `push`.
@@ -159,11 +161,11 @@ Result<TrainedBody> train(const Training& training, double across, double along)
   // A kick of an input's rate moves vibration j by so much: what is at rest under it, seen by the vibration.
   const MatrixXd kicked = inner(v.shape, mass_times(terms, rest)) * kick.asDiagonal() / std::sqrt(tick_s);
   const MatrixXd gramian = position_gramian(v.omega2, std::max(o.damping_per_s, 1.0), kicked * kicked.transpose());
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(gramian);
+  const SymmetricEigen eigen = symmetric_eigen(gramian);
   const Index columns = std::min(training.most_columns, gramian.cols());
-  const VectorXd large = solver.eigenvalues().tail(columns).cwiseMax(0.0).cwiseSqrt();
+  const VectorXd large = eigen.values.tail(columns).cwiseMax(0.0).cwiseSqrt();
   TrainedBody body;
-  body.kicks = v.shape * (solver.eigenvectors().rightCols(columns) * large.asDiagonal());
+  body.kicks = v.shape * (eigen.vectors.rightCols(columns) * large.asDiagonal());
   body.lift = held ? Columns(rest.leftCols(1)) : Columns(rest.rows(), 0);
   body.statics = rest.rightCols(inputs - body.lift.cols()) * size.tail(inputs - body.lift.cols()).asDiagonal();
   return body;

@@ -1,6 +1,6 @@
 #pragma once
-// The single bones that make_bone_surfaces puts together, in mm of a man of reference_height_mm, in the frame of their
-// segment, right side.
+// What the bones of the skeleton are drawn with: in mm of a man of reference_height_mm, in the frame of their segment,
+// right side.
 
 #include <array>
 #include <initializer_list>
@@ -29,20 +29,5 @@ void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<dou
                    int segments = 9);
 /// Adds `part` and its mirror image.
 void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part);
-
-SurfaceMesh pelvis();
-SurfaceMesh vertebra(const Proportions& p, Segment segment);  // with its ribs, T4 with the sternum
-SurfaceMesh skull();
-SurfaceMesh femur(const Proportions& p);
-SurfaceMesh patella();
-SurfaceMesh tibia_and_fibula(const Proportions& p);
-SurfaceMesh foot(const Proportions& p);
-SurfaceMesh toes(const Proportions& p);
-SurfaceMesh clavicle_and_scapula(const Proportions& p);
-SurfaceMesh humerus(const Proportions& p);
-SurfaceMesh radius_and_ulna(const Proportions& p);
-SurfaceMesh hand(const Proportions& p);
-SurfaceMesh fingers(const Proportions& p);
-SurfaceMesh thumb(const Proportions& p);
 
 }  // namespace mobil::bones

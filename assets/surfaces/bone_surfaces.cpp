@@ -1,53 +1,19 @@
 #include "assets/surfaces/bone_surfaces.h"
 
-#include <numbers>
 #include <string>
 
 #include "assets/surfaces/bone_shapes.h"
+#include "assets/surfaces/bone_surfaces_arm.h"
+#include "assets/surfaces/bone_surfaces_leg.h"
+#include "assets/surfaces/bone_surfaces_pelvis.h"
+#include "assets/surfaces/bone_surfaces_skull.h"
+#include "assets/surfaces/bone_surfaces_trunk.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
 
 namespace mobil {
 
 using namespace geometry;
-
-namespace bones {
-
-Proportions proportions(const Body& body) {
-  Proportions p{};
-  const double mm = reference_height_mm / static_cast<double>(body.request.height_m);
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    p.joint[s] = mm * to_double(body.joint_offset_m[s]);
-    p.tip[s] = mm * to_double(body.tip_m[s]);
-    const std::size_t parent = index(segment_parent[s]);
-    p.world[s] = s == parent ? p.joint[s] : p.world[parent] + p.joint[s];
-  }
-  p.leg = leg_frame(body);
-  p.leg.hip = {0, 0, 0};
-  p.leg.thigh_length *= mm;
-  p.leg.shank_length *= mm;
-  p.leg.unit = 1;
-  return p;
-}
-
-void add_tube(SurfaceMesh& mesh, std::initializer_list<Station> stations, const TubeShape& shape) {
-  std::vector<TubeStation> line;
-  for (const Station& s : stations) {
-    line.push_back({{s.x, s.y, s.z}, s.semi_u, s.semi_v, s.angle_deg * std::numbers::pi / 180, s.bow});
-  }
-  append(mesh, loft(line, shape));
-}
-
-void add_ellipsoid(SurfaceMesh& mesh, const Vec3<double>& centre, const Vec3<double>& semi, int rings, int segments) {
-  append(mesh, ellipsoid(centre, semi, rings, segments));
-}
-
-void add_pair(SurfaceMesh& mesh, const SurfaceMesh& part) {
-  append(mesh, part);
-  append(mesh, mirror_image(part));
-}
-
-}  // namespace bones
 
 std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
   using enum Segment;

@@ -1,4 +1,4 @@
-#include "assets/surfaces/bone_shapes.h"
+#include "assets/surfaces/bone_surfaces_arm.h"
 
 #include <array>
 

@@ -1,7 +1,9 @@
+#include "assets/surfaces/bone_surfaces_leg.h"
+
 #include <algorithm>
 #include <array>
 
-#include "assets/surfaces/bone_shapes.h"
+#include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
 

@@ -1,3 +1,5 @@
+#include "assets/surfaces/bone_surfaces_pelvis.h"
+
 #include <cmath>
 #include <numbers>
 

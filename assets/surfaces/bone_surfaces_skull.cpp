@@ -1,3 +1,5 @@
+#include "assets/surfaces/bone_surfaces_skull.h"
+
 #include "assets/surfaces/bone_shapes.h"
 #include "engine/geometry.h"
 

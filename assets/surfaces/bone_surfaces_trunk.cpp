@@ -1,7 +1,8 @@
+#include "assets/surfaces/bone_surfaces_trunk.h"
+
 #include <algorithm>
 #include <array>
 
-#include "assets/surfaces/bone_shapes.h"
 #include "engine/geometry.h"
 
 namespace mobil::bones {

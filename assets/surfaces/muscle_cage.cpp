@@ -1,4 +1,4 @@
-// The block that follows a muscle's surfaces in the reference body.
+#include "assets/surfaces/muscle_cage.h"
 
 #include <algorithm>
 #include <array>

@@ -6,10 +6,13 @@
 #include <numbers>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "assets/muscles/muscle_plan.h"
-#include "assets/muscles/muscle_shapes.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
 
@@ -21,6 +24,47 @@ using namespace geometry;
 constexpr int rings = 36, segments = 18;
 constexpr TubeShape muscle_shape{
     .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = rings, .segments = segments, .cap = 0.5};
+
+constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
+
+/// A member as it is drawn on the right leg, from its origin (first section) to its insertion (last); or the calcaneal
+/// tendon. `lies_on`: the shape that it covers. `ends_in`: the tendon that it goes on in.
+struct MuscleShape {
+  std::string_view name;
+  Muscle group;
+  Segment origin, insertion;
+  std::vector<LegSection> sections;
+  std::size_t lies_on = no_muscle, ends_in = no_muscle;
+};
+
+/// The members in the order of member_muscles(), then the calcaneal tendon.
+std::vector<MuscleShape> muscle_shapes() {
+  const auto members = member_muscles();
+  std::vector<MuscleShape> all;
+  for (const MemberMuscle& m : members) {
+    MuscleShape shape{m.name, m.group, m.origin, m.insertion, {}};
+    auto& to = shape.sections;
+    to.insert(to.end(), m.drawn_above.begin(), m.drawn_above.end());
+    to.insert(to.end(), m.sections.begin(), m.sections.end() - m.not_drawn);
+    to.insert(to.end(), m.drawn_below.begin(), m.drawn_below.end());
+    if (!m.lies_on.empty()) {
+      const auto beneath = std::ranges::find(members, m.lies_on, &MemberMuscle::name);
+      shape.lies_on = static_cast<std::size_t>(beneath - members.begin());
+    }
+    if (m.in_calcaneal_tendon) shape.ends_in = members.size();
+    all.push_back(std::move(shape));
+  }
+  const auto tendon = calcaneal_tendon();
+  all.push_back({"calcaneal_tendon",
+                 Muscle::triceps_surae,
+                 Segment::shank_right,
+                 Segment::foot_right,
+                 {tendon.begin(), tendon.end()}});
+  return all;
+}
+
+/// Where the measured man's kneecap stands: its upper edge's level, its centre in mm from the knee's.
+constexpr double measured_patella_top = 0.992, measured_patella_lateral = 12, measured_patella_anterior = 40;
 
 /// What a muscle must stay out of: the femur with its condyles, the tibia and the fibula.
 struct Bone {

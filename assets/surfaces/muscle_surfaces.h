@@ -12,9 +12,8 @@
 namespace mobil {
 
 /// A muscle surface with the meshes that can drive it: its own muscle's where that is simulated, else its group's
-/// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in
-/// the tendon. A ligament follows its two bones alone: bind it with bind_ligament, the others with bind_muscle
-/// (surface_binding.h).
+/// (tendons and ligaments have no other). `tendon`: one a vertex, 0 in the belly to 1 in the tendon. A ligament follows
+/// its two bones alone: bind it with bind_ligament, the others with bind_muscle (surface_binding.h).
 struct GroupSurface {
   Muscle group, muscle;
   MuscleSurface surface;
@@ -29,7 +28,7 @@ std::optional<Muscle> driving_muscle(const MuscleSet& simulated, Muscle group, M
 
 /// The members in the order of member_muscles(), then the calcaneal tendon and the patellar ligament; right side, world
 /// axes, the body standing in the anatomical position at x = z = 0, m; closed, wound outwards, not bound yet. Each
-/// follows its measured path (muscle_shapes.h) on this body's bones; its girth is set so that it encloses the member's
+/// follows its measured path (muscle_table.h) on this body's bones; its girth is set so that it encloses the member's
 /// volume, growing away from the bone, and it is cut back where it would enter the femur or the tibia.
 std::vector<GroupSurface> make_muscle_surfaces(const Body& body);
 

@@ -131,7 +131,7 @@ Json attachments(const Body& body, const MemberMuscle& member) {
   Json via = Json::array();
   for (std::size_t i = 1; i + 1 < places.size(); ++i) via.push_back(place(places[i]));
   Json insertion = place(places.back());
-  insertion["on_kneecap"] = member.kneecap != nullptr;
+  insertion["on_kneecap"] = member.kneecap.has_value();
   return {{"origin", place(places.front())}, {"via", via}, {"insertion", insertion}};
 }
 

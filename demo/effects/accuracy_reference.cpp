@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "assets/surfaces/muscle_cage.h"
 #include "engine/rows.h"
 #include "systems/deformation/reduced.h"
 

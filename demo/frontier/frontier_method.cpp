@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "assets/surfaces/muscle_cage.h"
+
 namespace mobil {
 
 Result<HexahedralMesh> frontier_mesh(Muscle muscle, const Cells& cells) {

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "systems/deformation/reduced.h"
-#include "systems/deformation/reduced_bellies.h"
+#include "assets/reduction/reduced_bellies.h"
 
 namespace mobil {
 namespace {

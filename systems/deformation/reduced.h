@@ -8,7 +8,7 @@
 // stable, without period error.
 
 #include "assets/fem/muscle_template.h"
-#include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/reduced_belly.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
 #include "systems/deformation/deformation.h"

@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include "assets/fem/kernel_arrays.h"
+
 namespace mobil {
 namespace {
 
@@ -94,35 +96,6 @@ Matrix of_moving(const Matrix& matrix, const std::vector<Index>& moving) {
   return part;
 }
 
-/// ∫N dA of each node of the far face, as parts of their sum (2×2 Gauss points on each quadrilateral).
-std::vector<double> far_face_shares(const HexahedralMesh& mesh) {
-  using Eigen::Vector3d;
-  const std::uint32_t first = first_insertion_node(mesh.cells);
-  Vector area = Vector::Zero(plane_nodes(mesh.cells));
-  const double g = 1 / std::sqrt(3.0);
-  const Eigen::Vector4d xi(-1, 1, 1, -1), eta(-1, -1, 1, 1);
-  for (const Quad& quad : insertion_quads(mesh.cells)) {
-    for (const double s : {-g, g}) {
-      for (const double t : {-g, g}) {
-        Vector3d along_s = Vector3d::Zero(), along_t = Vector3d::Zero();
-        for (std::size_t a = 0; a < 4; ++a) {
-          const auto i = static_cast<Index>(a);
-          const auto& p = mesh.node[quad[a]];
-          along_s += xi(i) * (1 + eta(i) * t) / 4 * Vector3d(p.x, p.y, p.z);
-          along_t += eta(i) * (1 + xi(i) * s) / 4 * Vector3d(p.x, p.y, p.z);
-        }
-        const double patch = along_s.cross(along_t).norm();
-        for (std::size_t a = 0; a < 4; ++a) {
-          const auto i = static_cast<Index>(a);
-          area(static_cast<Index>(quad[a] - first)) += patch * (1 + xi(i) * s) * (1 + eta(i) * t) / 4;
-        }
-      }
-    }
-  }
-  area /= area.sum();
-  return {area.begin(), area.end()};
-}
-
 bool accelerated(const ReferenceLoad& load) {
   const auto any = [](const Vec3<double>& a) { return a.x != 0 || a.y != 0 || a.z != 0; };
   return any(load.constant) || any(load.gradient.x) || any(load.gradient.y) || any(load.gradient.z);
@@ -170,7 +143,7 @@ struct ReferenceBelly::State {
 };
 
 ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& terms, const ReferenceOptions& options)
-    : mesh(m), o(options), far_share(far_face_shares(m)) {
+    : mesh(m), o(options), far_share(far_shares(m)) {
   if (o.method == Method::ecd) o.mass = Mass::lumped;
   if (o.method == Method::icd) o.mass = Mass::consistent;
   const double dt = o.dt_s;

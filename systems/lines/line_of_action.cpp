@@ -124,10 +124,6 @@ void put_rows(const LegFrames<Lanes<float>>& legs, Side side, LegPost* posts) {
   }
 }
 
-void flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {
-  store(knee_flexion(load(legs.thigh), load(legs.shank)), flexion_rad);
-}
-
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -138,7 +134,6 @@ namespace mobil {
 namespace {
 
 HWY_EXPORT(act_on_end);
-HWY_EXPORT(flexions);
 HWY_EXPORT(take_rows);
 HWY_EXPORT(put_rows);
 
@@ -208,10 +203,6 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                      FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
   HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end);
-}
-
-void knee_flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad) {
-  HWY_DYNAMIC_DISPATCH(flexions)(legs, flexion_rad);
 }
 
 }  // namespace mobil

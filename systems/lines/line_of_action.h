@@ -34,7 +34,4 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                      FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end);
 
-/// Knee flexion (rad) of sixteen legs, from their thigh and shank.
-void knee_flexions(const LegFrames<Lanes<float>>& legs, Lanes<float>& flexion_rad);
-
 }  // namespace mobil

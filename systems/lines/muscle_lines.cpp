@@ -15,7 +15,7 @@ MuscleLines::Point point(const PathPoint& p, std::size_t straight_to = 0) {
 }
 
 MuscleLines::Track track(const KneeTrack& of) {
-  const KneeSpline spline = knee_spline(of);
+  const KneeSpline<double> spline = knee_spline(of);
   MuscleLines::Track t{to_float(spline.at_zero), to_float(spline.slope), {}};
   for (std::size_t k = 0; k < knee_knots; ++k) t.cubic[k] = to_float(spline.cubic[k]);
   return t;
@@ -28,7 +28,7 @@ MuscleLines::Member member(const MemberMuscle& muscle, double weight) {
     const auto next = std::find_if(p, muscle.path.end(), [](const PathPoint& q) { return q.hold == PathHold::fixed; });
     m.path.push_back(point(*p, static_cast<std::size_t>(next - muscle.path.begin())));
   }
-  m.on_kneecap = muscle.kneecap != nullptr;
+  m.on_kneecap = muscle.kneecap.has_value();
   if (m.on_kneecap) m.kneecap = track(*muscle.kneecap);
   return m;
 }

@@ -18,10 +18,7 @@ struct MuscleLines {
     /// Of an edge: which of the member's points (their number: the path's end) closes the straight line that it bends.
     std::size_t straight_to = 0;
   };
-  /// A track over knee flexion as assets/muscles/muscle_path.h has its spline.
-  struct Track {
-    Vec3<float> at_zero, slope, cubic[knee_knots];
-  };
+  using Track = KneeSpline<float>;
   struct Member {
     std::vector<Point> path;
     float weight;

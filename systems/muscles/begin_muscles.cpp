@@ -9,7 +9,7 @@
 #include "engine/access.h"
 #include "engine/rows.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reduced_bellies.h"
+#include "assets/reduction/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"

@@ -6,9 +6,10 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/reduction/reduced_bellies.h"
+#include "assets/surfaces/muscle_cage.h"
 #include "engine/row_hash.h"
 #include "systems/deformation/deformation.h"
-#include "systems/deformation/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
 
 namespace mobil {

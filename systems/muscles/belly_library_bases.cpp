@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/surfaces/muscle_cage.h"
 #include "systems/muscles/belly_library.h"
 
 namespace mobil {

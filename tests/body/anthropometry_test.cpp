@@ -8,16 +8,26 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 #include <vector>
 
 #include "assets/body/joint_limits.h"
 #include "assets/body/segment_inertia.h"
 #include "components/gait_style.h"
 #include "systems/simulation.h"
+#include "tests/body/rigid_sum.h"
 #include "tests/simulation/people.h"
 
 namespace mobil {
 namespace {
+
+/// The limit of that joint and motion, or null.
+const JointLimit* find_joint_limit(std::string_view joint, std::string_view motion) {
+  for (const JointLimit& limit : limb_limits) {
+    if (limit.joint == joint && limit.motion == motion) return &limit;
+  }
+  return nullptr;
+}
 
 BodyRequest any_request() {
   BodyRequest r;

@@ -9,6 +9,7 @@
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/muscle_cage.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_binding.h"
 #include "engine/geometry.h"
@@ -22,9 +23,8 @@ using namespace geometry;
 constexpr Cells coarse{2, 2, 8}, middle{4, 4, 16}, fine{8, 8, 32};
 
 HexahedralMesh mesh_of(Muscle muscle, const Cells& cells, double across = 1, double along = 1) {
-  auto mesh = bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading).value();
-  for (Vec& n : mesh.node) n = {across * n.x, across * n.y, along * n.z};
-  return mesh;
+  const auto mesh = bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading).value();
+  return scaled(mesh, BellyScale<double>{across, along});
 }
 
 std::vector<Muscle> all_muscles() {

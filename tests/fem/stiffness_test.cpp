@@ -148,7 +148,6 @@ TEST(StiffnessTerms, CubesOfEveryKindVibrateAtMostAtTheirDilatationsFrequency) {
       oracle::Model model = oracle::assemble(cube, material, kind);
       model.stiffness = dense(*assemble(cube, material, kind), 1, 1);
       EXPECT_NEAR(oracle::highest_frequency(model, all) / exact, 1, 1e-9) << poisson;
-      EXPECT_NEAR(element_critical_step(cube, material, 1, 1, kind) * exact / 2, 1, 6e-4) << poisson;
     }
   }
 }

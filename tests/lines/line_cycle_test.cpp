@@ -12,6 +12,7 @@
 #include "components/pose.h"
 #include "systems/simulation.h"
 #include "tests/lines/leg_block.h"
+#include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
 
 namespace mobil {

@@ -73,7 +73,7 @@ TEST(LineMotion, AMusclesArmsAreThoseOfTheJointsItCrosses) {
     }
     line_motion(lines, block.scale, block.legs, block.line, motion, 0.01F);
     const LegBone from = member.path.front().bone;
-    const LegBone to = member.kneecap != nullptr ? LegBone::shank : member.path.back().bone;
+    const LegBone to = member.kneecap ? LegBone::shank : member.path.back().bone;
     for (std::size_t l = 0; l < lane_count; ++l) {
       EXPECT_EQ(motion.hip_flexion_arm_m[l] != 0, from == LegBone::pelvis) << member.name;
       EXPECT_EQ(motion.knee_flexion_arm_m[l] != 0, from <= LegBone::thigh && to >= LegBone::shank) << member.name;

@@ -1,5 +1,6 @@
 // Lines of action in lanes against the same paths in double, and what must hold for any pose.
 #include "systems/lines/line_of_action.h"
+#include "systems/lines/leg_path-inl.h"
 
 #include <gtest/gtest.h>
 
@@ -47,7 +48,10 @@ TEST(LineOfAction, LanesAgreeWithDouble) {
       }
       lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
       Lanes<float> flexion;
-      knee_flexions(block.legs, flexion);
+      {
+        using namespace HWY_NAMESPACE;
+        store(HWY_NAMESPACE::knee_flexion(load(block.legs.thigh), load(block.legs.shank)), flexion);
+      }
       for (std::size_t l = 0; l < lane_count; ++l) {
         EXPECT_NEAR(block.line.length_m[l], expected[l], 4e-6);
         EXPECT_NEAR(flexion[l], knee_flexion(leg[l]), 2e-6);

@@ -8,6 +8,7 @@
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 #include "tests/lines/leg_block.h"
+#include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
 
 namespace mobil {

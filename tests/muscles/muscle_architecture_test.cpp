@@ -11,6 +11,7 @@
 #include "assets/body/anthropometry.h"
 #include "assets/muscles/muscle_path.h"
 #include "assets/muscles/muscle_plan.h"
+#include "tests/muscles/find_member.h"
 #include "tests/simulation/people.h"
 
 namespace mobil {
@@ -62,9 +63,8 @@ TEST(MuscleArchitecture, TheReferenceBodyHasThePublishedMuscles) {
   }
 }
 
-TEST(MuscleArchitecture, EveryMemberOfTheTableHasItsRow) {
+TEST(MuscleArchitecture, FibresFitIntoTheirBellyAndTendonsOnTheirPath) {
   for (const MemberMuscle& member : member_muscles()) {
-    EXPECT_EQ(muscle_architecture(member).name, member.name);
     const MuscleParameters made = member_parameters(body_of(1.80F, 80), member);
     EXPECT_LT(made.fibre_m, made.belly_m) << member.name;
     EXPECT_GT(made.tendon_m, 0) << member.name;

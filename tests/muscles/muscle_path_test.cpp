@@ -11,6 +11,7 @@
 
 #include "assets/muscles/leg_sections.h"
 #include "tests/lines/leg_block.h"
+#include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
 
 namespace mobil {

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_cholesky.h"
 #include "systems/deformation/reference.h"
 #include "tests/fem/oracle.h"

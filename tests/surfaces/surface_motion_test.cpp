@@ -44,13 +44,7 @@ struct Moving {
 };
 
 HexahedralMesh own_mesh(const Simulation& simulation, const HumanMuscle& muscle) {
-  HexahedralMesh mesh = simulation.world().shared<MuscleTemplate>(muscle.entity[right])->mesh;
-  for (auto& node : mesh.node) {
-    node.x *= static_cast<double>(muscle.plan.scale.across);
-    node.y *= static_cast<double>(muscle.plan.scale.across);
-    node.z *= static_cast<double>(muscle.plan.scale.along);
-  }
-  return mesh;
+  return scaled(simulation.world().shared<MuscleTemplate>(muscle.entity[right])->mesh, muscle.plan.scale);
 }
 
 struct Drawn {

@@ -1,7 +1,13 @@
-#include "systems/deformation/reduced_bellies.h"
+// With u = ψ·w + V·q, m = S²·l, VᵀM₁V = 1, K = Vᵀ(stiffness and foundation)V, k = Vᵀ(those)ψ and h = VᵀM₁ψ:
+//   m·(q̈ + α·q̇) + m·h·(ẅ + α·ẇ) + K·q + k·w = loads.
+// q + h·w is what the mass sees move. K/m = E·Ω²·Eᵀ makes of z = Eᵀ·(q + h·w)
+//   z̈ + α·ż + Ω²·z = Ω²·(P·w + …),   P = Eᵀh − Ω⁻²·Eᵀk/m,   P = Ω⁻²·Eᵀ(load per unit)/m of the others,
+// so that at rest q = E·(z − Eᵀh·w) = −K⁻¹·k·w + K⁻¹·loads. The force on a held far face at rest is ψᵀ(stiffness·u −
+// loads): per metre ψᵀKψ − kᵀK⁻¹k, per load kᵀK⁻¹·VᵀL − ψᵀL.
+#include "assets/reduction/reduced_bellies.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "systems/deformation/reduced_bellies.cpp"
+#define HWY_TARGET_INCLUDE "assets/reduction/reduced_bellies.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -370,7 +376,7 @@ std::uint32_t upper_half(double x) {
   return (bits + 0x7FFFU + (bits >> 16 & 1U)) >> 16;
 }
 
-/// Of a motion that creeps home: a and b, as write_motion has them.
+/// Of a motion that creeps home: a and b.
 void creep(double omega, double half, double tick_s, float& a, float& b) {
   const double apart = std::sqrt(half * half - omega * omega);
   const double slow = std::exp(-omega * omega / (half + apart) * tick_s);
@@ -382,14 +388,14 @@ void creep(double omega, double half, double tick_s, float& a, float& b) {
 
 }  // namespace
 
-Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<float>> bodies,
+Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<double>> bodies,
                            ReducedBellies& bellies) {
   constexpr double rounding = 1e-5;
   Lanes<double> across, along;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const BellyScale<float>& of = bodies[lane < bodies.size() ? lane : 0];
-    across[lane] = static_cast<double>(of.across);
-    along[lane] = static_cast<double>(of.along);
+    const BellyScale<double>& of = bodies[lane < bodies.size() ? lane : 0];
+    across[lane] = of.across;
+    along[lane] = of.along;
     const double ratio = across[lane] / along[lane];
     if (!(across[lane] > 0 && along[lane] > 0 && ratio >= basis.lowest_ratio * (1 - rounding) &&
           ratio <= basis.highest_ratio * (1 + rounding))) {
@@ -407,6 +413,15 @@ Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale
                             basis.options.corrected ? " with the mesh's error extrapolated away" : ""));
   }
   return {};
+}
+
+Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<float>> bodies,
+                           ReducedBellies& bellies) {
+  BellyScale<double> wide[lane_count];
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    wide[i] = {static_cast<double>(bodies[i].across), static_cast<double>(bodies[i].along)};
+  }
+  return solve_bellies(basis, {wide, bodies.size()}, bellies);
 }
 
 ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "assets/fem/hexahedral_mesh.h"
-#include "assets/reduction/reduced_basis.h"
-#include "systems/deformation/reduced_bellies.h"
+#include "assets/reduction/reduced_bellies.h"
+#include "tests/reduction/scalar_belly.h"
 
 namespace mobil {
 namespace {
@@ -83,7 +83,7 @@ RC_GTEST_PROP(ReducedBellies, WhatALaneGetsDoesNotDependOnTheOthers, ()) {
   }
 }
 
-RC_GTEST_PROP(ReducedBellies, AreTheMotionsThatOneBodyAloneIsSaidToHave, ()) {
+RC_GTEST_PROP(ReducedBellies, MatchTheScalarSolver, ()) {
   const ReducedBasis& basis = basis_of(*rc::gen::inRange(0, 6));
   const double damping = *rc::gen::element(0.0, 8.0, 500.0);
   std::vector<BellyScale<float>> bodies(16);
@@ -92,7 +92,7 @@ RC_GTEST_PROP(ReducedBellies, AreTheMotionsThatOneBodyAloneIsSaidToHave, ()) {
   const auto rows = rows_of(basis, bodies, damping, bellies);
   for (std::size_t l = 0; l < bodies.size(); ++l) {
     const auto expected =
-        make_reduced_belly(basis, static_cast<double>(bodies[l].across), static_cast<double>(bodies[l].along)).value();
+        oracle::make_reduced_belly(basis, static_cast<double>(bodies[l].across), static_cast<double>(bodies[l].along)).value();
     const ReducedBelly own = belly_of(bellies, l);
     for (std::size_t j = 0; j < basis.vectors; ++j) {
       RC_ASSERT(std::abs(own.omega_1_s[j] / expected.omega_1_s[j] - 1) < 1e-9);
@@ -117,8 +117,8 @@ RC_GTEST_PROP(ReducedBellies, AreTheMotionsThatOneBodyAloneIsSaidToHave, ()) {
       }
     }
     std::vector<float> motion(rows[l].motion.size()), shape(rows[l].shape.size());
-    write_motion(own, damping, 1.0 / 60, motion);
-    write_shape(own, damping, shape);
+    oracle::write_motion(own, damping, 1.0 / 60, motion);
+    oracle::write_shape(own, damping, shape);
     const std::size_t stride = motion.size() / basis.vectors;
     for (std::size_t w = 0; w < motion.size(); ++w) {
       if (w % stride < 3) {

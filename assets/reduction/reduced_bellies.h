@@ -1,0 +1,70 @@
+#pragma once
+// The reduced problems of up to sixteen bodies of one basis, solved together: a lane is a body, and what a lane gets
+// does not depend on who shares the block. Set-up, in double precision; the same bits on every instruction set.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "assets/reduction/reduced_belly.h"
+#include "components/lanes.h"
+#include "components/muscle.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// What ReducedBelly (reduced_belly.h) has of one body, of sixteen; lanes past the bodies hold whatever.
+struct ReducedBellies {
+  std::uint32_t vectors = 0, inputs = 0, count = 0;
+  std::vector<Lanes<double>> words{}, scratch{};
+
+  using Column = Lanes<double>;
+  void resize(std::uint32_t all_vectors, std::uint32_t all_inputs) {
+    vectors = all_vectors;
+    inputs = all_inputs;
+    words.resize(std::size_t{vectors} * (2 + vectors + inputs) + inputs + 1);
+  }
+  Column& omega_1_s(std::size_t motion) { return words[motion]; }
+  Column& lift_share(std::size_t motion) { return words[vectors + motion]; }
+  Column& eigenvector(std::size_t motion, std::size_t vector) { return words[eigenvector_at(motion, vector)]; }
+  Column& participation(std::size_t motion, std::size_t input) { return words[participation_at(motion, input)]; }
+  Column& reaction(std::size_t input) { return words[participation_at(vectors, input)]; }
+  Column& lift_mass_kg() { return words.back(); }
+  const Column& omega_1_s(std::size_t motion) const { return words[motion]; }
+  const Column& lift_share(std::size_t motion) const { return words[vectors + motion]; }
+  const Column& eigenvector(std::size_t motion, std::size_t vector) const {
+    return words[eigenvector_at(motion, vector)];
+  }
+  const Column& participation(std::size_t motion, std::size_t input) const {
+    return words[participation_at(motion, input)];
+  }
+  const Column& reaction(std::size_t input) const { return words[participation_at(vectors, input)]; }
+  const Column& lift_mass_kg() const { return words.back(); }
+
+ private:
+  std::size_t eigenvector_at(std::size_t motion, std::size_t vector) const { return (2 + motion) * vectors + vector; }
+  /// Reactions stand behind the last motion's.
+  std::size_t participation_at(std::size_t motion, std::size_t input) const {
+    return (2 + std::size_t{vectors}) * vectors + motion * inputs + input;
+  }
+};
+
+/// The reduced problems of 1 to 16 bodies, solved: by Jacobi's rotations in the order of a tournament, from the motions
+/// of the body in the middle of the basis's range (ReducedBasis::turned) where it has them (Golub and Van Loan, Matrix
+/// Computations, 4th ed., 8.5). Fails, of the first body of which it is so, outside the basis's range of ratios (up to
+/// rounding) or where the operator is not positive definite. Asks for no heap where `bellies` had such a basis before.
+Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<double>> bodies,
+                           ReducedBellies& bellies);
+Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<float>> bodies,
+                           ReducedBellies& bellies);
+ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane);
+
+/// Numbers that the kernels take, laid out as systems/deformation/reduced.h says: word w of lane l at [16·w + l].
+void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion);
+void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* shape);
+/// Displacements of the control points at rest under the first input, of bellies that have no other.
+void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,
+                   float* displacement);
+
+}  // namespace mobil

@@ -1,0 +1,59 @@
+#pragma once
+// One body's motions along the vectors of a basis, and states that are fitted to them and shown. Many bodies at once:
+// reduced_bellies.h.
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "assets/reduction/reduced_basis.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// One body's own motions z = Eᵀ·(q + VᵀM₁ψ·w), E the eigenvectors of its reduced stiffness over its mass (EᵀE = 1),
+/// fastest last: z̈ + α·ż + ω²·z = ω²·Σ P·input. Participations P are what z is at rest under each input, per unit.
+struct ReducedBelly {
+  std::uint32_t vectors = 0, inputs = 0;
+  double omega_1_s[most_vectors];                        // ascending
+  double eigenvector[most_vectors][most_vectors];        // [vector of V][motion]
+  double participation[most_vectors][3 + frame_inputs];  // [motion][input]
+  double lift_share[most_vectors];                       // [motion]: Eᵀ·VᵀM₁ψ; q = E·(z − lift_share·w)
+  double reaction[3 + frame_inputs];  // held far face: force on it in rest under each input, N per unit; else 0
+  double lift_mass_kg;                // S²·l·(ψᵀM₁ψ − |VᵀM₁ψ|²); 0 without a lift
+};
+
+/// The reduced problem of a body scaled by `across` and `along`, solved: one lane of solve_bellies (reduced_bellies.h),
+/// and its errors. On a shared core with 12 vectors 9 µs, with frame loads 11 (reduced_belly_test
+/// --gtest_also_run_disabled_tests --gtest_filter=*Microseconds).
+Result<ReducedBelly> make_reduced_belly(const ReducedBasis& basis, double across, double along);
+
+/// Numbers that the kernels take, laid out as systems/deformation/reduced.h says: `motion` of reduced_motion_width(),
+/// `shape` of reduced_shape_width() floats.
+constexpr std::size_t reduced_motion_width(std::uint32_t vectors, std::uint32_t inputs) {
+  const std::size_t pairs = inputs > frame_inputs ? frame_inputs / 2 : 0, ends = inputs - 2 * pairs;
+  return std::size_t{vectors} * (inputs == 1 ? 3 : 3 + ends + pairs);
+}
+constexpr std::size_t reduced_state_width(std::uint32_t vectors) {
+  return 2 * std::size_t{vectors};
+}
+constexpr std::size_t reduced_shape_width(std::uint32_t vectors, std::uint32_t inputs) {
+  return std::size_t{vectors} * (vectors + inputs) + 2 * std::size_t{vectors} + inputs + 1;
+}
+/// Coordinates q of displacements of the control points (m, 3·nodes) with the held end at `w` (m; 0 without a lift).
+void fit_coordinates(const ReducedBasis& basis, double w, std::span<const float> displacement, std::span<double> q);
+
+void write_motion(const ReducedBelly& belly, double damping_per_s, double tick_s, std::span<float> motion);
+void write_shape(const ReducedBelly& belly, double damping_per_s, std::span<float> shape);
+
+/// A belly's state from the displacement and velocity of its control points (3·nodes floats each, this body's m and
+/// m/s) under `input` and its rates of change (per s), and back. To and fro, displacement and velocity are kept up to
+/// what the vectors cannot show.
+void fit_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<const double> input,
+               std::span<const double> rate, std::span<const float> displacement, std::span<const float> velocity,
+               std::span<float> state);
+void show_state(const ReducedBasis& basis, const ReducedBelly& belly, std::span<const double> input,
+                std::span<const double> rate, std::span<const float> state, std::span<float> displacement,
+                std::span<float> velocity);
+
+}  // namespace mobil

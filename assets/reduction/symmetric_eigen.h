@@ -1,0 +1,16 @@
+#pragma once
+// Eigenvalues and eigenvectors of a dense symmetric matrix of a few hundred rows: Eigen's solver, compiled once.
+
+#include <Eigen/Core>
+
+namespace mobil {
+
+struct SymmetricEigen {
+  Eigen::VectorXd values;   // ascending
+  Eigen::MatrixXd vectors;  // a column each, orthonormal
+};
+
+/// Reads the lower half alone.
+SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& matrix);
+
+}  // namespace mobil

@@ -1,0 +1,10 @@
+#pragma once
+// The skull, in mm of a man of reference_height_mm, in the frame of its segment.
+
+#include "components/surface.h"
+
+namespace mobil::bones {
+
+SurfaceMesh skull();
+
+}  // namespace mobil::bones

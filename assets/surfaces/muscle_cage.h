@@ -1,0 +1,21 @@
+#pragma once
+// The block that follows a muscle's surfaces in the reference body: what its template is meshed from.
+
+#include <array>
+#include <cstddef>
+
+#include "assets/fem/hexahedral_mesh.h"
+#include "components/muscle.h"
+
+namespace mobil {
+
+/// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
+/// follow the surface as it is drawn in that body. A single muscle's mesh has the muscle's volume; a group's encloses
+/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle.
+inline constexpr std::size_t cage_station_count = 9;
+using CageStations = std::array<CageStation, cage_station_count>;
+const CageStations& muscle_cage(Muscle muscle);
+/// How the elements of templates are graded: finer towards the ends, where bellies taper and are held.
+inline constexpr Grading belly_grading{.across = 1, .along = 1.5};
+
+}  // namespace mobil

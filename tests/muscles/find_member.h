@@ -1,0 +1,18 @@
+#pragma once
+// A row of the table of muscles by its name.
+
+#include <algorithm>
+#include <string_view>
+
+#include "assets/muscles/muscle_table.h"
+
+namespace mobil {
+
+/// The muscle of that name, or null.
+inline const MemberMuscle* find_member_muscle(std::string_view name) {
+  const auto members = member_muscles();
+  const auto found = std::ranges::find(members, name, &MemberMuscle::name);
+  return found == members.end() ? nullptr : &*found;
+}
+
+}  // namespace mobil

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "assets/body/anthropometry.h"
-#include "components/fade.h"
 #include "components/leg_frames.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
@@ -151,17 +150,6 @@ Entity Simulation::muscle(Entity entity, Muscle muscle, Side side) const {
     if (m.muscle == muscle) return m.entity[side];
   }
   return {};
-}
-
-NodalView Simulation::nodal_displacement(Entity muscle) const {
-  const auto place = world_.find(muscle);
-  if (!place) return {};
-  const KeyPart* part = find_part(place.table->key(), type_id<ShownDisplacement>());
-  if (part == nullptr) part = find_part(place.table->key(), type_id<NodalDisplacement>());
-  if (part == nullptr) return {};
-  const float* block = place.table->block(place.row / lane_count);
-  return {block + place.table->column(part->id) * lane_count + place.row % lane_count,
-          static_cast<std::uint32_t>(part->value / 3)};
 }
 
 }  // namespace mobil

@@ -223,15 +223,4 @@ Entity Simulation::muscle(Entity human, Muscle muscle, Side side) const {
   return muscle_of(world_, human, muscle, side);
 }
 
-NodalView Simulation::nodal_displacement(Entity muscle) const {
-  const auto place = world_.find(muscle);
-  if (!place) return {};
-  const KeyPart* part = find_part(place.table->key(), type_id<ShownDisplacement>());
-  if (part == nullptr) part = find_part(place.table->key(), type_id<NodalDisplacement>());
-  if (part == nullptr) return {};
-  const float* block = place.table->block(place.row / lane_count);
-  return {block + place.table->column(part->id) * lane_count + place.row % lane_count,
-          static_cast<std::uint32_t>(part->value / 3)};
-}
-
 }  // namespace mobil

@@ -36,6 +36,7 @@
 #include "engine/world.h"
 #include "systems/muscles/begin_muscles.h"
 #include "systems/people/spawn.h"
+#include "systems/surfaces/nodal_view.h"
 
 namespace mobil {
 
@@ -80,12 +81,6 @@ struct SystemReport {
 struct StepReport {
   std::uint32_t ticks = 0;  // run so far
   std::vector<SystemReport> systems;
-};
-
-/// One individual's nodal displacement within its block: component c of node n (m) at first[(3·n + c)·16].
-struct NodalView {
-  const float* first = nullptr;
-  std::uint32_t nodes = 0;
 };
 
 struct MuscleWork;    // systems/muscles/change_muscles.h
@@ -200,7 +195,7 @@ class Simulation {
   /// A muscle's control points where they are now, in its frame, as they are to be shown (what fades after a change of
   /// method included); `first` is null for a stale handle and where there are none: with Method::none, and where nobody
   /// asked for them. Until the next change of structure.
-  NodalView nodal_displacement(Entity muscle) const;
+  NodalView nodal_displacement(Entity muscle) const { return mobil::nodal_displacement(world_, muscle); }
 
   World& world() { return world_; }
   const World& world() const { return world_; }

@@ -69,7 +69,7 @@ TEST(House, IncludesPointDownTheListOfRooms) {
 /// In each room's order: a folder includes itself and those before it.
 const std::map<std::string, std::vector<std::string>> order = {
     {"assets", {"fem", "reduction", "body", "muscles", "surfaces", "files", "import", "export"}},
-    {"systems", {"people", "muscles", "relevance", "snapshot", no_folder}},  // the modules, the front door
+    {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder}},  // the modules, the front door
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.

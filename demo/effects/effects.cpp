@@ -167,7 +167,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   });
   std::size_t vertices = 0;
   for (const auto& muscle : recording.muscles) vertices += muscle.position_m.front().size();
-  add("surfaces", fmt::format("skin of every muscle, {} vertices", vertices), "control points; skin_surface()",
+  add("surfaces", fmt::format("skin of every muscle, {} vertices", vertices), "control points; SurfaceWriter",
       1e6 * skinned.best_s, "skinning");
 
   tell("inertia");

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "assets/body/anthropometry.h"
@@ -12,7 +14,7 @@
 #include "assets/surfaces/surface_binding.h"
 #include "assets/surfaces/tube.h"
 #include "engine/geometry.h"
-#include "systems/skinning/skinning.h"
+#include "tests/surfaces/skinned.h"
 
 namespace mobil {
 namespace {
@@ -81,10 +83,9 @@ struct Bound {
     return line;
   }
   std::uint32_t nodes() const { return node_count(mesh.cells); }
-  std::vector<Vec3<float>> skin(const SkinPose& pose, const std::vector<float>& u, bool mirrored = false) const {
-    std::vector<Vec3<float>> out(surface.mesh.position.size());
-    skin_surface(surface, pose, {u.data(), 1, nodes()}, mirrored, out);
-    return out;
+  std::vector<Vec3<float>> skin(const Pose<float>& pose, const LineOfAction<float>& line, const std::vector<float>& u,
+                                Side side = right) const {
+    return skinned(surface, side, b, pose, line, u);
   }
   std::vector<float> still() const { return std::vector<float>(3 * nodes(), 0.0F); }
 };
@@ -177,8 +178,7 @@ TEST(Binding, AttachmentsAreOnTheirBonesAndTendonsThatMeetAgree) {
 TEST(Skinning, RestsWhereItWasDrawn) {
   for (std::size_t m = 0; m < 12; ++m) {
     const Bound bound(m);
-    const SkinPose pose = skin_pose(bound.surface, right, bound.b, bound.rest_pose(), bound.rest_line());
-    const auto out = bound.skin(pose, bound.still());
+    const auto out = bound.skin(bound.rest_pose(), bound.rest_line(), bound.still());
     for (std::size_t v = 0; v < out.size(); ++v) EXPECT_LT(distance(out[v], bound.surface.mesh.position[v]), 1e-5);
   }
 }
@@ -196,7 +196,7 @@ RC_GTEST_PROP(Skinning, MovesRigidlyWithTheWholeBody, ()) {
   LineOfAction<float> line = bound.rest_line();
   line.start_m = moved(line.start_m);
   line.rotation = product(turn, line.rotation);
-  const auto out = bound.skin(skin_pose(bound.surface, right, bound.b, pose, line), bound.still());
+  const auto out = bound.skin(pose, line, bound.still());
   for (std::size_t v = 0; v < out.size(); ++v) {
     RC_ASSERT(distance(out[v], moved(bound.surface.mesh.position[v])) < 1e-5);
   }
@@ -226,9 +226,7 @@ RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
     const Vec3<float> d = to_float(field(node));
     u.insert(u.end(), {d.x, d.y, d.z});
   }
-  std::vector<Vec3<float>> out(inner.mesh.position.size());
-  skin_surface(inner, skin_pose(inner, right, bound.b, bound.rest_pose(), bound.rest_line()),
-               {u.data(), 1, bound.nodes()}, false, out);
+  const auto out = skinned(inner, right, bound.b, bound.rest_pose(), bound.rest_line(), u);
   for (std::size_t v = 0; v < out.size(); ++v) {
     const Vec q = rotated(conjugate(to_double(bound.frame.rotation)),
                           to_double(inner.mesh.position[v]) - to_double(bound.frame.start_m));
@@ -268,7 +266,7 @@ RC_GTEST_PROP(Skinning, NeighboursStayNeighboursAcrossTheEnds, ()) {
     const Vec3<float> d = to_float(Vec{0.2 * q.x * std::sin(3.14 * t), 0.2 * q.y * std::sin(3.14 * t), 0.015 * t});
     u.insert(u.end(), {d.x, d.y, d.z});
   }
-  const auto out = bound.skin(skin_pose(bound.surface, right, bound.b, leg.pose, leg.line), u);
+  const auto out = bound.skin(leg.pose, leg.line, u);
   const auto& mesh = bound.surface.mesh;
   for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -295,26 +293,24 @@ RC_GTEST_PROP(Skinning, LeftIsTheMirrorImageOfRight, ()) {
   }
   std::vector<float> u;
   for (std::uint32_t n = 0; n < 3 * bound.nodes(); ++n) u.push_back(0.004F * std::sin(static_cast<float>(n)));
-  const auto r = bound.skin(skin_pose(bound.surface, right, bound.b, leg.pose, leg.line), u);
-  const auto l = bound.skin(skin_pose(bound.surface, left, bound.b, mirrored, leg.line), u, true);
+  const auto r = bound.skin(leg.pose, leg.line, u);
+  const auto l = bound.skin(mirrored, leg.line, u, left);
   for (std::size_t v = 0; v < r.size(); ++v) RC_ASSERT(distance({-r[v].x, r[v].y, r[v].z}, l[v]) < 1e-6);
 }
 
-RC_GTEST_PROP(Skinning, OneLaneOfABlockEqualsAPlainArray, (bool large)) {
-  const HexahedralMesh mesh = cage(large ? Cells{12, 12, 26} : Cells{3, 3, 10});  // more than 4096 nodes, or fewer
+RC_GTEST_PROP(Skinning, BlocksHoldTheBitsOfOneVertexAtATime, (bool large)) {
+  const HexahedralMesh mesh = cage(large ? Cells{12, 12, 26} : Cells{3, 3, 10});
   static const Bound bound;
   MuscleSurface surface = bound.surface;
   bind_surface(surface, mesh, bound.frame, blend_m);
-  const auto lane = static_cast<std::size_t>(*rc::gen::inRange(0, 16));
-  const std::size_t words = 3 * node_count(mesh.cells);
-  std::vector<float> plain, block(words * 16);
-  for (std::size_t i = 0; i < block.size(); ++i) block[i] = 0.01F * std::sin(static_cast<float>(i));
-  for (std::size_t i = 0; i < words; ++i) plain.push_back(block[i * 16 + lane]);
-  const SkinPose pose = skin_pose(surface, right, bound.b, bound.rest_pose(), bound.rest_line());
-  std::vector<Vec3<float>> a(surface.mesh.position.size()), b(a.size());
-  skin_surface(surface, pose, {plain.data(), 1, node_count(mesh.cells)}, false, a);
-  skin_surface(surface, pose, {block.data() + lane, 16, node_count(mesh.cells)}, false, b);
-  for (std::size_t v = 0; v < a.size(); ++v) RC_ASSERT(a[v].x == b[v].x && a[v].y == b[v].y && a[v].z == b[v].z);
+  const BentLeg leg = bent(bound, *rc::gen::inRange(-20, 60) * 0.01, *rc::gen::inRange(0, 100) * 0.01);
+  std::vector<float> u(3 * node_count(mesh.cells));
+  for (std::size_t i = 0; i < u.size(); ++i) u[i] = 0.01F * std::sin(static_cast<float>(i));
+  for (const Side side : {right, left}) {
+    const auto a = skinned(surface, side, bound.b, leg.pose, leg.line, u);
+    const auto b = skinned_one_by_one(surface, side, bound.b, leg.pose, leg.line, u);
+    for (std::size_t v = 0; v < a.size(); ++v) RC_ASSERT(a[v].x == b[v].x && a[v].y == b[v].y && a[v].z == b[v].z);
+  }
 }
 
 TEST(Ligament, FollowsItsBonesAtItsEnds) {
@@ -325,18 +321,82 @@ TEST(Ligament, FollowsItsBonesAtItsEnds) {
   bind_ligament(surface, surface.mesh.position.front(), surface.mesh.position.back());
   BentLeg leg = bent(bound, 0.3, 0.8);
   const std::vector<float> u(3, 0.0F);
-  std::vector<Vec3<float>> out(surface.mesh.position.size());
   leg.pose.position_m[index(Segment::patella_right)].y += 0.02F;
-  const SkinPose pose = skin_pose(surface, right, bound.b, leg.pose, leg.line);
-  skin_surface(surface, pose, {u.data(), 1, 1}, false, out);
-  const auto follow = [](const RigidPose& now, const RigidPose& rest, const Vec3<float>& p) {
-    return rotated(to_double(now.rotation), to_double(p) - to_double(rest.position_m)) + to_double(now.position_m);
+  const auto out = skinned(surface, right, bound.b, leg.pose, leg.line, u);
+  const Pose<float> rest = bound.rest_pose();
+  const auto follow = [&](Segment bone, const Vec3<float>& p) {
+    const std::size_t s = index(bone);
+    return rotated(to_double(leg.pose.rotation[s]), to_double(p) - to_double(rest.position_m[s])) +
+           to_double(leg.pose.position_m[s]);
   };
-  EXPECT_LT(length(to_double(out.front()) - follow(pose.origin_now, pose.origin_rest, surface.mesh.position.front())),
-            1e-5);
-  EXPECT_LT(
-      length(to_double(out.back()) - follow(pose.insertion_now, pose.insertion_rest, surface.mesh.position.back())),
-      1e-5);
+  EXPECT_LT(length(to_double(out.front()) - follow(surface.origin, surface.mesh.position.front())), 1e-5);
+  EXPECT_LT(length(to_double(out.back()) - follow(surface.insertion, surface.mesh.position.back())), 1e-5);
+}
+
+TEST(Normals, OfAnEllipsoidAreItsOwn) {
+  const Vec semi{0.05, 0.08, 0.12};
+  const SurfaceMesh mesh = ellipsoid({0, 0, 0}, semi, 60, 64);
+  const RigidSurface rigid = pack_rigid(mesh).value();
+  std::vector<float> out(6 * rigid.vertices);
+  const auto bytes = std::as_writable_bytes(std::span(out)).data();
+  write_rigid(rigid, affine_map({{1, 2, 3}, {0, 0, 0, 1}}), {bytes, bytes + 12, 24, 24});
+  for (std::size_t v = 0; v < rigid.vertices; ++v) {
+    const Vec p = to_double(mesh.position[v]);
+    const Vec exact = normalised(Vec{p.x / (semi.x * semi.x), p.y / (semi.y * semi.y), p.z / (semi.z * semi.z)});
+    const Vec n = to_double(Vec3<float>{out[6 * v + 3], out[6 * v + 4], out[6 * v + 5]});
+    EXPECT_GT(dot(n, exact), std::cos(0.02)) << v;
+    EXPECT_NEAR(length(n), 1, 1e-6);
+  }
+}
+
+/// Of rings that lack neighbours, have more than six, meet in one vertex alone, or have none.
+TEST(Normals, RingsAreSumsOfTheirTriangles) {
+  SurfaceMesh mesh;
+  for (int i = 0; i < 15; ++i) {
+    const float a = 0.9F * static_cast<float>(i);
+    mesh.position.push_back({std::cos(a) * (1 + 0.1F * a), std::sin(a), 0.2F * std::sin(3 * a)});
+  }
+  mesh.position.push_back({0, 0, 0.5F});  // 15: in the middle of a fan of each size
+  mesh.position.push_back({9, 9, 9});     // 16: of no triangle
+  for (std::uint32_t fan = 1; fan <= 13; ++fan) {
+    for (const bool closed : {false, true}) {
+      mesh.triangle.clear();
+      for (std::uint32_t i = 0; i < fan; ++i) mesh.triangle.insert(mesh.triangle.end(), {15, i, i + 1});
+      if (closed) mesh.triangle.insert(mesh.triangle.end(), {15, fan, 0});
+      if (fan == 7) mesh.triangle.insert(mesh.triangle.end(), {15, 10, 11, 15, 13, 14});
+      const RigidSurface rigid = pack_rigid(mesh).value();
+      for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+        const Vec3<Eight>& n = rigid.block[v / block_vertices].normal;
+        const Vec is = to_double(Vec3<float>{n.x.lane[v % 8], n.y.lane[v % 8], n.z.lane[v % 8]});
+        EXPECT_LT(length(is - triangle_normals(mesh.position, mesh.triangle)[v]), 1e-5) << fan << ' ' << v;
+      }
+    }
+  }
+}
+
+TEST(PackSurface, SaysWhatIsWrongWithASurface) {
+  const Bound bound;
+  const auto error = [&](const MuscleSurface& s, std::uint32_t nodes) {
+    const auto packed = pack_surface(s, bound.b, nodes);
+    return packed ? std::string("nothing") : packed.error().message;
+  };
+  EXPECT_EQ(error(bound.surface, bound.nodes()), "nothing");
+  EXPECT_NE(error(bound.surface, 8).find("of a mesh of 8"), std::string::npos);
+  MuscleSurface changed = bound.surface;
+  changed.binding.pop_back();
+  EXPECT_NE(error(changed, bound.nodes()).find("are bound"), std::string::npos);
+  changed = bound.surface;
+  changed.mesh.triangle[0] = 5000;
+  EXPECT_NE(error(changed, bound.nodes()).find("vertex 5000"), std::string::npos);
+  changed = bound.surface;
+  for (int i = 0; i < 50; ++i) {
+    changed.mesh.position.insert(changed.mesh.position.end(), bound.surface.mesh.position.begin(),
+                                 bound.surface.mesh.position.end());
+    changed.binding.insert(changed.binding.end(), bound.surface.binding.begin(), bound.surface.binding.end());
+    changed.rest_in_cage.insert(changed.rest_in_cage.end(), bound.surface.rest_in_cage.begin(),
+                                bound.surface.rest_in_cage.end());
+  }
+  EXPECT_NE(error(changed, bound.nodes()).find("simplify it"), std::string::npos);
 }
 
 }  // namespace

@@ -19,7 +19,8 @@
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
 #include "systems/simulation.h"
-#include "systems/skinning/skinning.h"
+#include "systems/surfaces/body_surfaces.h"
+#include "tests/surfaces/skinned.h"
 
 namespace mobil {
 namespace {
@@ -42,10 +43,6 @@ struct Moving {
   std::array<Positions, phases> now, by_mesh;
   std::array<LineOfAction<float>, phases> line;
 };
-
-HexahedralMesh own_mesh(const Simulation& simulation, const HumanMuscle& muscle) {
-  return scaled(simulation.world().shared<MuscleTemplate>(muscle.entity[right])->mesh, muscle.plan.scale);
-}
 
 struct Drawn {
   Muscle group{}, muscle{};
@@ -81,7 +78,7 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     if (d.ligament) {
       bind_ligament(d.surface, d.attachments.origin_m, d.attachments.insertion_m);
     } else {
-      const HexahedralMesh mesh = own_mesh(simulation, *own);
+      const HexahedralMesh mesh = rest_mesh(human.body, driver, choice.cells)->cage;
       const Passages passages =
           bind_muscle(d.surface, mesh, frame, d.attachments, 0.022 * static_cast<double>(human.body.request.height_m));
       if (d.beyond) bind_beyond(d.beyond->surface, d.surface, mesh, frame, passages, d.beyond->ends);
@@ -102,16 +99,12 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     for (std::size_t i = 0; i < stride_ticks / phases; ++i) simulation.tick();
     const Pose<float> pose = *simulation.get<Pose>(entity);
     for (auto& [moving, muscle] : all) {
-      const NodalView nodes = simulation.nodal_displacement(muscle);
-      const NodalLane lane{nodes.first, lane_count, nodes.nodes};
+      const auto u = displacements(simulation.nodal_displacement(muscle));
       moving.line[phase] = *simulation.get<LineOfAction>(muscle);
-      const SkinPose skin = skin_pose(moving.surface, right, human.body, pose, moving.line[phase]);
-      moving.now[phase].resize(moving.surface.mesh.position.size());
-      skin_surface(moving.surface, skin, lane, false, moving.now[phase]);
+      moving.now[phase] = skinned(moving.surface, right, human.body, pose, moving.line[phase], u);
       MuscleSurface alone = moving.surface;
       for (VertexBinding& b : alone.binding) b.cage = 1, b.origin = b.insertion = 0;
-      moving.by_mesh[phase].resize(alone.mesh.position.size());
-      skin_surface(alone, skin, lane, false, moving.by_mesh[phase]);
+      moving.by_mesh[phase] = skinned(alone, right, human.body, pose, moving.line[phase], u);
     }
   }
   std::vector<Moving> seen;

@@ -1,0 +1,139 @@
+#include "systems/surfaces/body_surfaces.h"
+
+#include <algorithm>
+
+#include "assets/muscles/muscle_plan.h"
+#include "assets/surfaces/bone_surfaces.h"
+#include "assets/surfaces/muscle_surfaces.h"
+#include "assets/surfaces/surface_mesh.h"
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+constexpr double passage_per_height = 0.04 / 1.80;
+
+struct Binding {
+  const Body& body;
+  const SurfaceChoice& choice;
+  BodySurfaces made;
+
+  std::uint32_t add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
+                         const SurfaceMesh& mesh);
+  Result<std::size_t> driver_of(Muscle muscle);
+  Result<void> add(const BoneSurface& bone);
+  Result<void> add(const DrivenSurface& muscle);
+};
+
+std::uint32_t Binding::add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
+                                const SurfaceMesh& mesh) {
+  SurfacePart part{std::move(name), segment, driver, side, made.vertices, 0, 0, 0};
+  part.vertices = static_cast<std::uint32_t>(mesh.position.size());
+  part.first_index = static_cast<std::uint32_t>(made.index.size());
+  part.indices = static_cast<std::uint32_t>(mesh.triangle.size());
+  std::vector<std::uint32_t> triangle = mesh.triangle;
+  if (driver && side == left) turn_over(triangle);
+  for (const std::uint32_t v : triangle) made.index.push_back(made.vertices + v);
+  made.vertices += part.vertices;
+  made.part.push_back(std::move(part));
+  return static_cast<std::uint32_t>(made.part.size() - 1);
+}
+
+Result<std::size_t> Binding::driver_of(Muscle muscle) {
+  const auto known = std::ranges::find(made.driver, muscle, &BodySurfaces::Driver::muscle);
+  if (known != made.driver.end()) return static_cast<std::size_t>(known - made.driver.begin());
+  const auto rest = rest_mesh(body, muscle, choice.cells);
+  if (!rest) return tl::unexpected(rest.error());
+  const auto& node = rest->cage.node;
+  BodySurfaces::Driver driver{muscle, static_cast<std::uint32_t>(node.size()), {}};
+  for (const auto& n : node) driver.along.push_back(static_cast<float>(n.z / node.back().z));
+  made.most_nodes = std::max(made.most_nodes, node.size());
+  made.driver.push_back(std::move(driver));
+  return made.driver.size() - 1;
+}
+
+Result<void> Binding::add(const BoneSurface& bone) {
+  const std::string_view name = segment_name[index(bone.segment)];
+  const Side side = name.ends_with("_left") ? left : right;
+  const bool in_the_middle = side == right && !name.ends_with("_right");
+  if (in_the_middle ? !choice.sides[right] && !choice.sides[left] : !choice.sides[side]) return {};
+  auto rigid = pack_rigid(bone.mesh);
+  if (!rigid) return tl::unexpected(rigid.error());
+  const std::uint32_t part = add_part(bone.mesh.name, bone.segment, std::nullopt, side, bone.mesh);
+  made.piece.push_back({std::move(*rigid), 0, {part, std::nullopt}});
+  return {};
+}
+
+Result<void> Binding::add(const DrivenSurface& muscle) {
+  const auto driver = driver_of(muscle.driver);
+  if (!driver) return tl::unexpected(driver.error());
+  auto packed = pack_surface(muscle.surface, body, made.driver[*driver].nodes);
+  if (!packed) return tl::unexpected(packed.error());
+  made.most_places = std::max(made.most_places, packed->places());
+  const SurfaceMesh& mesh = muscle.surface.mesh;
+  const std::string name = mesh.name.ends_with("_right") ? mesh.name.substr(0, mesh.name.size() - 6) : mesh.name;
+  const bool on_shank = muscle_row(muscle.driver).drawn.along == LegBone::shank;
+  BodySurfaces::Piece piece{std::move(*packed), *driver, {}};
+  for (const Side side : {right, left}) {
+    if (!choice.sides[side]) continue;
+    const Segment segment = on_side(on_shank ? Segment::shank_right : Segment::thigh_right, side);
+    piece.part[side] = add_part(name + (side == right ? "_right" : "_left"), segment, muscle.driver, side, mesh);
+  }
+  made.piece.push_back(std::move(piece));
+  return {};
+}
+
+}  // namespace
+
+Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells) {
+  const auto plan = make_muscle_plan(body, muscle);
+  if (!plan) return tl::unexpected(plan.error());
+  auto cage = bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
+  if (!cage) return tl::unexpected(cage.error());
+  for (auto& node : cage->node) {
+    node.x *= static_cast<double>(plan->scale.across);
+    node.y *= static_cast<double>(plan->scale.across);
+    node.z *= static_cast<double>(plan->scale.along);
+  }
+  const RestFrame frame{geometry::to_float(plan->start_m), geometry::to_float(plan->rotation)};
+  return RestMesh{std::move(*cage), frame, passage_per_height * static_cast<double>(body.request.height_m)};
+}
+
+Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choice) {
+  DrawnSurfaces drawn;
+  if (choice.bones) drawn.bones = make_bone_surfaces(body);
+  if (choice.simulated.none()) return drawn;
+  for (auto& muscle : make_muscle_surfaces(body)) {
+    const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
+    if (!driver) continue;
+    if (muscle.ligament) {
+      bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);
+    } else {
+      const auto mesh = rest_mesh(body, *driver, choice.cells);
+      if (!mesh) return tl::unexpected(mesh.error());
+      bind_muscle(muscle.surface, mesh->cage, mesh->frame, muscle.attachments, mesh->least_passage_m);
+    }
+    drawn.muscles.push_back({*driver, std::move(muscle.surface)});
+  }
+  return drawn;
+}
+
+Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice) {
+  Binding binding{body, choice, {}};
+  binding.made.sides = choice.sides;
+  for (const BoneSurface& bone : drawn.bones) {
+    if (auto done = binding.add(bone); !done) return tl::unexpected(done.error());
+  }
+  for (const DrivenSurface& muscle : drawn.muscles) {
+    if (auto done = binding.add(muscle); !done) return tl::unexpected(done.error());
+  }
+  return std::move(binding.made);
+}
+
+Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice) {
+  const auto drawn = draw_surfaces(body, choice);
+  if (!drawn) return tl::unexpected(drawn.error());
+  return bind_surfaces(body, *drawn, choice);
+}
+
+}  // namespace mobil

@@ -1,0 +1,94 @@
+#pragma once
+// The surfaces of one body, bound to its bones and to the meshes of its muscles: made once, immutable, good for every
+// person of that body.
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/surface_binding.h"
+#include "components/body.h"
+#include "components/muscle.h"
+#include "components/surface.h"
+#include "engine/error.h"
+#include "systems/skinning/packed_surface.h"
+
+namespace mobil {
+
+/// Which surfaces. Of muscles those that one of `simulated` drives (the muscle itself, else its group), with tendons;
+/// `cells` of their meshes. Both as in the LegMuscles of the people who are to show them.
+struct SurfaceChoice {
+  bool bones = true;
+  std::array<bool, 2> sides = {true, true};  // by Side; what lies in the middle is there with either
+  MuscleSet simulated = muscle_groups();
+  Cells cells = {2, 2, 8};
+};
+
+/// A muscle's mesh at rest in one body, right side: in the muscle's frame, and the frame.
+struct RestMesh {
+  HexahedralMesh cage;
+  RestFrame frame;
+  double least_passage_m;  // for bind_muscle
+};
+/// Errors: cells out of range.
+Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells);
+
+/// A right-hand surface bound (assets/surfaces/surface_binding.h) to the mesh of the muscle that drives it.
+struct DrivenSurface {
+  Muscle driver{};
+  MuscleSurface surface;
+};
+
+/// What a body is drawn with, before it is bound: generated, or read from files.
+struct DrawnSurfaces {
+  std::vector<BoneSurface> bones;      // both sides
+  std::vector<DrivenSurface> muscles;  // right side
+};
+/// Generated from published dimensions. Errors: as rest_mesh.
+Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choice);
+
+/// One piece of what comes out: a bone, or a muscle or tendon of one side. Its vertices and indices lie together.
+struct SurfacePart {
+  std::string name;  // T4, thigh_left, soleus_right
+  Segment segment{};
+  std::optional<Muscle> driver;  // of a muscle: whose mesh it follows
+  Side side = right;             // of a bone in the middle: right
+  std::uint32_t first_vertex = 0, vertices = 0;
+  std::uint32_t first_index = 0, indices = 0;
+};
+
+/// Bones in the order of their list, then muscles, of each right and left. Vertices are in the order of their meshes.
+struct BodySurfaces {
+  std::vector<SurfacePart> part;
+  std::vector<std::uint32_t> index;  // three a triangle, of vertices of the whole body, wound outwards
+  std::uint32_t vertices = 0;
+
+  // What follows is for SurfaceWriter.
+  struct Driver {
+    Muscle muscle{};
+    std::uint32_t nodes = 0;
+    std::vector<float> along;  // of each node: how far along the belly, 0–1
+  };
+  struct Piece {
+    std::variant<RigidSurface, PackedSurface> surface;
+    std::size_t driver = 0;
+    std::array<std::optional<std::uint32_t>, 2> part{};  // by side; of a bone the first
+  };
+  std::array<bool, 2> sides{};
+  std::vector<Driver> driver;
+  std::vector<Piece> piece;
+  std::size_t most_nodes = 0, most_places = 0;
+};
+
+/// Binds. To draw and to bind one body takes some tens of milliseconds, two thirds of it drawing. Errors, in one line:
+/// a mesh of cells that is refused; a surface that is not bound to its driver's mesh, has more than 32,768 places
+/// (packed_surface.h), or triangles of vertices that are not there.
+Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice);
+Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice = {});
+
+}  // namespace mobil

@@ -1,0 +1,19 @@
+#include "systems/surfaces/nodal_view.h"
+
+#include "components/fade.h"
+#include "components/muscle.h"
+
+namespace mobil {
+
+NodalView nodal_displacement(const World& world, Entity muscle) {
+  const auto place = world.find(muscle);
+  if (!place) return {};
+  const KeyPart* part = find_part(place.table->key(), type_id<ShownDisplacement>());
+  if (part == nullptr) part = find_part(place.table->key(), type_id<NodalDisplacement>());
+  if (part == nullptr) return {};
+  const float* block = place.table->block(place.row / lane_count);
+  return {block + place.table->column(part->id) * lane_count + place.row % lane_count,
+          static_cast<std::uint32_t>(part->value / 3)};
+}
+
+}  // namespace mobil

@@ -1,0 +1,186 @@
+#include "systems/surfaces/surfaces.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+
+#include "components/pose.h"
+#include "systems/skinning/place_vertices.h"
+#include "systems/skinning/write_vertices.h"
+#include "systems/surfaces/nodal_view.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t vertex_bytes = 3 * sizeof(float);
+
+/// An entity's lane of a component, null where it is stale or has none.
+template <template <class> class C>
+const float* lane_of(const World& world, Entity entity) {
+  const auto place = world.find(entity);
+  if (!place) return nullptr;
+  const std::uint32_t column = place.table->column(type_id<C<float>>());
+  if (column == Table::no_column) return nullptr;
+  return place.table->block(place.row / lane_count) + column * lane_count + place.row % lane_count;
+}
+
+template <class T>
+T read(const float* lane, std::size_t first_word) {
+  std::array<float, sizeof(T) / sizeof(float)> word;
+  for (std::size_t w = 0; w < word.size(); ++w) word[w] = lane[(first_word + w) * lane_count];
+  return std::bit_cast<T>(word);
+}
+
+RigidPose segment_pose(const float* pose, Segment segment) {
+  return {read<Vec3<float>>(pose, 3 * index(segment)), read<Quat<float>>(pose, 3 * segment_count + 4 * index(segment))};
+}
+
+/// Displacements of a belly at rest that is drawn out evenly to its line's length.
+void draw_out(const BodySurfaces::Driver& driver, const LineOfAction<float>& line, float* node) {
+  const float longer_m = line.length_m - line.rest_length_m;
+  for (std::size_t n = 0; n < driver.nodes; ++n) {
+    node[3 * n] = node[3 * n + 1] = 0;
+    node[3 * n + 2] = longer_m * driver.along[n];
+  }
+}
+
+Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices) {
+  if (stream.stride < vertex_bytes)
+    return fail(fmt::format("a stride of {} bytes for {}; at least 12", stream.stride, what));
+  const std::size_t needed = vertices == 0 ? 0 : (vertices - 1) * stream.stride + vertex_bytes;
+  if (stream.bytes.size() < needed) {
+    return fail(fmt::format("{} bytes for {} of {} vertices, {} bytes apart; {} are needed", stream.bytes.size(), what,
+                            vertices, stream.stride, needed));
+  }
+  return {};
+}
+
+Result<void> check_buffers(const SurfaceRequest& request) {
+  if (request.surfaces == nullptr) return fail("no surfaces; bind_surfaces makes them");
+  if (auto done = check_stream("positions", request.positions, request.surfaces->vertices); !done) return done;
+  if (request.normals.bytes.empty()) return {};
+  if (auto done = check_stream("normals", request.normals, request.surfaces->vertices); !done) return done;
+  const auto p = reinterpret_cast<std::uintptr_t>(request.positions.bytes.data());
+  const auto n = reinterpret_cast<std::uintptr_t>(request.normals.bytes.data());
+  if ((p < n ? n - p : p - n) < vertex_bytes) return fail("normals lie over positions; 12 bytes apart at least");
+  return {};
+}
+
+VertexTarget target_of(const SurfaceRequest& request, std::uint32_t first_vertex) {
+  const auto at = [&](const VertexStream& s) {
+    return s.bytes.empty() ? nullptr : s.bytes.data() + std::size_t{first_vertex} * s.stride;
+  };
+  return {at(request.positions), at(request.normals), request.positions.stride, request.normals.stride};
+}
+
+void write_bone(const SurfaceRequest& request, const float* pose, const RigidSurface& surface,
+                const SurfacePart& part) {
+  RigidPose now = segment_pose(pose, part.segment);
+  const Vec3<float>& o = request.origin_m;
+  now.position_m = {now.position_m.x - o.x, now.position_m.y - o.y, now.position_m.z - o.z};
+  write_rigid(surface, affine_map(now), target_of(request, part.first_vertex));
+}
+
+}  // namespace
+
+struct SurfaceWriter::Work {
+  SurfaceWriter& writer;
+  std::span<const SurfaceRequest> requests;
+
+  void write_piece(std::size_t request, const BodySurfaces::Piece& piece, float* scratch) const;
+  void write_side(std::size_t request, const BodySurfaces::Piece& piece, Side side, float* scratch) const;
+};
+
+void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& piece, Side side, float* scratch) const {
+  const SurfaceRequest& request = requests[r];
+  const auto& packed = std::get<PackedSurface>(piece.surface);
+  const Resolved& person = writer.person_[r];
+  const Line& muscle = writer.line_[person.first_line + 2 * piece.driver + side];
+  const auto line = read<LineOfAction<float>>(muscle.line, 0);
+  float *places = scratch, *node = scratch + 4 * packed.places();
+  if (muscle.node == nullptr) {
+    draw_out(request.surfaces->driver[piece.driver], line, node);
+  } else {
+    for (std::size_t w = 0; w < 3 * std::size_t{packed.nodes}; ++w) node[w] = muscle.node[w * lane_count];
+  }
+  const SurfaceRest& rest = packed.rest;
+  const SkinMaps maps = skin_maps(rest, side, segment_pose(person.pose, rest.origin.bone[side]),
+                                  segment_pose(person.pose, rest.insertion.bone[side]), line, request.origin_m);
+  place_vertices(packed, maps, node, side, places);
+  const SurfacePart& part = request.surfaces->part[*piece.part[side]];
+  write_vertices(packed.rings, places, side == left ? -1.0F : 1.0F, target_of(request, part.first_vertex));
+}
+
+void SurfaceWriter::Work::write_piece(std::size_t r, const BodySurfaces::Piece& piece, float* scratch) const {
+  if (const auto* rigid = std::get_if<RigidSurface>(&piece.surface)) {
+    write_bone(requests[r], writer.person_[r].pose, *rigid, requests[r].surfaces->part[*piece.part[0]]);
+    return;
+  }
+  for (const Side side : {right, left}) {
+    if (piece.part[side]) write_side(r, piece, side, scratch);
+  }
+}
+
+SurfaceWriter::SurfaceWriter(std::pmr::memory_resource* memory) : person_(memory), line_(memory), scratch_(memory) {}
+
+Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& request) {
+  if (auto done = check_buffers(request); !done) return done;
+  const Resolved person{lane_of<Pose>(world, request.person), line_.size()};
+  if (person.pose == nullptr) return fail("the person is not there (a stale handle)");
+  person_.push_back(person);
+  for (const BodySurfaces::Driver& driver : request.surfaces->driver) {
+    const auto own = std::ranges::find(request.muscles, driver.muscle, &SurfaceMuscle::muscle);
+    const std::string_view name = muscle_name(driver.muscle);
+    for (const Side side : {right, left}) {
+      Line& line = line_.emplace_back();
+      if (!request.surfaces->sides[side]) continue;
+      if (own == request.muscles.end()) return fail(fmt::format("{} is not among the muscles", name));
+      const auto owner = world.get<MuscleOwner>(own->entity[side]);
+      line.line = lane_of<LineOfAction>(world, own->entity[side]);
+      if (!owner || line.line == nullptr) return fail(fmt::format("{} is not there (a stale handle)", name));
+      if (owner->index != request.person.index || owner->generation != request.person.generation || owner->side != side)
+        return fail(fmt::format("{} is another person's or of the other side", name));
+      const NodalView nodes = nodal_displacement(world, own->entity[side]);
+      line.node = nodes.first;
+      if (nodes.first != nullptr && nodes.nodes != driver.nodes) {
+        return fail(fmt::format("{} has {} nodes, its surfaces are bound to {}; bind them to its cells", name,
+                                nodes.nodes, driver.nodes));
+      }
+    }
+  }
+  return {};
+}
+
+void SurfaceWriter::write_pieces(void* context, std::size_t begin, std::size_t end) {
+  const auto& work = *static_cast<const Work*>(context);
+  const FlushDenormals flush;
+  const ScratchLease scratch(&work.writer.scratch_);
+  // piece by piece, each of all people: those who share their surfaces find them in the cache
+  for (std::size_t i = begin; i < end; ++i) {
+    const std::size_t r = i % work.requests.size(), p = i / work.requests.size();
+    const auto& pieces = work.requests[r].surfaces->piece;
+    if (p < pieces.size()) work.write_piece(r, pieces[p], scratch.data());
+  }
+}
+
+Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs) {
+  person_.clear();
+  line_.clear();
+  std::size_t pieces = 0, nodes = 0, places = 0;
+  for (std::size_t r = 0; r < requests.size(); ++r) {
+    if (auto done = resolve(world, requests[r]); !done)
+      return fail(fmt::format("surfaces of request {}: {}", r, done.error().message));
+    pieces = std::max(pieces, requests[r].surfaces->piece.size());
+    nodes = std::max(nodes, requests[r].surfaces->most_nodes);
+    places = std::max(places, requests[r].surfaces->most_places);
+  }
+  scratch_.prepare(4 * places + 3 * nodes, jobs.threads);
+  Work work{*this, requests};
+  jobs.parallel_for(jobs.user, pieces * requests.size(), write_pieces, &work);
+  return {};
+}
+
+}  // namespace mobil

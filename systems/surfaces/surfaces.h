@@ -1,0 +1,80 @@
+#pragma once
+// People's surfaces as vertices: positions and unit normals into the caller's buffers.
+//
+//   const auto bound = bind_surfaces(body);                     // once a body: part, index, vertices (body_surfaces.h)
+//   SurfaceWriter writer;                                       // keeps what it works in
+//   SurfaceRequest one{person, muscles, &*bound, {buffer, 24}, {buffer.subspan(12), 24}};
+//   writer.write(simulation.world(), {&one, 1}, jobs);          // each frame
+//
+// Triangles never change. Normals are the means of the vertices' triangles' normals weighted by their areas, on the
+// surface as it is deformed now.
+
+#include <cstddef>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "components/muscle.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/scratch.h"
+#include "engine/world.h"
+#include "systems/surfaces/body_surfaces.h"
+
+namespace mobil {
+
+/// One of a person's muscles, by Side: of Simulation::human, or of Simulation::muscle for each side.
+struct SurfaceMuscle {
+  Muscle muscle{};
+  std::array<Entity, 2> entity;
+};
+
+/// Three floats a vertex: vertex v begins at byte v · stride. Nothing else in it is written, and nothing read.
+struct VertexStream {
+  std::span<std::byte> bytes;
+  std::size_t stride = 3 * sizeof(float);  // at least 12
+};
+
+/// One person, with the surfaces of a body like theirs. Positions in m, world axes, from `origin_m`, which is
+/// subtracted before anything is placed: far from the world's origin give a point near the person, for floats are half
+/// a millimetre apart at 8 km. Normals may be left out (no bytes).
+struct SurfaceRequest {
+  Entity person;
+  std::span<const SurfaceMuscle> muscles;  // all that drive the surfaces; more are ignored
+  const BodySurfaces* surfaces = nullptr;
+  VertexStream positions{}, normals{};
+  Vec3<float> origin_m{0, 0, 0};
+};
+
+class SurfaceWriter {
+ public:
+  explicit SurfaceWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  /// Writes each request's vertices, as they are after the last tick, with `jobs`; the same bytes for any number of
+  /// threads. A muscle without control points (Method::none, or nobody asked for them) is drawn as it is at rest, as
+  /// much longer as its line is. Takes memory only where there are more requests or larger surfaces than ever before.
+  /// Errors, in one line that names the request, before anything is written: a stale person or muscle; a driving
+  /// muscle that is not in the list, another person's, or of other cells than the surfaces were bound to; a stride
+  /// below 12, too small a buffer, normals that lie over positions.
+  Result<void> write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs = {});
+
+ private:
+  struct Line {
+    const float* line = nullptr;  // a lane of LineOfAction
+    const float* node = nullptr;  // and of control points; null: none
+  };
+  struct Resolved {
+    const float* pose = nullptr;  // a lane of Pose
+    std::size_t first_line = 0;   // two a driver
+  };
+  struct Work;
+
+  Result<void> resolve(const World& world, const SurfaceRequest& request);
+  static void write_pieces(void* work, std::size_t begin, std::size_t end);
+
+  std::pmr::vector<Resolved> person_;
+  std::pmr::vector<Line> line_;
+  ScratchPool scratch_;
+};
+
+}  // namespace mobil

@@ -70,6 +70,9 @@ TEST(House, IncludesPointDownTheListOfRooms) {
 const std::map<std::string, std::vector<std::string>> order = {
     {"assets", {"body", "muscles", "surfaces", "fem", "reduction", "files", "import", "export"}},
     {"systems", {"people", "muscles", "relevance", "snapshot", no_folder}},  // the modules, the front door
+    {"demo",
+     {"rivals", "program", "measure", "pictures", "muscle", "walk", "body", "compare", "paper", "crowd", "bench",
+      "effects", "frontier", "stress"}},
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
-#include "demo/bench/bench_machine.h"
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/machine.h"
+#include "demo/measure/measure.h"
 #include "engine/error.h"
 
 namespace mobil {

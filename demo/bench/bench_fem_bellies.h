@@ -9,7 +9,7 @@
 #include "assets/fem/muscle_template.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
 #include "engine/error.h"
 #include "systems/deformation/deformation.h"
 

@@ -18,6 +18,8 @@ namespace mobil {
 
 class BenchCrowd;  // demo/bench/bench_crowd.h
 
+inline constexpr std::size_t muscles_a_human = 8;
+
 /// One figure; `value` is the best of the repeats (of a rate the highest, of a time the least), in `unit`.
 struct BenchResult {
   std::string name;

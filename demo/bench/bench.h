@@ -10,13 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "demo/bench/bench_machine.h"
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/machine.h"
+#include "demo/measure/measure.h"
 #include "engine/error.h"
 
 namespace mobil {
 
 class BenchCrowd;  // demo/bench/bench_crowd.h
+
+inline constexpr std::size_t muscles_a_human = 8;
 
 /// One figure; `value` is the best of the repeats (of a rate the highest, of a time the least), in `unit`.
 struct BenchResult {

@@ -2,25 +2,24 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "assets/files/output_file.h"
 #include "demo/bench/bench.h"
 #include "demo/bench/bench_crowd.h"
 #include "demo/program/commands.h"
+#include "demo/program/json.h"
 #include "demo/program/named_entries.h"
+#include "demo/program/progress.h"
+#include "demo/program/units.h"
 
 namespace mobil {
 namespace {
@@ -51,13 +50,8 @@ struct BenchRequest {
 
 Result<std::size_t> parse_humans(const std::string& text) {
   constexpr std::size_t most = 200'000;
-  const bool digits =
-      !text.empty() && text.size() <= 9 && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-  const std::size_t humans = digits ? std::stoul(text) : 0;
-  if (humans < 1 || humans > most) {
-    return fail(fmt::format("--humans '{}' must be a whole number from 1 to {}", text, most));
-  }
-  return humans;
+  if (const auto humans = parse_count(text, 1, most)) return *humans;
+  return fail(fmt::format("--humans '{}' must be a whole number from 1 to {}", text, most));
 }
 
 Result<BenchRequest> read_request(const BenchText& text) {
@@ -97,20 +91,20 @@ void print_table(const BenchRun& run) {
 }
 
 /// One entry of the results. Further keys may follow; these stay.
-nlohmann::ordered_json entry(const std::string& name, double value, std::string_view unit) {
+Json entry(const std::string& name, double value, std::string_view unit) {
   return {{"name", name}, {"value", value}, {"unit", unit}};
 }
 
 std::string to_json(const BenchRun& run) {
   const Machine& m = run.machine;
-  nlohmann::ordered_json json;
-  json["machine"] = {{"cpu", m.cpu},           {"cores", m.cores},       {"target", m.target},
-                     {"compiler", m.compiler}, {"flags", m.flags},       {"l1_bytes", m.l1_bytes},
-                     {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"clock_ghz", m.clock_ghz}};
+  Json json;
+  json["machine"] = machine_json(m);
+  json["machine"].update(
+      {{"l1_bytes", m.l1_bytes}, {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"clock_ghz", m.clock_ghz}});
   json["crowd"] = {{"humans", run.humans}, {"seed", BenchCrowd::seed}};
-  auto& results = json["results"] = nlohmann::ordered_json::array();
+  auto& results = json["results"] = Json::array();
   for (const BenchResult& r : run.results) {
-    auto& told = results.emplace_back(entry(r.name, r.value, r.unit));
+    auto& told = results.push_back(entry(r.name, r.value, r.unit));
     if (r.median) told["median"] = *r.median;
     if (r.cpu) told["cpu"] = *r.cpu;
     const std::string stem = r.name.substr(0, r.name.rfind('.'));
@@ -120,18 +114,9 @@ std::string to_json(const BenchRun& run) {
   return json.dump(2) + "\n";
 }
 
-/// On a terminal: what is being measured. Gone when the next thing is told.
-void show(std::string_view what) {
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", what);
-}
-
 int bench(const BenchText& text) {
-  const auto complain = [](const std::string& message, int status) {
-    fmt::print(stderr, "mobil bench: {}\n", message);
-    return status;
-  };
   const auto request = read_request(text);
-  if (!request) return complain(request.error().message, 2);
+  if (!request) return complain("bench", request.error().message);
   BenchRun run;
   run.humans = request->humans;
   run.quick = text.quick;
@@ -139,27 +124,25 @@ int bench(const BenchText& text) {
   show("measuring the machine");
   measure_machine(run.machine);
   if (request->chosen.front().name != benches.front().name) {  // what the others are held against is always told
-    if (auto done = bench_machine(run); !done) return complain(done.error().message, 1);
+    if (auto done = bench_machine(run); !done) return complain("bench", done.error().message, 1);
   }
   for (const Bench& chosen : request->chosen) {
     show(fmt::format("measuring {}", chosen.name));
     if (auto done = chosen.run(run); !done)
-      return complain(fmt::format("{}: {}", chosen.name, done.error().message), 1);
+      return complain("bench", fmt::format("{}: {}", chosen.name, done.error().message), 1);
   }
   show("");
   print_table(run);
   if (request->json.empty()) return 0;
-  if (auto ok = write_file(request->json, to_json(run)); !ok) return complain("--json " + ok.error().message, 2);
-  fmt::print("written {}\n", request->json.string());
-  return 0;
+  return exit_status_of("bench", write_result("--json", request->json, to_json(run)));
 }
 
 }  // namespace
 
-void add_bench_command(CLI::App& app, int& exit_status) {
+Subcommand bench_command() {
   auto text = std::make_shared<BenchText>();
-  CLI::App* command = app.add_subcommand("bench", "Kernels against the machine's own limits");
-  command->footer(
+  Subcommand command{.name = "bench", .about = "Kernels against the machine's own limits"};
+  command.footer =
       "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the "
       "least\n"
       "time that the thread had a processor; well below the best, other programs were at work. Of peak, of memory:\n"
@@ -169,19 +152,14 @@ void add_bench_command(CLI::App& app, int& exit_status) {
       "as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.seen.us_per_human_tick,\n"
       "crowd.large_over_small, crowd.us_per_spawn, crowd.system.NAME.us_per_human_tick, crowd.threads2_speedup,\n"
       "crowd.threads2.NAME.speedup, crowd.100.METHOD.muscles_us_per_tick, crowd.100.METHOD.ratio_to_bullet.\n"
-      "Example: mobil bench gait kinematics --humans 2000 --json bench.json");
-  command
-      ->add_option("name", text->names,
-                   fmt::format("What to measure, of {}; all by default", fmt::join(names_of(benches), ", ")))
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--humans", text->humans, "How many walk, 1 to 200000, all different")
-      ->capture_default_str()
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  command->add_flag("--quick", text->quick,
-                    "One short round of fem, paper_figures and crowd: all figures, but not to be quoted");
-  command->add_option("--json", text->json, "File for the figures")
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  command->callback([text, &exit_status] { exit_status = bench(*text); });
+      "Example: mobil bench gait kinematics --humans 2000 --json bench.json";
+  command.options = {
+      named_option(benches, text->names, "measure"),
+      {"--humans", &text->humans, "How many walk, 1 to 200000, all different"},
+      {"--quick", &text->quick, "One short round of fem, paper_figures and crowd: all figures, but not to be quoted"},
+      {"--json", &text->json, "File for the figures"}};
+  command.run = [text] { return bench(*text); };
+  return command;
 }
 
 }  // namespace mobil

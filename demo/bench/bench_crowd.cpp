@@ -1,12 +1,11 @@
 #include "demo/bench/bench_crowd.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <optional>
 
+#include "demo/program/progress.h"
 #include "engine/access.h"
 
 namespace mobil {
@@ -14,28 +13,6 @@ namespace {
 
 constexpr double least_cpu_s = 20e-6;  // asking a thread for its time on a processor takes about 0.5 us
 constexpr double settling_s = 2;       // until nobody steps in time with anybody else
-
-/// On a terminal, after the first second: how many are there.
-class Progress {
- public:
-  explicit Progress(std::size_t total) : total_(total), next_s_(wall_now_s() + 1) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void at(std::size_t done) {
-    if (!terminal_ || wall_now_s() < next_s_) return;
-    next_s_ = wall_now_s() + 0.1;
-    shown_ = true;
-    fmt::print(stderr, "\rspawning [{:<40}] {}/{}", std::string(40 * done / total_, '='), done, total_);
-  }
-
- private:
-  std::size_t total_;
-  double next_s_;
-  bool terminal_ = isatty(STDERR_FILENO) != 0, shown_ = false;
-};
 
 }  // namespace
 
@@ -47,7 +24,7 @@ Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
 
 Result<void> BenchCrowd::spawn(std::size_t humans) {
   constexpr std::uint32_t most_draws = 20;
-  Progress progress(humans);
+  ProgressBar progress("spawning", humans);
   std::vector<double> wall;
   double wall_s = 0, cpu_s = 0;
   for (std::size_t i = 0; i < humans; ++i) {

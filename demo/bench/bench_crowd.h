@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/bench/bench_measure.h"
 #include "demo/crowd/crowd_people.h"
+#include "demo/measure/measure.h"
 #include "engine/error.h"
 #include "systems/simulation.h"
 

@@ -21,7 +21,6 @@
 namespace mobil {
 namespace {
 
-constexpr int muscles_a_human = 8;
 constexpr std::size_t humans_beside_rivals = 100;
 
 std::string stem_of(std::string_view system) {

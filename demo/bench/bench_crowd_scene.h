@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
 #include "engine/error.h"
 #include "engine/jobs.h"
 #include "systems/simulation.h"

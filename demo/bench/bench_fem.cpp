@@ -21,8 +21,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t crowd_blocks = 64;  // 1024 muscles
-constexpr int rounds = 5;
+constexpr int fem_rounds = 5;
 
 struct Comparison {
   Rounds shared, individual, lanes;
@@ -39,7 +38,7 @@ Result<Comparison> compare(const BenchRun& run, const MuscleTemplate& muscle, bo
   std::vector<OwnStiffness> own(4, OwnStiffness(muscle, scale));
   Comparison found;
   std::optional<double> bullet_dt_s;
-  for (int round = 0; round < run.rounds(rounds); ++round) {
+  for (int round = 0; round < run.rounds(fem_rounds); ++round) {
     found.shared.add(measure(run.rounds(20), [&] { shared.tick(steps_a_tick, paper_tick_s); }));
     found.individual.add(measure(run.rounds(20), [&] { individual.tick(steps_a_tick, paper_tick_s); }));
     found.lanes.add(measure(run.rounds(20), [&] {

@@ -9,7 +9,7 @@
 #include "assets/fem/muscle_template.h"
 #include "components/lanes.h"
 #include "components/muscle.h"
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
 #include "engine/error.h"
 #include "systems/deformation/deformation.h"
 
@@ -18,6 +18,7 @@ namespace mobil {
 inline constexpr double paper_step_s = 0.002;
 inline constexpr std::uint32_t steps_a_tick = 8;  // of 2 ms: about 60 Hz
 inline constexpr float paper_tick_s = 0.016F;
+inline constexpr std::size_t crowd_blocks = 64;  // 1024 muscles
 
 /// The paper's body (30 × 30 × 120 mm, its material, a free far face) in so many elements; 2×2×8 are 15 mm cubes.
 Result<MuscleTemplate> paper_block(const Cells& cells);

@@ -10,7 +10,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {

@@ -21,11 +21,11 @@
 namespace mobil {
 namespace {
 
-struct Mesh {
+struct FigureMesh {
   std::string_view nodes;
   Cells cells;
 };
-constexpr Mesh coarse{"81", {2, 2, 8}}, fine{"525", {4, 4, 20}}, finest{"3321", {8, 8, 40}};
+constexpr FigureMesh coarse{"81", {2, 2, 8}}, fine{"525", {4, 4, 20}}, finest{"3321", {8, 8, 40}};
 constexpr std::array steps_ms = {0.5, 1.0, 2.0, 3.0, 4.0};
 constexpr double lanes = lane_count;
 
@@ -85,7 +85,7 @@ std::string row(std::string_view head, const std::vector<std::string>& cells) {
 }
 
 /// Figure 18, one mesh; and of 81 nodes, figure 20 right is its first row.
-Result<std::map<double, Cost>> figure18(BenchRun& run, const Mesh& mesh, const MuscleTemplate& muscle) {
+Result<std::map<double, Cost>> figure18(BenchRun& run, const FigureMesh& mesh, const MuscleTemplate& muscle) {
   run.notes.push_back(fmt::format(
       "Figure 18, {} nodes: processor time for a simulated second of one of sixteen (of the block)", mesh.nodes));
   std::vector<std::string> head;
@@ -111,7 +111,7 @@ Result<std::map<double, Cost>> figure18(BenchRun& run, const Mesh& mesh, const M
 /// Figure 20 left: ECD at 1 ms on three meshes; a mesh that 1 ms is too long for at 0.9 of its limit.
 Result<void> figure20_left(BenchRun& run) {
   run.notes.emplace_back("Figure 20 left: the same by mesh, ECD at 1 ms");
-  for (const Mesh& mesh : {coarse, fine, finest}) {
+  for (const FigureMesh& mesh : {coarse, fine, finest}) {
     const auto muscle = paper_block(mesh.cells);
     if (!muscle) return tl::unexpected(muscle.error());
     const auto cost = second(run, *muscle, Method::ecd, 1e-3);
@@ -187,7 +187,7 @@ void four_groups(BenchRun& run, const std::map<double, Cost>& costs) {
 Result<void> bench_paper_figures(BenchRun& run) {
   const FlushDenormals flushed;
   std::map<double, Cost> explicit_costs;
-  for (const Mesh& mesh : {fine, coarse}) {
+  for (const FigureMesh& mesh : {fine, coarse}) {
     const auto muscle = paper_block(mesh.cells);
     if (!muscle) return tl::unexpected(muscle.error());
     auto costs = figure18(run, mesh, *muscle);

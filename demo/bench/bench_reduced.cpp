@@ -25,7 +25,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t muscles_a_human = 8, cached_blocks = 16;  // 256 muscles: half a megabyte at most
+constexpr std::size_t cached_blocks = 16;  // 256 muscles: half a megabyte at most
 constexpr double tick_s = 1.0 / 60;
 constexpr double paper_steps_a_second = 500, ticks_a_second = 60;
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -54,9 +53,10 @@ Result<void> run_body(const BodyCommand& text) {
 
 }  // namespace
 
-void add_body_command(CLI::App& app, int& exit_status) {
-  auto* command = app.add_subcommand("body", "What height, mass and build make of a body: body.json and a picture");
-  command->footer(
+Subcommand body_command() {
+  auto text = std::make_shared<BodyCommand>();
+  Subcommand command{.name = "body", .about = "What height, mass and build make of a body: body.json and a picture"};
+  command.footer =
       "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make "
       "muscles\n"
       "larger or smaller, endomorphy is fat, ectomorphy slenderness, which height and mass decide between themselves:\n"
@@ -67,14 +67,13 @@ void add_body_command(CLI::App& app, int& exit_status) {
       "body\n"
       "from the front and from its right in the anatomical position.\n"
       "\nExamples: mobil body --height 1.80 --mass 80 --out out\n"
-      "          mobil body --height 165cm --mass 58 --biotype 2-3-4 --constitution thin --json | less");
-  auto text = std::make_shared<BodyCommand>();
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
-  add_body_options(*command, text->body);
-  command->add_flag("--json", text->json, "Print the JSON, and write and draw nothing");
-  command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
-  refuse_empty_values(*command);
-  command->callback([text, &exit_status] { exit_status = exit_status_of("body", run_body(*text)); });
+      "          mobil body --height 165cm --mass 58 --biotype 2-3-4 --constitution thin --json | less";
+  add_options(command, body_options(text->body));
+  add_options(command, {{"--json", &text->json, "Print the JSON, and write and draw nothing"},
+                        {"--out", &text->out, "Folder for the results, made if missing"}});
+  command.empty_refused = true;
+  command.run = [text] { return exit_status_of("body", run_body(*text)); };
+  return command;
 }
 
 }  // namespace mobil

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
@@ -13,12 +12,11 @@
 #include "assets/muscles/muscle_path.h"
 #include "assets/muscles/muscle_plan.h"
 #include "demo/program/body_options.h"
+#include "demo/program/json.h"
 #include "engine/geometry.h"
 
 namespace mobil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 Json number(double value) {
   return std::stod(fmt::format("{:.6g}", value)) + 0.0;  // no negative zero

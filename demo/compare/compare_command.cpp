@@ -1,9 +1,7 @@
 // `mobil compare`: walks at the speeds of measured people, and is held against them.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -127,36 +125,28 @@ Result<bool> run_compare(const CompareText& text) {
 
 }  // namespace
 
-void add_compare_command(CLI::App& app, int& exit_status) {
-  auto* command = app.add_subcommand("compare", "Walk at the speeds of measured people and be held against them");
-  command->footer(
+Subcommand compare_command() {
+  auto text = std::make_shared<CompareText>();
+  Subcommand command{.name = "compare", .about = "Walk at the speeds of measured people and be held against them"};
+  command.footer =
       "Writes compare.json and plots of ours over the measured bands (SVG). The program carries the curves of\n"
       "Schwartz et al. 2008 and the steps of Lencioni et al. 2019.\n"
-      "Example: mobil compare --height 1.75 --mass 75 --check --out out");
-  auto text = std::make_shared<CompareText>();
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
-  WalkText& walk = text->walk;
-  add_body_options(*command, walk.body);
-  command
-      ->add_option("--set", walk.set, "NAME=VALUE: any gait parameter of mobil walk --list-parameters; again for more")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Gait");
-  command->add_option("--reference", text->reference,
-                      "Folder with winter_joint_angles.csv, _moments.csv, winter_grf.csv (and others that replace what "
-                      "the program carries)");
-  command->add_flag("--check", text->check, "Exit status 1 where a bound does not hold or is not simulated");
-  command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
-  command->callback([text, &exit_status] {
+      "Example: mobil compare --height 1.75 --mass 75 --check --out out";
+  add_options(command, body_options(text->walk.body));
+  add_options(command,
+              {{"--set", &text->walk.set,
+                "NAME=VALUE: any gait parameter of mobil walk --list-parameters; again for more", "Gait"},
+               {"--reference", &text->reference,
+                "Folder with winter_joint_angles.csv, _moments.csv, winter_grf.csv (and others that replace what the "
+                "program carries)"},
+               {"--check", &text->check, "Exit status 1 where a bound does not hold or is not simulated"},
+               {"--out", &text->out, "Folder for the results, made if missing"}});
+  command.run = [text] {
     const auto held = run_compare(*text);
-    if (!held) {
-      fmt::print(stderr, "mobil compare: {}\n", held.error().message);
-      exit_status = 2;
-    } else if (text->check && !*held) {
-      exit_status = 1;
-    }
-  });
+    if (!held) return complain("compare", held.error().message);
+    return text->check && !*held ? 1 : 0;
+  };
+  return command;
 }
 
 }  // namespace mobil

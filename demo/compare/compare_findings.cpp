@@ -17,7 +17,7 @@ constexpr PeakWindow hip_moment_peaks[] = {{"extensor", true, 0, 30}, {"flexor",
 constexpr PeakWindow knee_moment_peaks[] = {{"extensor", true, 6, 30}};
 constexpr PeakWindow ankle_moment_peaks[] = {{"plantarflexor", true, 30, 60}};
 
-constexpr std::array<std::span<const PeakWindow>, gait_quantity_count> peaks = {
+constexpr std::array<std::span<const PeakWindow>, gait_quantity_count> peak_windows = {
     hip_peaks,      knee_peaks,       ankle_peaks,       vertical_peaks,
     fore_aft_peaks, hip_moment_peaks, knee_moment_peaks, ankle_moment_peaks};
 
@@ -38,7 +38,7 @@ PeakFinding examine_peak(std::span<const CurvePair> pairs, std::size_t own, cons
 }  // namespace
 
 std::span<const PeakWindow> peaks_of(GaitQuantity quantity) {
-  return peaks[index(quantity)];
+  return peak_windows[index(quantity)];
 }
 
 std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReference& reference, GaitQuantity quantity) {

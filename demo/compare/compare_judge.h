@@ -1,23 +1,14 @@
 #pragma once
-// How near a walked curve is to measured ones: pure functions over one gait cycle.
+// How near a walked curve is to measured ones: pure functions over one gait cycle. The last point of a curve repeats
+// the first and is not counted again.
 
-#include <array>
-#include <cstddef>
 #include <span>
 #include <string_view>
 #include <vector>
 
+#include "demo/pictures/cycle_curve.h"
+
 namespace mobil {
-
-/// A quantity over the gait cycle of one leg, every 2 % from heel strike (0) to the next (100 %). The last point
-/// repeats the first: what follows counts the first fifty.
-inline constexpr std::size_t cycle_points = 51;
-using CycleCurve = std::array<double, cycle_points>;
-
-/// Mean and standard deviation between people.
-struct MeasuredCurve {
-  CycleCurve mean{}, sd{};
-};
 
 /// Our curve beside one that was measured in the same convention.
 struct CurvePair {

@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <nlohmann/json.hpp>
+
+#include "demo/program/json.h"
 
 namespace mobil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 constexpr GaitQuantity quantities[] = {GaitQuantity::hip,         GaitQuantity::knee,        GaitQuantity::ankle,
                                        GaitQuantity::vertical,    GaitQuantity::fore_aft,    GaitQuantity::hip_moment,

@@ -10,8 +10,9 @@
 namespace mobil {
 namespace {
 
-constexpr GaitQuantity angles[] = {GaitQuantity::hip, GaitQuantity::knee, GaitQuantity::ankle};
-constexpr GaitQuantity moments[] = {GaitQuantity::hip_moment, GaitQuantity::knee_moment, GaitQuantity::ankle_moment};
+constexpr GaitQuantity angle_quantities[] = {GaitQuantity::hip, GaitQuantity::knee, GaitQuantity::ankle};
+constexpr GaitQuantity moment_quantities[] = {GaitQuantity::hip_moment, GaitQuantity::knee_moment,
+                                              GaitQuantity::ankle_moment};
 constexpr double inside_bound = 0.9, timing_bound_percent = 3;
 constexpr double ground_peak_bound = 0.10, moment_peak_bound = 0.20, weight_bound = 0.01;
 constexpr double vertical_correlation_bound = 0.97, correlation_bound = 0.9;
@@ -56,9 +57,9 @@ double humps(const CurveFinding& vertical) {
 }
 
 void judge_angles(const Comparison& comparison, const ComparedWalk& walk, const std::string& name, Verdicts& verdicts) {
-  for (std::size_t i = 0; i < std::size(angles); ++i) {
-    const auto finding = examine(walk, comparison.reference, angles[i]);
-    const std::string of = fmt::format("{}: {} ", name, gait_quantity_name[index(angles[i])]);
+  for (std::size_t i = 0; i < std::size(angle_quantities); ++i) {
+    const auto finding = examine(walk, comparison.reference, angle_quantities[i]);
+    const std::string of = fmt::format("{}: {} ", name, gait_quantity_name[index(angle_quantities[i])]);
     verdicts.at_least(of + "inside the band, share of the cycle", finding->inside_union, inside_bound, "1");
     verdicts.at_most(of + "rms from the nearer mean", finding->rms_nearer_set, angle_rms_bound_deg[i], "deg");
     verdicts.at_most(of + "peaks off in time", worst_timing(*finding), timing_bound_percent, "% of the cycle");
@@ -81,7 +82,7 @@ void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const 
   verdicts.at_least(name + ": fore-aft force, correlation", fore_aft->best_correlation, correlation_bound, "1");
   verdicts.within(name + ": mean vertical force of both feet", walk.stride.forces->mean_weights, 1 - weight_bound,
                   1 + weight_bound, "body weights");
-  for (const auto quantity : moments) {
+  for (const auto quantity : moment_quantities) {
     const auto finding = examine(walk, comparison.reference, quantity);
     const std::string of = fmt::format("{}: {}, ", name, gait_quantity_name[index(quantity)]);
     verdicts.at_least(of + "correlation", finding->best_correlation, correlation_bound, "1");

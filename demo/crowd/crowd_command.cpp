@@ -1,9 +1,7 @@
 // `mobil crowd`: thousands of people who are all different, turn, stop, come and go; what a tick of them takes.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -17,6 +15,7 @@
 #include "demo/crowd/crowd_run.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/commands.h"
+#include "demo/program/progress.h"
 #include "systems/capture/png.h"
 
 namespace mobil {
@@ -24,25 +23,9 @@ namespace {
 
 constexpr double picture_s = 1.0 / 30;
 
-bool on_terminal() {
-  return isatty(STDERR_FILENO) != 0;
-}
-
-void show(const std::string& what) {
-  if (!on_terminal()) return;
-  fmt::print(stderr, "\r\033[K{}", what);
-  std::fflush(stderr);
-}
-
-void show_progress(const char* what, std::size_t done, std::size_t of) {
-  if (on_terminal()) show(fmt::format("{} [{:<40}] {}/{}", what, std::string(40 * done / of, '='), done, of));
-}
-
 Result<void> write_report(const CrowdOptions& options, const std::string& json) {
   if (options.report.empty()) return {};
-  if (auto done = write_file(options.report, json); !done) return fail("--report " + done.error().message);
-  fmt::print("written {}\n", options.report.string());
-  return {};
+  return write_result("--report", options.report, json);
 }
 
 /// Of the crowd as it is, and as it goes on.
@@ -126,9 +109,10 @@ int run_command(const CrowdText& text) {
 
 }  // namespace
 
-void add_crowd_command(CLI::App& app, int& exit_status) {
-  auto* command = app.add_subcommand("crowd", "A crowd walks, turns, comes and goes; what a tick of it takes");
-  command->footer(
+Subcommand crowd_command() {
+  auto text = std::make_shared<CrowdText>();
+  Subcommand command{.name = "crowd", .about = "A crowd walks, turns, comes and goes; what a tick of it takes"};
+  command.footer =
       "People differ in height (1.72 m, deviation 0.09), body mass index (24, 3), build, speed (1.35 m/s, 0.15) and\n"
       "style, begin anywhere on a square of 2.5 m2 each, and turn, change speed or stop and go on four times a "
       "minute.\n"
@@ -146,11 +130,11 @@ void add_crowd_command(CLI::App& app, int& exit_status) {
       "\nExamples: mobil crowd\n"
       "          mobil crowd --humans 10000 --churn 100 --report crowd.json\n"
       "          mobil crowd --humans 10000 --seconds 5 --raise\n"
-      "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png");
-  auto text = std::make_shared<CrowdText>();
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  add_crowd_options(*command, *text);
-  command->callback([text, &exit_status] { exit_status = run_command(*text); });
+      "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png";
+  command.options = crowd_options(*text);
+  command.empty_refused = true;
+  command.run = [text] { return run_command(*text); };
+  return command;
 }
 
 }  // namespace mobil

@@ -6,7 +6,6 @@
 #include <cctype>
 #include <limits>
 
-#include "demo/program/body_options.h"
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
 
@@ -21,12 +20,8 @@ std::string with_unit(const std::string& text, std::string_view unit) {
 
 Result<std::uint64_t> read_count(std::string_view option, const std::string& text, std::uint64_t least,
                                  std::uint64_t most) {
-  const bool digits =
-      !text.empty() && text.size() <= 18 && std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
-  const std::uint64_t count = digits ? std::stoull(text) : 0;
-  if (!digits || count < least || count > most)
-    return fail(fmt::format("{} {}: give a whole number of {} to {}", option, text, least, most));
-  return count;
+  if (const auto count = parse_count(text, least, most)) return *count;
+  return fail(fmt::format("{} {}: give a whole number of {} to {}", option, text, least, most));
 }
 
 struct NamedEffect {
@@ -41,10 +36,7 @@ constexpr NamedEffect effects[] = {{"muscles", &CrowdEffects::muscles},
 Result<CrowdEffects> read_effects(const std::string& text) {
   CrowdEffects chosen{.muscles = false};
   if (text == "none") return chosen;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string name = text.substr(from, comma - from);
-    from = comma + 1;
+  for (const std::string& name : split(text, ',')) {
     const auto found = std::ranges::find(effects, name, &NamedEffect::name);
     if (found == std::end(effects)) {
       return fail(
@@ -61,32 +53,26 @@ Result<CrowdEffects> read_effects(const std::string& text) {
 
 }  // namespace
 
-void add_crowd_options(CLI::App& command, CrowdText& text) {
-  const auto option = [&](const char* name, std::string& value, const std::string& what, const char* group) {
-    command.add_option(name, value, what)->capture_default_str()->group(group);
-  };
-  option("--humans", text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), "Crowd");
-  option("--seconds", text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", "Crowd");
-  option("--threads", text.threads, "Threads that work, 1 to 256; 0: as many as the machine has", "Crowd");
-  option("--seed", text.seed, "Who they are and what they do", "Crowd");
-  option("--churn", text.churn, "How many leave and as many come each second, spread over its ticks", "Crowd");
-  option("--burst", text.burst, "How many leave and as many come in a single tick of each second", "Crowd");
-  option("--effects", text.effects, "LIST of muscles, forces, inertia, line-motion; or none: they only walk",
-         "Muscles");
-  option("--tolerance", text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", "Muscles");
-  option("--near", text.near, "How many of the nearest are looked at (half of them in small crowds)", "Muscles");
-  option("--near-tolerance", text.near_tolerance, "The same of those", "Muscles");
-  command.add_flag("--all-seen", text.all_seen, "Place everybody's control points, not only of those near")
-      ->group("Muscles");
-  option("--budget", text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", "Muscles");
-  command
-      .add_flag("--raise", text.raise,
-                "Raise the number of people from --humans until ticks are missed, in runs of --seconds each")
-      ->group("Results");
-  option("--report", text.report, "JSON FILE for all figures", "Results");
-  option("--capture", text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", "Results");
-  option("--frames", text.frames, "So many pictures, 30 a second from the end on, into the folder", "Results");
-  refuse_empty_values(command);
+std::vector<Option> crowd_options(CrowdText& text) {
+  const char *crowd = "Crowd", *muscles = "Muscles", *results = "Results";
+  return {
+      {"--humans", &text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), crowd},
+      {"--seconds", &text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", crowd},
+      {"--threads", &text.threads, "Threads that work, 1 to 256; 0: as many as the machine has", crowd},
+      {"--seed", &text.seed, "Who they are and what they do", crowd},
+      {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", crowd},
+      {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", crowd},
+      {"--effects", &text.effects, "LIST of muscles, forces, inertia, line-motion; or none: they only walk", muscles},
+      {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", muscles},
+      {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", muscles},
+      {"--near-tolerance", &text.near_tolerance, "The same of those", muscles},
+      {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", muscles},
+      {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", muscles},
+      {"--raise", &text.raise,
+       "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", results},
+      {"--report", &text.report, "JSON FILE for all figures", results},
+      {"--capture", &text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", results},
+      {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", results}};
 }
 
 Result<CrowdOptions> read_crowd_options(const CrowdText& text) {

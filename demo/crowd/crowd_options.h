@@ -1,13 +1,14 @@
 #pragma once
 // What `mobil crowd` was asked for, checked.
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "demo/crowd/crowd_scene.h"
+#include "demo/program/options.h"
 #include "engine/error.h"
 
 namespace mobil {
@@ -20,7 +21,7 @@ struct CrowdOptions {
   bool raise = false;
 };
 
-/// The options as text, as the command line hands them over; bound by `add_crowd_options`.
+/// The options as text, as the command line hands them over; bound by `crowd_options`.
 struct CrowdText {
   std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
   std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0";
@@ -29,7 +30,7 @@ struct CrowdText {
 
 inline constexpr std::size_t most_crowd = 200'000;
 
-void add_crowd_options(CLI::App& command, CrowdText& text);
+std::vector<Option> crowd_options(CrowdText& text);
 
 /// Reads and checks every option. Errors name the option, the valid range and the mend.
 Result<CrowdOptions> read_crowd_options(const CrowdText& text);

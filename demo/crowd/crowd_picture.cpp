@@ -19,13 +19,6 @@ constexpr int width = 1920, height = 1080;
 constexpr std::size_t most_figures = 64;
 constexpr float person_m = 1;  // half the height of the box that a person is taken for
 
-/// Bones and muscles of one person.
-struct Shown {
-  Figure figure;
-  WalkRecording recording;
-  RecordedScene drawn;
-};
-
 /// From behind and above who looks, over the crowd.
 Camera crowd_camera(const CrowdScene& scene) {
   const Vec3<float> eye = scene.viewer_m();
@@ -46,6 +39,13 @@ bool in_picture(const Camera& camera, const Vec3<float>& pelvis) {
 }  // namespace
 
 struct CrowdCamera::Parts {
+  /// Bones and muscles of one person.
+  struct Shown {
+    Figure figure;
+    WalkRecording recording;
+    RecordedScene drawn;
+  };
+
   explicit Parts(Renderer made) : renderer(std::move(made)) {}
 
   Renderer renderer;
@@ -67,7 +67,7 @@ Result<CrowdCamera> CrowdCamera::create() {
   return CrowdCamera(std::make_unique<Parts>(std::move(*renderer)));
 }
 
-Result<Shown*> CrowdCamera::Parts::figure_of(const CrowdScene& scene, const CrowdWalker& walker) {
+Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const CrowdScene& scene, const CrowdWalker& walker) {
   const auto human = scene.simulation().human(walker.entity);
   if (!human) return fail("a person who is to be drawn has left");
   auto found = figures.find(walker.number);

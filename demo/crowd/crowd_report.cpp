@@ -3,15 +3,13 @@
 #include <fmt/format.h>
 
 #include <fstream>
-#include <nlohmann/json.hpp>
 
-#include "demo/bench/bench_machine.h"
 #include "demo/crowd/heap_count.h"
+#include "demo/measure/machine.h"
+#include "demo/program/json.h"
 
 namespace mobil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The most memory that the process has held.
 std::size_t peak_bytes() {
@@ -46,15 +44,6 @@ Json options_json(const CrowdOptions& options) {
   json["burst"] = crowd.burst;
   json["all_seen"] = crowd.all_seen;
   return json;
-}
-
-Json machine_json() {
-  const Machine machine = describe_machine();
-  return {{"cpu", machine.cpu},
-          {"cores", machine.cores},
-          {"target", machine.target},
-          {"compiler", machine.compiler},
-          {"flags", machine.flags}};
 }
 
 std::size_t threads_of(const CrowdRequest& crowd) {
@@ -149,7 +138,7 @@ std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const Cro
   json["threads"] = threads_of(options.crowd);
   json["seed"] = options.crowd.seed;
   json["options"] = options_json(options);
-  json["machine"] = machine_json();
+  json["machine"] = machine_json(describe_machine());
   return json.dump(2) + "\n";
 }
 
@@ -183,7 +172,7 @@ std::string limit_json(const CrowdLimit& limit, const CrowdOptions& options) {
   json["threads"] = threads_of(options.crowd);
   json["seed"] = options.crowd.seed;
   json["options"] = options_json(options);
-  json["machine"] = machine_json();
+  json["machine"] = machine_json(describe_machine());
   return json.dump(2) + "\n";
 }
 

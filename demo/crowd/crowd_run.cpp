@@ -5,8 +5,8 @@
 #include <ctime>
 
 #include "components/fade.h"
-#include "demo/bench/bench_measure.h"
 #include "demo/crowd/heap_count.h"
+#include "demo/measure/measure.h"
 
 namespace mobil {
 namespace {

@@ -3,12 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "assets/export/walk_recording.h"
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
 #include "demo/effects/accuracy_measure.h"
+#include "demo/program/json.h"
 #include "demo/walk/figure.h"
 #include "systems/relevance/accuracy_table.h"
 #include "systems/relevance/relevance.h"
@@ -206,11 +206,11 @@ std::string effects_table(const EffectAccount& account) {
 }
 
 std::string effects_json(const EffectAccount& account) {
-  nlohmann::ordered_json json;
+  Json json;
   json["humans"] = account.humans;
   json["muscles"] = account.muscles;
   json["tick_s"] = account.tick_s;
-  auto& all = json["effects"] = nlohmann::ordered_json::array();
+  auto& all = json["effects"] = Json::array();
   for (const Effect& effect : account.effects) {
     all.push_back({{"name", effect.name},
                    {"adds", effect.adds},

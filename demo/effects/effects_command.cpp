@@ -1,21 +1,18 @@
 // `mobil effects`: what can be simulated, what each effect costs, and what a scene that asks for little pays.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 
-#include "assets/files/output_file.h"
 #include "demo/effects/accuracy_measure.h"
 #include "demo/effects/effects.h"
 #include "demo/effects/relevance_show.h"
 #include "demo/program/commands.h"
+#include "demo/program/progress.h"
 
 namespace mobil {
 namespace {
@@ -28,20 +25,13 @@ struct EffectsCommand {
   bool measure = false;
 };
 
-void show(const std::string& what) {
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K{}", what);
-}
-
 Result<void> list_effects(const EffectsCommand& text) {
   const auto account = measure_effects(text.humans, show);
   show("");
   if (!account) return tl::unexpected(account.error());
   fmt::print("{}", effects_table(*account));
   if (text.json.empty()) return {};
-  if (auto ok = write_file(std::filesystem::path(text.json), effects_json(*account)); !ok)
-    return fail("--json " + ok.error().message);
-  fmt::print("written {}\n", text.json);
-  return {};
+  return write_result("--json", text.json, effects_json(*account));
 }
 
 /// The rows of systems/relevance/accuracy_table.cpp.
@@ -50,9 +40,7 @@ Result<void> measure_table() {
   std::array<RungCost, 2> costs;
   for (const bool inertia : {false, true}) {
     AccuracyPlan plan = accuracy_plan();
-    plan.progress = [&](double part) {
-      show(fmt::format("errors {} inertia: {:.0f} %", inertia ? "with" : "without", 100 * part));
-    };
+    plan.progress = [&](double part) { show_part(inertia ? "errors with inertia" : "errors without inertia", part); };
     const auto errors = measure_errors(plan, inertia);
     if (!errors) return tl::unexpected(errors.error());
     rows.insert(rows.end(), errors->begin(), errors->end());
@@ -87,9 +75,10 @@ int run_effects(const EffectsCommand& text) {
 
 }  // namespace
 
-void add_effects_command(CLI::App& app, int& exit_status) {
-  auto* command = app.add_subcommand("effects", "What can be simulated, and what each effect costs here");
-  command->footer(
+Subcommand effects_command() {
+  auto text = std::make_shared<EffectsCommand>();
+  Subcommand command{.name = "effects", .about = "What can be simulated, and what each effect costs here"};
+  command.footer =
       "Every effect is switched on in a crowd of its own and its systems' time read off the simulation's report: what "
       "a\n"
       "scene does not ask for costs nothing. Columns: microseconds a human and tick of 1/60 s on one core (of the "
@@ -109,14 +98,16 @@ void add_effects_command(CLI::App& app, int& exit_status) {
       "choices are made by, as systems/relevance/accuracy_table.cpp has it: minutes.\n"
       "\nExamples: mobil effects\n"
       "          mobil effects --json effects.json\n"
-      "          mobil effects --crowd 10000");
-  auto text = std::make_shared<EffectsCommand>();
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  command->add_option("--humans", text->humans, "How many walk while effects are measured")->capture_default_str();
-  command->add_option("--json", text->json, "File for the figures");
-  auto* crowd = command->add_option("--crowd", text->crowd, "Show what relevance makes of a crowd of that many");
-  command->add_flag("--measure", text->measure, "Print the accuracy table, measured anew")->excludes(crowd);
-  command->callback([text, &exit_status] { exit_status = run_effects(*text); });
+      "          mobil effects --crowd 10000";
+  command.options = {{"--humans", &text->humans, "How many walk while effects are measured"},
+                     {"--json", &text->json, "File for the figures"},
+                     {"--crowd", &text->crowd, "Show what relevance makes of a crowd of that many"},
+                     {.name = "--measure",
+                      .target = &text->measure,
+                      .help = "Print the accuracy table, measured anew",
+                      .excludes = "--crowd"}};
+  command.run = [text] { return run_effects(*text); };
+  return command;
 }
 
 }  // namespace mobil

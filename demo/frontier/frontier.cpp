@@ -34,25 +34,25 @@ FrontierRung vectors(const char* name, std::uint32_t count, const Cells& cells, 
   return rung;
 }
 
-constexpr Cells coarse = {2, 2, 8}, middle = {4, 4, 16}, fine = {8, 8, 32};
+constexpr Cells coarse_cells = {2, 2, 8}, middle_cells = {4, 4, 16}, fine_cells = {8, 8, 32};
 
 std::vector<FrontierRung> short_rungs() {
   std::vector<FrontierRung> all;
-  all.push_back(fixed("ecd", Method::ecd, coarse, 0.002));
+  all.push_back(fixed("ecd", Method::ecd, coarse_cells, 0.002));
   all.back().mark = "the paper's choice: 81 nodes, 2 ms";
-  all.push_back(fixed("ecd", Method::ecd, coarse, 0.003));
-  all.push_back(elements("ecd", Method::ecd, coarse));
-  all.push_back(elements("ecd", Method::ecd, middle));
+  all.push_back(fixed("ecd", Method::ecd, coarse_cells, 0.003));
+  all.push_back(elements("ecd", Method::ecd, coarse_cells));
+  all.push_back(elements("ecd", Method::ecd, middle_cells));
   all.push_back(elements("ecd", Method::ecd, {4, 4, 20}));
   all.back().mark = "the paper's 525 nodes";
-  all.push_back(elements("icd", Method::icd, coarse));
+  all.push_back(elements("icd", Method::icd, coarse_cells));
   for (const int parts : {1, 2, 4}) {
-    all.push_back(elements("caa", Method::caa, coarse, frontier_tick_s / parts));
+    all.push_back(elements("caa", Method::caa, coarse_cells, frontier_tick_s / parts));
   }
-  all.push_back(elements("static", Method::statics, coarse));
-  all.push_back(vectors("reduced-static", 12, middle, true, false));
+  all.push_back(elements("static", Method::statics, coarse_cells));
+  all.push_back(vectors("reduced-static", 12, middle_cells, true, false));
   for (const std::uint32_t count : {2U, 4U, 6U, 8U, 12U, 16U, 20U, 24U, 32U}) {
-    all.push_back(vectors("reduced", count, middle));
+    all.push_back(vectors("reduced", count, middle_cells));
   }
   return all;
 }
@@ -113,8 +113,8 @@ FrontierRow row_of(const FrontierRung& rung, bool loads) {
 }
 
 /// Of each scene and muscle, on as many threads as asked for.
-struct Table {
-  Table(const FrontierRequest& of, std::span<const FrontierDrive> all, std::size_t count)
+struct AnswerTable {
+  AnswerTable(const FrontierRequest& of, std::span<const FrontierDrive> all, std::size_t count)
       : request(of), drives(all), answers(count), why(count) {}
 
   const FrontierRequest& request;
@@ -165,16 +165,17 @@ FrontierRequest long_frontier() {
   request.call_s = 0.05;
   request.rungs = short_rungs();
   auto& all = request.rungs;
-  all.push_back(elements("ecd", Method::ecd, fine));
+  all.push_back(elements("ecd", Method::ecd, fine_cells));
   all.push_back(elements("ecd", Method::ecd, {8, 8, 40}));
   all.back().mark = "the paper's 3321 nodes";
-  for (const int parts : {1, 4}) all.push_back(elements("caa", Method::caa, middle, frontier_tick_s / parts));
-  all.push_back(elements("static", Method::statics, middle));
-  all.push_back(elements("icd", Method::icd, middle));
+  for (const int parts : {1, 4}) all.push_back(elements("caa", Method::caa, middle_cells, frontier_tick_s / parts));
+  all.push_back(elements("static", Method::statics, middle_cells));
+  all.push_back(elements("icd", Method::icd, middle_cells));
   for (const std::uint32_t count : {4U, 8U, 12U, 16U, 24U, 32U}) {
-    all.push_back(vectors("reduced-plain", count, middle, false));
+    all.push_back(vectors("reduced-plain", count, middle_cells, false));
   }
-  for (const std::uint32_t count : {4U, 8U, 10U, 12U, 16U, 24U, 32U}) all.push_back(vectors("reduced", count, fine));
+  for (const std::uint32_t count : {4U, 8U, 10U, 12U, 16U, 24U, 32U})
+    all.push_back(vectors("reduced", count, fine_cells));
   return request;
 }
 
@@ -183,13 +184,13 @@ Result<Frontier> measure_frontier(const FrontierRequest& request) {
   const auto drives = record_walks(request.muscles, request.walks, request.seconds);
   if (!drives) return tl::unexpected(drives.error());
   const std::size_t muscles = drives->size(), count = request.scenes.size() * muscles;
-  Table table(request, *drives, count);
+  AnswerTable table(request, *drives, count);
   const Threads threads(request.threads);
   const Jobs jobs = threads.jobs();
   jobs.parallel_for(
       jobs.user, count,
       [](void* context, std::size_t begin, std::size_t end) {
-        for (std::size_t at = begin; at < end; ++at) static_cast<Table*>(context)->make(at);
+        for (std::size_t at = begin; at < end; ++at) static_cast<AnswerTable*>(context)->make(at);
       },
       &table);
   for (const auto& answers : table.answers) {

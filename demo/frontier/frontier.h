@@ -11,10 +11,10 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/bench/bench_machine.h"
 #include "demo/frontier/frontier_answers.h"
 #include "demo/frontier/frontier_method.h"
 #include "demo/frontier/frontier_walks.h"
+#include "demo/measure/machine.h"
 #include "demo/pictures/svg_plot.h"
 #include "engine/error.h"
 

@@ -1,9 +1,7 @@
 // `mobil frontier`: what accuracy costs.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -11,8 +9,8 @@
 
 #include "assets/files/output_file.h"
 #include "demo/frontier/frontier.h"
-#include "demo/program/body_options.h"
 #include "demo/program/commands.h"
+#include "demo/program/progress.h"
 
 namespace mobil {
 namespace {
@@ -22,22 +20,15 @@ struct FrontierText {
   bool short_form = false, long_form = false, check = false;
 };
 
-/// On a terminal: what is being done and how far it is. Gone when the results are told.
-void show(std::string_view what, double part) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r\033[K{} {:.0f} %", what, 100 * part);
-  std::fflush(stderr);
-}
-
 Result<void> run_frontier(const FrontierText& text) {
   if (text.short_form && text.long_form) return fail("--short and --long are both asked for; give one of them");
   if (auto made = make_output_folder(text.out); !made) return made;
   FrontierRequest request = text.long_form ? long_frontier() : short_frontier();
   if (text.loads != "both") request.scenes = {text.loads == "frame"};
   if (text.check) request.checks = {{8, 8, 32}, {16, 16, 64}};
-  request.progress = &show;
+  request.progress = &show_part;
   const auto frontier = measure_frontier(request);
-  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+  show("");
   if (!frontier) return tl::unexpected(frontier.error());
   const std::filesystem::path out = text.out;
   if (auto done = write_file(out / "frontier.csv", frontier_csv(*frontier)); !done) return done;
@@ -49,11 +40,10 @@ Result<void> run_frontier(const FrontierText& text) {
 
 }  // namespace
 
-void add_frontier_command(CLI::App& app, int& exit_status) {
+Subcommand frontier_command() {
   auto text = std::make_shared<FrontierText>();
-  CLI::App* command =
-      app.add_subcommand("frontier", "What accuracy costs: every way to deform a muscle, error and time");
-  command->footer(
+  Subcommand command{.name = "frontier", .about = "What accuracy costs: every way to deform a muscle, error and time"};
+  command.footer =
       "Sixteen walks by six bodies and speeds move four muscle groups; every method, mesh, step and number of vectors\n"
       "gets the same line of action (and once more with gravity and the frame's motion), tick by tick, and is held\n"
       "against a reference refined until it hardly moves. How much it still moves is told, and what is nearer than "
@@ -65,20 +55,21 @@ void add_frontier_command(CLI::App& app, int& exit_status) {
       "Methods (mobil muscle --help says what they are): static, ecd, icd, caa; reduced: so many vectors of a finer\n"
       "mesh, its error extrapolated away (reduced-plain: left in; reduced-static: without motion of its own).\n"
       "Examples: mobil frontier\n"
-      "          mobil frontier --long --loads line --out frontier");
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  command->add_flag("--short", text->short_form, "A minute at most on two cores; the default");
-  command->add_flag("--long", text->long_form, "All meshes, and a reference twice as fine: twenty minutes");
-  command->add_option("--loads", text->loads, "line: of the line of action alone; frame: with the frame's too; or both")
-      ->check(CLI::IsMember({"line", "frame", "both"}))
-      ->capture_default_str();
-  command->add_flag("--check", text->check,
-                    "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for "
-                    "each muscle and kind of load");
-  command->add_option("--out", text->out, "Folder for frontier.csv, .svg and .json, made if missing")
-      ->capture_default_str();
-  refuse_empty_values(*command);
-  command->callback([text, &exit_status] { exit_status = exit_status_of("frontier", run_frontier(*text)); });
+      "          mobil frontier --long --loads line --out frontier";
+  command.options = {
+      {"--short", &text->short_form, "A minute at most on two cores; the default"},
+      {"--long", &text->long_form, "All meshes, and a reference twice as fine: twenty minutes"},
+      {.name = "--loads",
+       .target = &text->loads,
+       .help = "line: of the line of action alone; frame: with the frame's too; or both",
+       .choices = {"line", "frame", "both"}},
+      {"--check", &text->check,
+       "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for each muscle and "
+       "kind of load"},
+      {"--out", &text->out, "Folder for frontier.csv, .svg and .json, made if missing"}};
+  command.empty_refused = true;
+  command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };
+  return command;
 }
 
 }  // namespace mobil

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "demo/frontier/frontier.h"
+#include "demo/program/json.h"
 
 namespace mobil {
 namespace {
@@ -79,7 +79,7 @@ void add_scene(const Frontier& frontier, const FrontierChange& change, std::stri
       percent((*far)->error), (*far)->ratio, named(**near), percent((*near)->error), (*near)->ratio);
 }
 
-nlohmann::ordered_json shown(const Frontier& frontier, bool loads, bool points) {
+Json shown(const Frontier& frontier, bool loads, bool points) {
   const FrontierRow* row = cheapest_within(frontier.rows, loads, points, close_enough);
   if (row == nullptr) return nullptr;
   return {{"row", named(*row)},
@@ -121,13 +121,13 @@ std::string frontier_csv(const Frontier& frontier) {
 std::string frontier_json(const Frontier& frontier) {
   const Machine& m = frontier.machine;
   const FrontierRequest& request = frontier.request;
-  nlohmann::ordered_json json;
+  Json json;
   json["form"] = request.form;
-  json["machine"] = {{"cpu", m.cpu},           {"cores", m.cores},       {"target", m.target},
-                     {"compiler", m.compiler}, {"flags", m.flags},       {"l1_bytes", m.l1_bytes},
-                     {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"threads_of_costs", 1}};
+  json["machine"] = machine_json(m);
+  json["machine"].update(
+      {{"l1_bytes", m.l1_bytes}, {"l2_bytes", m.l2_bytes}, {"l3_bytes", m.l3_bytes}, {"threads_of_costs", 1}});
   auto& inputs = json["inputs"];
-  inputs["walks"] = nlohmann::ordered_json::array();
+  inputs["walks"] = Json::array();
   for (const FrontierWalk& walk : request.walks) inputs["walks"].push_back(walks_text(walk));
   for (const Muscle muscle : request.muscles) inputs["muscles"].push_back(muscle_name(muscle));
   inputs["seconds_compared"] = request.seconds;
@@ -137,12 +137,12 @@ std::string frontier_json(const Frontier& frontier) {
       " held sideways by a foundation of 7 Hz. Linear between ticks, the same for every method";
   auto& reference = json["reference"];
   reference["made"] = reference_text(frontier);
-  reference["change"] = nlohmann::ordered_json::array();
+  reference["change"] = Json::array();
   for (const FrontierChange& change : frontier.change) {
-    nlohmann::ordered_json one = {{"loads", scene_name(change.loads)},
-                                  {"from_half_the_cells", change.mesh},
-                                  {"from_24_vectors", change.vectors},
-                                  {"own", change.own()}};
+    Json one = {{"loads", scene_name(change.loads)},
+                {"from_half_the_cells", change.mesh},
+                {"from_24_vectors", change.vectors},
+                {"own", change.own()}};
     if (change.elements) one["from_plain_explicit_meshes_extrapolated"] = *change.elements;
     for (std::size_t i = 0; i < change.mesh_of_muscle.size(); ++i) {
       one["from_half_the_cells_by_muscle"][muscle_name(request.muscles[i])] = change.mesh_of_muscle[i];

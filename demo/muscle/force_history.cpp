@@ -11,18 +11,18 @@
 namespace mobil {
 namespace {
 
-constexpr std::array<std::string_view, 4> columns = {"time_s", "force_x_n", "force_y_n", "force_z_n"};
+constexpr std::array<std::string_view, 4> force_columns = {"time_s", "force_x_n", "force_y_n", "force_z_n"};
 
 Result<ForceHistory> from_table(const CsvTable& table) {
   ForceHistory history;
   for (std::size_t r = 0; r < table.row.size(); ++r) {
     std::array<double, 4> value{};
     for (std::size_t c = 0; c < value.size(); ++c) {
-      const auto text = cell(table, r, columns[c]);
+      const auto text = cell(table, r, force_columns[c]);
       const auto read = number(text);
       if (!read) {
         return fail(fmt::format("{} line {}: {} '{}' is not a finite number; write one", table.path, table.line[r],
-                                columns[c], text.substr(0, 60)));
+                                force_columns[c], text.substr(0, 60)));
       }
       value[c] = *read;
     }
@@ -52,11 +52,11 @@ Vec3<double> force_at(const ForceHistory& history, double time_s) {
 }
 
 Result<ForceHistory> parse_force_history(std::string_view text, std::string_view name) {
-  return parse_csv(text, name, columns).and_then(from_table);
+  return parse_csv(text, name, force_columns).and_then(from_table);
 }
 
 Result<ForceHistory> read_force_history(const std::filesystem::path& path) {
-  return read_csv(path.string(), columns).and_then(from_table);
+  return read_csv(path.string(), force_columns).and_then(from_table);
 }
 
 }  // namespace mobil

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <memory>
@@ -34,11 +33,6 @@ constexpr const char* help_footer =
     "  mobil muscle --load nudge.csv --dt 2ms --method caa --out caa.csv\n"
     "  mobil muscle --load nudge.csv --dt 2ms --method caa --mass lumped --damping 8 --out damped.csv";
 
-int complain(const std::string& message) {
-  std::fputs(fmt::format("mobil muscle: {}\n", message).c_str(), stderr);
-  return 2;
-}
-
 std::string summary(const MuscleRequest& request, const MuscleRun& result, double wall_s) {
   const MuscleTemplate& m = request.muscle;
   const std::string limit = request.critical_step_s             ? fmt::format("{:.4g} s", *request.critical_step_s)
@@ -58,39 +52,42 @@ std::string summary(const MuscleRequest& request, const MuscleRun& result, doubl
 
 int muscle(const MuscleText& text) {
   const auto request = read_muscle_request(text);
-  if (!request) return complain(request.error().message);
+  if (!request) return complain("muscle", request.error().message);
   const auto start = std::chrono::steady_clock::now();
   const auto result = run_muscle(*request);
-  if (!result) return complain(result.error().message);
+  if (!result) return complain("muscle", result.error().message);
   const double wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (result->lost_at_s) {
-    complain(
-        fmt::format("the displacement overflowed at {:.6g} s; lower the load or raise --young", *result->lost_at_s));
-    return 1;
+    const std::string lost =
+        fmt::format("the displacement overflowed at {:.6g} s; lower the load or raise --young", *result->lost_at_s);
+    return complain("muscle", lost, 1);
   }
   if (auto ok = write_file(request->out, result->csv); !ok) {
-    return complain(fmt::format("--out {}", ok.error().message));
+    return complain("muscle", fmt::format("--out {}", ok.error().message));
   }
   if (!request->glb.empty()) {
     if (auto ok = write_basis_glb(request->glb, result->recording); !ok) {
-      return complain(fmt::format("--glb {}", ok.error().message));
+      return complain("muscle", fmt::format("--glb {}", ok.error().message));
     }
   }
-  if (!request->warning.empty()) std::fputs(fmt::format("mobil muscle: {}\n", request->warning).c_str(), stderr);
+  if (!request->warning.empty()) complain("muscle", request->warning);
   std::fputs(summary(*request, *result, wall_s).c_str(), stdout);
   return 0;
 }
 
 }  // namespace
 
-void add_muscle_command(CLI::App& app, int& exit_status) {
+Subcommand muscle_command() {
   auto text = std::make_shared<MuscleText>();
-  CLI::App* command = app.add_subcommand("muscle",
-                                         "Deform one block of muscle: the face z = 0 fixed, a uniform traction on the "
-                                         "far face, at rest at t = 0");
-  command->footer(help_footer);
-  add_muscle_options(*command, *text);
-  command->callback([text, &exit_status] { exit_status = muscle(*text); });
+  Subcommand command{.name = "muscle",
+                     .about =
+                         "Deform one block of muscle: the face z = 0 fixed, a uniform traction on the far face, at "
+                         "rest at t = 0"};
+  command.footer = help_footer;
+  command.options = muscle_options(*text);
+  command.last_stands = false;
+  command.run = [text] { return muscle(*text); };
+  return command;
 }
 
 }  // namespace mobil

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 #include <span>
 #include <string_view>
@@ -30,41 +29,27 @@ ForceHistory default_load() {
 }
 
 Result<Cells> parse_cells(const std::string& text) {
+  const auto parts = split(text, 'x');
   Cells cells{};
-  char end = 0;
-  // at most three digits each, so that nothing overflows
-  const int read = std::sscanf(text.c_str(), "%3ux%3ux%3u%c", &cells[0], &cells[1], &cells[2], &end);
-  if (read != 3 || text.find_first_not_of("0123456789x") != std::string::npos) {
-    return fail(fmt::format("--cells '{}' must be three counts from 1 to 256 as in 2x2x8", text));
+  bool good = parts.size() == cells.size();
+  for (std::size_t i = 0; good && i < cells.size(); ++i) {
+    const auto count = parse_count(parts[i], 0, 999);  // make_block has the range, and says what it is
+    good = count.has_value();
+    if (good) cells[i] = static_cast<std::uint32_t>(*count);
   }
-  return cells;
-}
-
-/// Numbers from `low` to `high` between commas; nothing where there are more, fewer or others.
-template <std::size_t N>
-std::optional<std::array<double, N>> parse_list(const std::string& text, double low, double high) {
-  std::array<double, N> list{};
-  std::size_t from = 0;
-  for (std::size_t c = 0; c < N; ++c) {
-    const std::size_t comma = c + 1 < N ? text.find(',', from) : text.size();
-    if (comma == std::string::npos) return std::nullopt;
-    const auto value = parse_quantity(text.substr(from, comma - from), Quantity::ratio);
-    if (!value || *value < low || *value > high) return std::nullopt;
-    list[c] = *value;
-    from = comma + 1;
-  }
-  return list;
+  if (good) return cells;
+  return fail(fmt::format("--cells '{}' must be three counts from 1 to 256 as in 2x2x8", text));
 }
 
 Result<Vec3<double>> parse_gravity(const std::string& text) {
-  const auto list = parse_list<3>(text, -1000, 1000);
+  const auto list = parse_list<3>(text, ',', -1000, 1000);
   if (list) return Vec3<double>{(*list)[0], (*list)[1], (*list)[2]};
   return fail(fmt::format("--gravity '{}' must be three accelerations from -1000 to 1000 m/s2, as in 0,-9.81,0",
                           text.substr(0, 60)));
 }
 
 Result<Grading> parse_grading(const std::string& text) {
-  const auto list = parse_list<2>(text, 0.01, 100);
+  const auto list = parse_list<2>(text, ',', 0.01, 100);
   if (list) return Grading{(*list)[0], (*list)[1]};
   return fail(fmt::format("--grading '{}' must be two ratios from 0.01 to 100, across and along, as in 1,2",
                           text.substr(0, 60)));
@@ -223,46 +208,46 @@ Result<Stepping> choose_step(const MuscleText& text, const MuscleTemplate& muscl
 
 }  // namespace
 
-void add_muscle_options(CLI::App& command, MuscleText& text) {
-  const auto add = [&](const char* group, const char* name, std::string& value, const char* help) {
-    CLI::Option* option = command.add_option(name, value, help)->group(group);
-    if (!value.empty()) option->capture_default_str();
-  };
-  const char* block = "Block";
-  add(block, "--cells", text.cells, "Elements along x, y, z, 1 to 256 each");
-  add(block, "--cell-size", text.cell_size, "Edge of a cubic element, 0.0001 to 1 m");
-  add(block, "--element", text.element,
-      "full (2x2x2 points), bbar (mean dilatation: for Poisson's ratios near 0.5) or one-point (hourglass control)");
-  add(block, "--young", text.young, "Young's modulus, Pa");
-  add(block, "--poisson", text.poisson, "Poisson's ratio, above -1 and below 0.5");
-  add(block, "--density", text.density, "Density, kg/m3");
-  add(block, "--foundation", text.foundation,
-      "Held sideways as fascia would, at this frequency, 0 to 1000 Hz: (2 pi f)^2 times the mass, in x and y");
-  add(block, "--grading", text.grading,
-      "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each");
-  const char* time = "Time";
-  add(time, "--method", text.method, "static, ecd, icd, caa or reduced, see below");
-  add(time, "--vectors", text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32");
-  add(time, "--mass", text.mass,
-      "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)");
-  add(time, "--dt", text.dt,
-      "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa and reduced "
-      "1/480, static 1/60)");
-  add(time, "--seconds", text.seconds, "How long, up to 3600 s");
-  add(time, "--damping", text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most");
-  add(time, "--stiffness-damping", text.stiffness_damping,
-      "beta, 0 to 1 s: damps fast motion most, and shortens the critical step");
-  add(time, "--precision", text.precision,
-      "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time");
-  const char* load = "Load and result";
-  add(load, "--load", text.load,
-      "CSV time_s,force_x_n,force_y_n,force_z_n: total force, linear between rows, zero before the "
-      "first, held after the last (default: 1 N along +z from 0.1 s, let go at 0.5 s)");
-  add(load, "--gravity", text.gravity, "Acceleration of every mass in the block's frame, X,Y,Z, m/s2");
-  add(load, "--out", text.out, "CSV time_s,u_x_m,u_y_m,u_z_m of the far face's centre, one row a step from t = 0");
-  add(load, "--glb", text.glb,
-      "Of reduced: the block as GLB, its vectors as morph targets whose weights are the reduced coordinates; with up "
-      "to 8 vectors every viewer shows it");
+std::vector<Option> muscle_options(MuscleText& text) {
+  const char *block = "Block", *time = "Time", *load = "Load and result";
+  return {
+      {"--cells", &text.cells, "Elements along x, y, z, 1 to 256 each", block},
+      {"--cell-size", &text.cell_size, "Edge of a cubic element, 0.0001 to 1 m", block},
+      {"--element", &text.element,
+       "full (2x2x2 points), bbar (mean dilatation: for Poisson's ratios near 0.5) or one-point (hourglass control)",
+       block},
+      {"--young", &text.young, "Young's modulus, Pa", block},
+      {"--poisson", &text.poisson, "Poisson's ratio, above -1 and below 0.5", block},
+      {"--density", &text.density, "Density, kg/m3", block},
+      {"--foundation", &text.foundation,
+       "Held sideways as fascia would, at this frequency, 0 to 1000 Hz: (2 pi f)^2 times the mass, in x and y", block},
+      {"--grading", &text.grading,
+       "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each",
+       block},
+      {"--method", &text.method, "static, ecd, icd, caa or reduced, see below", time},
+      {"--vectors", &text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32", time},
+      {"--mass", &text.mass, "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)",
+       time},
+      {"--dt", &text.dt,
+       "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa and reduced "
+       "1/480, static 1/60)",
+       time},
+      {"--seconds", &text.seconds, "How long, up to 3600 s", time},
+      {"--damping", &text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most", time},
+      {"--stiffness-damping", &text.stiffness_damping,
+       "beta, 0 to 1 s: damps fast motion most, and shortens the critical step", time},
+      {"--precision", &text.precision,
+       "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time", time},
+      {"--load", &text.load,
+       "CSV time_s,force_x_n,force_y_n,force_z_n: total force, linear between rows, zero before the "
+       "first, held after the last (default: 1 N along +z from 0.1 s, let go at 0.5 s)",
+       load},
+      {"--gravity", &text.gravity, "Acceleration of every mass in the block's frame, X,Y,Z, m/s2", load},
+      {"--out", &text.out, "CSV time_s,u_x_m,u_y_m,u_z_m of the far face's centre, one row a step from t = 0", load},
+      {"--glb", &text.glb,
+       "Of reduced: the block as GLB, its vectors as morph targets whose weights are the reduced coordinates; with up "
+       "to 8 vectors every viewer shows it",
+       load}};
 }
 
 /// Vectors of the block itself, so that 32 of them come close to its full model.

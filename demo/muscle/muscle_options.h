@@ -1,16 +1,17 @@
 #pragma once
 // The command line of `mobil muscle`, read and checked.
 
-#include <CLI/CLI.hpp>
 #include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
 #include "demo/muscle/force_history.h"
+#include "demo/program/options.h"
 
 namespace mobil {
 
@@ -39,7 +40,7 @@ struct MuscleRequest {
   std::string warning;        // one line, or empty
 };
 
-void add_muscle_options(CLI::App& command, MuscleText& text);
+std::vector<Option> muscle_options(MuscleText& text);
 
 /// Fails, naming the option, the valid range and the mend: on values out of range, a mass that the method does not
 /// take, a step above the critical one, or too many steps.

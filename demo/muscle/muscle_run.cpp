@@ -1,49 +1,22 @@
 #include "demo/muscle/muscle_run.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <iterator>
 #include <memory>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "demo/program/progress.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/reference.h"
 
 namespace mobil {
 namespace {
-
-/// On a terminal, after the first second: how far the run is.
-class Progress {
- public:
-  explicit Progress(std::size_t total) : total_(total) {}
-  ~Progress() {
-    if (shown_) std::fputs("\r\033[K", stderr);
-  }
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
-  void at(std::size_t done) {
-    if (done % 64 != 0 || isatty(STDERR_FILENO) == 0) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::seconds(1) && !(shown_ && now - last_ > std::chrono::milliseconds(100))) return;
-    last_ = now;
-    shown_ = true;
-    const std::size_t bars = 40 * done / total_;
-    std::fputs(fmt::format("\r[{:<40}] {:3d} %", std::string(bars, '='), 100 * done / total_).c_str(), stderr);
-  }
-
- private:
-  std::size_t total_;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  bool shown_ = false;
-};
 
 /// A belly at rest at t = 0 that is stepped from one load to the next.
 class Belly {
@@ -265,7 +238,7 @@ Result<MuscleRun> run_muscle(const MuscleRequest& request) {
   result.csv = "time_s,u_x_m,u_y_m,u_z_m\n";
   auto* const reduced = request.glb.empty() ? nullptr : dynamic_cast<ReducedOne*>(belly->get());
   if (reduced != nullptr) result.recording = begin_recording(request);
-  Progress progress(request.steps);
+  ProgressBar progress("stepping", request.steps);
   for (std::size_t step = 0;; ++step) {
     const double time = static_cast<double>(step) * request.dt_s;
     const double u[3] = {mean(0), mean(1), mean(2)};

@@ -42,6 +42,9 @@ class PaperRun {
   bool blind_ = false;  // there is no graphics device
 };
 
+inline constexpr double millimetres = 1000;      // in one metre
+inline constexpr Cells paper_mesh = {4, 4, 20};  // 525 nodes
+
 /// The person of the paper's experiments: 1.80 m, 80 kg, and how fast he walks.
 inline constexpr float paper_height_m = 1.80F, paper_mass_kg = 80, paper_speed_m_s = 5 / 3.6F;
 BodyRequest paper_body();

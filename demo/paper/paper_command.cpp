@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -15,9 +13,9 @@
 
 #include "assets/files/output_file.h"
 #include "demo/paper/paper.h"
-#include "demo/program/body_options.h"
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"
+#include "demo/program/progress.h"
 
 namespace mobil {
 namespace {
@@ -81,7 +79,7 @@ Result<void> make(const Entry& entry, PaperRun& run) {
   run.written.clear();
   run.progress("walking", 0);
   const auto done = entry.make(run);
-  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
+  show("");
   if (!done) return fail(fmt::format("{}: {}", entry.name, done.error().message));
   fmt::print("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
   if (!run.written.empty()) fmt::print("written: {}\n", fmt::join(run.written, " "));
@@ -109,19 +107,16 @@ Result<void> run_paper(const PaperText& text) {
 
 }  // namespace
 
-void add_paper_command(CLI::App& app, int& exit_status) {
+Subcommand paper_command() {
   auto text = std::make_shared<PaperText>();
-  CLI::App* command = app.add_subcommand("paper", "The paper's figures 14 to 17 and its four questions");
-  command->footer(help_footer());
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
-  command
-      ->add_option("name", text->names,
-                   fmt::format("What to make, of {}; all by default", fmt::join(names_of(entries), ", ")))
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_option("--out", text->out, "Folder for the results, made if missing")->capture_default_str();
-  command->add_option("--anatomy", text->anatomy, "Folder of real meshes with manifest.csv and landmarks.csv");
-  refuse_empty_values(*command);
-  command->callback([text, &exit_status] { exit_status = exit_status_of("paper", run_paper(*text)); });
+  Subcommand command{.name = "paper", .about = "The paper's figures 14 to 17 and its four questions"};
+  command.footer = help_footer();
+  command.options = {named_option(entries, text->names, "make"),
+                     {"--out", &text->out, "Folder for the results, made if missing"},
+                     {"--anatomy", &text->anatomy, "Folder of real meshes with manifest.csv and landmarks.csv"}};
+  command.empty_refused = true;
+  command.run = [text] { return exit_status_of("paper", run_paper(*text)); };
+  return command;
 }
 
 }  // namespace mobil

@@ -14,7 +14,7 @@
 namespace mobil {
 namespace {
 
-constexpr double tick_s = 1.0 / 240;
+constexpr double cycle_tick_s = 1.0 / 240;
 constexpr double degrees = 180 / std::numbers::pi;
 
 double value(float v) {
@@ -107,9 +107,9 @@ PaperCycle sample(const Simulation& simulation, const Human& human, const TickRo
     const MusclePlan& plan = human.muscles[m].plan;
     const Entity muscle = human.muscles[m].entity[right];
     const MuscleRows& own = rows.muscle[m];
-    cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle)->rest_length_m),
-                             rest_thickness(plan), over(own.length), over(own.pull), over(own.elongation),
-                             over(own.volume), over(own.thickness)});
+    cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle)->rest_length_m), rest_thickness(plan),
+                             over(own.length), over(own.pull), over(own.elongation), over(own.volume),
+                             over(own.thickness)});
   }
   return cycle;
 }
@@ -134,7 +134,7 @@ const MuscleCycle& PaperCycle::muscle(Muscle wanted) const {
 
 Result<PaperCycle> walk_cycle(const CycleRequest& request) {
   SimulationOptions options;
-  options.tick_s = tick_s;
+  options.tick_s = cycle_tick_s;
   Simulation simulation(options);
   const auto entity = simulation.spawn(request.body, request.gait);
   if (!entity) return tl::unexpected(entity.error());
@@ -151,7 +151,7 @@ Result<PaperCycle> walk_cycle(const CycleRequest& request) {
     if (!made) return tl::unexpected(made.error());
     figure = std::move(*made);
   }
-  ShownWalk shown{begin_recording(figure, static_cast<float>(tick_s)), {}};
+  ShownWalk shown{begin_recording(figure, static_cast<float>(cycle_tick_s)), {}};
   TickRows rows;
   std::size_t next = 0;
   const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {

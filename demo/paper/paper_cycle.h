@@ -8,7 +8,7 @@
 #include "assets/export/walk_recording.h"
 #include "components/body.h"
 #include "components/gait.h"
-#include "demo/compare/compare_judge.h"
+#include "demo/pictures/cycle_curve.h"
 #include "engine/error.h"
 #include "systems/simulation.h"
 

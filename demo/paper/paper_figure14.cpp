@@ -17,12 +17,10 @@ namespace {
 
 using namespace geometry;
 
-constexpr Cells paper_mesh = {4, 4, 20};
-constexpr double step_s = 0.001, tick_s = 0.005;
+constexpr double step_s = 0.001, sample_s = 0.005;
 constexpr const char *input_colour = "#c1762c", *output_colour = "#2f6db3", *mesh_colour = "#8c2b22",
                      *back_colour = "#e3c9c5", *rest_colour = "#222";
 constexpr double panel_width = 290, panel_height = 120, panel_mm = 390;  // across a panel
-constexpr double millimetres = 1000;
 
 struct Row {
   double percent, time_s, pull_n, displacement_mm;
@@ -202,7 +200,7 @@ std::string csv_of(const std::vector<Row>& rows) {
 
 Result<void> paper_figure14(PaperRun& run) {
   SimulationOptions options;
-  options.tick_s = tick_s;
+  options.tick_s = sample_s;
   Simulation simulation(options);
   const auto entity = simulation.spawn(paper_body(), paper_gait());
   if (!entity) return tl::unexpected(entity.error());

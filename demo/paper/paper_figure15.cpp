@@ -6,6 +6,7 @@
 #include <array>
 
 #include "assets/body/anthropometry.h"
+#include "demo/compare/compare_judge.h"
 #include "demo/compare/compare_reference.h"
 #include "demo/paper/paper.h"
 #include "demo/paper/paper_lengths.h"

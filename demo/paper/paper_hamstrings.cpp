@@ -13,8 +13,7 @@ namespace {
 using namespace geometry;
 
 constexpr std::size_t sequence = 8;
-constexpr Cells paper_mesh = {4, 4, 20};  // 525 nodes
-constexpr double still_at = 0.9;          // the thigh swung forward, the hamstrings stretched
+constexpr double still_at = 0.9;  // the thigh swung forward, the hamstrings stretched
 
 std::vector<double> evenly(std::size_t count) {
   std::vector<double> at;

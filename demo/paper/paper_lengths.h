@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/compare/compare_judge.h"
+#include "demo/pictures/cycle_curve.h"
 #include "engine/error.h"
 
 namespace mobil {

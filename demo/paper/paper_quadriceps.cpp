@@ -14,7 +14,6 @@ namespace mobil {
 namespace {
 
 constexpr float asked_length_m = 0.85F, asked_frequency_hz = 2.1F;
-constexpr double millimetres = 1000;
 /// Of the pictures: heel strike, mid-stance, toe-off, most bent in swing.
 const std::vector<double> shown_at = {0.02, 0.30, 0.60, 0.72};
 
@@ -44,7 +43,7 @@ Result<std::vector<Variant>> walk_variants(PaperRun& run) {
   return variants;
 }
 
-PaperTable table_of(const std::vector<Variant>& variants) {
+PaperTable quadriceps_table(const std::vector<Variant>& variants) {
   PaperTable table{"over the cycle",
                    {{"step_length_m", "step length, m", 3},
                     {"step_frequency_hz", "step frequency, Hz", 3},
@@ -76,7 +75,7 @@ PaperTable table_of(const std::vector<Variant>& variants) {
   return table;
 }
 
-PlotFigure figure_of(const std::vector<Variant>& variants) {
+PlotFigure quadriceps_figure(const std::vector<Variant>& variants) {
   PlotFigure figure{"The quadriceps of an athletic man of 1.80 m and 80 kg at 5 km/h",
                     "Force: the paper's visual one, k (L - L0). Thickness: diameter of a round bar of its volume and "
                     "length, as the mesh's widest section changes. Dashed: at rest.",
@@ -118,7 +117,7 @@ std::vector<double> percents(const std::vector<double>& cycles) {
 }
 
 /// The right leg at each of the phases.
-Result<Image> picture_of(const PaperCycle& walk) {
+Result<Image> quadriceps_picture(const PaperCycle& walk) {
   std::vector<Image> strip;
   for (std::size_t frame = 0; frame < shown_at.size(); ++frame) {
     const Actor actor{&walk.shown, frame, {}, Actor::Bones::right_leg, Actor::Muscles::right, false};
@@ -134,7 +133,7 @@ Result<Image> picture_of(const PaperCycle& walk) {
 Result<void> paper_quadriceps(PaperRun& run) {
   const auto variants = walk_variants(run);
   if (!variants) return tl::unexpected(variants.error());
-  const PaperTable table = table_of(*variants);
+  const PaperTable table = quadriceps_table(*variants);
   const auto& v = table.row[0].value;
   run.text = turned_table_text(table) +
              fmt::format(
@@ -145,10 +144,10 @@ Result<void> paper_quadriceps(PaperRun& run) {
                  v[5], v[4] - v[2], v[11] - v[12], v[7], v[8], table.row[1].label, table.row[1].value[6],
                  table.row[2].label, table.row[2].value[6]);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  if (auto done = run.write(figure_of(*variants)); !done) return done;
+  if (auto done = run.write(quadriceps_figure(*variants)); !done) return done;
   const std::string caption =
       fmt::format("The picture: natural steps, {:.0f} % of the cycle.", fmt::join(percents(shown_at), ", "));
-  return run.write_picture(caption, [&] { return picture_of((*variants)[0].walk); });
+  return run.write_picture(caption, [&] { return quadriceps_picture((*variants)[0].walk); });
 }
 
 }  // namespace mobil

@@ -1,18 +1,14 @@
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 #include "assets/files/output_file.h"
 #include "demo/paper/paper.h"
+#include "demo/program/progress.h"
 #include "systems/capture/png.h"
 
 namespace mobil {
 
 void PaperRun::progress(std::string_view what, double part) const {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r\033[K{}: {} {:.0f} %", entry, what, 100 * part);
-  std::fflush(stderr);
+  show_part(fmt::format("{}: {}", entry, what), part);
 }
 
 Result<void> PaperRun::wrote(const Result<void>& done, const std::string& file) {

@@ -13,8 +13,6 @@
 namespace mobil {
 namespace {
 
-constexpr double millimetres = 1000;
-
 struct Person {
   const char* what;
   float height_m, mass_kg;
@@ -52,7 +50,7 @@ void add_muscle_cells(const MuscleCycle& muscle, std::vector<double>& cells) {
   }
 }
 
-PaperTable table_of(const std::vector<PaperCycle>& walks) {
+PaperTable stature_table(const std::vector<PaperCycle>& walks) {
   PaperTable table{"person",
                    {{"step_length_m", "step length, m", 3},
                     {"step_frequency_hz", "step frequency, Hz", 3},
@@ -73,7 +71,7 @@ PaperTable table_of(const std::vector<PaperCycle>& walks) {
   return table;
 }
 
-PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
+PlotFigure stature_figure(const std::vector<PaperCycle>& walks) {
   PlotFigure figure{
       "Taller, shorter, thinner, heavier, all at 5 km/h",
       "Thickness: diameter of a round bar of the muscle's volume and length, as its mesh's widest section changes.",
@@ -130,7 +128,7 @@ std::string answer(const PaperTable& table) {
   return text;
 }
 
-Result<Image> picture_of(const std::vector<PaperCycle>& walks) {
+Result<Image> stature_picture(const std::vector<PaperCycle>& walks) {
   const Camera camera = camera_at({0, 1.0F, 0}, 2.12F, 32, 3);
   return take_picture({camera, 940, 395}, side_by_side(walks, camera, 0.98F));
 }
@@ -149,12 +147,12 @@ Result<void> paper_stature(PaperRun& run) {
     if (!walk) return tl::unexpected(walk.error());
     walks.push_back(std::move(*walk));
   }
-  const PaperTable table = table_of(walks);
+  const PaperTable table = stature_table(walks);
   run.text = turned_table_text(table) + answer(table);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  if (auto done = run.write(figure_of(walks)); !done) return done;
+  if (auto done = run.write(stature_figure(walks)); !done) return done;
   return run.write_picture("The picture: as in the table, all at the right heel strike.",
-                           [&] { return picture_of(walks); });
+                           [&] { return stature_picture(walks); });
 }
 
 }  // namespace mobil

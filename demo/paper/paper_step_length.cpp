@@ -11,13 +11,12 @@ namespace mobil {
 namespace {
 
 constexpr std::array times_natural = {0.8F, 1.0F, 1.2F};
-constexpr double millimetres = 1000;
 
 std::string label(float times) {
   return times == 1 ? "natural" : fmt::format("{:+.0f} %", 100 * (times - 1));
 }
 
-PaperTable table_of(const std::vector<PaperCycle>& walks) {
+PaperTable step_length_table(const std::vector<PaperCycle>& walks) {
   PaperTable table{"step length",
                    {{"step_length_m", "step\nlength m", 3},
                     {"step_frequency_hz", "frequency\nHz", 3},
@@ -40,7 +39,7 @@ PaperTable table_of(const std::vector<PaperCycle>& walks) {
   return table;
 }
 
-PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
+PlotFigure step_length_figure(const std::vector<PaperCycle>& walks) {
   PlotFigure figure{"Same speed, other steps: 1.80 m, 80 kg, 5 km/h", "", 3, {}, false, 260, 180};
   figure.panels = {cycle_panel("height over the ground", "mm"), cycle_panel("to the left of the line walked", "mm"),
                    cycle_panel("seen from behind", "height (mm)")};
@@ -72,7 +71,7 @@ Result<void> paper_step_length(PaperRun& run) {
     if (!walk) return tl::unexpected(walk.error());
     walks.push_back(std::move(*walk));
   }
-  const PaperTable table = table_of(walks);
+  const PaperTable table = step_length_table(walks);
   const auto &short_steps = table.row.front().value, &usual = table.row[1].value, &long_steps = table.row.back().value;
   run.text = table_text(table) +
              fmt::format(
@@ -82,7 +81,7 @@ Result<void> paper_step_length(PaperRun& run) {
                  short_steps[0], usual[0], long_steps[0], short_steps[5], usual[5], long_steps[5], short_steps[2],
                  usual[2], long_steps[2], short_steps[6], usual[6], long_steps[6]);
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  return run.write(figure_of(walks));
+  return run.write(step_length_figure(walks));
 }
 
 }  // namespace mobil

@@ -13,7 +13,6 @@ namespace mobil {
 namespace {
 
 constexpr std::array masses_kg = {65.0F, 80.0F, 120.0F};
-constexpr double millimetres = 1000;
 
 std::string label(const PaperCycle& walk) {
   return fmt::format("{:.0f} kg", walk.body.request.mass_kg);
@@ -23,7 +22,7 @@ double weight_n(const PaperCycle& walk) {
   return static_cast<double>(walk.body.request.mass_kg) * gravity_m_s2;
 }
 
-PaperTable table_of(const std::vector<PaperCycle>& walks) {
+PaperTable weight_table(const std::vector<PaperCycle>& walks) {
   PaperTable table{"mass",
                    {{"step_length_m", "step\nlength m", 3},
                     {"step_frequency_hz", "frequency\nHz", 3},
@@ -47,7 +46,7 @@ PaperTable table_of(const std::vector<PaperCycle>& walks) {
   return table;
 }
 
-PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
+PlotFigure weight_figure(const std::vector<PaperCycle>& walks) {
   PlotFigure figure{"Same speed, different weights: 1.80 m, 5 km/h", "", 2, {}, false, 320, 170};
   figure.panels = {cycle_panel("centre of mass, height over the ground", "mm"),
                    cycle_panel("centre of mass, to the left of the line walked", "mm"),
@@ -65,7 +64,7 @@ PlotFigure figure_of(const std::vector<PaperCycle>& walks) {
   return figure;
 }
 
-Result<Image> picture_of(const std::vector<PaperCycle>& walks) {
+Result<Image> weight_picture(const std::vector<PaperCycle>& walks) {
   const Camera camera = camera_at({0, 0.93F, 0}, 1.98F, 32, 3);
   return take_picture({camera, 780, 480}, side_by_side(walks, camera, 1.0F));
 }
@@ -82,7 +81,7 @@ Result<void> paper_weight(PaperRun& run) {
     if (!walk) return tl::unexpected(walk.error());
     walks.push_back(std::move(*walk));
   }
-  const PaperTable table = table_of(walks);
+  const PaperTable table = weight_table(walks);
   const auto& lightest = table.row.front().value;
   const auto& heaviest = table.row.back().value;
   const std::string stance = std::abs(heaviest[6] - lightest[6]) < 0.0005
@@ -97,9 +96,9 @@ Result<void> paper_weight(PaperRun& run) {
                  heaviest[2] < lightest[2] ? "lower" : "higher", heaviest[3], lightest[3], stance,
                  heaviest[7] / lightest[7], weight_n(walks.back()) / weight_n(walks.front()));
   if (auto done = run.write_csv(table_csv(table)); !done) return done;
-  if (auto done = run.write(figure_of(walks)); !done) return done;
+  if (auto done = run.write(weight_figure(walks)); !done) return done;
   return run.write_picture("The picture: from left to right, all at the right heel strike.",
-                           [&] { return picture_of(walks); });
+                           [&] { return weight_picture(walks); });
 }
 
 }  // namespace mobil

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "demo/compare/compare_judge.h"
+#include "demo/pictures/cycle_curve.h"
 #include "demo/pictures/svg_plot.h"
 
 namespace mobil {

@@ -4,12 +4,23 @@
 
 #include <cstdio>
 
+#include "assets/files/output_file.h"
+
 namespace mobil {
 
+int complain(std::string_view command, std::string_view message, int status) {
+  fmt::print(stderr, "mobil {}: {}\n", command, message);
+  return status;
+}
+
 int exit_status_of(std::string_view command, const Result<void>& done) {
-  if (done) return 0;
-  fmt::print(stderr, "mobil {}: {}\n", command, done.error().message);
-  return 2;
+  return done ? 0 : complain(command, done.error().message);
+}
+
+Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text) {
+  if (auto done = write_file(file, text); !done) return fail(fmt::format("{} {}", option, done.error().message));
+  fmt::print("written {}\n", file.string());
+  return {};
 }
 
 }  // namespace mobil

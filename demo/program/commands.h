@@ -1,29 +1,32 @@
 #pragma once
-// The subcommands of `mobil`. Each adds itself to the program and, when chosen, runs and sets the exit status: 0 done,
-// 1 ran but did not hold, 2 bad usage or input.
+// The subcommands of `mobil`. Exit status of each: 0 done, 1 ran but did not hold, 2 bad usage or input.
 
+#include <filesystem>
 #include <string_view>
 
+#include "demo/program/options.h"
 #include "engine/error.h"
-
-namespace CLI {
-class App;
-}
 
 namespace mobil {
 
-/// 0; or 2, and the error told in one line on stderr: "mobil command: …".
+/// 0; or 2, and the error in one line on stderr: "mobil command: …".
 int exit_status_of(std::string_view command, const Result<void>& done);
 
-void add_walk_command(CLI::App& app, int& exit_status);
-void add_body_command(CLI::App& app, int& exit_status);
-void add_muscle_command(CLI::App& app, int& exit_status);
-void add_bench_command(CLI::App& app, int& exit_status);
-void add_compare_command(CLI::App& app, int& exit_status);
-void add_stress_command(CLI::App& app, int& exit_status);
-void add_paper_command(CLI::App& app, int& exit_status);
-void add_frontier_command(CLI::App& app, int& exit_status);
-void add_effects_command(CLI::App& app, int& exit_status);
-void add_crowd_command(CLI::App& app, int& exit_status);
+/// The line alone, and `status`.
+int complain(std::string_view command, std::string_view message, int status = 2);
+
+/// Writes a file of results that `option` names, and says so on stdout. Errors begin with the option.
+Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
+
+Subcommand walk_command();
+Subcommand muscle_command();
+Subcommand body_command();
+Subcommand bench_command();
+Subcommand compare_command();
+Subcommand stress_command();
+Subcommand paper_command();
+Subcommand frontier_command();
+Subcommand effects_command();
+Subcommand crowd_command();
 
 }  // namespace mobil

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "demo/program/nearest_name.h"
+#include "demo/program/options.h"
 #include "engine/error.h"
 
 namespace mobil {
@@ -42,6 +43,12 @@ Result<std::vector<typename Entries::value_type>> choose_named(const Entries& en
     return names.empty() || std::ranges::find(names, entry.name) != names.end();
   });
   return chosen;
+}
+
+/// The arguments that name entries. `what` is done with them: "measure".
+template <class Entries>
+Option named_option(const Entries& entries, std::vector<std::string>& names, std::string_view what) {
+  return {"name", &names, fmt::format("What to {}, of {}; all by default", what, fmt::join(names_of(entries), ", "))};
 }
 
 /// Fails where --json names no file that could be written: so that nobody waits minutes for figures that then cannot

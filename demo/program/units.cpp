@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <span>
-#include <string_view>
 
 namespace mobil {
 namespace {
@@ -97,6 +97,27 @@ Result<double> read_value(std::string_view name, const std::string& text, Quanti
   const std::string_view unit = base_unit(quantity);
   return fail(fmt::format("{} {}: outside the valid range {:g} to {:g}{}{}; choose a value inside it", name, text, low,
                           high, unit.empty() ? "" : " ", unit));
+}
+
+std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t least, std::uint64_t most) {
+  constexpr std::size_t most_digits = 18;  // which 64 bits hold
+  if (text.empty() || text.size() > most_digits) return std::nullopt;
+  std::uint64_t count = 0;
+  for (const char c : text) {
+    if (c < '0' || c > '9') return std::nullopt;
+    count = 10 * count + static_cast<std::uint64_t>(c - '0');
+  }
+  return count >= least && count <= most ? std::optional(count) : std::nullopt;
+}
+
+std::vector<std::string> split(std::string_view text, char separator) {
+  std::vector<std::string> parts;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t end = std::min(text.find(separator, from), text.size());
+    parts.emplace_back(text.substr(from, end - from));
+    from = end + 1;
+  }
+  return parts;
 }
 
 }  // namespace mobil

@@ -1,8 +1,13 @@
 #pragma once
-// Quantities as people write them: "180cm", "5km/h", "80", "110steps/min".
+// Numbers as people write them: "180cm", "5km/h", "80", "110steps/min", "2x2x8", "0,-9.81,0"; and names in lists.
 
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "engine/error.h"
 
@@ -23,5 +28,25 @@ Result<double> read_value(std::string_view name, const std::string& text, Quanti
 
 /// The same; also fails outside `low` to `high` (base unit).
 Result<double> read_value(std::string_view name, const std::string& text, Quantity quantity, double low, double high);
+
+/// Digits alone, 18 at most, that make `least` to `most`; nothing otherwise.
+std::optional<std::uint64_t> parse_count(std::string_view text, std::uint64_t least, std::uint64_t most);
+
+/// The parts between separators, empty ones too: always one more than there are separators.
+std::vector<std::string> split(std::string_view text, char separator);
+
+/// N plain numbers from `low` to `high` between separators; nothing where there are more, fewer or others.
+template <std::size_t N>
+std::optional<std::array<double, N>> parse_list(std::string_view text, char separator, double low, double high) {
+  const auto parts = split(text, separator);
+  if (parts.size() != N) return std::nullopt;
+  std::array<double, N> list{};
+  for (std::size_t i = 0; i < N; ++i) {
+    const auto value = parse_quantity(parts[i], Quantity::ratio);
+    if (!value || *value < low || *value > high) return std::nullopt;
+    list[i] = *value;
+  }
+  return list;
+}
 
 }  // namespace mobil

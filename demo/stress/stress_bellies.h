@@ -1,6 +1,7 @@
 #pragma once
 // Sixteen bellies of one template by any method, as the rows of `mobil stress` shake, load and poison them.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,6 +16,9 @@
 #include "systems/deformation/reference.h"
 
 namespace mobil {
+
+inline constexpr double stress_tick_s = 1.0 / 60;
+inline constexpr std::array<Element, 3> all_elements = {Element::full, Element::bbar, Element::one_point};
 
 struct Bellies {
   MuscleTemplate muscle;

@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -13,16 +11,16 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "assets/files/output_file.h"
 #include "demo/program/commands.h"
+#include "demo/program/json.h"
 #include "demo/program/named_entries.h"
+#include "demo/program/progress.h"
 #include "demo/stress/stress.h"
 
 namespace mobil {
@@ -88,18 +86,18 @@ void print_row(const StressRow& row) {
   std::fflush(stdout);
 }
 
-nlohmann::ordered_json number_or_name(double value) {
+Json number_or_name(double value) {
   if (std::isfinite(value)) return value;
   return std::isnan(value) ? "nan" : value > 0 ? "infinity" : "-infinity";
 }
 
 std::string to_json(const StressRun& run, double seconds) {
-  nlohmann::ordered_json json;
+  Json json;
   json["quick"] = run.quick;
   json["seconds"] = seconds;
   json["held"] = std::ranges::count_if(run.rows, &StressRow::held);
   json["broken"] = std::ranges::count_if(run.rows, [](const StressRow& row) { return !row.held(); });
-  auto& rows = json["rows"] = nlohmann::ordered_json::array();
+  auto& rows = json["rows"] = Json::array();
   for (const StressRow& row : run.rows) {
     rows.push_back({{"name", row.entry},
                     {"tried", row.tried},
@@ -113,17 +111,6 @@ std::string to_json(const StressRun& run, double seconds) {
                     {"held", row.held()}});
   }
   return json.dump(2) + "\n";
-}
-
-/// On a terminal: what is being tried and how far it is. Gone when a row is told.
-void show(std::string_view entry, double part) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r\033[K{} {:.0f} %", entry, 100 * part);
-  std::fflush(stderr);
-}
-
-void hide() {
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
 }
 
 void print_list() {
@@ -142,19 +129,15 @@ void try_one(const Stress& stress, StressRun& run) {
              .value = 1,
              .detail = done.error().message});
   }
-  hide();
+  show("");
   for (std::size_t i = before; i < run.rows.size(); ++i) print_row(run.rows[i]);
 }
 
 int stress(const StressText& text) {
-  const auto complain = [](const std::string& message) {
-    fmt::print(stderr, "mobil stress: {}\n", message);
-    return 2;
-  };
   const auto chosen = choose_named(stresses, text.names, "stress");
-  if (!chosen) return complain(chosen.error().message);
+  if (!chosen) return complain("stress", chosen.error().message);
   if (text.json) {
-    if (auto ok = check_json_place(*text.json); !ok) return complain(ok.error().message);
+    if (auto ok = check_json_place(*text.json); !ok) return complain("stress", ok.error().message);
   }
   if (text.list) {
     print_list();
@@ -162,7 +145,7 @@ int stress(const StressText& text) {
   }
   StressRun run;
   run.quick = text.quick;
-  run.show = &show;
+  run.show = &show_part;
   const auto start = std::chrono::steady_clock::now();
   for (const Stress& stress : *chosen) try_one(stress, run);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -170,30 +153,27 @@ int stress(const StressText& text) {
   fmt::print("{} of {} hold, in {:.0f} s\n", static_cast<std::ptrdiff_t>(run.rows.size()) - broken, run.rows.size(),
              seconds);
   if (text.json) {
-    if (auto ok = write_file(*text.json, to_json(run, seconds)); !ok) return complain("--json " + ok.error().message);
-    fmt::print("written {}\n", *text.json);
+    if (auto ok = write_result("--json", *text.json, to_json(run, seconds)); !ok) return exit_status_of("stress", ok);
   }
   return broken == 0 ? 0 : 1;
 }
 
 }  // namespace
 
-void add_stress_command(CLI::App& app, int& exit_status) {
+Subcommand stress_command() {
   auto text = std::make_shared<StressText>();
-  CLI::App* command = app.add_subcommand("stress", "The hard cases: what is promised of each, and what happened");
-  command->footer(
+  Subcommand command{.name = "stress", .about = "The hard cases: what is promised of each, and what happened"};
+  command.footer =
       "A line each: held or BROKE, the entry, what was tried: what is promised with its bound (why that bound): what "
       "was\n"
       "measured. Exit status 0 where all hold, 1 where some do not, 2 for bad usage.\n"
-      "Example: mobil stress slivers nan --json stress.json");
-  command
-      ->add_option("name", text->names,
-                   fmt::format("What to try, of {}; all by default", fmt::join(names_of(stresses), ", ")))
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  command->add_flag("--list", text->list, "Say what there is to try, and try nothing");
-  command->add_flag("--quick", text->quick, "Shorter long runs, some seconds in all");
-  command->add_option("--json", text->json, "File for the rows")->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  command->callback([text, &exit_status] { exit_status = stress(*text); });
+      "Example: mobil stress slivers nan --json stress.json";
+  command.options = {named_option(stresses, text->names, "try"),
+                     {"--list", &text->list, "Say what there is to try, and try nothing"},
+                     {"--quick", &text->quick, "Shorter long runs, some seconds in all"},
+                     {"--json", &text->json, "File for the rows"}};
+  command.run = [text] { return stress(*text); };
+  return command;
 }
 
 }  // namespace mobil

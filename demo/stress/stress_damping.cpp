@@ -23,7 +23,6 @@ struct Decay {
 };
 
 Result<Decay> decay(const MuscleOptions& options, Method method, int ticks) {
-  constexpr double tick_s = 1.0 / 60;
   auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, options);
   if (!made) return tl::unexpected(made.error());
   Bellies bellies(std::move(*made));
@@ -31,9 +30,10 @@ Result<Decay> decay(const MuscleOptions& options, Method method, int ticks) {
   shake(bellies, 1e-3F);
   std::uint32_t substeps = 4;
   if (method == Method::caa) {
-    if (auto ok = bellies.solve_by(method, Mass::lumped, tick_s / substeps); !ok) return tl::unexpected(ok.error());
+    if (auto ok = bellies.solve_by(method, Mass::lumped, stress_tick_s / substeps); !ok)
+      return tl::unexpected(ok.error());
   } else {
-    const auto within = substeps_of(bellies, tick_s);
+    const auto within = substeps_of(bellies, stress_tick_s);
     if (!within) return tl::unexpected(within.error());
     substeps = *within;
     bellies.scratch.resize(scratch_floats(bellies.muscle, method) / lane_count);
@@ -42,7 +42,7 @@ Result<Decay> decay(const MuscleOptions& options, Method method, int ticks) {
   Decay result;
   std::array<double, lane_count> first{}, last{};
   for (int tick = 0; tick < ticks; ++tick) {
-    bellies.tick(slack, substeps, static_cast<float>(tick_s));
+    bellies.tick(slack, substeps, static_cast<float>(stress_tick_s));
     for (std::size_t l = 0; l < lane_count; ++l) {
       const double energy = bellies.energy_j(l);
       if (tick == 0) {

@@ -16,7 +16,7 @@
 namespace mobil {
 namespace {
 
-constexpr double dt_s = 0.001;  // about half of the critical step
+constexpr double load_step_s = 0.001;  // about half of the critical step
 
 /// A straight block, which a load along z only stretches, free at its end: sixteen times alike, and once in double.
 struct Pair {
@@ -36,12 +36,15 @@ Result<Pair> make_pair(Method method, double stiffness_damping_s) {
   const Mass mass = method == Method::icd ? Mass::consistent : Mass::lumped;
   if (method == Method::ecd) {
     lanes.scratch.resize(scratch_floats(lanes.muscle, method) / lane_count);
-  } else if (auto ok = lanes.solve_by(method, mass, dt_s); !ok) {
+  } else if (auto ok = lanes.solve_by(method, mass, load_step_s); !ok) {
     return tl::unexpected(ok.error());
   }
-  auto reference = ReferenceBelly::make(
-      mesh, lanes.muscle.terms,
-      {.method = method, .mass = mass, .end = FarEnd::free, .dt_s = dt_s, .stiffness_damping_s = stiffness_damping_s});
+  auto reference = ReferenceBelly::make(mesh, lanes.muscle.terms,
+                                        {.method = method,
+                                         .mass = mass,
+                                         .end = FarEnd::free,
+                                         .dt_s = load_step_s,
+                                         .stiffness_damping_s = stiffness_damping_s});
   if (!reference) return tl::unexpected(reference.error());
   auto settled = ReferenceBelly::make(mesh, lanes.muscle.terms, {.method = Method::statics, .end = FarEnd::free});
   if (!settled) return tl::unexpected(settled.error());
@@ -63,7 +66,7 @@ void step(Pair& pair, double from_n, double to_n) {
     pull.from_n.z[l] = static_cast<float>(from_n);
     pull.to_n.z[l] = static_cast<float>(to_n);
   }
-  pair.lanes.tick(pull, 1, static_cast<float>(dt_s));
+  pair.lanes.tick(pull, 1, static_cast<float>(load_step_s));
   pair.reference.step({{0, 0, from_n}, {}, {}}, {{0, 0, to_n}, {}, {}});
 }
 
@@ -124,7 +127,7 @@ Result<void> stress_impulse(StressRun& run) {
       }
       if (!(std::fabs(energy / first - 1) <= drift)) drift = std::fabs(energy / first - 1);
     }
-    const std::string tried = fmt::format("a blow of {} N for one step of {} s by {}", blow_n, dt_s,
+    const std::string tried = fmt::format("a blow of {} N for one step of {} s by {}", blow_n, load_step_s,
                                           method_name[static_cast<std::size_t>(method)]);
     run.add({.tried = tried,
              .quantity = "energy that it gives against double precision, relative",
@@ -146,9 +149,12 @@ namespace {
 /// The lowest frequency that a load along z excites (1/s), in the time of central differences: pulled and let go, with
 /// so much stiffness damping that after a second it rings alone.
 Result<double> lowest_stretch(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
-  auto belly = ReferenceBelly::make(
-      mesh, terms,
-      {.method = Method::ecd, .end = FarEnd::free, .dt_s = dt_s, .damping_per_s = 0, .stiffness_damping_s = 2e-4});
+  auto belly = ReferenceBelly::make(mesh, terms,
+                                    {.method = Method::ecd,
+                                     .end = FarEnd::free,
+                                     .dt_s = load_step_s,
+                                     .damping_per_s = 0,
+                                     .stiffness_damping_s = 2e-4});
   if (!belly) return tl::unexpected(belly.error());
   const ReferenceLoad none{};
   for (int s = 0; s < 200; ++s) belly->step({{0, 0, s / 200.0}, {}, {}}, {{0, 0, (s + 1) / 200.0}, {}, {}});
@@ -158,7 +164,7 @@ Result<double> lowest_stretch(const HexahedralMesh& mesh, const StiffnessTerms& 
     belly->step(none, none);
     const double now = belly->report().elongation_m;
     if (s > 1000 && last < 0 && now >= 0) {
-      crossing = (s - now / (now - last)) * dt_s;
+      crossing = (s - now / (now - last)) * load_step_s;
       if (crossings++ == 0) first_crossing = crossing;
     }
     last = now;
@@ -178,15 +184,15 @@ Result<void> stress_resonance(StressRun& run) {
   for (const Method method : {Method::ecd, Method::caa}) {
     const auto name = method_name[static_cast<std::size_t>(method)];
     // a load of its own frequency in the method's time: central differences beat fast, mean acceleration slow
-    const double exact = 2 / dt_s * std::sin(*omega * dt_s / 2);
-    const double own = method == Method::ecd ? *omega : 2 / dt_s * std::atan(exact * dt_s / 2);
+    const double exact = 2 / load_step_s * std::sin(*omega * load_step_s / 2);
+    const double own = method == Method::ecd ? *omega : 2 / load_step_s * std::atan(exact * load_step_s / 2);
     auto undamped = make_pair(method, 0);
     if (!undamped) return tl::unexpected(undamped.error());
     const int periods = run.quick ? 8 : 32;
-    const int steps = static_cast<int>(2 * periods * period / dt_s);
+    const int steps = static_cast<int>(2 * periods * period / load_step_s);
     double early = 0, late = 0, early_double = 0, late_double = 0;
     for (int s = 0; s < steps; ++s) {
-      step(*undamped, std::sin(own * s * dt_s), std::sin(own * (s + 1) * dt_s));
+      step(*undamped, std::sin(own * s * load_step_s), std::sin(own * (s + 1) * load_step_s));
       const double now = std::fabs(static_cast<double>(undamped->lanes.report.elongation_m[3]));
       const double in_double = std::fabs(undamped->reference.report().elongation_m);
       (s < steps / 2 ? early : late) = std::max(s < steps / 2 ? early : late, now);
@@ -210,7 +216,7 @@ Result<void> stress_resonance(StressRun& run) {
       if (!damped) return tl::unexpected(damped.error());
       double most = 0, in_double = 0;
       const auto load = [&](int s) {
-        const double wave = std::sin(own * s * dt_s);
+        const double wave = std::sin(own * s * load_step_s);
         return square ? (wave >= 0 ? 1.0 : -1.0) : wave;
       };
       for (int s = 0; s < (run.quick ? 2000 : 8000); ++s) {

@@ -14,15 +14,14 @@
 namespace mobil {
 
 Result<void> stress_energy_single(StressRun& run) {
-  constexpr double tick_s = 1.0 / 60;
   auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {FarEnd::held, 0, 0.5, 2});
   if (!made) return tl::unexpected(made.error());
   Bellies bellies(std::move(*made));
   make_sixteen_sizes(bellies);
   shake(bellies, 0.005F);
-  const auto substeps = substeps_of(bellies, tick_s);
+  const auto substeps = substeps_of(bellies, stress_tick_s);
   if (!substeps) return tl::unexpected(substeps.error());
-  const auto dt = static_cast<float>(tick_s / *substeps);
+  const auto dt = static_cast<float>(stress_tick_s / *substeps);
   const EndDrive<Lanes<float>> still{};
   bellies.tick({FarEnd::held, still}, 1, dt);
   std::array<double, lane_count> first{};

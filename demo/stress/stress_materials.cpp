@@ -17,9 +17,6 @@
 namespace mobil {
 namespace {
 
-constexpr std::array<Element, 3> elements = {Element::full, Element::bbar, Element::one_point};
-constexpr double tick_s = 1.0 / 60;
-
 std::string_view name(Element element) {
   return element_name[static_cast<std::size_t>(element)];
 }
@@ -37,13 +34,13 @@ Result<double> flexibility(const HexahedralMesh& mesh, const StiffnessTerms& ter
 Result<void> stress_poisson(StressRun& run) {
   const HexahedralMesh mesh = spindle({2, 2, 8});
   constexpr std::array<double, 6> ratios = {-0.99, 0.0, 0.3333, 0.49, 0.499, 0.4999};
-  std::array<std::array<double, ratios.size()>, elements.size()> bend{};
-  for (std::size_t e = 0; e < elements.size(); ++e) {
+  std::array<std::array<double, ratios.size()>, all_elements.size()> bend{};
+  for (std::size_t e = 0; e < all_elements.size(); ++e) {
     WorstProbe worst;
     double drift = 0;
     for (std::size_t r = 0; r < ratios.size(); ++r) {
       const Material material{1000, 10000, ratios[r]};
-      const auto terms = assemble(mesh, material, elements[e]);
+      const auto terms = assemble(mesh, material, all_elements[e]);
       if (!terms) return tl::unexpected(terms.error());
       const auto probe =
           probe_limit(mesh, *terms, {.method = Method::ecd, .end = FarEnd::free}, run.quick ? 200 : 3000);
@@ -54,28 +51,28 @@ Result<void> stress_poisson(StressRun& run) {
       bend[e][r] = *bent;
 
       MuscleOptions options{FarEnd::held, 0, 0.5, 2};
-      options.element = elements[e];
+      options.element = all_elements[e];
       auto made = make_muscle_template(mesh, material, options);
       if (!made) return tl::unexpected(made.error());
       Bellies bellies(std::move(*made));
       make_sixteen_sizes(bellies);
       shake(bellies, 1e-3F);
-      const auto substeps = substeps_of(bellies, tick_s);
+      const auto substeps = substeps_of(bellies, stress_tick_s);
       if (!substeps) return tl::unexpected(substeps.error());
       const EndDrive<Lanes<float>> still{};
-      bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(tick_s));
+      bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(stress_tick_s));
       std::array<double, lane_count> first{};
       for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
       for (int tick = 0; tick < (run.quick ? 10 : 120); ++tick) {
-        bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(tick_s));
+        bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(stress_tick_s));
       }
       for (std::size_t l = 0; l < lane_count; ++l) {
         const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
         if (!(change <= drift)) drift = change;
       }
-      run.progress(static_cast<double>(e * ratios.size() + r + 1) / (elements.size() * ratios.size()));
+      run.progress(static_cast<double>(e * ratios.size() + r + 1) / (all_elements.size() * ratios.size()));
     }
-    const std::string tried = fmt::format("{} elements, Poisson's ratio -0.99 to 0.4999", name(elements[e]));
+    const std::string tried = fmt::format("{} elements, Poisson's ratio -0.99 to 0.4999", name(all_elements[e]));
     add_rows(run, tried, worst);
     run.add({.tried = tried + ", sixteen sizes in lanes at the substeps that the engine chooses",
              .quantity = "change of energy in parts of itself",
@@ -83,9 +80,9 @@ Result<void> stress_poisson(StressRun& run) {
              .reason = "conserved; single precision, ten times what was measured",
              .value = drift});
   }
-  for (std::size_t e = 1; e < elements.size(); ++e) {
+  for (std::size_t e = 1; e < all_elements.size(); ++e) {
     const double softer = bend[e][5] / bend[e][3];
-    run.add({.tried = fmt::format("{} elements bent sideways, Poisson's ratio 0.49 and 0.4999", name(elements[e])),
+    run.add({.tried = fmt::format("{} elements bent sideways, Poisson's ratio 0.49 and 0.4999", name(all_elements[e])),
              .quantity = "flexibility at 0.4999 in parts of that at 0.49",
              .promise = Promise::at_least,
              .bound = 0.9,

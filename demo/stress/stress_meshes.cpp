@@ -19,8 +19,6 @@
 namespace mobil {
 namespace {
 
-constexpr std::array<Element, 3> elements = {Element::full, Element::bbar, Element::one_point};
-
 /// Moves a random node until the worst element has about that scaled Jacobian.
 HexahedralMesh sliver(std::mt19937& random, double quality) {
   const Cells cells = {2, 2, 4};
@@ -151,7 +149,7 @@ Result<void> stress_slivers(StressRun& run) {
   for (int i = 0; i < count; ++i) {
     const double quality = std::pow(10, uniform(random, -2.98, -1.5));
     const HexahedralMesh mesh = sliver(random, quality);
-    for (const Element element : elements) {
+    for (const Element element : all_elements) {
       const FarEnd end = i % 2 == 0 ? FarEnd::free : FarEnd::held;
       if (auto done = figures.take(mesh, element, end, run.quick ? 500 : 3000); !done) return done;
     }
@@ -172,7 +170,7 @@ Result<void> stress_flat(StressRun& run) {
   };
   double done_part = 0;
   for (const double shear : shears) {
-    for (const Element element : elements) {
+    for (const Element element : all_elements) {
       if (auto done = figures.take(sheared(shear), element, FarEnd::free, run.quick ? 500 : 3000); !done) return done;
     }
     run.progress(++done_part / static_cast<double>(shears.size()));
@@ -243,7 +241,7 @@ Result<void> stress_aspect(StressRun& run) {
       run.quick ? std::vector{0.01, 100.0} : std::vector{0.01, 0.03, 0.1, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0};
   double done_part = 0;
   for (const double aspect : aspects) {
-    for (const Element element : elements) {
+    for (const Element element : all_elements) {
       if (auto done = figures.take(stretched(aspect), element, FarEnd::free, run.quick ? 500 : 3000); !done)
         return done;
       const auto error = static_error(aspect, element);

@@ -20,7 +20,6 @@ namespace mobil {
 namespace {
 
 constexpr std::array<Method, 4> methods = {Method::ecd, Method::icd, Method::caa, Method::statics};
-constexpr double tick_s = 1.0 / 60;
 
 std::string_view name(Method method) {
   return method_name[static_cast<std::size_t>(method)];
@@ -38,7 +37,7 @@ struct Inputs {
     return way == FarEnd::free ? FarFaceDrive(traction) : FarFaceDrive(way, end);
   }
 
-  void tick() { bellies.tick(drive(), substeps, static_cast<float>(tick_s)); }
+  void tick() { bellies.tick(drive(), substeps, static_cast<float>(stress_tick_s)); }
 
   /// Every word that one lane reads.
   std::vector<Lanes<float>*> words() {
@@ -74,11 +73,11 @@ Result<Inputs> make_inputs(Method method, FarEnd end, const Cells& cells, double
   Bellies& bellies = inputs.bellies;
   make_sixteen_sizes(bellies);
   shake(bellies, 1e-3F);
-  const auto substeps = substeps_of(bellies, tick_s);
+  const auto substeps = substeps_of(bellies, stress_tick_s);
   if (!substeps) return tl::unexpected(substeps.error());
   inputs.substeps = method == Method::statics ? 1 : *substeps;
   if (method != Method::ecd) {
-    if (auto ok = bellies.solve_by(method, options.mass, tick_s / inputs.substeps); !ok) {
+    if (auto ok = bellies.solve_by(method, options.mass, stress_tick_s / inputs.substeps); !ok) {
       return tl::unexpected(ok.error());
     }
   }

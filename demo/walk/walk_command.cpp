@@ -1,9 +1,7 @@
 // `mobil walk`: one person from parameters to motion, muscles, pictures and a scene file.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -15,6 +13,7 @@
 #include "assets/body/body_composition.h"
 #include "assets/files/output_file.h"
 #include "demo/program/commands.h"
+#include "demo/program/progress.h"
 #include "demo/walk/figure.h"
 #include "demo/walk/gait_parameters.h"
 #include "demo/walk/walk_lines.h"
@@ -32,19 +31,6 @@ constexpr int ticks_per_frame = 2;  // 30 pictures a second
 using SteadyClock = std::chrono::steady_clock;
 double seconds_since(SteadyClock::time_point start) {
   return std::chrono::duration<double>(SteadyClock::now() - start).count();
-}
-
-/// A bar on a terminal, nothing elsewhere.
-void show_progress(const char* what, std::size_t done, std::size_t of) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  const int full = static_cast<int>(40 * done / of);
-  fmt::print(stderr, "\r{} [{:<40}] {}/{}{}", what, std::string(static_cast<std::size_t>(full), '='), done, of,
-             done == of ? "\n" : "");
-}
-
-/// Leaves the line of a bar that was not filled, so that a message stands alone.
-void end_progress() {
-  if (isatty(STDERR_FILENO) != 0) std::fputs("\r\033[K", stderr);
 }
 
 struct Walked {
@@ -136,7 +122,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   outcome.stages.assign(timings.begin(), timings.end());
   if (forces_before(simulation, human.entity)) simulation.tick();  // one more, for the forces of the last row
   if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
-  show_progress("walking", total, total);
+  show("");
   return walked;
 }
 
@@ -147,6 +133,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
     const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
     const std::size_t frames = walked.recording.frames.size();
     auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
+    show("");
     if (!done) return done;
   }
   if (auto done = write_file(options.out / "motion.csv", walked.motion.text); !done) return done;
@@ -191,7 +178,7 @@ Result<void> run_walk(const WalkOptions& options) {
   const auto walked = walk(simulation, human, *figure, options, changes);
   auto done =
       walked ? write_results(*walked, simulation, human, options, start) : Result<void>(tl::unexpected(walked.error()));
-  if (!done) end_progress();
+  if (!done) show("");
   std::error_code ignored;
   if (!done && !folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
   if (done && changes.size() > walked->outcome.changes) {
@@ -203,24 +190,25 @@ Result<void> run_walk(const WalkOptions& options) {
 
 }  // namespace
 
-void add_walk_command(CLI::App& app, int& exit_status) {
-  auto* command =
-      app.add_subcommand("walk", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures");
-  command->footer(std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) +
-                  "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
-                  "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
-                  "          mobil walk --method caa --inertia --view wireframe --video");
+Subcommand walk_command() {
   auto text = std::make_shared<WalkText>();
-  command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // a script may override
-  add_walk_options(*command, *text);
-  command->callback([text, &exit_status] {
+  Subcommand command{.name = "walk",
+                     .about = "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures"};
+  command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) +
+                   "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
+                   "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
+                   "          mobil walk --method caa --inertia --view wireframe --video";
+  command.options = walk_options(*text);
+  command.empty_refused = true;
+  command.run = [text] {
     if (text->list_parameters) {
       fmt::print("{}", gait_parameter_table());
-      return;
+      return 0;
     }
     const auto options = read_walk_options(*text);
-    exit_status = exit_status_of("walk", options ? run_walk(*options) : tl::unexpected(options.error()));
-  });
+    return exit_status_of("walk", options ? run_walk(*options) : tl::unexpected(options.error()));
+  };
+  return command;
 }
 
 }  // namespace mobil

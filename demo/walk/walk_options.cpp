@@ -1,49 +1,22 @@
 #include "demo/walk/walk_options.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
-#include <array>
 
 #include "assets/muscles/muscle_table.h"
+#include "demo/program/choice.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
 
 namespace mobil {
 namespace {
 
-template <class T>
-struct Named {
-  std::string_view name;
-  T value;
-};
-
-template <class T, std::size_t N>
-Result<T> choose(std::string_view option, const std::string& text, const Named<T> (&choices)[N]) {
-  std::string known;
-  for (const auto& choice : choices) {
-    if (choice.name == text) return choice.value;
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", choice.name);
-  }
-  return fail(fmt::format("{} '{}': choose one of {}", option, text, known));
-}
-
-/// One of the names of an enumeration, in its order.
-template <class T, std::size_t N>
-Result<T> choose(std::string_view option, const std::string& text, const std::array<std::string_view, N>& names) {
-  const auto at = std::find(names.begin(), names.end(), text);
-  if (at != names.end()) return static_cast<T>(at - names.begin());
-  return fail(fmt::format("{} '{}': choose one of {}", option, text, fmt::join(names, ", ")));
-}
+constexpr std::string_view drives[] = {"displacement", "force"};         // in the order of Drive
+constexpr std::string_view views[] = {"stick", "wireframe", "surface"};  // of View
 
 /// "groups", "members" and names of the table, separated by commas.
 Result<MuscleSet> read_muscles(const std::string& text) {
   MuscleSet set;
-  for (std::size_t from = 0; from <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', from), text.size());
-    const std::string name = text.substr(from, comma - from);
-    from = comma + 1;
+  for (const std::string& name : split(text, ',')) {
     if (name == "groups") {
       set |= muscle_groups();
     } else if (name == "members") {
@@ -75,60 +48,36 @@ const char* const walk_muscles_help =
     "Hz);\n"
     "    without it they move by the line's pull alone.\n";
 
-void add_walk_options(CLI::App& command, WalkText& text) {
-  add_body_options(command, text.body);
-  command.add_option("--speed", text.speed, "Walking speed (5km/h when no gait option is given)")->group("Gait");
-  command.add_option("--step-length", text.step_length, "Heel to opposite heel; any two of the three give the third")
-      ->group("Gait");
-  command.add_option("--step-frequency", text.step_frequency, "Steps per second, or 110steps/min")->group("Gait");
-  command
-      .add_option("--set", text.set,
-                  "NAME=VALUE: any gait parameter of --list-parameters, like toe_out_deg=12; again for more")
-      ->expected(1)
-      ->allow_extra_args(false)
-      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)
-      ->group("Gait");
-  command.add_flag("--list-parameters", text.list_parameters, "Print names, ranges and meanings for --set, and leave")
-      ->group("Gait");
-  command.add_option("--script", text.script, "CSV time_s,parameter,value: changes while walking, see below")
-      ->group("Gait");
-  command.add_option("--seconds", text.seconds, "How long to walk, 0.1s to 60s")->capture_default_str()->group("Gait");
-  command
-      .add_flag("--no-forces", text.no_forces,
-                "Leave ground reactions and joint moments out: empty cells in motion.csv")
-      ->group("Gait");
-  command
-      .add_option("--muscles", text.muscles,
-                  "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated")
-      ->capture_default_str()
-      ->group("Muscles");
-  command.add_flag("--members", text.members, "The single muscles too, beside those of --muscles")->group("Muscles");
-  command
-      .add_option("--drive", text.drive,
-                  "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it")
-      ->capture_default_str()
-      ->group("Muscles");
-  command.add_option("--method", text.method, "How muscles move: ecd, icd, caa, static, reduced or none, see below")
-      ->capture_default_str()
-      ->group("Muscles");
-  command
-      .add_option(
-          "--element", text.element,
-          "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness")
-      ->capture_default_str()
-      ->group("Muscles");
-  command.add_flag("--inertia", text.inertia, "Muscles feel gravity and the leg's acceleration, see below")
-      ->group("Muscles");
-  command.add_option("--anatomy", text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv")
-      ->group("Pictures");
-  command.add_option("--view", text.view, "stick (lines of action), wireframe (finite-element meshes) or surface")
-      ->capture_default_str()
-      ->group("Pictures");
-  command.add_flag("--stereo", text.stereo, "Left and right eye side by side")->group("Pictures");
-  command.add_flag("--frames", text.frames, "Write frame_*.png, 1280x720, 30 a second")->group("Pictures");
-  command.add_flag("--video", text.video, "Write walk.mp4")->group("Pictures");
-  command.add_option("--out", text.out, "Folder for the results, made if missing")->capture_default_str();
-  refuse_empty_values(command);
+std::vector<Option> walk_options(WalkText& text) {
+  const char *gait = "Gait", *muscles = "Muscles", *pictures = "Pictures";
+  auto options = body_options(text.body);
+  const std::vector<Option> own = {
+      {"--speed", &text.speed, "Walking speed (5km/h when no gait option is given)", gait},
+      {"--step-length", &text.step_length, "Heel to opposite heel; any two of the three give the third", gait},
+      {"--step-frequency", &text.step_frequency, "Steps per second, or 110steps/min", gait},
+      {"--set", &text.set, "NAME=VALUE: any gait parameter of --list-parameters, like toe_out_deg=12; again for more",
+       gait},
+      {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and leave", gait},
+      {"--script", &text.script, "CSV time_s,parameter,value: changes while walking, see below", gait},
+      {"--seconds", &text.seconds, "How long to walk, 0.1s to 60s", gait},
+      {"--no-forces", &text.no_forces, "Leave ground reactions and joint moments out: empty cells in motion.csv", gait},
+      {"--muscles", &text.muscles,
+       "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
+      {"--members", &text.members, "The single muscles too, beside those of --muscles", muscles},
+      {"--drive", &text.drive,
+       "displacement: the belly's end follows the line of action; force: the paper's spring force pulls it", muscles},
+      {"--method", &text.method, "How muscles move: ecd, icd, caa, static, reduced or none, see below", muscles},
+      {"--element", &text.element,
+       "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles},
+      {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
+      {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
+      {"--view", &text.view, "stick (lines of action), wireframe (finite-element meshes) or surface", pictures},
+      {"--stereo", &text.stereo, "Left and right eye side by side", pictures},
+      {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
+      {"--video", &text.video, "Write walk.mp4", pictures},
+      {"--out", &text.out, "Folder for the results, made if missing"}};
+  options.insert(options.end(), own.begin(), own.end());
+  return options;
 }
 
 Result<WalkOptions> read_walk_options(const WalkText& text) {
@@ -174,13 +123,12 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   if (!seconds) return tl::unexpected(seconds.error());
   options.seconds = *seconds;
 
-  static constexpr Named<Drive> drives[] = {{"displacement", Drive::displacement}, {"force", Drive::force}};
   const auto muscles = read_muscles(text.muscles);
   if (!muscles) return tl::unexpected(muscles.error());
   options.muscles.muscles = *muscles;
   options.muscles.line_motion = true;
   if (text.members) options.muscles.muscles |= muscle_members();
-  const auto drive = choose("--drive", text.drive, drives);
+  const auto drive = choose<Drive>("--drive", text.drive, drives);
   if (!drive) return tl::unexpected(drive.error());
   options.muscles.drive = *drive;
   const auto method = choose<Method>("--method", text.method, method_name);
@@ -190,9 +138,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   if (!element) return tl::unexpected(element.error());
   options.muscles.element = *element;
   options.muscles.inertia = text.inertia;
-  static constexpr Named<View> views[] = {
-      {"stick", View::stick}, {"wireframe", View::wireframe}, {"surface", View::surface}};
-  const auto view = choose("--view", text.view, views);
+  const auto view = choose<View>("--view", text.view, views);
   if (!view) return tl::unexpected(view.error());
   options.view = *view;
   if (!text.anatomy.empty()) options.anatomy = text.anatomy;

@@ -1,7 +1,6 @@
 #pragma once
 // What `mobil walk` was asked for, checked.
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -10,6 +9,7 @@
 #include "components/body.h"
 #include "components/gait.h"
 #include "demo/program/body_options.h"
+#include "demo/program/options.h"
 #include "demo/walk/walk_script.h"
 #include "engine/error.h"
 #include "components/leg_muscles.h"
@@ -31,7 +31,7 @@ struct WalkOptions {
   std::filesystem::path out = "out";
 };
 
-/// The options as text, as the command line hands them over; bound by `add_walk_options`.
+/// The options as text, as the command line hands them over; bound by `walk_options`.
 struct WalkText {
   BodyText body;
   std::string speed, step_length, step_frequency, seconds = "5";
@@ -43,7 +43,7 @@ struct WalkText {
   bool frames = false, video = false, stereo = false;
 };
 
-void add_walk_options(CLI::App& command, WalkText& text);
+std::vector<Option> walk_options(WalkText& text);
 
 /// What the options above mean for muscles, for the end of --help.
 extern const char* const walk_muscles_help;

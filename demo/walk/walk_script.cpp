@@ -34,7 +34,7 @@ const std::string_view walk_script_help =
 
 namespace {
 
-constexpr std::array<std::string_view, 3> columns = {"time_s", "parameter", "value"};
+constexpr std::array<std::string_view, 3> script_columns = {"time_s", "parameter", "value"};
 
 /// What a script sets besides the gait parameters, in the widest range of any body.
 struct Word {
@@ -94,7 +94,7 @@ Result<WalkScript> from_table(const CsvTable& table) {
     const auto refuse = [&](const std::string& what) {
       return fail(fmt::format("{} line {}: {}", table.path, table.line[r], what));
     };
-    const auto time_text = cell(table, r, columns[0]);
+    const auto time_text = cell(table, r, script_columns[0]);
     const auto time = number(time_text);
     if (!time || *time < 0) {
       return refuse(
@@ -104,8 +104,8 @@ Result<WalkScript> from_table(const CsvTable& table) {
       return refuse(fmt::format("time {} s comes before {} s in the row above; sort the rows by time", *time,
                                 script.row.back().time_s));
     }
-    std::string parameter(cell(table, r, columns[1]));
-    const auto value = read_row_value(parameter, std::string(cell(table, r, columns[2])));
+    std::string parameter(cell(table, r, script_columns[1]));
+    const auto value = read_row_value(parameter, std::string(cell(table, r, script_columns[2])));
     if (!value) return refuse(value.error().message);
     if (parameter == "speed" && *value == 0) parameter = "stop";
     for (auto above = script.row.rbegin(); above != script.row.rend() && above->time_s == *time; ++above) {
@@ -192,11 +192,11 @@ Result<void> set_pace(const Body& body, const GaitRequest& before, const Moment&
 }  // namespace
 
 Result<WalkScript> parse_walk_script(std::string_view text, std::string_view name) {
-  return parse_csv(text, name, columns).and_then(from_table);
+  return parse_csv(text, name, script_columns).and_then(from_table);
 }
 
 Result<WalkScript> read_walk_script(const std::string& path) {
-  return read_csv(path, columns).and_then(from_table);
+  return read_csv(path, script_columns).and_then(from_table);
 }
 
 Result<std::vector<GaitChange>> plan_changes(const WalkScript& script, const Body& body, const GaitRequest& start) {

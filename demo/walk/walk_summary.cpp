@@ -2,15 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "assets/body/body_composition.h"
+#include "demo/program/json.h"
 
 namespace mobil {
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// The shortest decimal that reads as this number: 0.1, not 0.10000000149.
 double decimal(float value) {

@@ -1,7 +1,7 @@
-#include "demo/bench/bench_machine.h"
+#include "demo/measure/machine.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "demo/bench/bench_machine.cpp"
+#define HWY_TARGET_INCLUDE "demo/measure/machine.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
@@ -76,7 +76,8 @@ HWY_AFTER_NAMESPACE();
 #include <tuple>
 #include <vector>
 
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
+#include "demo/program/json.h"
 
 namespace mobil {
 namespace {
@@ -198,6 +199,14 @@ Machine describe_machine() {
   machine.l2_bytes = cache_bytes("2");
   machine.l3_bytes = cache_bytes("3");
   return machine;
+}
+
+Json machine_json(const Machine& machine) {
+  return {{"cpu", machine.cpu},
+          {"cores", machine.cores},
+          {"target", machine.target},
+          {"compiler", machine.compiler},
+          {"flags", machine.flags}};
 }
 
 void measure_machine(Machine& machine) {

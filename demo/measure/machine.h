@@ -6,6 +6,8 @@
 
 namespace mobil {
 
+class Json;  // demo/program/json.h
+
 /// What the machine says of itself; sizes in bytes, 0 where it does not say.
 struct Machine {
   std::string cpu, target, compiler, flags;  // `target`: the instruction set that the kernels take
@@ -24,6 +26,9 @@ struct Machine {
 
 /// Who is here; measures nothing.
 Machine describe_machine();
+
+/// Processor, cores, instruction set, compiler and flags, for results.
+Json machine_json(const Machine& machine);
 
 /// Takes about a second, and memory of four times the last cache (192 MB to 1.2 GB).
 void measure_machine(Machine& machine);

@@ -1,4 +1,4 @@
-#include "demo/bench/bench_measure.h"
+#include "demo/measure/measure.h"
 
 #include <algorithm>
 #include <chrono>

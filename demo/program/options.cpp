@@ -1,0 +1,129 @@
+#include "demo/program/options.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <span>
+#include <string_view>
+
+#include "demo/program/nearest_name.h"
+
+namespace mobil {
+namespace {
+
+CLI::Option* add_option(CLI::App& command, const Option& option) {
+  CLI::Option* added = nullptr;
+  if (auto* const* flag = std::get_if<bool*>(&option.target)) {
+    added = command.add_flag(option.name, **flag, option.help);
+  } else if (auto* const* text = std::get_if<std::string*>(&option.target)) {
+    added = command.add_option(option.name, **text, option.help);
+    if (!option.choices.empty()) added->check(CLI::IsMember(option.choices));
+    if (!(*text)->empty()) added->capture_default_str();
+  } else if (auto* const* given = std::get_if<std::optional<std::string>*>(&option.target)) {
+    added = command.add_option(option.name, **given, option.help);
+  } else if (auto* const* count = std::get_if<std::size_t*>(&option.target)) {
+    added = command.add_option(option.name, **count, option.help);
+    if (**count != 0) added->capture_default_str();
+  } else {
+    added = command.add_option(option.name, *std::get<std::vector<std::string>*>(option.target), option.help);
+    added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (option.name.starts_with("-")) added->expected(1)->allow_extra_args(false);
+  }
+  if (!option.group.empty()) added->group(option.group);
+  if (!option.excludes.empty()) added->excludes(command.get_option(option.excludes));
+  return added;
+}
+
+void add_subcommand(CLI::App& app, const Subcommand& from, int& exit_status) {
+  CLI::App* command = app.add_subcommand(from.name, from.about);
+  command->footer(from.footer);
+  if (from.last_stands) command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+  for (const Option& option : from.options) {
+    CLI::Option* added = add_option(*command, option);
+    if (!from.empty_refused || added->get_items_expected() == 0) continue;
+    added->check([](const std::string& value) {
+      return value.empty() ? std::string("is empty; give a value or leave the option out") : std::string();
+    });
+  }
+  command->callback([&from, &exit_status] { exit_status = from.run(); });
+}
+
+/// The first argument, as it was written, that nothing took; empty if all were taken. After a subcommand options go
+/// first: what follows an unknown one is left over only because of it.
+std::string first_left_over(const CLI::App& app, int argc, const char* const* argv) {
+  const auto left = app.remaining(true);
+  std::string first;
+  for (const std::string argument : std::span<const char* const>(argv + 1, argv + argc)) {
+    if (std::ranges::find(left, argument) == left.end()) continue;
+    if (argument.starts_with("-") && !app.get_subcommands().empty()) return argument;
+    if (first.empty()) first = argument;
+  }
+  return first;
+}
+
+/// One line, with its newline: the subcommand it is about, what was not understood, the nearest known name, where to
+/// read on. `app` is the one that threw `error` while it parsed `argv`.
+std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
+  const auto chosen = app.get_subcommands();
+  const CLI::App& at = chosen.empty() ? app : *chosen.front();
+  const std::string name = chosen.empty() ? app.get_name() : fmt::format("{} {}", app.get_name(), at.get_name());
+  const std::string left = first_left_over(app, argc, argv);
+
+  std::vector<std::string> subcommands, options;
+  for (const auto* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    subcommands.push_back(command->get_name());
+  }
+  for (const auto* option : at.get_options()) {
+    for (const auto& known : option->get_lnames()) options.push_back("--" + known);
+  }
+
+  std::string what = error.what();
+  what = what.substr(0, what.find('\n'));
+  if (left.starts_with("-")) {
+    const std::string option = left.substr(0, left.find('='));
+    const bool misplaced = std::ranges::find(options, option) != options.end();
+    what = misplaced ? fmt::format("{} goes after the subcommand", option)
+                     : fmt::format("there is no option {}{}", option, suggestion(option, options));
+  } else if (chosen.empty()) {
+    what = left.empty() ? "a subcommand is missing" : fmt::format("there is no subcommand '{}'", left);
+    what += fmt::format("{}; there are: {}", suggestion(left, subcommands), fmt::join(subcommands, ", "));
+  } else if (!left.empty()) {
+    what = fmt::format("'{}' was not expected; options begin with --", left);
+  } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
+    what = fmt::format("{} needs one value", what.substr(0, what.find(':')));
+  }
+  return fmt::format("{}: {}; see '{} --help'\n", name, what, name);
+}
+
+}  // namespace
+
+void add_options(Subcommand& command, const std::vector<Option>& options) {
+  command.options.insert(command.options.end(), options.begin(), options.end());
+}
+
+int run_program(const Program& program, int argc, const char* const* argv) {
+  CLI::App app{program.about, program.name};
+  app.set_version_flag("--version", program.name + " " + program.version);
+  app.require_subcommand(1);
+  app.footer(program.footer);
+  int exit_status = 0;
+  for (const Subcommand& command : program.commands) add_subcommand(app, command, exit_status);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    const bool unknown_subcommand = app.get_subcommands().empty() && !app.remaining().empty();
+    if (error.get_exit_code() == 0 && !unknown_subcommand) return app.exit(error);  // --help, --version
+    std::fputs(explain_usage(app, error, argc, argv).c_str(), stderr);
+    return 2;
+  } catch (const std::exception& error) {
+    std::fputs(fmt::format("{}: {}\n", program.name, error.what()).c_str(), stderr);
+    return 1;
+  }
+  return exit_status;
+}
+
+}  // namespace mobil

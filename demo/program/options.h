@@ -1,0 +1,49 @@
+#pragma once
+// The subcommands of a program and their options, as plain data. The library that reads command lines stands in
+// options.cpp alone, for its header takes the compiler five seconds.
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace mobil {
+
+/// One option, one flag ("--name", target a bool) or the arguments without a name ("name", target a vector). The target
+/// keeps its value where nothing is given, and --help shows that value unless it is empty, 0 or false. A vector after
+/// "--name" takes one value each time that the option is given.
+struct Option {
+  using Target =
+      std::variant<bool*, std::string*, std::optional<std::string>*, std::size_t*, std::vector<std::string>*>;
+  std::string name;
+  Target target;
+  std::string help;
+  std::string group{};                 // the heading in --help; empty: "Options"
+  std::vector<std::string> choices{};  // of a text: the only values; empty: any
+  std::string excludes{};              // the name of an option above that cannot be given with this one
+};
+
+struct Subcommand {
+  std::string name, about;
+  std::string footer{};                // the end of --help
+  std::vector<Option> options{};       // in the order of --help
+  bool last_stands = true;             // an option given twice takes its last value; an error otherwise
+  bool empty_refused = false;          // an empty value, as scripts leave it, is an error
+  std::function<int()> run = nullptr;  // when chosen, after the targets are set; the exit status
+};
+
+struct Program {
+  std::string name, about, version, footer;
+  std::vector<Subcommand> commands;
+};
+
+void add_options(Subcommand& command, const std::vector<Option>& options);
+
+/// Reads the command line and runs the subcommand that it names. Exit status: that of `run`; 0 for --help and
+/// --version; 2 for bad usage, with one line on stderr that says what, the nearest known name and where to read on; 1
+/// where `run` throws.
+int run_program(const Program& program, int argc, const char* const* argv);
+
+}  // namespace mobil

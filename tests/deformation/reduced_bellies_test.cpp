@@ -83,7 +83,7 @@ RC_GTEST_PROP(ReducedBellies, WhatALaneGetsDoesNotDependOnTheOthers, ()) {
   }
 }
 
-RC_GTEST_PROP(ReducedBellies, AreTheMotionsThatOneBodyAloneIsSaidToHave, ()) {
+RC_GTEST_PROP(ReducedBellies, MatchTheScalarSolver, ()) {
   const ReducedBasis& basis = basis_of(*rc::gen::inRange(0, 6));
   const double damping = *rc::gen::element(0.0, 8.0, 500.0);
   std::vector<BellyScale<float>> bodies(16);

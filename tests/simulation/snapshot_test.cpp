@@ -240,7 +240,7 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   EXPECT_EQ(fresh.people().all().size(), 0U);
 }
 
-TEST(Snapshot, WithoutMemoryForItAllStaysAsItWas) {
+TEST(Snapshot, RestoringWithoutMemoryChangesNothing) {
   Simulation large;
   for (int copies = 0; copies < 8; ++copies) few(large);
   const Bytes more = saved(large);

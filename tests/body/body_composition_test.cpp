@@ -109,7 +109,7 @@ RC_GTEST_PROP(BodyComposition, LeanMassGrowsWithHeightAndMassAndFatWithEndomorph
   RC_ASSERT(lean(fatter) <= lean(r) + slack);
 }
 
-TEST(BodyComposition, EveryContradictionIsSaidAndMended) {
+TEST(BodyComposition, EveryContradictionIsReportedAndResolved) {
   struct Case {
     BodyRequest request;
     BodyNote note;

@@ -14,16 +14,11 @@
 #include "assets/fem/belly_solver.h"
 #include "systems/deformation/deformation.h"
 #include "tests/fem/oracle.h"
+#include "tests/fem/spindle.h"
 
 namespace mobil::oracle {
 
 inline constexpr float tick_s = 1.0F / 60.0F;
-
-inline HexahedralMesh spindle(const Cells& cells) {
-  const std::vector<CageStation> stations = {
-      {0, 0, 0, 0.012F, 0.014F}, {0.5F, 0.006F, -0.004F, 0.021F, 0.018F}, {1, 0, 0, 0.011F, 0.01F}};
-  return *bend_block(cells, stations, 0.12);
-}
 
 inline MuscleTemplate make(HexahedralMesh mesh, const MuscleOptions& options) {
   auto made = make_muscle_template(std::move(mesh), Material{}, options);

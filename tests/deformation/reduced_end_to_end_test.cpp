@@ -9,6 +9,7 @@
 
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/reference.h"
+#include "tests/fem/spindle.h"
 
 namespace mobil {
 namespace {
@@ -16,12 +17,6 @@ namespace {
 constexpr double tick_s = 1.0 / 60, damping = 8, foundation_hz = 7;
 constexpr Cells fine_cells = {4, 4, 16}, control_cells = {2, 2, 8};
 constexpr std::array<double, 2> across = {0.9, 1.08}, along = {0.85, 1.1};
-
-HexahedralMesh spindle(const Cells& cells) {
-  const std::vector<CageStation> stations = {
-      {0, 0, 0, 0.012F, 0.014F}, {0.5F, 0.006F, -0.004F, 0.021F, 0.018F}, {1, 0, 0, 0.011F, 0.01F}};
-  return *bend_block(cells, stations, 0.12);
-}
 
 struct Case {
   FarEnd end;

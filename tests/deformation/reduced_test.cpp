@@ -137,7 +137,7 @@ TEST(Reduced, ControlPointsAreTheSumsInDoublePrecision) {
   }
 }
 
-TEST(Reduced, WhatIsHeldIsExactlyWhereItIsTold) {
+TEST(Reduced, HeldNodesAreExactlyWherePrescribed) {
   ReducedBodies bodies(12, FarEnd::held, true, 8);
   bodies.fill(bodies.state, 17, 1);
   bodies.fill(bodies.displacement, 19, 1);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/fem/oracle.h"
+#include "tests/fem/spindle.h"
 
 namespace mobil {
 namespace {
@@ -23,12 +24,6 @@ constexpr std::array<Method, 3> moving_methods = {Method::ecd, Method::icd, Meth
 
 Mass mass_of(Method method) {
   return method == Method::ecd ? Mass::lumped : Mass::consistent;
-}
-
-HexahedralMesh spindle(const Cells& cells) {
-  const std::vector<CageStation> stations = {
-      {0, 0, 0, 0.012F, 0.014F}, {0.5F, 0.006F, -0.004F, 0.021F, 0.018F}, {1, 0, 0, 0.011F, 0.01F}};
-  return *bend_block(cells, stations, 0.12);
 }
 
 ReferenceBelly make(const HexahedralMesh& mesh, const ReferenceOptions& options) {

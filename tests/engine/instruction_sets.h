@@ -1,5 +1,5 @@
 #pragma once
-// Kernels on each instruction set that has fused multiply-add, and whether blocks of lanes hold the same bits.
+// Kernels on each instruction set of this machine, and whether blocks of lanes hold the same bits.
 
 #include <hwy/targets.h>
 
@@ -11,17 +11,33 @@
 
 namespace mobil {
 
-/// Calls f() once for each such instruction set of this machine, with kernels dispatched to it.
+inline constexpr std::int64_t fused_targets = HWY_AVX2 | HWY_AVX3 | HWY_NEON;
+
+/// Calls f(name) once for each of these instruction sets that this machine has, with kernels dispatched to it.
 template <class F>
-void for_each_fused_instruction_set(F&& f) {
-  for (const std::int64_t target : {std::int64_t{HWY_AVX2}, std::int64_t{HWY_AVX3}, std::int64_t{HWY_NEON}}) {
-    if ((hwy::SupportedTargets() & target) == 0) continue;
+void for_each_instruction_set(std::int64_t targets, F&& f) {
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    if ((targets & target) == 0) continue;
     hwy::SetSupportedTargetsForTest(target);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-    f();
+    f(hwy::TargetName(target));
     hwy::SetSupportedTargetsForTest(0);
     hwy::GetChosenTarget().Update(hwy::SupportedTargets());
   }
+}
+/// For all there are.
+template <class F>
+void for_each_instruction_set(F&& f) {
+  for_each_instruction_set(~std::int64_t{0}, f);
+}
+/// For those that have fused multiply-add: the same bits on each.
+template <class F>
+void for_each_fused_instruction_set(F&& f) {
+  for_each_instruction_set(fused_targets, [&](const char*) { f(); });
+}
+/// Whether kernels are dispatched to such a one now.
+inline bool has_fused_multiply_add() {
+  return (hwy::SupportedTargets() & ~fused_targets) == 0;
 }
 
 /// All lanes but `but_lane`.
@@ -29,6 +45,16 @@ inline bool same_bits(const std::vector<Lanes<float>>& a, const std::vector<Lane
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       if (l != but_lane && std::memcmp(&a[i].lane[l], &b[i].lane[l], sizeof(float)) != 0) return false;
+    }
+  }
+  return true;
+}
+
+/// Whether all lanes of each block are the first.
+inline bool lanes_alike(const std::vector<Lanes<float>>& blocks) {
+  for (const Lanes<float>& lanes : blocks) {
+    for (const float x : lanes.lane) {
+      if (std::memcmp(&x, &lanes.lane[0], sizeof(float)) != 0) return false;
     }
   }
   return true;

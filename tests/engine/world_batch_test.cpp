@@ -176,7 +176,7 @@ TEST(WorldBatch, WhoIsStaleOrNamedTwiceIsRefusedAndAllStay) {
   EXPECT_EQ(world.destroy_many({}), Status::ok);
 }
 
-TEST(WorldBatch, WhereMemoryRunsOutTheWorldIsAsItWas) {
+TEST(WorldBatch, WithoutMemoryTheWorldIsUnchanged) {
   bool done = false;
   for (std::size_t granted = 0; !done; ++granted) {
     CountingMemory memory;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+#include "tests/program/program.h"
+
 namespace mobil {
 namespace {
 

@@ -1,12 +1,12 @@
 // A real leg's anatomy fitted to bodies of any height: bones meet at the body's joints, feet stand on the ground,
 // muscles stay on their bones. Skipped where the meshes are absent.
+// One process for all tests of a suite: the meshes are read once.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
 #include <Eigen/Dense>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
@@ -19,6 +19,7 @@
 #include "assets/import/fit_anatomy.h"
 #include "assets/import/mesh_file.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "tests/files/reference_data.h"
 
 namespace mobil {
 namespace {
@@ -32,22 +33,14 @@ Body body_of(float height_m) {
   return make_body(request).value();
 }
 
-std::string anatomy_folder() {
-  if (const char* given = std::getenv("MOBIL_ANATOMY")) return given;
-  for (fs::path at = fs::current_path();; at = at.parent_path()) {
-    if (fs::exists(at / "shared/anatomy/manifest.csv")) return (at / "shared/anatomy").string();
-    if (at == at.parent_path()) return {};
-  }
-}
-
 class RealLeg : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder = anatomy_folder();
+    folder = test::anatomy_folder().value_or("").string();
     if (!folder.empty()) anatomy = load_anatomy(folder);
   }
   void SetUp() override {
-    if (folder.empty()) GTEST_SKIP() << "no shared/anatomy above the current directory, MOBIL_ANATOMY is not set";
+    if (folder.empty()) GTEST_SKIP() << test::no_anatomy;
     ASSERT_TRUE(anatomy.has_value()) << anatomy.error().message;
   }
 

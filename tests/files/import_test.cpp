@@ -217,7 +217,7 @@ TEST(AnatomyFolder, WhichMuscleAMeshIsFollowsFromItsNameOrItsFiles) {
   EXPECT_EQ(muscle("Right sartorius", "f", ""), "none");
 }
 
-TEST(AnatomyFolder, MetresAreToldFromMillimetres) {
+TEST(AnatomyFolder, MetresAndMillimetresAreDistinguished) {
   const auto millimetres = Folder(1).load(), metres = Folder(0.001).load();
   ASSERT_TRUE(millimetres.has_value() && metres.has_value());
   EXPECT_EQ(metres->metres_per_unit, 1.0);

@@ -4,13 +4,13 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
-#include <cstring>
 #include <functional>
 #include <memory>
 #include <random>
 
 #include "assets/body/anthropometry.h"
 #include "systems/forces/forces.h"
+#include "tests/engine/row_lanes.h"
 
 namespace mobil::figure {
 
@@ -94,24 +94,6 @@ inline Vector body_centre(double height, const Stance& s) {
     mass += unit_body.mass_fraction[i];
   }
   return sum / mass;
-}
-
-/// One row into one lane of a block, and back: both are nothing but 4-byte words.
-template <class Row, class Block>
-void put(const Row& row, Block& block, std::size_t lane) {
-  static_assert(sizeof(Block) == lane_count * sizeof(Row));
-  for (std::size_t i = 0; i < sizeof(Row) / 4; ++i)
-    std::memcpy(reinterpret_cast<char*>(&block) + 4 * (i * lane_count + lane),
-                reinterpret_cast<const char*>(&row) + 4 * i, 4);
-}
-template <class Row, class Block>
-Row take(const Block& block, std::size_t lane) {
-  static_assert(sizeof(Block) == lane_count * sizeof(Row));
-  Row row;
-  for (std::size_t i = 0; i < sizeof(Row) / 4; ++i)
-    std::memcpy(reinterpret_cast<char*>(&row) + 4 * i,
-                reinterpret_cast<const char*>(&block) + 4 * (i * lane_count + lane), 4);
-  return row;
 }
 
 /// Sixteen people and what `joint_forces` makes of them.

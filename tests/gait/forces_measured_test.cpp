@@ -5,13 +5,13 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "assets/files/csv_table.h"
+#include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"
 
 namespace mobil {
@@ -23,10 +23,6 @@ constexpr double pi = 3.14159265358979;
 constexpr double height = 1.803, mass = 72.6, speed = 1.14, stride_s = 1.235;
 constexpr double double_support = 0.155;  // of the stride, from the measured vertical forces
 constexpr int samples = 100;
-
-std::string path() {
-  return std::string(MOBIL_SOURCE_DIR) + "/../shared/reference/trial_subject01_walk.csv";
-}
 
 /// A measured curve over the stride, 101 points, the moments' last ones missing.
 using Measured = std::vector<std::optional<double>>;
@@ -180,8 +176,9 @@ double correlation(const char* name, const std::vector<Row>& rows, const Measure
 }
 
 TEST(ForcesOfAMeasuredWalk, AgreeWithTheForcePlatesAndTheMoments) {
-  if (!std::filesystem::exists(path())) GTEST_SKIP() << "no measured walk here";
-  const auto table = read_csv(path(), {});
+  const auto measured_walk = test::reference_table("trial_subject01_walk.csv");
+  if (!measured_walk) GTEST_SKIP() << test::no_table;
+  const auto table = read_csv(measured_walk->string(), {});
   ASSERT_TRUE(table) << table.error().message;
   const std::vector<Row> rows = computed(Man(*table));
   ASSERT_EQ(rows.size(), std::size_t{samples + 1});

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/geometry.h"
 #include "tests/gait/walkers.h"
 
 namespace mobil {
@@ -75,7 +76,7 @@ struct Planted {
   }
 };
 
-TEST(Kinematics, StandingFeetStayWhereTheyArePlanted) {
+TEST(Kinematics, PlantedFeetDoNotMove) {
   Planted planted;
   over_walks([&](const Walkers& w, int t) {
     if (t == 0) planted.forget();
@@ -171,6 +172,10 @@ TEST(Kinematics, SwingingFeetClearTheGroundInMidSwing) {
   EXPECT_GT(clearance, 0.004);
 }
 
+Vec3<double> wide(const Vec3<float>& v) {
+  return {v.x, v.y, v.z};
+}
+
 /// A walker's wish changes now and then.
 void wish(Walkers& w, Dice& dice) {
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -181,32 +186,79 @@ void wish(Walkers& w, Dice& dice) {
   }
 }
 
-TEST(Kinematics, NothingJumpsWhateverIsAskedOnTheWay) {
-  // A segment moves no farther in a tick than a few times the walking speed carries it, and turns no faster than
-  // 35 rad/s; a jump would show at any tick length, so the tick is short.
-  constexpr float short_tick = 1.0F / 1000.0F;
-  double farthest = 0, turned = 0;
-  for (unsigned seed = 1; seed <= 3; ++seed) {
-    Dice dice{std::mt19937(seed)};
-    const auto w = random_walkers(seed);
-    auto before = std::make_unique<Pose<Lanes<float>>>(w->pose);
-    for (int t = 0; t < 6000; ++t) {
-      if (t % 1500 == 700) wish(*w, dice);
-      w->tick(short_tick);
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const double speed = std::fmax(w->plan.from.speed_m_s[l], w->plan.to.speed_m_s[l]);
-        for (std::size_t s = 0; s < segment_count; ++s) {
-          const double moved = distance(at(w->pose.position_m[s], l), at(before->position_m[s], l));
-          ASSERT_TRUE(std::isfinite(moved));
-          farthest = std::fmax(farthest, moved / ((speed + 0.5) * short_tick));
-          turned = std::fmax(turned, angle_between(at(w->pose.rotation[s], l), at(before->rotation[s], l)));
+/// The rotation vector from one orientation to the next, rad, for small turns.
+Vec3<double> turn_between(const Quat<float>& a, const Quat<float>& b) {
+  const auto wide = [](const Quat<float>& q) { return Quat<double>{q.x, q.y, q.z, q.w}; };
+  const Quat<double> by = geometry::product(wide(b), geometry::conjugate(wide(a)));
+  using geometry::operator*;
+  return (by.w < 0 ? -2.0 : 2.0) * Vec3<double>{by.x, by.y, by.z};
+}
+
+/// The greatest speeds of any segment, and the greatest changes of its velocity from one tick to the next.
+struct Jumps {
+  double speed = 0, rate_rad_s = 0;                  // speed over that of the walk and 0.5 m/s
+  double acceleration_m_s2 = 0, turning_rad_s2 = 0;  // legs with nearly straight knees left out
+  double straight_m_s = 0, straight_rad_s = 0;       // the changes of those
+};
+
+/// A knee's angle is the root of a small length there, and its rate has no bound.
+bool nearly_straight(const Walkers& w, std::size_t segment, std::size_t lane) {
+  const bool on_right = segment >= index(Segment::thigh_right) && segment < index(Segment::thigh_left);
+  const bool on_left = segment >= index(Segment::thigh_left) && segment < index(Segment::clavicle_right);
+  return (on_right && w.angles.knee_flexion[right][lane] < 0.1F) ||
+         (on_left && w.angles.knee_flexion[left][lane] < 0.1F);
+}
+
+/// Walkers whose wishes change on the way, for six seconds.
+Jumps jumps(unsigned seed, int ticks_a_second) {
+  using geometry::operator-, geometry::operator*;
+  Dice dice{std::mt19937(seed)};
+  const auto w = random_walkers(seed);
+  const double dt = 1.0 / ticks_a_second;
+  auto before = std::make_unique<Pose<Lanes<float>>>();
+  std::array<std::array<Vec3<double>, segment_count>, lane_count> velocity, turning;
+  Jumps most;
+  for (int t = 0; t < 6 * ticks_a_second; ++t) {
+    if (t % (ticks_a_second * 3 / 2) == ticks_a_second * 7 / 10) wish(*w, dice);
+    *before = w->pose;
+    w->tick(static_cast<float>(dt));
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double walk = std::fmax(w->plan.from.speed_m_s[l], w->plan.to.speed_m_s[l]) + 0.5;
+      for (std::size_t s = 0; s < segment_count; ++s) {
+        const Vec3<double> v = (1 / dt) * (wide(at(w->pose.position_m[s], l)) - wide(at(before->position_m[s], l)));
+        const Vec3<double> r = (1 / dt) * turn_between(at(before->rotation[s], l), at(w->pose.rotation[s], l));
+        const double change = geometry::length(v - velocity[l][s]), turn = geometry::length(r - turning[l][s]);
+        velocity[l][s] = v;
+        turning[l][s] = r;
+        EXPECT_TRUE(std::isfinite(geometry::length(v) + geometry::length(r))) << segment_name[s];
+        most.speed = std::fmax(most.speed, geometry::length(v) / walk);
+        most.rate_rad_s = std::fmax(most.rate_rad_s, geometry::length(r));
+        if (t == 0) continue;
+        if (nearly_straight(*w, s, l)) {
+          most.straight_m_s = std::fmax(most.straight_m_s, change);
+          most.straight_rad_s = std::fmax(most.straight_rad_s, turn);
+        } else {
+          most.acceleration_m_s2 = std::fmax(most.acceleration_m_s2, change / dt);
+          most.turning_rad_s2 = std::fmax(most.turning_rad_s2, turn / dt);
         }
       }
-      *before = w->pose;
     }
   }
-  EXPECT_LT(farthest, 5.5);
-  EXPECT_LT(turned, 0.035);
+  return most;
+}
+
+TEST(Kinematics, NothingJumpsWhateverIsAskedOnTheWay) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Jumps at_1000 = jumps(seed, 1000), at_500 = jumps(seed, 500), at_2000 = jumps(seed, 2000);
+    EXPECT_LT(at_1000.speed, 3.3);
+    EXPECT_LT(at_1000.rate_rad_s, 27);
+    // A jump of a millimetre in one of these ticks would be 1000 m/s².
+    EXPECT_LT(at_1000.acceleration_m_s2, 950);
+    EXPECT_LT(at_1000.turning_rad_s2, 3800);
+    // Of a motion without jumps of place or velocity these changes shrink with the tick.
+    EXPECT_LT(at_2000.straight_m_s, 0.55 * at_500.straight_m_s);
+    EXPECT_LT(at_2000.straight_rad_s, 0.55 * at_500.straight_rad_s);
+  }
 }
 
 std::size_t mirrored(std::size_t s) {

@@ -1,5 +1,6 @@
 // Walking that changes its mind: a thousand requests to walkers of all builds at random times. Poses go on without a
 // jump, feet stay where they stand, and everybody does as asked.
+// One process for all tests of a suite: the crowds walk once.
 #include "tests/gait/steering.h"
 
 #include <gtest/gtest.h>
@@ -55,8 +56,8 @@ TEST(Steering, AThousandRequestsLeaveEverythingFinite) {
 
 TEST(Steering, NoSegmentIsFasterThanAFootSwings) {
   // Of the walk's speed and half a metre a second.
-  EXPECT_WITHIN(usual().origin_speed, 5);
-  EXPECT_WITHIN(anything().origin_speed, 12);  // odd styles at the limits of what can be walked
+  EXPECT_WITHIN(usual().origin_speed, 3.4);
+  EXPECT_WITHIN(anything().origin_speed, 4);  // odd styles at the limits of what can be walked
 }
 
 TEST(Steering, JointRatesDoNotJump) {
@@ -81,8 +82,8 @@ TEST(Steering, WhatStandsStaysWhereItIs) {
 
 TEST(Steering, NothingSinksIntoTheGround) {
   // The aim is a millimetre: tips of toes dip as they leave the ground, most in the step to a stand.
-  EXPECT_WITHIN(usual().sunk, 0.012);
-  EXPECT_WITHIN(anything().sunk, 0.025);
+  EXPECT_WITHIN(usual().sunk, 0.01);
+  EXPECT_WITHIN(anything().sunk, 0.018);
 }
 
 TEST(Steering, LegsReachTheirFeet) {
@@ -95,7 +96,7 @@ TEST(Steering, NoJointTurnsMuchFasterThanMeasured) {
   for (const Findings* walks : {&straight(), &usual()}) {
     EXPECT_WITHIN(walks->joint_rate[0], 1.5 * fastest_measured[0]);
     EXPECT_WITHIN(walks->joint_rate[1], 1.5 * fastest_measured[1]);
-    EXPECT_WITHIN(walks->joint_rate[2], 3.1 * fastest_measured[2]);
+    EXPECT_WITHIN(walks->joint_rate[2], 2.9 * fastest_measured[2]);
   }
 }
 
@@ -143,7 +144,7 @@ struct One {
   }
 };
 
-TEST(Steering, WhoIsAskedToStopStandsStillAndStartsAgain) {
+TEST(Steering, AWalkerAskedToStopStandsStillAndStartsAgain) {
   Source random{std::mt19937_64(500)};
   for (int i = 0; i < 40; ++i) {
     One one(random, i % 2 == 0 ? 1.0 / 240 : 1.0 / 60);

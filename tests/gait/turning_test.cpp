@@ -88,7 +88,7 @@ TEST(Turning, TheNextFootholdIsWhereTheLineSays) {
   }
 }
 
-TEST(Turning, PlantedFeetStayWhereTheyAre) {
+TEST(Turning, PlantedFeetDoNotMove) {
   double slid = 0, turned = 0;
   long counted = 0;
   for (unsigned seed = 41; seed <= 44; ++seed) {

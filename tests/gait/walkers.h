@@ -5,16 +5,19 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstring>
 #include <memory>
 #include <random>
 #include <stdexcept>
 
 #include "assets/body/anthropometry.h"
+#include "engine/geometry.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
+#include "tests/engine/row_lanes.h"
 
 namespace mobil {
+
+using geometry::rotated;
 
 struct Dice {
   std::mt19937 engine;
@@ -24,31 +27,6 @@ struct Dice {
   float single(double low, double high) { return static_cast<float>((*this)(low, high)); }
 };
 
-/// One row into one lane of a block: both are nothing but 4-byte words.
-template <class Row, class Block>
-void put(const Row& row, Block& block, std::size_t lane) {
-  static_assert(sizeof(Block) == lane_count * sizeof(Row));
-  for (std::size_t i = 0; i < sizeof(Row) / 4; ++i)
-    std::memcpy(reinterpret_cast<char*>(&block) + 4 * (i * lane_count + lane),
-                reinterpret_cast<const char*>(&row) + 4 * i, 4);
-}
-
-/// One lane of a block as a row.
-template <template <class> class C>
-C<float> row(const C<Lanes<float>>& block, std::size_t lane) {
-  C<float> r;
-  for (std::size_t i = 0; i < sizeof(r) / 4; ++i)
-    std::memcpy(reinterpret_cast<char*>(&r) + 4 * i,
-                reinterpret_cast<const char*>(&block) + 4 * (i * lane_count + lane), 4);
-  return r;
-}
-
-inline Vec3<float> at(const Vec3<Lanes<float>>& v, std::size_t l) {
-  return {v.x[l], v.y[l], v.z[l]};
-}
-inline Quat<float> at(const Quat<Lanes<float>>& q, std::size_t l) {
-  return {q.x[l], q.y[l], q.z[l], q.w[l]};
-}
 inline double distance(const Vec3<float>& a, const Vec3<float>& b) {
   const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
   return std::sqrt(x * x + y * y + z * z);
@@ -58,12 +36,6 @@ inline double angle_between(const Quat<float>& a, const Quat<float>& b) {
   const double same = std::fabs(double{a.x} * b.x + double{a.y} * b.y + double{a.z} * b.z + double{a.w} * b.w);
   return 2.0 * std::sqrt(std::fmax(2.0 - 2.0 * same, 0.0));
 }
-inline Vec3<float> rotated(const Quat<float>& q, const Vec3<float>& v) {
-  const Vec3<float> t = {2 * (q.y * v.z - q.z * v.y), 2 * (q.z * v.x - q.x * v.z), 2 * (q.x * v.y - q.y * v.x)};
-  return {v.x + q.w * t.x + q.y * t.z - q.z * t.y, v.y + q.w * t.y + q.z * t.x - q.x * t.z,
-          v.z + q.w * t.z + q.x * t.y - q.y * t.x};
-}
-
 /// Every parameter somewhere in the given part of the way from its default to the ends of its range. The two that make
 /// right and left steps unlike stay as they are.
 inline GaitStyle random_style(Dice& dice, double part) {

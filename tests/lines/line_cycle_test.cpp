@@ -11,6 +11,7 @@
 #include "components/gait.h"
 #include "components/pose.h"
 #include "systems/simulation.h"
+#include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
@@ -23,8 +24,6 @@ using test::LegAngles;
 using test::posed;
 using test::read_table;
 using test::TableRow;
-
-const std::filesystem::path committed = std::filesystem::path(MOBIL_SOURCE_DIR) / "assets/reference";
 
 /// A curve's name there, and whose mean it is.
 struct Curve {
@@ -78,8 +77,8 @@ void expect_to_fit(const std::vector<Curve>& curves, const std::vector<TableRow>
 }
 
 TEST(LineCycle, OnPublishedAnglesLengthsAreThePublishedOnes) {
-  const auto lengths = read_table(committed / "muscle_lengths.csv"),
-             angles = read_table(committed / "schwartz2008_angles.csv");
+  const auto lengths = read_table(test::reference_table("muscle_lengths.csv").value()),
+             angles = read_table(test::reference_table("schwartz2008_angles.csv").value());
   for (const std::string speed : {"slow", "free", "fast"}) {
     expect_to_fit(group_curves, rows_of(lengths, "curve", "schwartz_" + speed), rows_of(angles, "speed_class", speed),
                   "schwartz_" + speed, "");
@@ -87,11 +86,11 @@ TEST(LineCycle, OnPublishedAnglesLengthsAreThePublishedOnes) {
 }
 
 TEST(LineCycle, OnEveryPublishedWalkEveryMuscleIsAsLong) {
-  const auto folder = test::reference_folder();
-  if (!folder) GTEST_SKIP() << "no reference data: set MOBIL_REFERENCE to their folder";
+  const auto published = test::reference_table("mt_length_curves.csv");
+  if (!published) GTEST_SKIP() << test::no_table;
   std::vector<Curve> curves;
   for (const auto& [ours, theirs] : test::published_name) curves.push_back({theirs, {ours}});
-  const auto lengths = read_table(*folder / "mt_length_curves.csv");
+  const auto lengths = read_table(*published);
   struct Walk {
     std::string curve, file, column, name;
   };
@@ -104,7 +103,8 @@ TEST(LineCycle, OnEveryPublishedWalkEveryMuscleIsAsLong) {
                            {"opensim_normal_gait", "opensim_normal_gait_angles.csv", "", ""},
                            {"subject01", "trial_subject01_walk.csv", "", ""}}) {
     expect_to_fit(curves, rows_of(lengths, "curve", walk.curve),
-                  rows_of(read_table(*folder / walk.file), walk.column, walk.name), walk.curve, "_norm");
+                  rows_of(read_table(test::reference_table(walk.file).value()), walk.column, walk.name), walk.curve,
+                  "_norm");
   }
 }
 
@@ -156,7 +156,7 @@ LegMuscles only(const std::vector<std::string_view>& names) {
 // gastrocnemius, tibialis anterior) and, at the highest speed, the hip's (hamstrings, rectus femoris): with the
 // measured angle of that one joint the lengths agree as well as the paths do.
 TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
-  const auto lengths = read_table(committed / "muscle_lengths.csv");
+  const auto lengths = read_table(test::reference_table("muscle_lengths.csv").value());
   const std::map<std::string, double> speeds = {{"slow", 0.2902}, {"free", 0.4294}, {"fast", 0.5599}};
   std::vector<std::string_view> members;
   for (const Curve& curve : group_curves) members.insert(members.end(), curve.members.begin(), curve.members.end());

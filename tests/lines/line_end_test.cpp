@@ -11,8 +11,11 @@
 namespace mobil {
 namespace {
 
+constexpr double rounding_m = 2e-6;
+
 struct EndError {
   double worst_m = 0, largest_change_m = 0;
+  double worst_part = 0;  // of the change, rounding (m) left out
 };
 
 /// Of one person's muscles over a second of walking, by muscle: how far the mesh's end is from the line's.
@@ -32,10 +35,8 @@ std::vector<EndError> end_errors(const Person& who, const LegMuscles& choice) {
         const double off = std::abs(static_cast<double>(belly.elongation_m) - change);
         errors[m].worst_m = std::max(errors[m].worst_m, off);
         errors[m].largest_change_m = std::max(errors[m].largest_change_m, std::abs(change));
-        if (choice.drive == Drive::force && choice.method == Method::statics) {
-          EXPECT_LE(off, 0.03 * std::abs(change) + 2e-6)
-              << muscle_name(muscles[m].muscle) << " lengthened by " << change;
-        }
+        if (off > rounding_m)
+          errors[m].worst_part = std::max(errors[m].worst_part, (off - rounding_m) / std::abs(change));
       }
     }
   }
@@ -52,18 +53,21 @@ TEST_P(LineEnd, FollowsTheLineExactlyWhereItIsDriven) {
     choice.method = method;
     for (const EndError& e : end_errors(person(GetParam()), choice)) {
       EXPECT_GT(e.largest_change_m, 1e-3);
-      EXPECT_LT(e.worst_m, 2e-6);
+      EXPECT_LT(e.worst_m, rounding_m);
     }
   }
 }
 
 // The paper's force, +k(L − L₀) spread over the face, moves its mean as far as the line went, the rest being statics.
-TEST_P(LineEnd, IsWithinThreePercentOfTheLengtheningUnderThePapersForce) {
+TEST_P(LineEnd, IsWithinThreeThousandthsOfTheLengtheningUnderThePapersForce) {
   LegMuscles choice;
   choice.muscles = muscle_groups() | muscle_members();
   choice.drive = Drive::force;
   choice.method = Method::statics;
-  for (const EndError& e : end_errors(person(GetParam()), choice)) EXPECT_GT(e.largest_change_m, 1e-3);
+  for (const EndError& e : end_errors(person(GetParam()), choice)) {
+    EXPECT_GT(e.largest_change_m, 1e-3);
+    EXPECT_LT(e.worst_part, 0.003);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(People, LineEnd, testing::Values(0, 7, 19, 33));

@@ -7,6 +7,7 @@
 
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
+#include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
@@ -90,15 +91,16 @@ TEST(MomentArms, AreThoseOfThePublishedModel) {
 }
 
 TEST(MomentArms, AreThoseOfThePublishedModelOverItsWholeMap) {
-  const auto folder = test::reference_folder();
-  if (!folder) GTEST_SKIP() << "no reference data: set MOBIL_REFERENCE to their folder";
+  const auto of_thigh = test::reference_table("mt_length_map_hip_knee.csv"),
+             of_shank = test::reference_table("mt_length_map_knee_ankle.csv");
+  if (!of_thigh || !of_shank) GTEST_SKIP() << test::no_table;
   constexpr double step_deg = 10;
   const Body body = published_body();
   std::size_t compared = 0;
   double worst = 0;
   std::string of;
-  for (const auto* file : {"mt_length_map_hip_knee.csv", "mt_length_map_knee_ankle.csv"}) {
-    const auto rows = test::read_table(*folder / file);
+  for (const auto& file : {*of_thigh, *of_shank}) {
+    const auto rows = test::read_table(file);
     const auto angles = [](const test::TableRow& row) {
       return LegAngles{row("hip_flexion_deg"), row("knee_flexion_deg"), row("ankle_dorsiflexion_deg")};
     };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/muscles/leg_sections.h"
+#include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
@@ -84,10 +85,11 @@ TEST(MusclePath, LengthsFollowThePublishedModelAtChosenAngles) {
 }
 
 TEST(MusclePath, LengthsFollowThePublishedModelOverItsWholeRange) {
-  const auto folder = test::reference_folder();
-  if (!folder) GTEST_SKIP() << "no reference data: set MOBIL_REFERENCE to their folder";
-  const auto hip_knee = test::read_table(*folder / "mt_length_map_hip_knee.csv");
-  const auto knee_ankle = test::read_table(*folder / "mt_length_map_knee_ankle.csv");
+  const auto of_thigh = test::reference_table("mt_length_map_hip_knee.csv"),
+             of_shank = test::reference_table("mt_length_map_knee_ankle.csv");
+  if (!of_thigh || !of_shank) GTEST_SKIP() << test::no_table;
+  const auto hip_knee = test::read_table(*of_thigh);
+  const auto knee_ankle = test::read_table(*of_shank);
   ASSERT_GT(hip_knee.size(), 50U);
   ASSERT_GT(knee_ankle.size(), 50U);
   const auto angles = [](const test::TableRow& row) {

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -28,15 +26,6 @@ inline const std::map<std::string_view, std::string> published_name = {{"semimem
                                                                        {"gastrocnemius_lateral", "lat_gas"},
                                                                        {"soleus", "soleus"},
                                                                        {"tibialis_anterior", "tib_ant"}};
-
-/// Tables that may not be handed on lie outside the project; nothing where they are absent.
-inline std::optional<std::filesystem::path> reference_folder() {
-  const char* named = std::getenv("MOBIL_REFERENCE");
-  const std::filesystem::path folder =
-      named != nullptr ? std::filesystem::path(named) : std::filesystem::path(MOBIL_SOURCE_DIR) / "../shared/reference";
-  if (!std::filesystem::exists(folder)) return std::nullopt;
-  return folder;
-}
 
 /// A row of a CSV file by its header's names.
 struct TableRow {

@@ -133,7 +133,7 @@ TEST(BodyCommand, WhatIsImpossibleIsRefusedInOneLine) {
                  folder.path);
 }
 
-TEST(BodyCommand, WhatGivesWayIsSaid) {
+TEST(BodyCommand, ReportsWhatWasAdjusted) {
   const Json thin = parameters("--height 1.80 --mass 60 --biotype 2-3-1");
   ASSERT_EQ(thin["notes"].size(), 1U);
   EXPECT_NE(thin["notes"][0].get<std::string>().find("ectomorphy 1.0"), std::string::npos);

@@ -1,5 +1,6 @@
 // `mobil frontier`: what is on the frontier really is; errors fall where they must; what is written has the promised
 // columns; bad usage is refused before anything is made. How long things take is not tested.
+// One process for all tests of a suite: the small frontier is measured once.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

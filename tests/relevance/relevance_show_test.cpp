@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <vector>
 
@@ -220,8 +221,9 @@ TEST(RelevanceShow, TolerancesAreKeptWhereMusclesFeelGravityAndTheirFramesMotion
                .inertia = true});
 }
 
-/// What RelevanceOptions::margin was set by: minutes.
-TEST(RelevanceShow, DISABLED_TolerancesAreKeptByManyBodiesAtManySpeedsAndTolerances) {
+/// What RelevanceOptions::margin was set by.
+TEST(RelevanceShow, TolerancesAreKeptByManyBodiesAtManySpeedsAndTolerances) {
+  if (std::getenv("MOBIL_LONG") == nullptr) GTEST_SKIP() << "takes minutes: tests/run --long, or MOBIL_LONG=1";
   for (const bool inertia : {false, true}) {
     Plan plan;
     plan.inertia = inertia;

@@ -156,7 +156,7 @@ void add(Simulation& simulation, Entity human, const LegMuscles& choice) {
   ASSERT_TRUE(added) << added.error().message;
 }
 
-TEST(CrowdMemory, ASpawnThatFindsNoneLeavesAllAsItWas) {
+TEST(CrowdMemory, ASpawnWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     people.push_back(*simulation.spawn(person(20).body, person(20).gait));
   });
@@ -165,12 +165,12 @@ TEST(CrowdMemory, ASpawnThatFindsNoneLeavesAllAsItWas) {
   });
 }
 
-TEST(CrowdMemory, MusclesThatFindNoneLeaveAllAsItWas) {
+TEST(CrowdMemory, AddingMusclesWithoutMemoryChangesNothing) {
   refuse_at_every_request(
       [](Simulation& simulation, std::vector<Entity>& people) { add(simulation, people[1], {.method = Method::caa}); });
 }
 
-TEST(CrowdMemory, AChangeOfMethodThatFindsNoneLeavesAllAsItWas) {
+TEST(CrowdMemory, AChangeOfMethodWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     EXPECT_TRUE(simulation.set_method(people[0], Muscle::hamstrings, {Method::statics}));
   });
@@ -179,7 +179,7 @@ TEST(CrowdMemory, AChangeOfMethodThatFindsNoneLeavesAllAsItWas) {
   });
 }
 
-TEST(CrowdMemory, EffectsThatFindNoneLeaveAllAsItWas) {
+TEST(CrowdMemory, AddingEffectsWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     EXPECT_EQ(simulation.add_forces(people[0]), Status::ok);
   });

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "engine/row_hash.h"
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
@@ -37,15 +38,9 @@ inline const std::array<MuscleMethod, 9>& every_method() {
   return all;
 }
 
-/// Numbers that depend on what they are for alone (Steele, Lea & Flood's SplitMix64).
+/// Numbers that depend on what they are for alone.
 inline std::uint64_t mixed(std::uint64_t seed, std::uint64_t who, std::uint64_t when) {
-  std::uint64_t z = (seed << 48 ^ who << 24 ^ when) + 0x9e3779b97f4a7c15;
-  for (int i = 0; i < 2; ++i) {
-    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9;
-    z = (z ^ z >> 27) * 0x94d049bb133111eb;
-    z ^= z >> 31;
-  }
-  return z;
+  return mix64(mix64((seed << 48 ^ who << 24 ^ when) + 0x9e3779b97f4a7c15));
 }
 
 /// Up to three of the groups, by any method, with each effect now and then. Few templates serve them all.

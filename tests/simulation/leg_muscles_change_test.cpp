@@ -106,7 +106,7 @@ TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
   EXPECT_EQ(rows(world), 1U);
 }
 
-TEST(Change, RefusedLeavesAllAsItWas) {
+TEST(Change, ARefusedChangeChangesNothing) {
   Simulation simulation;
   const Entity human = join_with(simulation, person(9), {.inertia = true}), bare = join(simulation, person(1), false);
   for (int i = 0; i < 20; ++i) simulation.tick();

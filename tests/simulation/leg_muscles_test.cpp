@@ -71,7 +71,7 @@ TEST(Methods, StaticIsNearASlowWalk) {
   }
 }
 
-TEST(Methods, RestInTheSameShapeWhereSomebodyStands) {
+TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
   for (const bool inertia : {false, true}) {
     Simulation simulation;
     std::vector<Entity> people;

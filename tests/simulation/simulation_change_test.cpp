@@ -48,7 +48,7 @@ TEST(Change, StaleHandlesChangeNothing) {
   EXPECT_EQ(hash_world(simulation), before);
 }
 
-TEST(Change, RequestsOutOfRangeLeaveEverythingAsItWas) {
+TEST(Change, RequestsOutOfRangeChangeNothing) {
   Simulation simulation;
   const Entity human = join(simulation, person(2)), other = join(simulation, person(3), false);
   walk(simulation, 45);

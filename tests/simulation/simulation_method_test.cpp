@@ -203,7 +203,7 @@ TEST(Switching, IsForgottenAfterTheFade) {
   EXPECT_GT(d.most, 1e-3);
 }
 
-TEST(Switching, WhetherSomebodyLooksChangesNothing) {
+TEST(Switching, PlacingControlPointsChangesNoState) {
   for (const bool inertia : {false, true}) {
     Simulation looked, unseen;
     const LegMuscles choice{.method = Method::reduced, .reduced = {.cells = coarse}, .inertia = inertia};
@@ -248,7 +248,7 @@ TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
 
 // ----------------------------------------------------------------------------------------------------- refusals
 
-TEST(SetMethod, RefusedLeavesAllAsItWas) {
+TEST(SetMethod, ARefusedChangeChangesNothing) {
   Simulation simulation;
   const Entity human = join_with(simulation, person(9), {.method = Method::caa, .inertia = true, .dt_s = 1.0 / 60}),
                damped = join_with(simulation, person(4), {.stiffness_damping_s = 0.001}),

@@ -244,7 +244,7 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   EXPECT_EQ(fresh.people().size(), 0U);
 }
 
-TEST(Snapshot, WithoutMemoryForItAllStaysAsItWas) {
+TEST(Snapshot, RestoringWithoutMemoryChangesNothing) {
   Simulation large;
   for (int copies = 0; copies < 8; ++copies) few(large);
   const Bytes more = saved(large);

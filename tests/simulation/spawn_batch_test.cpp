@@ -193,7 +193,7 @@ TEST(SpawnBatch, WhereMemoryRunsOutNobodyHasCome) {
   EXPECT_EQ(simulation.people().size(), 2 * first.size());
 }
 
-TEST(SpawnBatch, PreparedOrNotPeopleAreTheSame) {
+TEST(SpawnBatch, PreparingChangesNobodysBits) {
   for (const int kind : {2, 3}) {
     Simulation simulation({.threads = 2});
     ASSERT_TRUE(simulation.prepare(muscles_of_kind(kind)));

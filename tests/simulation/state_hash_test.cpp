@@ -123,7 +123,7 @@ TEST(Bytes, EveryBitAndTheLengthCount) {
   });
 }
 
-TEST(Bytes, SeventyThousandAlikeButForOneBitAreAllTold) {
+TEST(Bytes, MessagesOfOneSetBitHaveUnlikeHashes) {
   std::vector<std::uint8_t> bytes(1100);
   std::set<std::uint64_t> seen;
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {

@@ -1,11 +1,10 @@
 // Muscle surfaces over a walking cycle: they bulge, keep the volume that their meshes say, and neither fold nor tear.
+// One process for all tests of a suite: the cycles are walked once.
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -20,12 +19,12 @@
 #include "engine/geometry.h"
 #include "systems/simulation.h"
 #include "systems/surfaces/body_surfaces.h"
+#include "tests/files/reference_data.h"
 #include "tests/surfaces/skinned.h"
 
 namespace mobil {
 namespace {
 
-namespace fs = std::filesystem;
 using namespace geometry;
 
 constexpr std::size_t phases = 12;
@@ -121,16 +120,8 @@ std::vector<Drawn> built_in(const Body& body) {
   return all;
 }
 
-std::string anatomy_folder() {
-  if (const char* given = std::getenv("MOBIL_ANATOMY")) return given;
-  for (fs::path at = fs::current_path();; at = at.parent_path()) {
-    if (fs::exists(at / "shared/anatomy/manifest.csv")) return (at / "shared/anatomy").string();
-    if (at == at.parent_path()) return {};
-  }
-}
-
 std::vector<Drawn> real(const Body& body) {
-  static const Result<Anatomy> anatomy = load_anatomy(anatomy_folder());
+  static const Result<Anatomy> anatomy = load_anatomy(test::anatomy_folder().value().string());
   auto fitted = fit_anatomy(anatomy.value(), body).value();
   std::vector<Drawn> all;
   for (FittedMuscle& m : fitted.muscles) {
@@ -339,7 +330,7 @@ TEST(SurfaceMotion, HamstringsBulgeAsTheyShorten) {
 class RealSurfaceMotion : public testing::Test {
  protected:
   void SetUp() override {
-    if (anatomy_folder().empty()) GTEST_SKIP() << "no shared/anatomy above here, MOBIL_ANATOMY is not set";
+    if (!test::anatomy_folder()) GTEST_SKIP() << test::no_anatomy;
   }
 };
 

@@ -1,0 +1,17 @@
+#pragma once
+// A belly thick in its middle and a little bent, for tests of methods that step one.
+
+#include <vector>
+
+#include "assets/fem/hexahedral_mesh.h"
+
+namespace mobil {
+
+/// 12 cm long, up to 42 mm wide.
+inline HexahedralMesh spindle(const Cells& cells) {
+  const std::vector<CageStation> stations = {
+      {0, 0, 0, 0.012F, 0.014F}, {0.5F, 0.006F, -0.004F, 0.021F, 0.018F}, {1, 0, 0, 0.011F, 0.01F}};
+  return *bend_block(cells, stations, 0.12);
+}
+
+}  // namespace mobil

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "engine/schedule.h"
+
 namespace mobil {
 
 const Module* module_of(std::span<const Module> modules, std::uint64_t part) {

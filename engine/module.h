@@ -22,11 +22,13 @@
 
 #include "engine/error.h"
 #include "engine/key.h"
-#include "engine/schedule.h"
 
 namespace mobil {
 
+class Schedule;  // engine/schedule.h
+class ScheduleBuilder;
 struct SavedWorld;  // engine/snapshot.h
+class World;
 
 /// An immutable resource that snapshots name by the module's name and its own. `part`: key_part(Shared<T>{}).
 struct NamedResource {

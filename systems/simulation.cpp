@@ -1,4 +1,5 @@
 #include "systems/simulation.h"
+#include "engine/schedule.h"
 
 #include <fmt/format.h>
 

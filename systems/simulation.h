@@ -22,7 +22,6 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/fem/muscle_template.h"
 #include "assets/muscles/muscle_plan.h"
 #include "components/body.h"
 #include "components/gait.h"
@@ -32,9 +31,8 @@
 #include "engine/error.h"
 #include "engine/jobs.h"
 #include "engine/module.h"
-#include "engine/schedule.h"
 #include "engine/world.h"
-#include "systems/muscles/begin_muscles.h"
+#include "systems/muscles/own_muscle.h"
 #include "systems/people/spawn.h"
 #include "systems/surfaces/nodal_view.h"
 
@@ -86,6 +84,8 @@ struct StepReport {
 struct MuscleWork;    // systems/muscles/change_muscles.h
 struct MuscleScene;   // systems/muscles/leg_muscles.h
 struct SnapshotWork;  // systems/snapshot/snapshot.h
+
+class BellyLibrary;  // systems/muscles/belly_library.h
 
 class Simulation {
  public:

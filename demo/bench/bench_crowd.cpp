@@ -7,6 +7,7 @@
 
 #include "demo/program/progress.h"
 #include "engine/access.h"
+#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -13,6 +13,7 @@
 #include "demo/crowd/crowd_people.h"
 #include "demo/measure/measure.h"
 #include "engine/error.h"
+#include "engine/schedule.h"
 #include "systems/simulation.h"
 
 namespace mobil {

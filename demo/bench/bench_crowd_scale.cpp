@@ -16,6 +16,7 @@
 #include "demo/bench/bench_crowd_scene.h"
 #include "demo/bench/bench_fem.h"
 #include "demo/bench/bench_fem_rivals.h"
+#include "engine/schedule.h"
 #include "systems/relevance/relevance.h"
 
 namespace mobil {

@@ -5,6 +5,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "demo/crowd/crowd_people.h"
+#include "engine/schedule.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {

@@ -11,6 +11,7 @@
 #include "demo/measure/measure.h"
 #include "engine/error.h"
 #include "engine/jobs.h"
+#include "engine/schedule.h"
 #include "systems/simulation.h"
 
 namespace mobil {

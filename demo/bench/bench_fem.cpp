@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
 #include "demo/bench/bench_fem_lanes.h"
 #include "demo/bench/bench_fem_rivals.h"
 #include "engine/jobs.h"

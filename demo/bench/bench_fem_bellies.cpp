@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
 
 namespace mobil {
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
 #include "demo/bench/bench_fem.h"
 #include "systems/deformation/reference.h"
 

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "demo/bench/bench_fem_lanes.cpp"
 #include <hwy/foreach_target.h>
 
+#include "assets/fem/muscle_template.h"
 #include "demo/bench/bench_fem_bellies.h"
 #include "engine/wide-inl.h"
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
 #include "demo/bench/bench.h"
 #include "demo/bench/bench_fem.h"
 #include "engine/jobs.h"

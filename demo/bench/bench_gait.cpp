@@ -9,6 +9,7 @@
 #include "components/gait.h"
 #include "demo/bench/bench.h"
 #include "demo/bench/bench_crowd.h"
+#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

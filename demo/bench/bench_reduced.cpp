@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
 #include "demo/bench/bench.h"
 #include "demo/bench/bench_fem.h"
 #include "demo/bench/bench_fem_bellies.h"

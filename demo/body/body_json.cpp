@@ -11,6 +11,7 @@
 #include "assets/muscles/muscle_architecture.h"
 #include "assets/muscles/muscle_path.h"
 #include "assets/muscles/muscle_plan.h"
+#include "assets/muscles/muscle_table.h"
 #include "demo/program/body_options.h"
 #include "demo/program/json.h"
 #include "engine/geometry.h"

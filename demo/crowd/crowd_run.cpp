@@ -7,6 +7,7 @@
 #include "components/fade.h"
 #include "demo/crowd/heap_count.h"
 #include "demo/measure/measure.h"
+#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

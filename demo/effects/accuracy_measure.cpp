@@ -7,7 +7,9 @@
 #include <cmath>
 #include <map>
 
+#include "assets/reduction/reduced_basis.h"
 #include "demo/effects/accuracy_reference.h"
+#include "engine/schedule.h"
 #include "systems/relevance/relevance.h"
 
 namespace mobil {

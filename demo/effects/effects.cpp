@@ -6,10 +6,11 @@
 #include <string_view>
 
 #include "assets/export/walk_recording.h"
-#include "demo/measure/measure.h"
 #include "demo/effects/accuracy_measure.h"
+#include "demo/measure/measure.h"
 #include "demo/program/json.h"
 #include "demo/walk/figure.h"
+#include "engine/schedule.h"
 #include "systems/relevance/accuracy_table.h"
 #include "systems/relevance/relevance.h"
 

@@ -8,6 +8,7 @@
 
 #include "demo/bench/bench_crowd.h"
 #include "demo/effects/accuracy_measure.h"
+#include "engine/schedule.h"
 #include "systems/relevance/relevance.h"
 
 namespace mobil {

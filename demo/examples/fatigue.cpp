@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/schedule.h"
 #include "systems/simulation.h"
 
 using mobil::Lanes, mobil::Whole;

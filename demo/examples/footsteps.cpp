@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/each.h"
+#include "engine/schedule.h"
 #include "systems/simulation.h"
 
 using mobil::Lanes, mobil::Whole;

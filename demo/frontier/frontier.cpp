@@ -7,7 +7,9 @@
 #include <mutex>
 #include <utility>
 
+#include "assets/muscles/muscle_table.h"
 #include "engine/jobs.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {

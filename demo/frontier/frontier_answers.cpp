@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"
 

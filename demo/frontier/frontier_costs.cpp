@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/reduction/reduced_basis.h"
 #include "engine/jobs.h"
 #include "systems/deformation/reduced.h"
 

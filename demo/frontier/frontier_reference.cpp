@@ -4,8 +4,10 @@
 #include <memory>
 #include <utility>
 
+#include "assets/reduction/reduced_basis.h"
 #include "demo/effects/accuracy_reference.h"
 #include "demo/frontier/frontier.h"
+#include "systems/muscles/belly_library.h"
 
 namespace mobil {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/muscles/muscle_table.h"
 #include "demo/frontier/frontier.h"
 #include "demo/program/json.h"
 

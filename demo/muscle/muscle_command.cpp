@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "assets/fem/muscle_template.h"
 #include "assets/files/output_file.h"
 #include "demo/muscle/muscle_options.h"
 #include "demo/muscle/muscle_run.h"

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "assets/fem/element_size.h"
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
 #include "demo/program/units.h"
 
 namespace mobil {

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/reduction/reduced_basis.h"
 #include "demo/program/progress.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/reduced.h"

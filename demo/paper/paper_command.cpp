@@ -16,6 +16,7 @@
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
+#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <numeric>
 
+#include "assets/fem/muscle_template.h"
 #include "components/forces.h"
 #include "demo/compare/compare_walk.h"
 #include "demo/compare/steady_cycle.h"

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 
+#include "assets/fem/muscle_template.h"
 #include "demo/compare/steady_cycle.h"
 #include "demo/paper/paper.h"
 #include "engine/geometry.h"

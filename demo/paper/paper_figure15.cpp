@@ -6,6 +6,7 @@
 #include <array>
 
 #include "assets/body/anthropometry.h"
+#include "assets/muscles/muscle_table.h"
 #include "demo/compare/compare_judge.h"
 #include "demo/compare/compare_reference.h"
 #include "demo/paper/paper.h"

@@ -1,5 +1,7 @@
 #include "demo/stress/stress_bellies.h"
 
+#include "assets/fem/muscle_template.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>

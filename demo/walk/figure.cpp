@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "assets/fem/muscle_template.h"
 #include "assets/import/fit_anatomy.h"
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/muscle_surfaces.h"

@@ -22,6 +22,7 @@
 #include "demo/walk/walk_script.h"
 #include "demo/walk/walk_summary.h"
 #include "demo/walk/walk_tables.h"
+#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "assets/fem/muscle_template.h"
 #include "engine/geometry.h"
 
 namespace mobil {

@@ -5,7 +5,10 @@
 #include <string>
 
 #include "assets/body/body_composition.h"
+#include "assets/fem/muscle_template.h"
+#include "assets/muscles/muscle_table.h"
 #include "demo/program/json.h"
+#include "engine/schedule.h"
 
 namespace mobil {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "assets/export/gltf_writer.h"
 #include "demo/walk/walk_options.h"
+#include "engine/schedule.h"
 #include "systems/simulation.h"
 
 namespace mobil {

@@ -10,6 +10,7 @@
 #include "assets/fem/muscle_template.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/reduced_belly.h"
 #include "components/leg_muscles.h"
 
 namespace mobil {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assets/reduction/reduced_basis.h"
+#include "assets/reduction/reduced_belly.h"
 #include "components/muscle.h"
 #include "engine/world.h"
 #include "systems/deformation/belly.h"

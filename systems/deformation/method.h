@@ -10,6 +10,7 @@
 
 #include "components/leg_muscles.h"
 #include "engine/module.h"
+#include "engine/schedule.h"
 #include "engine/world.h"
 #include "systems/deformation/belly.h"
 #include "systems/deformation/belly_motion.h"

@@ -5,8 +5,8 @@
 #include <span>
 #include <utility>
 
-#include "systems/deformation/reduced.h"
 #include "assets/reduction/reduced_bellies.h"
+#include "systems/deformation/reduced.h"
 
 namespace mobil {
 namespace {

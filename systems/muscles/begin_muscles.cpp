@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "assets/reduction/reduced_bellies.h"
 #include "components/pose.h"
 #include "engine/access.h"
 #include "engine/rows.h"
 #include "systems/deformation/deformation.h"
-#include "assets/reduction/reduced_bellies.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"

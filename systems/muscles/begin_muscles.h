@@ -1,7 +1,6 @@
 #pragma once
 // Muscles that begin, on one person or on many at once, sixteen to a block.
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -25,12 +24,6 @@ struct MuscleSize {
   float rest_length_m = 0;
 };
 MuscleSize size_of(const MusclePlan& plan);
-
-/// One of a person's muscles, by side.
-struct OwnMuscle {
-  Muscle muscle{};
-  std::array<Entity, 2> entity{};
-};
 
 /// The present tick, and what muscles share.
 struct MuscleTime {

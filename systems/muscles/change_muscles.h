@@ -8,6 +8,7 @@
 #include "engine/world.h"
 #include "systems/deformation/belly_motion.h"
 #include "systems/muscles/begin_muscles.h"
+#include "systems/muscles/own_muscle.h"
 #include "systems/muscles/recent_poses.h"
 
 namespace mobil {

@@ -12,6 +12,7 @@
 #include "components/leg_muscles.h"
 #include "components/pose.h"
 #include "engine/module.h"
+#include "engine/schedule.h"
 #include "engine/world.h"
 #include "systems/deformation/method.h"
 #include "systems/muscles/recent_poses.h"

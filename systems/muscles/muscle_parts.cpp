@@ -1,4 +1,5 @@
 #include "systems/muscles/muscle_parts.h"
+#include "engine/schedule.h"
 
 #include <algorithm>
 #include <string>

@@ -1,4 +1,5 @@
 #include "systems/people/people_modules.h"
+#include "engine/schedule.h"
 
 #include <algorithm>
 #include <bit>

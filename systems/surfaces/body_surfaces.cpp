@@ -4,6 +4,7 @@
 
 #include "assets/muscles/muscle_plan.h"
 #include "assets/surfaces/bone_surfaces.h"
+#include "assets/surfaces/muscle_cage.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"

@@ -11,6 +11,7 @@
 #include <random>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/fem/oracle.h"
 #include "tests/fem/spindle.h"

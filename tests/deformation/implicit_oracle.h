@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
 #include "systems/deformation/deformation.h"
 #include "tests/fem/oracle.h"
 #include "tests/fem/spindle.h"

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
 #include "tests/deformation/implicit_oracle.h"
 #include "tests/engine/instruction_sets.h"
 

@@ -11,6 +11,8 @@
 #include <random>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
 #include "systems/deformation/reduced.h"
 
 namespace mobil {

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "assets/reduction/reduced_basis.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/reference.h"
 #include "tests/fem/spindle.h"

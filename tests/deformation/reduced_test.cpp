@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
 #include "tests/deformation/reduced_block.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/instruction_sets.h"

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "assets/fem/belly_solver.h"
+#include "assets/fem/muscle_template.h"
 #include "engine/geometry.h"
 #include "systems/deformation/deformation.h"
 #include "tests/fem/oracle.h"

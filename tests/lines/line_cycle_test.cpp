@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/muscles/muscle_table.h"
 #include "components/gait.h"
 #include "components/pose.h"
 #include "systems/simulation.h"

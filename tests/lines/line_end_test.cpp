@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/muscles/muscle_table.h"
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
 

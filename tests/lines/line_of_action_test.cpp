@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 
+#include "assets/muscles/muscle_table.h"
 #include "tests/lines/leg_block.h"
 
 namespace mobil {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/muscles/leg_sections.h"
+#include "assets/muscles/muscle_table.h"
 #include "tests/files/reference_data.h"
 #include "tests/lines/leg_block.h"
 #include "tests/muscles/find_member.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/fem/hexahedral_mesh.h"
+#include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_bellies.h"
 #include "tests/reduction/scalar_belly.h"
 
@@ -92,7 +93,8 @@ RC_GTEST_PROP(ReducedBellies, MatchTheScalarSolver, ()) {
   const auto rows = rows_of(basis, bodies, damping, bellies);
   for (std::size_t l = 0; l < bodies.size(); ++l) {
     const auto expected =
-        oracle::make_reduced_belly(basis, static_cast<double>(bodies[l].across), static_cast<double>(bodies[l].along)).value();
+        oracle::make_reduced_belly(basis, static_cast<double>(bodies[l].across), static_cast<double>(bodies[l].along))
+            .value();
     const ReducedBelly own = belly_of(bellies, l);
     for (std::size_t j = 0; j < basis.vectors; ++j) {
       RC_ASSERT(std::abs(own.omega_1_s[j] / expected.omega_1_s[j] - 1) < 1e-9);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assets/fem/hexahedral_mesh.h"
+#include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_bellies.h"
 #include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"

@@ -11,6 +11,7 @@
 
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "tests/reduction/reduction_truth.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_eigen.h"
 
 namespace mobil::oracle {

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
 #include "engine/error.h"
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "assets/muscles/muscle_table.h"
+#include "assets/reduction/reduced_basis.h"
 #include "demo/effects/accuracy_measure.h"
 #include "demo/effects/accuracy_reference.h"
 #include "systems/relevance/relevance.h"

@@ -12,6 +12,7 @@
 #include <set>
 #include <vector>
 
+#include "engine/schedule.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"

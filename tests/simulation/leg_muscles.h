@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/fem/muscle_template.h"
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"

@@ -1,5 +1,6 @@
 // Leg muscles as they are chosen: every method follows the walk, in steps as asked, with and without inertia.
 #include "tests/simulation/leg_muscles.h"
+#include "assets/muscles/muscle_table.h"
 
 #include <gtest/gtest.h>
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "engine/schedule.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/simulation.h"
 #include "systems/snapshot/snapshot_file.h"

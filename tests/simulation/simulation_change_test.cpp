@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "components/forces.h"
+#include "engine/schedule.h"
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/muscles/muscle_table.h"
 #include "components/fade.h"
 #include "tests/simulation/leg_muscles.h"
 

@@ -13,6 +13,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/import/fit_anatomy.h"
+#include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_binding.h"
 #include "assets/surfaces/surface_mesh.h"

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "components/fade.h"

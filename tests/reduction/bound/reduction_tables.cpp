@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_training.h"
 #include "tests/reduction/bound/reduction_bound.h"
 

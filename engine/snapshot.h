@@ -1,7 +1,7 @@
 #pragma once
 // The state of a World as bytes, and back: rows, entities and who is alive, down to the last bit. It knows nothing of
 // what tables mean: shared resources are numbers here, which the caller translates, and what else goes into a snapshot
-// is the caller's (the front door: systems/snapshot/snapshot_file.h). Layout: engine/snapshot_bytes.h.
+// is the caller's (systems/snapshot/snapshot.h). Layout: engine/snapshot_bytes.h.
 
 #include <cstddef>
 #include <cstdint>

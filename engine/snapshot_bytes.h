@@ -1,7 +1,7 @@
 #pragma once
 // Plain data in and out of bytes of any alignment; and how a snapshot is laid out and sealed:
 //
-//   header | front: the front door's | world: keys, register, rows' entities | blocks | seals, one a chunk
+//   header | front: the caller's own | world: keys, register, rows' entities | blocks | seals, one a chunk
 //
 // Each chunk has a seal (a hash), the header one of itself and all seals: every altered bit and every missing byte is
 // noticed.

@@ -1,5 +1,5 @@
 #pragma once
-// The front door: spawn people, give them muscles, advance time, read what became of them.
+// The facade: spawn people, give them muscles, advance time, read what became of them.
 //
 //   Simulation simulation;
 //   const Entity human = *simulation.spawn({.height_m = 1.80F, .mass_kg = 80});
@@ -10,8 +10,8 @@
 // Everything else is a table: `world()` has all components, `schedule()` all systems in the order they run. Nothing is
 // global; any number of simulations may live side by side. One thread at a time may use one.
 //
-// Where memory runs out as people come or change, that throws std::bad_alloc and all is as it was: people, rows and
-// handles, also those yet to be given out. Going takes none.
+// Where memory runs out as people come or change, std::bad_alloc is thrown and the simulation is unchanged, including
+// future handles. Despawning never allocates.
 
 #include <array>
 #include <cstdint>
@@ -74,8 +74,8 @@ struct SystemReport {
   std::uint64_t total_entities = 0;
 };
 
-/// What simulating cost, system by system in the order of running. Who asked for nothing of a system has no part in it:
-/// its entities are 0, and so is its time.
+/// What simulating cost, system by system in the order of running. A system that matches no table reports 0 entities
+/// and 0 s.
 struct StepReport {
   std::uint32_t ticks = 0;  // run so far
   std::vector<SystemReport> systems;
@@ -95,10 +95,10 @@ class Simulation {
   ~Simulation();
 
   /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
-  /// unreachable, one line each; the simulation is as it was.
+  /// unreachable, one line each; the simulation is unchanged.
   Result<Entity> spawn(const BodyRequest& body, const GaitRequest& gait = {});
   /// A person whose host animates the skeleton, in the anatomical position at the origin: no gait, nothing of
-  /// kinematics. Errors: a body out of range, in one line; the simulation is as it was.
+  /// kinematics. Errors: a body out of range, in one line; the simulation is unchanged.
   Result<Entity> spawn_posed(const BodyRequest& body);
   /// Where a posed person's skeleton is at the end of the next tick, taken as it is: finite, unit quaternions. Leg
   /// muscles follow. Stale handles answer Status::stale_entity, walkers Status::missing.
@@ -112,8 +112,8 @@ class Simulation {
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
   /// All or none: where one of them is stale or named twice, Status::stale_entity.
   Status despawn(std::span<const Entity> people);
-  /// Makes what bodies of usual build share who choose so, with the simulation's jobs: then spawning them and changing
-  /// their methods does not wait for that. Errors: a choice out of range; all is as it was.
+  /// Makes the templates and bases that typical bodies share for this choice, with the simulation's jobs: then spawning
+  /// them and changing their methods does not wait for that. Errors: a choice out of range; nothing has changed.
   Result<void> prepare(const LegMuscles& choice);
 
   /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
@@ -122,7 +122,7 @@ class Simulation {
   Result<void> change_gait(Entity human, const GaitRequest& gait);
   /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
   /// part of it each step; who stands turns when they walk on. Errors: a stale handle, a heading that is not finite;
-  /// all is as it was.
+  /// nothing has changed.
   Result<void> turn_to(Entity human, float heading_rad);
 
   /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one. Posed
@@ -133,22 +133,22 @@ class Simulation {
   /// The effect of leg muscles: lines of action and finite-element bellies of the muscles chosen, both legs, at rest
   /// where the person stands in the stride (with inertia under the load of that moment). Errors: a stale handle,
   /// muscles that are there already, a choice out of range, a step above an individual's critical step, which names the
-  /// muscle and the limit; all is as it was.
+  /// muscle and the limit; nothing has changed.
   Result<void> add_leg_muscles(Entity human, const LegMuscles& choice = {});
   /// Other muscles, or the same otherwise, from the next tick on: critical steps and substeps are computed anew. Those
   /// that stay keep their handles; of them displacement and velocity stay while the cells do (velocities are taken as
   /// they are, be they half a step back or not; from static on they begin with zero); other cells begin at rest.
   /// Inertia that begins under way lets the bellies sag. Every choice not made before is set up and kept. Errors: as
-  /// above, and muscles that are not there; all is as it was.
+  /// above, and muscles that are not there; nothing has changed.
   Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
   Status remove_leg_muscles(Entity human);
 
   /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. What is shown
   /// of control points goes on without a jump in displacement or velocity: what the new method cannot begin with is
   /// added to what it computes and fades within `fade_s`. Errors: a stale handle, a muscle that is not there, a choice
-  /// out of range; all is as it was.
+  /// out of range; nothing has changed.
   Result<void> set_method(Entity human, Muscle muscle, const MuscleMethod& method);
-  /// As it is; Method::none where there is no such muscle.
+  /// Current method; Method::none if the person has no such muscle.
   MuscleMethod method(Entity human, Muscle muscle) const;
 
   /// Runs as many whole ticks as fit into the accumulated time.
@@ -160,21 +160,19 @@ class Simulation {
   double time_s() const { return tick_ * clock_.tick_s(); }
   /// Of the last tick and of all.
   StepReport report() const;
-  /// The state alone as bytes, in the caller's memory: everybody, their rows and handles, what they chose, the tick and
-  /// the time fed since. Neither scene nor meshes nor bases: those are made again where they are missing, from what
-  /// people chose. `save` says how many bytes it wrote, `snapshot_bytes` of them, and takes memory only for resources
-  /// that no snapshot had met before. Errors: too little room; a table with a shared resource of the host's own.
+  /// The state alone as bytes, in the caller's memory: all rows and handles, the tick and the time fed since. Neither
+  /// scene nor meshes nor bases: those are made again where they are missing. `save` says how many bytes it wrote,
+  /// `snapshot_bytes` of them, and takes memory only for resources that no snapshot had met before. Errors: too little
+  /// room; a shared resource that no module names.
   std::size_t snapshot_bytes() const;
   Result<std::size_t> save(std::span<std::byte> out) const;
-  /// Everything as it was when that was saved, to the last bit, handles included, here or in another simulation whose
-  /// tick is as long; where rows and people are as many as they were, without taking memory. Bytes are never trusted:
-  /// what was cut, altered or made by a newer version is refused in one line, and so is what does not fit in memory;
-  /// the simulation is then as it was. Components of the host's own are known once an entity has had them. What systems
-  /// are scheduled, threads and reports are not state.
+  /// Restores what was saved to the last bit, handles included, here or in another simulation whose tick is as long and
+  /// which has the modules of the rows saved, in the same versions; where rows and people are as many as they were,
+  /// without taking memory. Bytes are never trusted: what was cut, altered or made by another format version is refused
+  /// in one line, and so is what does not fit in memory; the simulation is then unchanged. Threads and reports are not
+  /// state.
   Result<void> restore(std::span<const std::byte> in);
-  /// One number of everybody's state and the tick: people's rows and muscles to the last bit, what was asked of them,
-  /// and rows that are nobody's. The same whatever order people came in, whatever rows they lie in and whatever
-  /// handles they have.
+  /// Hash of the whole state; independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
 
   /// An entity's row of a component, or why there is none.

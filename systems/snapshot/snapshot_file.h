@@ -5,8 +5,6 @@
 //   window.keep(simulation);            // each tick, before it
 //   …
 //   window.back(simulation, 5);         // as it was before the fifth tick from now; what came after is forgotten
-//
-// Part of the front door.
 
 #include <cstddef>
 #include <filesystem>

@@ -1,5 +1,5 @@
 #pragma once
-// What a world's shared resources are made from, and the same made again from that. Part of the front door.
+// What a world's shared resources are made from, and the same made again from that.
 
 #include <cstddef>
 #include <cstdint>

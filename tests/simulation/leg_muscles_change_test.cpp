@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/muscles/muscle_table.h"
 #include "tests/engine/counting_heap.h"

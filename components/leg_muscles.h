@@ -20,7 +20,7 @@ struct ReducedChoice {
   Cells cells = {4, 4, 16};    // of the mesh that the vectors are of; has all nodes of LegMuscles::cells
   /// Whether someone looks: control points are placed (NodalDisplacement). Without, the state alone goes on.
   bool control_points = true;
-  /// Whether what control points did is told (BellyReport), which takes more than half as long as placing them.
+  /// Whether BellyReport is written, which takes more than half as long as placing the control points.
   bool reported = true;
 
   friend bool operator==(const ReducedChoice&, const ReducedChoice&) = default;

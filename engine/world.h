@@ -149,8 +149,8 @@ class World {
   }
 
   /// The component whose first two words are the index and generation of the entity that a row belongs to: said once,
-  /// while the world is empty. Whoever names a living owner is among its members from then on, until one of them is
-  /// gone or the row names another; systems must not write it.
+  /// while the world is empty. An entity whose row names a living owner is among its members from then on, until one of
+  /// them is gone or the row names another; systems must not write it.
   void set_owner_part(const KeyPart& part) { owner_part_ = part.id; }
   std::uint64_t owner_part() const { return owner_part_; }
   /// Calls `f(member)` for each entity that belongs to `owner`, in ascending order of their indices. `f` changes

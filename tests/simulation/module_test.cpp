@@ -177,7 +177,7 @@ TEST(Modules, ThatDoNotFitAreRefused) {
   EXPECT_THROW(Simulation({.modules = {late}}), std::invalid_argument);
 }
 
-/// Whoever makes a muscle, and whatever it becomes: its parts are those of the one list, and each part is a module's.
+/// However a muscle is made, and whatever it becomes: its parts are those of the one list, and each part is a module's.
 TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
   play::Crowd crowd({}, {.seed = 5});
   std::size_t muscles = 0;

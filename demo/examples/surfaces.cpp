@@ -31,10 +31,10 @@ int main() {
   asked.body.height_m = 1.80F;
   asked.body.mass_kg = 80;
   asked.muscles.emplace();
-  std::vector<mobil::SpawnRequest> requests(2, asked);
-  requests[1].x_m = 1;
-  std::vector<mobil::Entity> people(requests.size());
-  if (const auto done = simulation.spawn(requests, people); !done) return failed(done.error());
+  std::vector<mobil::SpawnRequest> crowd(2, asked);
+  crowd[1].x_m = 1;
+  std::vector<mobil::Entity> people(crowd.size());
+  if (const auto done = simulation.spawn(crowd, people); !done) return failed(done.error());
 
   // Once a body: triangles and how many vertices there are. Both people share it.
   mobil::SurfaceChoice choice;

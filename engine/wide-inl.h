@@ -17,6 +17,15 @@
 
 #include "components/lanes.h"
 
+/// For functions of some ten operations and more. Where sixteen lanes are four registers they are called: their code is
+/// long there, and compiling it everywhere anew would take longer than all other targets together.
+#undef MOBIL_WIDE_INLINE
+#if HWY_MAX_BYTES <= 16
+#define MOBIL_WIDE_INLINE HWY_NOINLINE inline
+#else
+#define MOBIL_WIDE_INLINE HWY_INLINE
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -199,9 +208,9 @@ HWY_INLINE Wide copy_sign(const Wide& magnitude, const Wide& sign) {
   return r;
 }
 
-/// Sine and cosine of |x| < 1000 rad, error below 2e-7: reduction to ±π/4 in two parts, then least-squares
+/// Sine and cosine of |x| < 1000 rad, error below 2e-7 (without fused multiply-add 3e-5): reduction to ±π/4 in two parts, then least-squares
 /// polynomials (Taylor's, with the last coefficient trimmed).
-HWY_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
+MOBIL_WIDE_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
   const Wide quadrant = floor(fma(x, wide(0.636619772F), wide(0.5F)));
   Wide r = fnma(quadrant, wide(1.5707963705F), x);
   r = fnma(quadrant, wide(-4.37113883e-8F), r);
@@ -224,7 +233,7 @@ HWY_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
 }
 
 /// Arc tangent of y/x in (−π, π], error below 4e-7 rad; 0 where both are 0.
-HWY_INLINE Wide atan2(const Wide& y, const Wide& x) {
+MOBIL_WIDE_INLINE Wide atan2(const Wide& y, const Wide& x) {
   const Wide ax = abs(x);
   const Wide ay = abs(y);
   const Wide big = max(ax, ay);
@@ -244,7 +253,7 @@ HWY_INLINE Wide atan2(const Wide& y, const Wide& x) {
 }
 
 /// Arc cosine of x clamped to [−1, 1].
-HWY_INLINE Wide acos(const Wide& x) {
+MOBIL_WIDE_INLINE Wide acos(const Wide& x) {
   const Wide c = clamp(x, -1.0F, 1.0F);
   return atan2(sqrt(max((wide(1.0F) - c) * (wide(1.0F) + c), wide(0.0F))), c);
 }

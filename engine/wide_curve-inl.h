@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// 0 below 0, 1 above 1, with continuous slope between.
-HWY_INLINE Wide ease(const Wide& u) {
+MOBIL_WIDE_INLINE Wide ease(const Wide& u) {
   const Wide v = clamp(u, 0.0F, 1.0F);
   return v * v * (3.0F - 2.0F * v);
 }
@@ -25,7 +25,7 @@ HWY_INLINE Wide mix(const Wide& from, const Wide& to, const Wide& part) {
 }
 
 /// Cubic through a at u = 0 and b at u = 1 with slopes per unit of u.
-HWY_INLINE Wide hermite(const Wide& u, const Wide& a, const Wide& a_slope, const Wide& b, const Wide& b_slope) {
+MOBIL_WIDE_INLINE Wide hermite(const Wide& u, const Wide& a, const Wide& a_slope, const Wide& b, const Wide& b_slope) {
   const Wide v = 1.0F - u;
   return v * v * ((1.0F + 2.0F * u) * a + u * a_slope) + u * u * ((1.0F + 2.0F * v) * b - v * b_slope);
 }

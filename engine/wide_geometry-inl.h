@@ -64,14 +64,14 @@ HWY_INLINE WideVec fma(const Wide& s, const WideVec& a, const WideVec& b) {
 }
 
 /// First b, then a.
-HWY_INLINE WideQuat operator*(const WideQuat& a, const WideQuat& b) {
+MOBIL_WIDE_INLINE WideQuat operator*(const WideQuat& a, const WideQuat& b) {
   return {fma(a.w, b.x, fma(a.x, b.w, fnma(a.z, b.y, a.y * b.z))),
           fma(a.w, b.y, fma(a.y, b.w, fnma(a.x, b.z, a.z * b.x))),
           fma(a.w, b.z, fma(a.z, b.w, fnma(a.y, b.x, a.x * b.y))),
           fnma(a.z, b.z, fnma(a.y, b.y, fnma(a.x, b.x, a.w * b.w)))};
 }
 /// v turned by q: v + w t + q × t with t = 2 q × v.
-HWY_INLINE WideVec rotate(const WideQuat& q, const WideVec& v) {
+MOBIL_WIDE_INLINE WideVec rotate(const WideQuat& q, const WideVec& v) {
   const WideVec axis = {q.x, q.y, q.z}, once = cross(axis, v), t = once + once;
   return v + fma(q.w, t, cross(axis, t));
 }

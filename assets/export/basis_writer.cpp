@@ -16,7 +16,7 @@
 namespace mobil {
 namespace {
 
-bool finite(const std::vector<float>& values) {
+bool all_finite(const std::vector<float>& values) {
   return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
 }
 
@@ -25,12 +25,12 @@ Result<void> check(const BasisRecording& recording) {
     return fail("there is nothing to write: record a frame of one vector at least");
   }
   for (const auto& target : recording.target) {
-    if (target.size() != 3 * recording.mesh.node.size() || !finite(target)) {
+    if (target.size() != 3 * recording.mesh.node.size() || !all_finite(target)) {
       return fail("a vector does not have three finite numbers for each node");
     }
   }
   for (std::size_t f = 0; f < recording.weight.size(); ++f) {
-    if (recording.weight[f].size() != recording.target.size() || !finite(recording.weight[f])) {
+    if (recording.weight[f].size() != recording.target.size() || !all_finite(recording.weight[f])) {
       return fail(fmt::format("frame {} does not have a finite weight for each vector", f));
     }
   }

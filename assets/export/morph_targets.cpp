@@ -1,11 +1,11 @@
 #include "assets/export/morph_targets.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "assets/export/mesh_shading.h"
+#include "assets/reduction/symmetric_eigen.h"
 
 namespace mobil {
 namespace {
@@ -25,12 +25,12 @@ MatrixXd principal_shapes(const MatrixXd& displacement, Index count) {
   for (Index i = 0; i < samples; ++i) sampled.col(i) = displacement.col(i * displacement.cols() / samples);
   MatrixXd gram = MatrixXd::Zero(samples, samples);
   gram.selfadjointView<Eigen::Lower>().rankUpdate(sampled.transpose());
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(gram);  // eigenvalues rise
-  const double negligible = 1e-12 * std::max(eigen.eigenvalues()(samples - 1), 1e-18);
+  const SymmetricEigen eigen = symmetric_eigen(gram);
+  const double negligible = 1e-12 * std::max(eigen.values(samples - 1), 1e-18);
   MatrixXd shapes(displacement.rows(), std::min(count, samples));
   Index kept = 0;
-  for (; kept < shapes.cols() && eigen.eigenvalues()(samples - 1 - kept) > negligible; ++kept) {
-    shapes.col(kept) = (sampled * eigen.eigenvectors().col(samples - 1 - kept)).normalized();
+  for (; kept < shapes.cols() && eigen.values(samples - 1 - kept) > negligible; ++kept) {
+    shapes.col(kept) = (sampled * eigen.vectors.col(samples - 1 - kept)).normalized();
   }
   shapes.conservativeResize(Eigen::NoChange, kept);
   return shapes;

@@ -9,10 +9,10 @@
 namespace mobil {
 namespace {
 
-using Vector = std::vector<double>;
+using Displacements = std::vector<double>;
 
 /// y = K·x over all displacements, constrained ones too.
-void multiply(const StiffnessTerms& terms, double across, double along, const Vector& x, Vector& y) {
+void multiply(const StiffnessTerms& terms, double across, double along, const Displacements& x, Displacements& y) {
   const Cells& cells = terms.cells;
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     const std::uint32_t n = node_index(cells, i, j, k);
@@ -27,16 +27,16 @@ void multiply(const StiffnessTerms& terms, double across, double along, const Ve
   });
 }
 
-double dot(const Vector& a, const Vector& b) {
+double product(const Displacements& a, const Displacements& b) {
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
   return sum;
 }
 
 /// u such that K·u = `load` where it is free to move, from a u that has the prescribed ends.
-void solve(const StiffnessTerms& terms, FarEnd end, double across, double along, const Vector& load, Vector& u) {
+void solve(const StiffnessTerms& terms, FarEnd end, double across, double along, const Displacements& load, Displacements& u) {
   const Cells& cells = terms.cells;
-  const auto hold = [&](Vector& v) {  // zero where the displacement is prescribed
+  const auto hold = [&](Displacements& v) {  // zero where the displacement is prescribed
     for (std::uint32_t n = 0; n < node_count(cells); ++n) {
       for (std::size_t c = 0; c < 3; ++c) {
         if (!moves(cells, end, n, c)) v[3 * n + c] = 0;
@@ -44,22 +44,22 @@ void solve(const StiffnessTerms& terms, FarEnd end, double across, double along,
     }
   };
   const std::size_t size = u.size();
-  Vector r(size), q(size);
+  Displacements r(size), q(size);
   multiply(terms, across, along, u, r);
   for (std::size_t i = 0; i < size; ++i) r[i] = load[i] - r[i];
   hold(r);
-  Vector p = r;
-  double rr = dot(r, r);
+  Displacements p = r;
+  double rr = product(r, r);
   const double enough = 1e-20 * rr;
   for (std::size_t step = 0; step < 4 * size && rr > enough; ++step) {
     multiply(terms, across, along, p, q);
     hold(q);
-    const double alpha = rr / dot(p, q);
+    const double alpha = rr / product(p, q);
     for (std::size_t i = 0; i < size; ++i) {
       u[i] += alpha * p[i];
       r[i] -= alpha * q[i];
     }
-    const double next = dot(r, r);
+    const double next = product(r, r);
     for (std::size_t i = 0; i < size; ++i) p[i] = r[i] + next / rr * p[i];
     rr = next;
   }
@@ -71,11 +71,11 @@ StaticStretch static_stretch(const StiffnessTerms& terms, double across, double 
   const Cells& cells = terms.cells;
   const std::size_t size = 3 * std::size_t{node_count(cells)};
   // The uniform stretch already has the prescribed ends.
-  Vector u(size, 0.0), force(size);
+  Displacements u(size, 0.0), force(size);
   for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     u[3 * node_index(cells, i, j, k) + 2] = static_cast<double>(k) / cells[2];
   });
-  solve(terms, FarEnd::held, across, along, Vector(size, 0.0), u);
+  solve(terms, FarEnd::held, across, along, Displacements(size, 0.0), u);
   multiply(terms, across, along, u, force);
   StaticStretch stretch{std::move(u), 0};
   for (std::uint32_t n = first_insertion_node(cells); n < node_count(cells); ++n) {
@@ -87,10 +87,10 @@ StaticStretch static_stretch(const StiffnessTerms& terms, double across, double 
 double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double across, double along) {
   const std::size_t size = 3 * std::size_t{node_count(terms.cells)};
   const std::size_t far = first_insertion_node(terms.cells);
-  Vector u(size, 0.0), load(size, 0.0);
+  Displacements u(size, 0.0), load(size, 0.0);
   for (std::size_t i = 0; i < far_share.size(); ++i) load[3 * (far + i) + 2] = static_cast<double>(far_share[i]);
   solve(terms, FarEnd::sliding, across, along, load, u);
-  return 1 / dot(load, u);
+  return 1 / product(load, u);
 }
 
 AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,

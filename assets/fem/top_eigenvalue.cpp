@@ -16,13 +16,13 @@ namespace {
 
 using Numbers = std::vector<double>;
 
-double dot(const double* a, const double* b, std::size_t count) {
+double inner(const double* a, const double* b, std::size_t count) {
   const auto n = static_cast<Eigen::Index>(count);
   return Eigen::Map<const Eigen::VectorXd>(a, n).dot(Eigen::Map<const Eigen::VectorXd>(b, n));
 }
 
-double dot(const Numbers& a, const Numbers& b) {
-  return dot(a.data(), b.data(), a.size());
+double inner(const Numbers& a, const Numbers& b) {
+  return inner(a.data(), b.data(), a.size());
 }
 
 /// Lower Cholesky factor of a symmetric matrix of half-width `band`, row by row; the last `kept` rows remain, row i at
@@ -46,9 +46,9 @@ class BandCholesky {
       const double* other = row(c);
       const std::size_t from = std::max(begin, c > band_ ? c - band_ : 0);
       mine[c + band_ - i] =
-          (mine[c + band_ - i] - dot(mine + (from + band_ - i), other + (from + band_ - c), c - from)) / other[band_];
+          (mine[c + band_ - i] - inner(mine + (from + band_ - i), other + (from + band_ - c), c - from)) / other[band_];
     }
-    const double rest = mine[band_] - dot(mine + (begin + band_ - i), mine + (begin + band_ - i), i - begin);
+    const double rest = mine[band_] - inner(mine + (begin + band_ - i), mine + (begin + band_ - i), i - begin);
     if (!(rest > 0)) return false;
     mine[band_] = std::sqrt(rest);
     return true;
@@ -177,7 +177,7 @@ Numbers random_start(const std::vector<bool>& moving) {
     const double radius = std::sqrt(-2 * std::log(uniform())), angle = 2 * std::numbers::pi * uniform();
     if (moving[i]) v[i] = radius * std::cos(angle);
   }
-  const double norm = std::sqrt(dot(v, v));
+  const double norm = std::sqrt(inner(v, v));
   for (double& x : v) x /= norm;
   return v;
 }
@@ -190,11 +190,11 @@ double lanczos_top(SymmetricOperator& op, const std::vector<bool>& moving, std::
   longest = std::min(longest, now.size());
   for (std::size_t step = 1; step <= longest; ++step) {
     op.apply(now, next);
-    const double a = dot(now, next);
+    const double a = inner(now, next);
     diagonal.push_back(a);
     const double back = off.empty() ? 0 : off.back();
     for (std::size_t i = 0; i < now.size(); ++i) next[i] -= a * now[i] + back * before[i];
-    const double b = std::sqrt(dot(next, next));
+    const double b = std::sqrt(inner(next, next));
     const bool exhausted = b < 1e-12 * std::abs(a);
     if (step % 16 == 0 || step == longest || exhausted) {
       const double last = top;

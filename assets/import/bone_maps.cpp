@@ -16,13 +16,23 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using geometry::smoothstep;
 
+/// The shortest rotation of one unit vector onto another. (Eigen's takes a singular value decomposition, and its
+/// compilation six seconds.)
+Matrix3d shortest_turn(const Vector3d& from, const Vector3d& onto) {
+  Vector3d half = from + onto;
+  if (half.squaredNorm() < 1e-12) half = from.unitOrthogonal();
+  half.normalize();
+  const Vector3d axis = from.cross(half);
+  return Eigen::Quaterniond(from.dot(half), axis.x(), axis.y(), axis.z()).toRotationMatrix();
+}
+
 /// From the upper joint to the lower: length fitted along the axis, `across` at right angles to it.
 BoneMap long_bone(const Vector3d& upper, const Vector3d& lower, const Vector3d& body_upper, const Vector3d& body_lower,
                   double across) {
   const Vector3d axis = (lower - upper).normalized(), target = (body_lower - body_upper).normalized();
   const double along = (body_lower - body_upper).norm() / (lower - upper).norm();
   const Matrix3d along_axis = axis * axis.transpose();
-  const Matrix3d turn = Eigen::Quaterniond::FromTwoVectors(axis, target).toRotationMatrix();
+  const Matrix3d turn = shortest_turn(axis, target);
   BoneMap map;
   map.from = upper;
   map.to = body_upper;

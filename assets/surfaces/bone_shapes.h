@@ -19,6 +19,8 @@ struct Proportions {
 };
 Proportions proportions(const Body& body);
 
+inline constexpr Vec3<double> forward{0, 0, 1}, up{0, 1, 0}, down{0, -1, 0}, across{1, 0, 0};
+
 /// A station drawn as centre x y z, semi-axes, angle in degrees.
 struct Station {
   double x, y, z, semi_u, semi_v, angle_deg = 0, bow = 0;

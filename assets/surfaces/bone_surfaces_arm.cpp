@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
 
@@ -10,10 +11,8 @@ namespace {
 
 using namespace geometry;
 
-constexpr Vec forward{0, 0, 1}, up{0, 1, 0};
-
 /// A small tubular bone with a waist.
-void add_long_bone(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle, double r_far) {
+void add_bone_of_hand(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle, double r_far) {
   const Vec quarter = 0.7 * near + 0.3 * far, three = 0.3 * near + 0.7 * far;
   const std::array<TubeStation, 4> line = {TubeStation{near, r_near, r_near},
                                            {quarter, r_middle, r_middle},
@@ -126,7 +125,7 @@ SurfaceMesh hand(const Proportions& p) {
   constexpr std::array<std::array<double, 3>, 4> metacarpals = {
       {{-14, -24, 1.0}, {-3, -7, 1.0}, {7, 9, 0.95}, {15, 24, 0.89}}};
   for (const auto& m : metacarpals) {
-    add_long_bone(mesh, {m[0], -33, 0}, {m[1], -m[2] * palm + 4, 1}, 7, 4.3, 7);
+    add_bone_of_hand(mesh, {m[0], -33, 0}, {m[1], -m[2] * palm + 4, 1}, 7, 4.3, 7);
   }
   return mesh;
 }
@@ -139,9 +138,9 @@ SurfaceMesh fingers(const Proportions& p) {
   for (const auto& d : digits) {
     const Vec start{d[0], (1 - d[2]) * palm, 1}, end{d[1], (1 - d[2]) * palm - d[3] * l, 3};
     const auto at = [&](double t) { return start + t * (end - start); };
-    add_long_bone(mesh, at(0.07), at(0.46), 6.3, 3.9, 5.2);
-    add_long_bone(mesh, at(0.54), at(0.75), 5.2, 3.4, 4.5);
-    add_long_bone(mesh, at(0.82), at(0.98), 4.4, 2.8, 3.2);
+    add_bone_of_hand(mesh, at(0.07), at(0.46), 6.3, 3.9, 5.2);
+    add_bone_of_hand(mesh, at(0.54), at(0.75), 5.2, 3.4, 4.5);
+    add_bone_of_hand(mesh, at(0.82), at(0.98), 4.4, 2.8, 3.2);
   }
   return mesh;
 }
@@ -151,9 +150,9 @@ SurfaceMesh thumb(const Proportions& p) {
   SurfaceMesh mesh;
   const Vec start{0, 0, 2}, end{-0.42 * l, -l, 0.25 * l};
   const auto at = [&](double t) { return start + t * (end - start); };
-  add_long_bone(mesh, at(0.02), at(0.42), 7, 4.6, 6.5);
-  add_long_bone(mesh, at(0.50), at(0.74), 6, 4, 5);
-  add_long_bone(mesh, at(0.82), at(0.99), 5, 3.2, 3.4);
+  add_bone_of_hand(mesh, at(0.02), at(0.42), 7, 4.6, 6.5);
+  add_bone_of_hand(mesh, at(0.50), at(0.74), 6, 4, 5);
+  add_bone_of_hand(mesh, at(0.82), at(0.99), 5, 3.2, 3.4);
   return mesh;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "assets/surfaces/bone_shapes.h"
 #include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
@@ -11,8 +12,6 @@ namespace mobil::bones {
 namespace {
 
 using namespace geometry;
-
-constexpr Vec down{0, -1, 0}, forward{0, 0, 1}, up{0, 1, 0};
 
 /// The lofted shaft in the frame whose origin lies at `level`.
 SurfaceMesh shaft(const LegFrame& leg, std::span<const LegSection> sections, double level, int rings, int segments) {
@@ -24,7 +23,7 @@ SurfaceMesh shaft(const LegFrame& leg, std::span<const LegSection> sections, dou
 }
 
 /// A bone of the foot or toes: from its near end to its far end, thickest there.
-void add_long_bone(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle, double r_far) {
+void add_bone_of_foot(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle, double r_far) {
   const Vec middle = 0.5 * (near + far) + Vec{0, 0.06 * length(far - near), 0};
   const std::array<TubeStation, 4> line = {TubeStation{near, r_near, r_near},
                                            {0.5 * (near + middle), r_middle, r_middle},
@@ -138,7 +137,7 @@ SurfaceMesh foot(const Proportions& p) {
   block(-4, -17, 55, 8, 11, 11);
   block(-13, -22, 51, 8, 12, 13);
   for (const Ray& r : rays) {
-    add_long_bone(mesh, at(r.base.x, r.base.y, r.base.z), at(r.head.x, r.head.y, r.head.z), r.base_r, r.shaft_r,
+    add_bone_of_foot(mesh, at(r.base.x, r.base.y, r.base.z), at(r.head.x, r.head.y, r.head.z), r.base_r, r.shaft_r,
                   r.head_r);
   }
   for (const double x : {-1.0, 10.0}) add_ellipsoid(mesh, at(x, -60, 113), {4.5, 3.5, 6}, 4, 8);  // sesamoids
@@ -156,12 +155,12 @@ SurfaceMesh toes(const Proportions& p) {
     const auto at = [&](double t, double lift) { return start + t * span + Vec{0, lift, 0}; };
     const double q = i == 0 ? 1.0 : 0.62, m = r.head_r;
     if (i == 0) {
-      add_long_bone(mesh, at(0.12, 0), at(0.55, 1), 9.5, 6.5, 8);
-      add_long_bone(mesh, at(0.66, 0), at(0.96, 0), 8.5, 5.5, 5.5);
+      add_bone_of_foot(mesh, at(0.12, 0), at(0.55, 1), 9.5, 6.5, 8);
+      add_bone_of_foot(mesh, at(0.66, 0), at(0.96, 0), 8.5, 5.5, 5.5);
     } else {
-      add_long_bone(mesh, at(0.10, 0), at(0.50, 3), 0.9 * m, 0.55 * m, 0.75 * m);
-      add_long_bone(mesh, at(0.58, 3), at(0.76, 1), q * m, 0.5 * m, 0.6 * m);
-      add_long_bone(mesh, at(0.83, 0), at(0.98, 0), 0.6 * m, 0.45 * m, 0.45 * m);
+      add_bone_of_foot(mesh, at(0.10, 0), at(0.50, 3), 0.9 * m, 0.55 * m, 0.75 * m);
+      add_bone_of_foot(mesh, at(0.58, 3), at(0.76, 1), q * m, 0.5 * m, 0.6 * m);
+      add_bone_of_foot(mesh, at(0.83, 0), at(0.98, 0), 0.6 * m, 0.45 * m, 0.45 * m);
     }
   }
   return mesh;

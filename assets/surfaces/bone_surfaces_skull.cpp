@@ -4,13 +4,7 @@
 #include "engine/geometry.h"
 
 namespace mobil::bones {
-namespace {
-
 using namespace geometry;
-
-constexpr Vec forward{0, 0, 1}, up{0, 1, 0};
-
-}  // namespace
 
 SurfaceMesh skull() {
   SurfaceMesh mesh, side;

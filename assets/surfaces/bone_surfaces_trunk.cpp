@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <array>
 
+#include "assets/surfaces/bone_shapes.h"
 #include "engine/geometry.h"
 
 namespace mobil::bones {
 namespace {
 
 using namespace geometry;
-
-constexpr Vec forward{0, 0, 1}, up{0, 1, 0}, across{1, 0, 0};
 
 /// Half-widths and processes of a vertebra, mm; T1–T12 also the ribs: half-width of the cage, drop to the end of the
 /// bony rib, and where its cartilage ends (beside the middle, over the ground, forward).

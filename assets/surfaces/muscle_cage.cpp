@@ -20,7 +20,7 @@ using namespace geometry;
 constexpr double thinnest_end = 0.35;
 /// A block of two cells across comes within 0.962 of its ellipse.
 constexpr double margin = 1.05;
-constexpr std::size_t last = cage_station_count - 1;
+constexpr std::size_t last_station = cage_station_count - 1;
 
 /// An ellipse: the image of the unit circle under a symmetric matrix, moved to (x, y).
 struct Station {
@@ -108,8 +108,8 @@ using Stations = std::array<Station, cage_station_count>;
 /// Each a quarter of its neighbours'.
 Stations softened(const Stations& s) {
   Stations out;
-  for (std::size_t i = 0; i <= last; ++i) {
-    out[i] = mix(s[i], mix(s[i > 0 ? i - 1 : 0], s[std::min(i + 1, last)], 0.5), 0.5);
+  for (std::size_t i = 0; i <= last_station; ++i) {
+    out[i] = mix(s[i], mix(s[i > 0 ? i - 1 : 0], s[std::min(i + 1, last_station)], 0.5), 0.5);
   }
   return out;
 }
@@ -118,7 +118,7 @@ Stations softened(const Stations& s) {
 Stations follow(const std::vector<Vec>& points, double spacing) {
   Stations tight, smooth;
   double middle = 0;
-  for (std::size_t i = 0; i <= last; ++i) {
+  for (std::size_t i = 0; i <= last_station; ++i) {
     const double z = static_cast<double>(i) * spacing;
     std::vector<Vec> near;
     for (double within = 0.6 * spacing; near.size() < 8; within *= 1.5) {
@@ -131,7 +131,7 @@ Stations follow(const std::vector<Vec>& points, double spacing) {
   smooth = softened(softened(tight));
   // Centres further: elements shear where they bend.
   const Stations centres = softened(softened(smooth));
-  for (std::size_t i = 0; i <= last; ++i) smooth[i].x = centres[i].x, smooth[i].y = centres[i].y;
+  for (std::size_t i = 0; i <= last_station; ++i) smooth[i].x = centres[i].x, smooth[i].y = centres[i].y;
   for (const Station& s : smooth) {
     middle = std::max(middle, (s.xx + s.yy) / 2 - std::hypot((s.xx - s.yy) / 2, s.xy));
   }
@@ -144,13 +144,13 @@ void surround(const std::vector<Vec>& points, double spacing, Stations& stations
   std::array<double, cage_station_count> most{};
   for (const Vec& p : points) {
     const double at = p.z / spacing;
-    if (at < 0 || at > static_cast<double>(last)) continue;
-    const auto i = std::min(static_cast<std::size_t>(at), last - 1);
+    if (at < 0 || at > static_cast<double>(last_station)) continue;
+    const auto i = std::min(static_cast<std::size_t>(at), last_station - 1);
     const double r = reach(mix(stations[i], stations[i + 1], at - static_cast<double>(i)), p.x, p.y);
     most[i] = std::max(most[i], r);
     most[i + 1] = std::max(most[i + 1], r);
   }
-  for (std::size_t i = 0; i <= last; ++i) {
+  for (std::size_t i = 0; i <= last_station; ++i) {
     const double grow = std::max(1.0, margin * most[i]);
     stations[i].xx *= grow, stations[i].xy *= grow, stations[i].yy *= grow;
   }
@@ -167,11 +167,11 @@ double roll(const Stations& stations) {
 CageStations stations_of(const Stations& ellipses) {
   const double turn = roll(ellipses), c = std::cos(turn), n = std::sin(turn);
   CageStations cage{};
-  for (std::size_t i = 0; i <= last; ++i) {
+  for (std::size_t i = 0; i <= last_station; ++i) {
     const Station& s = ellipses[i];
     // To 1/128 mm: what two machines' sines differ by is gone, and all have the same mesh.
     const auto f = [](double metres) { return static_cast<float>(std::round(metres * 128e3) / 128e3); };
-    cage[i] = {static_cast<float>(i) / static_cast<float>(last),
+    cage[i] = {static_cast<float>(i) / static_cast<float>(last_station),
                f(s.x),
                f(s.y),
                f(s.xx * c + s.xy * n),
@@ -184,7 +184,7 @@ CageStations stations_of(const Stations& ellipses) {
 
 /// The same sections, all as much larger or smaller as gives the block that volume, m³.
 void fill(double volume_m3, double length_m, Stations& stations) {
-  const double now = volume(bend_block({2, 2, 2 * last}, stations_of(stations), length_m).value());
+  const double now = volume(bend_block({2, 2, 2 * last_station}, stations_of(stations), length_m).value());
   const double factor = std::sqrt(volume_m3 / now);
   for (Station& s : stations) s.xx *= factor, s.xy *= factor, s.yy *= factor;
 }
@@ -192,7 +192,7 @@ void fill(double volume_m3, double length_m, Stations& stations) {
 CageStations make_cage(Muscle muscle) {
   const MusclePlan plan = make_muscle_plan(reference_body(), muscle).value();
   const std::vector<Vec> points = outline(plan);
-  const double spacing = plan.belly_length_m / last;
+  const double spacing = plan.belly_length_m / last_station;
   Stations stations = follow(points, spacing);
   if (members_of(muscle).size() > 1) {
     surround(points, spacing, stations);

@@ -21,9 +21,9 @@ namespace {
 
 using namespace geometry;
 
-constexpr int rings = 36, segments = 18;
+constexpr int muscle_rings = 36, muscle_segments = 18;
 constexpr TubeShape muscle_shape{
-    .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = rings, .segments = segments, .cap = 0.5};
+    .reference = {0, 0, 1}, .normal = Vec{0, -1, 0}, .rings = muscle_rings, .segments = muscle_segments, .cap = 0.5};
 
 constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
@@ -207,9 +207,9 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections) {
   std::vector<TubeStation> stations;
   for (const auto& s : sections) stations.push_back(leg_station(f.leg, s));
   SurfaceMesh mesh = loft(stations, muscle_shape);
-  const std::size_t ring_count = (mesh.position.size() - 2) / segments;
+  const std::size_t ring_count = (mesh.position.size() - 2) / muscle_segments;
   for (std::size_t r = 0; r < ring_count; ++r) {
-    for (const auto& bone : f.bones) keep_out(f, bone, std::span(mesh.position).subspan(1 + r * segments, segments));
+    for (const auto& bone : f.bones) keep_out(f, bone, std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments));
   }
   for (const auto& bone : f.bones) {
     keep_out(f, bone, std::span(mesh.position).first(1));

@@ -74,8 +74,9 @@ template <Stiffness stiffness, FarEnd far_end, bool energy>
 HWY_INLINE void substep(const Bellies& belly, const Vector& end, V& work) {
   const Cells& cells = belly.cells;
   advance_velocity<stiffness, FarEnd::free, false, energy>(belly, 1, cells[2] - 1, end, work);
-  if constexpr (far_end != FarEnd::held || energy) {
-    advance_velocity<stiffness, far_end, true, energy>(belly, cells[2], cells[2], end, work);
+  V unused = work;
+  if constexpr (far_end != FarEnd::held || energy) {  // one plane: its work costs too little for a version without
+    advance_velocity<stiffness, far_end, true, true>(belly, cells[2], cells[2], end, energy ? work : unused);
   }
   const std::size_t far = node_stride * first_insertion_node(cells), past = node_stride * node_count(cells);
   const std::size_t moving_end = far_end == FarEnd::held ? far : past;

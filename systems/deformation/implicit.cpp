@@ -43,7 +43,7 @@ HWY_INLINE void for_each_component(const Bellies& belly, std::uint32_t past_node
 
 /// Constant average acceleration, for the change of velocity from vₙ to the step's mean.
 template <Stiffness stiffness, Mass mass>
-HWY_INLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
+HWY_NOINLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
   const bool held = belly.end == FarEnd::held;
   const float half = 0.5F * step.dt, strain_half = half + step.beta;
   float *const strained = belly.image, *const rates = belly.direction;
@@ -74,7 +74,7 @@ HWY_INLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
 
 /// Implicit (consistent-mass) central differences.
 template <Stiffness stiffness>
-HWY_INLINE void step_icd(const Bellies& belly, const Step& step) {
+HWY_NOINLINE void step_icd(const Bellies& belly, const Step& step) {
   const bool held = belly.end == FarEnd::held;
   const float* strained = belly.u;
   if (held) set_far_z(belly, belly.v, step.far_speed);
@@ -129,7 +129,7 @@ HWY_INLINE void step_icd(const Bellies& belly, const Step& step) {
 }
 
 template <Stiffness stiffness, Mass mass>
-HWY_INLINE void step_static(const Bellies& belly, const Step& step, bool exact) {
+HWY_NOINLINE void step_static(const Bellies& belly, const Step& step, bool exact) {
   if (exact) {  // anew: what K·u rounds off would be some per mille of a slender belly's bending, tick by tick
     for_each_component(belly, belly.past,
                        [&](std::size_t, std::size_t at) HWY_ATTR { hn::Store(hn::Zero(d), d, belly.u + at); });
@@ -149,7 +149,7 @@ HWY_INLINE void step_static(const Bellies& belly, const Step& step, bool exact) 
 }
 
 /// ½·vᵀ·M·v with the consistent mass.
-HWY_INLINE void report_consistent_kinetic_energy(const Bellies& belly) {
+HWY_NOINLINE void report_consistent_kinetic_energy(const Bellies& belly) {
   Bellies all = belly;
   all.past = node_count(belly.cells);
   const float* pair = belly.kernel.consistent_mass_kg.data();
@@ -165,7 +165,7 @@ HWY_INLINE void report_consistent_kinetic_energy(const Bellies& belly) {
 
 /// ½·uₙᵀ·K·uₙ₊₁ from uₙ₊₁ and the velocity between them.
 template <Stiffness stiffness>
-HWY_INLINE void report_strain_across_step(const Bellies& belly, const Step& step) {
+HWY_NOINLINE void report_strain_across_step(const Bellies& belly, const Step& step) {
   const Cells cells = belly.cells;
   Bellies all = belly;
   all.past = node_count(cells);

@@ -10,6 +10,7 @@
 
 namespace mobil {
 namespace {
+namespace of_reduced {
 
 void move(Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
           const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedMotion> motion,
@@ -197,9 +198,10 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
   return from;
 }
 
+}  // namespace of_reduced
 }  // namespace
 
-constinit const DeformationMethod reduced_method = {Method::reduced, &reduced_module, &reduced_parts, &recognise,
-                                                    &computed,       &begin,          &go_on};
+constinit const DeformationMethod reduced_method = {Method::reduced, &of_reduced::reduced_module, &of_reduced::reduced_parts, &of_reduced::recognise,
+                                                    &of_reduced::computed,       &of_reduced::begin,          &of_reduced::go_on};
 
 }  // namespace mobil

@@ -6,6 +6,7 @@
 
 namespace mobil {
 namespace {
+namespace of_static {
 
 /// There is no velocity; what stands in for it is not touched.
 void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<StaticSteps>, float tick_s,
@@ -65,9 +66,10 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool) {
   return from;
 }
 
+}  // namespace of_static
 }  // namespace
 
-constinit const DeformationMethod static_method = {Method::statics, &static_module, &static_parts, &recognise,
-                                                   &computed,       &begin,         &go_on};
+constinit const DeformationMethod static_method = {Method::statics, &of_static::static_module, &of_static::static_parts, &of_static::recognise,
+                                                   &of_static::computed,       &of_static::begin,         &of_static::go_on};
 
 }  // namespace mobil

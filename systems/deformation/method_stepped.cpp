@@ -6,6 +6,7 @@
 
 namespace mobil {
 namespace {
+namespace of_stepped {
 
 void deform(Shared<MuscleTemplate> shape, TagValue<Substeps> substeps, float tick_s, Scratch<ScratchFloats> scratch,
             const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
@@ -76,13 +77,14 @@ Module implicit_module() {
           .systems = [](ScheduleBuilder& systems) { systems.add("deformation, solved", &solve).after("deformation"); }};
 }
 
+}  // namespace of_stepped
 }  // namespace
 
 constinit const DeformationMethod explicit_method = {
-    Method::ecd, &explicit_module, &stepped_parts, &recognise<Method::ecd>, &computed, &begin, &go_on};
+    Method::ecd, &of_stepped::explicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::ecd>, &of_stepped::computed, &of_stepped::begin, &of_stepped::go_on};
 constinit const DeformationMethod implicit_method = {
-    Method::icd, &implicit_module, &stepped_parts, &recognise<Method::icd>, &computed, &begin, &go_on};
-constinit const DeformationMethod newmark_method = {Method::caa, nullptr, &stepped_parts, &recognise<Method::caa>,
-                                                    &computed,   &begin,  &go_on};
+    Method::icd, &of_stepped::implicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::icd>, &of_stepped::computed, &of_stepped::begin, &of_stepped::go_on};
+constinit const DeformationMethod newmark_method = {Method::caa, nullptr, &of_stepped::stepped_parts, &of_stepped::recognise<Method::caa>,
+                                                    &of_stepped::computed,   &of_stepped::begin,  &of_stepped::go_on};
 
 }  // namespace mobil

@@ -40,7 +40,7 @@ HWY_INLINE V enclosed_volume(const KernelArrays& kernel, V across, V along, cons
 
 /// Elongation, reaction and volume.
 template <Stiffness stiffness>
-HWY_INLINE void report_shape(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
+HWY_NOINLINE void report_shape(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
   const KernelArrays& kernel = block.muscle.kernel;
   const float* const u = block.displacement + first_lane;
@@ -63,7 +63,7 @@ HWY_INLINE void report_shape(const BellyBlock& block, const Factors& factor, std
 }
 
 /// ½·vᵀ·M·v with the lumped mass.
-HWY_INLINE void report_kinetic_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
+HWY_NOINLINE inline void report_kinetic_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
   V sum = hn::Zero(d);
   for (std::uint32_t n = plane_nodes(cells); n < node_count(cells); ++n) {
@@ -79,7 +79,7 @@ HWY_INLINE void report_kinetic_energy(const BellyBlock& block, const Factors& fa
 
 /// ½·uᵀ·K·u.
 template <Stiffness stiffness>
-HWY_INLINE void report_strain_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
+HWY_NOINLINE void report_strain_energy(const BellyBlock& block, const Factors& factor, std::size_t first_lane) {
   const Cells& cells = block.muscle.mesh.cells;
   const float* const u = block.displacement + first_lane;
   const float* coefficient = coefficients<stiffness>(block.muscle.kernel, 1);

@@ -45,7 +45,7 @@ HWY_INLINE LegSize leg_size(const Wide& height) {
 
 /// Distance between hip and ankle at a knee flexion; a negative flexion stands for a leg that is longer than straight
 /// by what the positive one makes it shorter.
-HWY_INLINE Wide leg_reach(const LegSize& leg, const Wide& knee) {
+HWY_NOINLINE inline Wide leg_reach(const LegSize& leg, const Wide& knee) {
   Wide s, c;
   sin_cos(knee, s, c);
   const Wide full = leg.thigh + leg.shank;
@@ -54,7 +54,7 @@ HWY_INLINE Wide leg_reach(const LegSize& leg, const Wide& knee) {
 }
 
 /// Knee flexion at a distance between hip and ankle, 0 where that is out of reach.
-HWY_INLINE Wide knee_at(const LegSize& leg, const Wide& reach) {
+HWY_NOINLINE inline Wide knee_at(const LegSize& leg, const Wide& reach) {
   const Wide full = leg.thigh + leg.shank;
   const Wide short_of = max((full - reach) * (full + reach), 0.0F);  // 2 t s (1 − cos k)
   const Wide half_sine = sqrt(min(short_of / (4.0F * leg.thigh * leg.shank), 1.0F));
@@ -105,7 +105,7 @@ HWY_INLINE Footing footing(const Wide& half_width, const Wide& toe_out) {
 }
 
 /// The ankle of a foot turned by `pitch` about its heel (toes up) or its ball (heel up).
-HWY_INLINE Place planted_ankle(const LegSize& leg, const Footing& foot, const Wide& pitch) {
+HWY_NOINLINE inline Place planted_ankle(const LegSize& leg, const Footing& foot, const Wide& pitch) {
   Wide s, c;
   sin_cos(pitch, s, c);
   const WideMask on_heel = pitch >= 0.0F;
@@ -118,7 +118,7 @@ HWY_INLINE Place planted_ankle(const LegSize& leg, const Footing& foot, const Wi
 }
 
 /// Velocity of that ankle for a pitch rate of 1.
-HWY_INLINE Place planted_ankle_rate(const LegSize& leg, const Footing& foot, const Wide& pitch) {
+HWY_NOINLINE inline Place planted_ankle_rate(const LegSize& leg, const Footing& foot, const Wide& pitch) {
   Wide s, c;
   sin_cos(pitch, s, c);
   const WideMask on_heel = pitch >= 0.0F;
@@ -133,7 +133,7 @@ struct LegAngles {
 };
 
 /// The knee forward; straight where the ankle is out of reach.
-HWY_INLINE LegAngles leg_angles(const LegSize& leg, const Place& hip, const Place& ankle) {
+HWY_NOINLINE inline LegAngles leg_angles(const LegSize& leg, const Place& hip, const Place& ankle) {
   const Wide dx = ankle.out - hip.out, dy = hip.up - ankle.up, dz = ankle.forward - hip.forward;
   const Wide down = sqrt(fma(dx, dx, dy * dy));
   const Wide distance = sqrt(fma(dz, dz, down * down));

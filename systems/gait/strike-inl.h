@@ -33,7 +33,7 @@ struct StrikeRequest {
 };
 
 /// One double support as a fraction of the cycle; the cadence is in steps a minute at a height of 1.8 m.
-HWY_INLINE Wide double_support_of(const Wide& cadence, const Wide& scale) {
+HWY_NOINLINE inline Wide double_support_of(const Wide& cadence, const Wide& scale) {
   namespace d = double_support_law;
   constexpr auto at_rest = static_cast<float>(d::at_rest), per_cadence = static_cast<float>(d::per_cadence);
   constexpr auto least = static_cast<float>(d::least), most = static_cast<float>(d::most);
@@ -42,7 +42,7 @@ HWY_INLINE Wide double_support_of(const Wide& cadence, const Wide& scale) {
 
 /// Height of the hips in mid-stance. Legs of one stiffness sink under the weight that a body of this height carries
 /// beyond 22 kg/m²; they sink less and less, and a light body's cannot become longer than straight.
-HWY_INLINE Wide mid_stance_height(const Wide& height, const Wide& mass, const GaitStyleOf<Lanes<float>>& style) {
+HWY_NOINLINE inline Wide mid_stance_height(const Wide& height, const Wide& mass, const GaitStyleOf<Lanes<float>>& style) {
   const Wide stand = ratio(fraction::hip_height, height);
   const Wide stiffness = load(style.leg_stiffness_n_per_m) * height / 1.8F;
   const Wide excess = (mass - 22.0F * height * height) * gravity_f / (stiffness * stand);
@@ -56,7 +56,7 @@ struct HipsAtStrike {
   Wide up, up_velocity;
 };
 
-HWY_INLINE HipsAtStrike hips_at(const Strike<Lanes<float>>& strike) {
+HWY_NOINLINE inline HipsAtStrike hips_at(const Strike<Lanes<float>>& strike) {
   Wide s, c;
   sin_cos(wide(2.0F * pi_f * lowest_phase), s, c);
   const Wide wave = load(strike.up_wave_m);
@@ -90,7 +90,7 @@ HWY_NOINLINE inline Wide foot_pitch_rate(const LegSize& leg, const Strike<Lanes<
 }
 
 /// Highest place of the middle of the hips from which the leading leg reaches the ground with its knee so bent.
-HWY_INLINE Wide reachable_height(const LegSize& leg, const Strike<Lanes<float>>& strike, const Wide& knee) {
+HWY_NOINLINE inline Wide reachable_height(const LegSize& leg, const Strike<Lanes<float>>& strike, const Wide& knee) {
   const PelvisManner pelvis = pelvis_manner(strike.manner, strike.manner, wide(0.0F));
   const Place offset = hip_offset(leg, pelvis, wide(0.0F));
   const Footing foot = footing(load(strike.half_width_m), load(strike.toe_out));

@@ -25,7 +25,7 @@ struct SupportMasses {
   Wide coupling, trunk_inertia;   // m₂ r₂ and m₂ r₂² + I₂
 };
 
-HWY_INLINE SupportMasses support_masses(const Wide& height, const Wide& mass) {
+HWY_NOINLINE inline SupportMasses support_masses(const Wide& height, const Wide& mass) {
   constexpr float leg_part = 0.161F, trunk_part = 0.678F, centre = 0.553F;
   const Wide trunk = 0.288F * height;
   const Wide leg_gyration = ratio(0.326 * (fraction::thigh + fraction::shank), height);
@@ -41,7 +41,7 @@ struct SupportLanes {
   Wide q[3], rate[3];
 };
 
-HWY_INLINE void support_acceleration(const SupportMasses& m, const SupportLanes& s, const Wide (&force)[3],
+MOBIL_WIDE_INLINE void support_acceleration(const SupportMasses& m, const SupportLanes& s, const Wide (&force)[3],
                                      Wide (&acceleration)[3]) {
   const Wide &length = s.q[0], &length_rate = s.rate[0], &leg_rate = s.rate[1], &trunk_rate = s.rate[2];
   Wide l_s, l_c, u_s, u_c;
@@ -114,7 +114,7 @@ constexpr EarlyPulse make_early_pulse() {
 
 inline constexpr EarlyPulse early_pulse = make_early_pulse();
 
-HWY_INLINE void hips_of(const SupportLanes& s, Wide& forward, Wide& forward_rate, Wide& up, Wide& up_rate) {
+MOBIL_WIDE_INLINE void hips_of(const SupportLanes& s, Wide& forward, Wide& forward_rate, Wide& up, Wide& up_rate) {
   Wide sine, cosine;
   sin_cos(s.q[1], sine, cosine);
   forward = s.q[0] * sine;

@@ -26,7 +26,7 @@ struct SwingMasses {
   Wide a11, a22, coupling, moment, shank_moment, length;
 };
 
-HWY_INLINE SwingMasses swing_masses(const LegSize& leg) {
+HWY_NOINLINE inline SwingMasses swing_masses(const LegSize& leg) {
   constexpr float thigh_mass = 0.100F, shank_mass = 0.061F;
   const Wide thigh_centre = 0.433F * leg.thigh, shank_centre = 0.606F * leg.shank;
   const Wide thigh_gyration = 0.323F * leg.thigh, shank_gyration = 0.416F * leg.shank;
@@ -50,7 +50,7 @@ struct SwingTorques {
 
 /// The torques of given accelerations (equations 4 and 5 of the two-link swing leg), the hip accelerating by (forward,
 /// up) in m/s².
-HWY_INLINE SwingTorques swing_torques(const SwingMasses& m, const SwingLanes& s, const Wide (&acceleration)[2],
+MOBIL_WIDE_INLINE SwingTorques swing_torques(const SwingMasses& m, const SwingLanes& s, const Wide (&acceleration)[2],
                                       const Wide& hip_forward, const Wide& hip_up) {
   Wide t_s, t_c, s_s, s_c;
   sin_cos(s.q[0], t_s, t_c);
@@ -72,7 +72,7 @@ struct Turning {
 
 /// The fifth-degree polynomial between two angles with their rates and accelerations over a span of time, at a part of
 /// it: the motion of least mean square jerk between them.
-HWY_INLINE Turning least_jerk(const Wide& u, const Wide& span, const Turning& a, const Turning& b) {
+MOBIL_WIDE_INLINE Turning least_jerk(const Wide& u, const Wide& span, const Turning& a, const Turning& b) {
   const Wide da = a.rate * span, db = b.rate * span;
   const Wide ea = 0.5F * a.acceleration * span * span, eb = 0.5F * b.acceleration * span * span;
   const Wide rise = b.value - a.value - da - ea, slope = db - da - 2.0F * ea, bend = eb - ea;

@@ -28,7 +28,7 @@ HWY_INLINE WideQuat turn_y(const Wide& angle) {
 }
 
 /// Between two rotations that are less than a right angle apart, part of the way.
-HWY_INLINE WideQuat part_way(const WideQuat& a, const WideQuat& b, const Wide& part) {
+MOBIL_WIDE_INLINE WideQuat part_way(const WideQuat& a, const WideQuat& b, const Wide& part) {
   const WideQuat m = {fma(part, b.x - a.x, a.x), fma(part, b.y - a.y, a.y), fma(part, b.z - a.z, a.z),
                       fma(part, b.w - a.w, a.w)};
   const Wide r = 1.0F / sqrt(fma(m.x, m.x, fma(m.y, m.y, fma(m.z, m.z, m.w * m.w))));
@@ -41,7 +41,7 @@ HWY_INLINE WideQuat turn_z(const Wide& angle) {
 }
 
 /// Turned about y, within that about z, within that about x.
-HWY_INLINE WideQuat turn_yzx(const Wide& y, const Wide& z, const Wide& x) {
+MOBIL_WIDE_INLINE WideQuat turn_yzx(const Wide& y, const Wide& z, const Wide& x) {
   return turn_y(y) * (turn_z(z) * turn_x(x));
 }
 

@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// Angle about x of the shank's rotation in the thigh's frame.
-HWY_INLINE Wide knee_flexion(const WideQuat& thigh, const WideQuat& shank) {
+MOBIL_WIDE_INLINE Wide knee_flexion(const WideQuat& thigh, const WideQuat& shank) {
   const WideQuat q = WideQuat{-thigh.x, -thigh.y, -thigh.z, thigh.w} * shank;
   const WideMask other_sign = q.w < wide(0.0F);
   return wide(2.0F) * atan2(select(other_sign, -q.x, q.x), abs(q.w));
@@ -34,19 +34,19 @@ struct Leg {
 
 constexpr float knots_per_rad = 57.2957795F / static_cast<float>(knee_knot_deg);
 
-HWY_INLINE WideVec track_at(const Leg& leg, const MuscleLines::Track& track) {
+MOBIL_WIDE_INLINE WideVec track_at(const Leg& leg, const MuscleLines::Track& track) {
   WideVec at = fma(leg.flexion * wide(knots_per_rad), wide(track.slope), wide(track.at_zero));
   for (std::size_t k = 0; k < knee_knots; ++k) at = fma(leg.cube[k], wide(track.cubic[k]), at);
   return at;
 }
 
 /// What is fixed to a bone at that place of the published leg: from the bone's origin, world axes.
-HWY_INLINE WideVec turned(const Leg& leg, LegBone bone, const WideVec& at) {
+MOBIL_WIDE_INLINE WideVec turned(const Leg& leg, LegBone bone, const WideVec& at) {
   const auto b = static_cast<std::size_t>(bone);
   return rotate(leg.rotation[b], {leg.across * at.x, leg.y_scale[b] * at.y, leg.across * at.z});
 }
 
-HWY_INLINE Leg load_leg(const MuscleLines& lines, const LegScale<Lanes<float>>& scale,
+MOBIL_WIDE_INLINE Leg load_leg(const MuscleLines& lines, const LegScale<Lanes<float>>& scale,
                         const LegFrames<Lanes<float>>& legs) {
   Leg leg;
   leg.knee = load(legs.knee_m);
@@ -77,7 +77,7 @@ HWY_INLINE Leg load_leg(const MuscleLines& lines, const LegScale<Lanes<float>>& 
   return leg;
 }
 
-HWY_INLINE WideVec place(const Leg& leg, LegBone bone, const WideVec& at) {
+MOBIL_WIDE_INLINE WideVec place(const Leg& leg, LegBone bone, const WideVec& at) {
   return leg.origin[static_cast<std::size_t>(bone)] + turned(leg, bone, at);
 }
 
@@ -102,7 +102,7 @@ struct Touch {
   WideMask touched;
   WideVec at;
 };
-HWY_INLINE Touch over_edge(const WideVec& from, const WideVec& to, const WideVec& p, const WideVec& axis,
+MOBIL_WIDE_INLINE Touch over_edge(const WideVec& from, const WideVec& to, const WideVec& p, const WideVec& axis,
                            PathHold side) {
   const WideVec a = from - p, b = to - p;
   const Wide turn = dot(cross(a, b), axis);

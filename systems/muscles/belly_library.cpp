@@ -17,7 +17,6 @@ namespace {
 
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
 constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
-constexpr double most_steps = 1e6;                         // a tick
 
 class Mixer {
  public:
@@ -94,7 +93,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
                     muscles().size()));
   }
   if (!choice.dt_s) return {};
-  const double least = tick_s / most_steps;
+  const double least = tick_s / static_cast<double>(most_steps);
   if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {
     return fail(fmt::format("a step of {} s must be finite and at least {:.3g} s; give another or leave it out",
                             *choice.dt_s, least));

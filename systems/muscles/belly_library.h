@@ -18,6 +18,9 @@
 
 namespace mobil {
 
+/// Steps of a method that a tick may take.
+inline constexpr std::uint32_t most_steps = 1'000'000;
+
 /// Templates, solvers and bases, made when they are first asked for and kept. Solvers and bases are those of bodies in
 /// the middle of a range of sizes: what one gets depends on one's own size alone.
 class BellyLibrary {

@@ -5,6 +5,7 @@
 
 namespace mobil {
 namespace {
+namespace of_inertia {
 
 Module module() {
   return {.name = "inertia",
@@ -30,8 +31,9 @@ void begin(const EffectStart& start, RowValues& values) {
   values.set(first_lane(load));
 }
 
+}  // namespace of_inertia
 }  // namespace
 
-constinit const MuscleEffect inertia_effect = {&module, &wanted, &begin};
+constinit const MuscleEffect inertia_effect = {&of_inertia::module, &of_inertia::wanted, &of_inertia::begin};
 
 }  // namespace mobil

@@ -7,6 +7,7 @@
 
 namespace mobil {
 namespace {
+namespace of_line_motion {
 
 void move_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
                 Shared<MuscleLines> lines, const LegScale<Lanes<float>>& scale, const LineOfAction<Lanes<float>>& line,
@@ -33,8 +34,9 @@ void begin(const EffectStart& start, RowValues& values) {
   values.set(first_lane(motion));
 }
 
+}  // namespace of_line_motion
 }  // namespace
 
-constinit const MuscleEffect line_motion_effect = {&module, &wanted, &begin};
+constinit const MuscleEffect line_motion_effect = {&of_line_motion::module, &of_line_motion::wanted, &of_line_motion::begin};
 
 }  // namespace mobil

@@ -14,8 +14,6 @@
 namespace mobil {
 namespace {
 
-constexpr std::uint32_t most_steps = 1'000'000;  // a tick
-
 void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
                   Shared<MuscleLines> lines, TagValue<FarEnd> far_end, const LegScale<Lanes<float>>& scale,
                   LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {

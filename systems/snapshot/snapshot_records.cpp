@@ -8,9 +8,6 @@ namespace {
 std::uint64_t bits(double value) {
   return std::bit_cast<std::uint64_t>(value);
 }
-double number(std::uint64_t bits) {
-  return std::bit_cast<double>(bits);
-}
 
 SavedMethod pack(const MuscleMethod& method) {
   const ReducedChoice& reduced = method.reduced;

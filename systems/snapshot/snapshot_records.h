@@ -12,6 +12,10 @@
 
 namespace mobil {
 
+inline double number(std::uint64_t bits) {
+  return std::bit_cast<double>(bits);
+}
+
 struct FrontHeader {
   std::int64_t tick_units, remainder_units;
   std::uint32_t tick, resources, modules, spare;

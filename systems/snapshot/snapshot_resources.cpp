@@ -145,9 +145,6 @@ Recipe named_recipe(const Module& module, const NamedResource& named) {
 BellyScale<float> scale_of(double across, double along) {
   return {static_cast<float>(across), static_cast<float>(along)};
 }
-double number(std::uint64_t bits) {
-  return std::bit_cast<double>(bits);
-}
 
 }  // namespace
 

@@ -1,5 +1,7 @@
 #include "tests/fem/oracle.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 #include <utility>
 
@@ -203,11 +205,19 @@ Vector solve(const Matrix& symmetric, const Vector& right) {
 }
 
 Vector eigenvalues(const Matrix& symmetric) {
-  return Eigen::SelfAdjointEigenSolver<Matrix>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
+  return symmetric_eigen(symmetric).values;
+}
+
+SymmetricEigen modes(const Matrix& stiffness, const Matrix& mass) {
+  const Eigen::LLT<Matrix> factor(mass);
+  const Matrix half = factor.matrixL().solve(stiffness);
+  SymmetricEigen found = symmetric_eigen(factor.matrixL().solve(half.transpose()));
+  found.vectors = factor.matrixU().solve(found.vectors).eval();
+  return found;
 }
 
 Vector eigenvalues(const Matrix& stiffness, const Matrix& mass) {
-  return Eigen::GeneralizedSelfAdjointEigenSolver<Matrix>(stiffness, mass, Eigen::EigenvaluesOnly).eigenvalues();
+  return modes(stiffness, mass).values;
 }
 
 }  // namespace mobil::oracle

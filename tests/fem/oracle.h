@@ -2,7 +2,7 @@
 // An independent finite-element model in double precision and dense matrices: Voigt strain-displacement matrices,
 // assembled directly on the mesh it is given. What the kernels are compared with.
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <array>
 #include <cstddef>
 #include <vector>
@@ -10,6 +10,7 @@
 #include "assets/fem/critical_step.h"
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/stiffness_terms.h"
+#include "assets/reduction/symmetric_eigen.h"
 #include "components/muscle.h"
 
 namespace mobil::oracle {
@@ -72,7 +73,9 @@ struct Belly {
 Vector solve(const Matrix& symmetric, const Vector& right);
 /// Of a symmetric matrix, ascending.
 Vector eigenvalues(const Matrix& symmetric);
-/// λ of K·x = λ·M·x, ascending.
+/// λ and x of K·x = λ·M·x, λ ascending, xᵀ·M·x = 1.
+SymmetricEigen modes(const Matrix& stiffness, const Matrix& mass);
+/// The λ alone.
 Vector eigenvalues(const Matrix& stiffness, const Matrix& mass);
 
 }  // namespace mobil::oracle

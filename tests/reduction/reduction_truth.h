@@ -1,8 +1,6 @@
 #pragma once
 // The full model of a mesh, integrated exactly: what tests of the bound of a reduction's error compare it with.
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <complex>
 #include <cstddef>
@@ -11,6 +9,7 @@
 
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_operators.h"
+#include "tests/fem/oracle.h"
 
 namespace mobil {
 
@@ -51,9 +50,9 @@ class FullBelly {
     const Columns stiffness = applied(terms, {1 / (r * p), 1 / p, r / p, basis.foundation_1_s2, 0}, unit);
     const Columns mass = applied(terms, {0, 0, 0, 1, 1}, unit);
     const Eigen::MatrixXd k = stiffness(moving, moving), m = mass(moving, moving);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(k, m);
-    for (const double omega2 : solver.eigenvalues()) vibration_.push_back({omega2, damping_per_s});
-    const Eigen::MatrixXd seen = solver.eigenvectors().transpose() * m;
+    const SymmetricEigen modes = oracle::modes(k, m);
+    for (const double omega2 : modes.values) vibration_.push_back({omega2, damping_per_s});
+    const Eigen::MatrixXd seen = modes.vectors.transpose() * m;
 
     const Index inputs = Index{basis.inputs}, frame = basis.options.frame_loads ? Index{frame_inputs} : 0;
     Columns loads = Columns::Zero(rows, inputs), step = Columns::Zero(rows, 1);
@@ -64,9 +63,9 @@ class FullBelly {
       loads.leftCols(inputs - frame) = far_traction(mesh, end == FarEnd::free) / mass_scale_;
     }
     if (frame > 0) loads.rightCols(frame) = mass * frame_fields(mesh, across, along);
-    rest_ = solver.eigenvalues().cwiseInverse().asDiagonal() *
-            (solver.eigenvectors().transpose() * loads(moving, Eigen::all));
-    dragged_ = solver.eigenvectors().transpose() * (mass * step)(moving, Eigen::all);
+    rest_ = modes.values.cwiseInverse().asDiagonal() *
+            (modes.vectors.transpose() * loads(moving, Eigen::all));
+    dragged_ = modes.vectors.transpose() * (mass * step)(moving, Eigen::all);
     if (held_) rest_.col(0) += dragged_;
 
     const Index width = static_cast<Index>(fields.size()) / rows;

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "assets/reduction/symmetric_eigen.h"
 #include "tests/reduction/bound/reduction_bound.h"
 #include "tests/reduction/bound/reduction_tables.h"
 
@@ -171,10 +171,10 @@ Operators operators_of(const ReductionTables& t, double across, double along) {
 
 /// Of the Galerkin problem on the first `count` vectors; shape in those.
 Vibrations vibrations_of(const Operators& o, Index lifts, Index count, double damping_per_s, MatrixXd& shape) {
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(o.stiffness.block(lifts, lifts, count, count));
+  const SymmetricEigen modes = symmetric_eigen(o.stiffness.block(lifts, lifts, count, count));
   Vibrations v;
-  shape = solver.eigenvectors();
-  v.omega2 = solver.eigenvalues();
+  shape = modes.vectors;
+  v.omega2 = modes.values;
   v.swing = (v.omega2.array() - damping_per_s * damping_per_s / 4).max(0.0).sqrt();
   v.rest = v.omega2.cwiseInverse().asDiagonal() * (shape.transpose() * o.rest_pull.topRows(count));
   v.kick = shape.transpose() * o.share.topRows(count) + v.rest;

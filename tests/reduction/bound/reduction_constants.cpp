@@ -1,12 +1,12 @@
 #include "tests/reduction/bound/reduction_constants.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <utility>
 
 #include "assets/reduction/reduced_training.h"
+#include "assets/reduction/symmetric_eigen.h"
 
 namespace mobil {
 namespace {
@@ -52,9 +52,8 @@ std::pair<double, double> extremes(const SpaceCase& given, const MovingOperator&
     inverse.solve(next);
   }
   const Columns used = space.leftCols(count);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(inner(used, applied(given.terms, what, used)),
-                                                              Eigen::EigenvaluesOnly);
-  return {solver.eigenvalues()(0), solver.eigenvalues()(count - 1)};
+  const Eigen::VectorXd values = symmetric_eigen(inner(used, applied(given.terms, what, used))).values;
+  return {values(0), values(count - 1)};
 }
 
 /// A number near `estimate` with mix = reference·sign·bound − sign·what positive definite: what ≤ bound·K₀ (sign 1) or

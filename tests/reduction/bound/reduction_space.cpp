@@ -1,13 +1,13 @@
 #include "tests/reduction/bound/reduction_space.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
 
 #include "assets/reduction/reduced_training.h"
+#include "assets/reduction/symmetric_eigen.h"
 
 namespace mobil {
 namespace {
@@ -56,13 +56,13 @@ Result<Columns> motions_of(const SpaceCase& given, double across, double along) 
     inverse.solve(start);
   }
   const auto basis = space.leftCols(count);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner(basis, applied(terms, stiffness, basis)));
+  const SymmetricEigen modes = symmetric_eigen(inner(basis, applied(terms, stiffness, basis)));
   const Index kept = std::min(slowest, count);
-  const Columns shape = basis * solver.eigenvectors().leftCols(kept);
+  const Columns shape = basis * modes.vectors.leftCols(kept);
   const MatrixXd kicked = inner(shape, mass_times(terms, whole));
   const Eigen::VectorXd weight = (kicked.rowwise().norm().array() + least_weight * kicked.norm())
                                      .matrix()
-                                     .cwiseQuotient(solver.eigenvalues().head(kept).cwiseMax(1e-300).cwiseSqrt());
+                                     .cwiseQuotient(modes.values.head(kept).cwiseMax(1e-300).cwiseSqrt());
   Columns all(rest.rows(), rest.cols() + kept);
   all << rest, shape * weight.asDiagonal();
   return all;
@@ -104,10 +104,10 @@ Result<Columns> wider_space(const SpaceCase& given, const Columns& vectors, Inde
   const Columns stiff = applied(given.terms, middle, vectors);
   const Eigen::LLT<MatrixXd> own(inner(vectors, stiff));
   all -= vectors * own.solve(inner(stiff, all));
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(inner(all, applied(given.terms, middle, all)));
-  const Index real = (solver.eigenvalues().array() > 1e-14 * solver.eigenvalues()(all.cols() - 1)).count();
+  const SymmetricEigen modes = symmetric_eigen(inner(all, applied(given.terms, middle, all)));
+  const Index real = (modes.values.array() > 1e-14 * modes.values(all.cols() - 1)).count();
   const Index extra = std::max<Index>(0, std::min(count - vectors.cols(), real));
-  Columns chosen = all * solver.eigenvectors().rowwise().reverse().leftCols(extra);
+  Columns chosen = all * modes.vectors.rowwise().reverse().leftCols(extra);
   orthonormalise(given.terms, vectors, mass_times(given.terms, vectors), chosen);
   Columns space(vectors.rows(), vectors.cols() + chosen.cols());
   space << vectors, chosen;

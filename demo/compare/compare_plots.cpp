@@ -52,7 +52,7 @@ PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::sp
       const MeasuredSet& own = reference.sets[walk.set];
       PlotPanel panel;
       if (&row == &rows.front()) {
-        panel.title = fmt::format("{}, {:.2f} m/s", speed_class_name[walk.speed_class], walk.speed_m_s);
+        panel.title = fmt::format("{}, {:.2f} m/s", compared_class_name[walk.speed_class], walk.speed_m_s);
         if (reference.sets.size() > 1) panel.title += fmt::format(" ({})", own.name.substr(0, own.name.find(' ')));
       }
       if (&row == &rows.back()) panel.x.label = "% of the gait cycle";

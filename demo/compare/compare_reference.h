@@ -28,7 +28,7 @@ constexpr std::size_t index(GaitQuantity quantity) {
 
 /// Speeds come in three classes, the same for every set: slow, free, fast.
 inline constexpr std::size_t speed_class_count = 3;
-inline constexpr std::array<std::string_view, speed_class_count> speed_class_name = {"slow", "free", "fast"};
+inline constexpr std::array<std::string_view, speed_class_count> compared_class_name = {"slow", "free", "fast"};
 
 /// One published set of curves. `speed`: in m/s, or over √(g · leg length) where `dimensionless`. `hip_from_vertical`:
 /// the thigh's angle is measured from the vertical, otherwise from the tilted pelvis.

@@ -92,7 +92,7 @@ Json walk_json(const Comparison& comparison, const ComparedWalk& walk) {
   const MeasuredSet& own = comparison.reference.sets[walk.set];
   Json json;
   json["set"] = own.name;
-  json["class"] = speed_class_name[walk.speed_class];
+  json["class"] = compared_class_name[walk.speed_class];
   json.update(step_json(walk.stride));
   json["double_support_cycle"] = walk.stride.double_support_cycle;
   json["com_lowest_percent"] = walk.stride.com_lowest_percent;

@@ -132,7 +132,7 @@ double least_drop(const std::vector<VariedWalk>& walks, Height height) {
 }  // namespace
 
 std::string walk_name(const Comparison& comparison, const ComparedWalk& walk) {
-  return fmt::format("{} {:.2f} m/s ({})", speed_class_name[walk.speed_class], walk.speed_m_s,
+  return fmt::format("{} {:.2f} m/s ({})", compared_class_name[walk.speed_class], walk.speed_m_s,
                      comparison.reference.sets[walk.set].name);
 }
 

@@ -140,7 +140,7 @@ Result<void> paper_figure15(PaperRun& run) {
   std::vector<Walk> walks;
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     run.progress("walking", static_cast<double>(c) / (speed_class_count + 1));
-    const std::string name(speed_class_name[c]);
+    const std::string name(compared_class_name[c]);
     auto walk = walk_at(people.speed_m_s(c, static_cast<double>(body->hip_height_m)), "schwartz_" + name, name);
     if (!walk) return tl::unexpected(walk.error());
     walks.push_back(std::move(*walk));

@@ -18,9 +18,7 @@
 #include "tests/body/rigid_sum.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::anthropometry_test {
 /// The limit of that joint and motion, or null.
 const JointLimit* find_joint_limit(std::string_view joint, std::string_view motion) {
   for (const JointLimit& limit : limb_limits) {
@@ -303,5 +301,4 @@ TEST(JointLimits, TheColumnBendsAndTurnsAsMuchAsRegionsAreSaidTo) {
   for (const JointLimit& limit : limb_limits) EXPECT_LT(limit.low_deg, limit.high_deg) << limit.joint;
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::anthropometry_test

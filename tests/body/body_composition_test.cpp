@@ -12,9 +12,7 @@
 #include "assets/muscles/muscle_plan.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::body_composition_test {
 BodyRequest any_request() {
   BodyRequest r;
   r.height_m = static_cast<float>(*rc::gen::inRange(1200, 2191)) / 1000;
@@ -142,5 +140,4 @@ TEST(BodyComposition, OfTheLightestThatLiveHasAllTheLeanMassThereIs) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::body_composition_test

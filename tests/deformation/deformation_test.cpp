@@ -16,9 +16,7 @@
 #include "tests/fem/oracle.h"
 #include "tests/fem/spindle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::deformation_test {
 using oracle::Vector;
 
 constexpr float tick_s = 1.0F / 60.0F;
@@ -396,5 +394,4 @@ TEST(Deformation, NonsenseTemplatesAreRefused) {
   EXPECT_FALSE(with({FarEnd::held, 0, 1, std::nan("")}));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::deformation_test

@@ -14,9 +14,7 @@
 #include "tests/deformation/implicit_oracle.h"
 #include "tests/engine/instruction_sets.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::implicit_test {
 using namespace oracle;  // NOLINT(google-build-using-namespace)
 
 /// Smallest stable number of central-difference substeps of all lanes with the consistent mass.
@@ -289,5 +287,4 @@ TEST(Implicit, NonsenseSolversAreRefusedInOneLine) {
   EXPECT_FALSE(make_belly_solver(wide, Method::caa, Mass::lumped, 0.01).has_value());
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::implicit_test

@@ -12,9 +12,7 @@
 #include "systems/deformation/reference.h"
 #include "tests/fem/spindle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reduced_end_to_end_test {
 constexpr double tick_s = 1.0 / 60, damping = 8, foundation_hz = 7;
 constexpr Cells fine_cells = {4, 4, 16}, control_cells = {2, 2, 8};
 constexpr std::array<double, 2> across = {0.9, 1.08}, along = {0.85, 1.1};
@@ -216,5 +214,4 @@ TEST(ReducedEndToEnd, BelliesMoveAndReportAsTheWholeMeshDoes) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reduced_end_to_end_test

@@ -15,9 +15,7 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/instruction_sets.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reduced_test {
 constexpr std::array far_ends = {FarEnd::held, FarEnd::sliding, FarEnd::free};
 
 struct Kind {
@@ -299,5 +297,4 @@ TEST(Reduced, TicksAndPlacingUseNoHeap) {
   EXPECT_EQ(heap_requests, before);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reduced_test

@@ -14,9 +14,7 @@
 #include "tests/fem/oracle.h"
 #include "tests/fem/spindle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reference_test {
 using oracle::Matrix;
 using oracle::Vector;
 
@@ -203,12 +201,15 @@ double energy_drift(Method method, double dt_of_limit, double foundation_1_s) {
 TEST(ReferenceEnergy, OfExplicitStepsIsConstantToRoundingOverAMillion) {
   EXPECT_LT(energy_drift(Method::ecd, 0.95, 0), 1e-11);
 }
+
 TEST(ReferenceEnergy, OfImplicitCentralDifferencesIsConstantToRoundingOverAMillion) {
   EXPECT_LT(energy_drift(Method::icd, 0.95, 0), 1e-11);
 }
+
 TEST(ReferenceEnergy, OfConstantAverageAccelerationIsConstantToRoundingOverAMillion) {
   EXPECT_LT(energy_drift(Method::caa, 5, 0), 1e-11);
 }
+
 TEST(ReferenceEnergy, CountsTheFoundation) {
   EXPECT_LT(energy_drift(Method::ecd, 0.8, 44), 1e-11);
 }
@@ -307,5 +308,4 @@ TEST(Reference, RefusesWhatHasNoMeaning) {
   EXPECT_FALSE(refused(mesh, {Method::statics, Mass::lumped, FarEnd::free, 0}));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reference_test

@@ -1,41 +1,10 @@
 #pragma once
-// Replaces the whole program's operator new by one that counts. For one source file of a test program.
+// A test program that includes this has an operator new that counts, and that refuses where it is asked to.
 
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
-#include <new>
 
 namespace mobil {
-inline std::atomic<std::size_t> heap_requests = 0;
-inline std::atomic<std::size_t> heap_refuse_at = SIZE_MAX;  // and from that request on
-
-inline void* counted(std::size_t bytes, std::size_t alignment) {
-  if (heap_requests++ >= heap_refuse_at) throw std::bad_alloc();
-  void* memory = nullptr;
-  if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, bytes) != 0)
-    throw std::bad_alloc();
-  return memory;
-}
+extern std::atomic<std::size_t> heap_requests;
+extern std::atomic<std::size_t> heap_refuse_at;  // and from that request on
 }  // namespace mobil
-
-// Every other form of new and delete is defined to end in these. (Inlined, gcc takes them for a mismatched pair.)
-[[gnu::noinline]] void* operator new(std::size_t bytes) {
-  return mobil::counted(bytes, alignof(std::max_align_t));
-}
-[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  return mobil::counted(bytes, static_cast<std::size_t>(alignment));
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
-}
-[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
-}

@@ -8,15 +8,13 @@
 #include <limits>
 #include <vector>
 
-namespace mobil {
-namespace {
+namespace mobil::engine_clock_test {
 constexpr double unit_s = 0x1p-50;
 
 rc::Gen<double> seconds_between(double low, double high) {
   return rc::gen::map(rc::gen::inRange<std::int64_t>(0, 1'000'000'000'000),
                       [=](std::int64_t i) { return low + (high - low) * static_cast<double>(i) * 1e-12; });
 }
-}  // namespace
 
 RC_GTEST_PROP(EngineClock, TicksRemainderAndDroppedAreAllThatWasFed, ()) {
   const double tick_s = *seconds_between(1e-3, 0.1);
@@ -87,4 +85,4 @@ TEST(EngineClock, SettingsOutOfRangeAreErrors) {
   for (const double frame : {0.0, 0.01, 61.0, std::nan("")}) EXPECT_FALSE(Clock::make(0.02, frame));
   EXPECT_TRUE(Clock::make(0.02, 0.02));
 }
-}  // namespace mobil
+}  // namespace mobil::engine_clock_test

@@ -4,8 +4,7 @@
 #include "components/muscle.h"
 #include "engine/schedule.h"
 
-namespace mobil {
-namespace {
+namespace mobil::engine_example_test {
 template <class F>
 struct Heel {
   F height_m;
@@ -43,5 +42,4 @@ TEST(EngineExample, EveryMuscleFollowsItsHuman) {
   EXPECT_EQ(world.get<Heel>(tall)->height_m, 1.2F);
   EXPECT_EQ(world.get<Heel>(small).error(), Status::stale_entity);
 }
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::engine_example_test

@@ -9,8 +9,7 @@
 
 #include "engine/schedule.h"
 
-namespace mobil {
-namespace {
+namespace mobil::engine_jobs_test {
 template <class F>
 struct Faint {
   F x;
@@ -86,5 +85,4 @@ TEST(EngineJobs, EveryIndexIsDoneOnce) {
     }
   }
 }
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::engine_jobs_test

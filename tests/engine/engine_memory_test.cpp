@@ -7,8 +7,7 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 
-namespace mobil {
-namespace {
+namespace mobil::engine_memory_test {
 template <class F>
 struct A {
   F x;
@@ -58,5 +57,4 @@ TEST(EngineMemory, ASteadyTickTakesNone) {
   }
   EXPECT_GT(world.get<B>(all[499])->x, 0.0F);
 }
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::engine_memory_test

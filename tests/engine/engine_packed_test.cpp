@@ -18,8 +18,7 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 
-namespace mobil {
-namespace {
+namespace mobil::engine_packed_test {
 /// Whether to be chosen, and by whom it can be told.
 template <class F>
 struct Choice {
@@ -310,5 +309,4 @@ TEST(EnginePacked, ASteadyTickTakesNoMemoryHoweverManyAreChosen) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::engine_packed_test

@@ -15,8 +15,7 @@
 
 #include "engine/schedule_order.h"
 
-namespace mobil {
-namespace {
+namespace mobil::engine_schedule_test {
 template <class F>
 struct A {
   F x;
@@ -388,5 +387,4 @@ TEST(EngineSchedule, RunsEveryBlockOnce) {
     for (const Entity e : all) ASSERT_EQ(world.get<A>(e)->x, static_cast<float>(i));
   }
 }
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::engine_schedule_test

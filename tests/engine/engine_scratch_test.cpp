@@ -14,9 +14,7 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::engine_scratch_test {
 template <class F>
 struct A {
   F x;
@@ -182,5 +180,4 @@ TEST(Maybe, CountsAsARead) {
   EXPECT_FALSE(ScheduleBuilder().add("both", [](Maybe<Extra>, Extra<Lanes<float>>&) {}).build());
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::engine_scratch_test

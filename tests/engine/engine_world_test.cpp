@@ -14,8 +14,7 @@
 
 #include "tests/engine/engine_counting_memory.h"
 
-namespace mobil {
-namespace {
+namespace mobil::engine_world_test {
 template <class F>
 struct Size {
   F height_m;
@@ -290,7 +289,6 @@ rc::Gen<Change> any_change() {
   return rc::gen::construct<Change>(rc::gen::inRange(0U, 21U), rc::gen::arbitrary<unsigned>(),
                                     rc::gen::inRange(0U, 1000U));
 }
-}  // namespace
 
 RC_GTEST_PROP(EngineWorld, IsAMapOfEntitiesWhateverIsDoneToIt, ()) {
   Pair pair;
@@ -391,4 +389,4 @@ TEST(EngineKey, TypesAreKnownByTheirNames) {
   static_assert(type_id<Size<float>>() != type_id<Arms<float>>());
   static_assert(!distinct({1, 2, 1}) && distinct({1, 2, 3}));
 }
-}  // namespace mobil
+}  // namespace mobil::engine_world_test

@@ -10,9 +10,7 @@
 #include "engine/state_hash.h"
 #include "engine/world.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::members_test {
 template <class F>
 struct Keeper {
   Whole<F> index, generation, number;
@@ -157,5 +155,4 @@ TEST(Members, CountInTheHashOfTheirOwnerAndNotByHandle) {
   EXPECT_NE(state_hash(one, {}), state_hash(other, {}));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::members_test

@@ -13,9 +13,7 @@
 #include "engine/world.h"
 #include "tests/engine/engine_counting_memory.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::world_batch_test {
 template <class F>
 struct Place3 {
   Vec3<F> at;
@@ -195,5 +193,4 @@ TEST(WorldBatch, WithoutMemoryTheWorldIsUnchanged) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::world_batch_test

@@ -10,9 +10,7 @@
 
 #include "tests/fem/oracle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::axial_stiffness_test {
 using oracle::Matrix;
 using oracle::Vector;
 
@@ -160,5 +158,4 @@ TEST(AxialStiffness, BeyondTheTableItsEndIsTaken) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::axial_stiffness_test

@@ -9,9 +9,7 @@
 
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::calculix_test {
 using calculix::Block;
 using calculix::History;
 using calculix::Procedure;
@@ -157,5 +155,4 @@ TEST(Calculix, ConstantAverageAcceleration) {
   for (const Case& c : cases) expect_agreement(c, Procedure::implicit_dynamics, "--method caa --mass consistent");
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::calculix_test

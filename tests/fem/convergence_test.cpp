@@ -11,9 +11,7 @@
 #include "assets/fem/stiffness_terms.h"
 #include "tests/fem/oracle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::convergence_test {
 using Point = Eigen::Vector3d;
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -183,5 +181,4 @@ TEST(Convergence, BbarAndOnePointKeepTheirAccuracyWhereTissueIsNearlyIncompressi
   EXPECT_LT(growth(Element::one_point), 1.2);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::convergence_test

@@ -13,9 +13,7 @@
 
 #include "tests/fem/any_stiffness.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::critical_step_test {
 using oracle::Matrix;
 using oracle::Vector;
 using Sparse = Eigen::SparseMatrix<double>;
@@ -228,5 +226,4 @@ RC_GTEST_PROP(CriticalStep, SubstepsAreTheFewestThatFit, ()) {
   RC_ASSERT(n == 1U || tick / (n - 1) > 0.9 * limit);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::critical_step_test

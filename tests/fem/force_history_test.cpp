@@ -7,9 +7,7 @@
 #include <cmath>
 #include <string>
 
-namespace mobil {
-namespace {
-
+namespace mobil::force_history_test {
 const std::string header = "time_s,force_x_n,force_y_n,force_z_n\n";
 
 RC_GTEST_PROP(ForceHistory, LinearBetweenRowsZeroBeforeHeldAfter, (int first_n, int second_n)) {
@@ -58,5 +56,4 @@ TEST(ForceHistory, BadTablesAreRefusedWithTheirLine) {
   EXPECT_FALSE(read_force_history("/"));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::force_history_test

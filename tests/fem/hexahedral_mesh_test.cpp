@@ -14,9 +14,7 @@
 #include "assets/fem/stiffness_terms.h"
 #include "tests/fem/oracle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::hexahedral_mesh_test {
 Cells any_cells(std::uint32_t across = 4, std::uint32_t along = 9) {
   return {*rc::gen::inRange(1U, across), *rc::gen::inRange(1U, across), *rc::gen::inRange(1U, along)};
 }
@@ -265,5 +263,4 @@ TEST(HexahedralMesh, CentreOfTheFarFaceIsOneTwoOrFourNodes) {
   EXPECT_NEAR(y, 0, 1e-15);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::hexahedral_mesh_test

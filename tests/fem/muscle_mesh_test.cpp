@@ -15,9 +15,7 @@
 #include "engine/geometry.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::muscle_mesh_test {
 using namespace geometry;
 
 constexpr Cells coarse{2, 2, 8}, middle{4, 4, 16}, fine{8, 8, 32};
@@ -135,5 +133,4 @@ TEST(MuscleMesh, FollowsTheSurfacesOfItsMuscle) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::muscle_mesh_test

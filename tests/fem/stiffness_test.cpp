@@ -10,9 +10,7 @@
 #include "assets/fem/critical_step.h"
 #include "tests/fem/any_stiffness.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::stiffness_test {
 using oracle::Matrix;
 using oracle::Vector;
 
@@ -165,5 +163,4 @@ TEST(StiffnessTerms, NonsenseMaterialIsRefused) {
   for (const double bad : {-1.0, 0.5, 0.7, std::nan("")}) EXPECT_FALSE(with(1000, 1e4, bad));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::stiffness_test

@@ -16,7 +16,6 @@
 #include "systems/capture/vertex_normals.h"
 #include "systems/capture/video.h"
 
-namespace {
 using namespace mobil;
 namespace fs = std::filesystem;
 using Point = Vec3<float>;
@@ -456,4 +455,3 @@ TEST(CaptureVideoWithoutFfmpeg, SaysWhichPackageIsMissing) {
   ASSERT_FALSE(video.has_value());
   EXPECT_NE(video.error().message.find("apt-get install ffmpeg"), std::string::npos);
 }
-}  // namespace

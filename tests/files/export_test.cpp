@@ -22,8 +22,7 @@
 #include "assets/export/gltf_writer.h"
 #include "tests/files/export_fixture.h"
 
-namespace mobil {
-namespace {
+namespace mobil::export_test {
 namespace fs = std::filesystem;
 using namespace export_fixture;
 
@@ -325,5 +324,4 @@ TEST(Export, KhronosValidatorFindsNoErrorAndNoWarning) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::export_test

@@ -21,9 +21,7 @@
 #include "assets/surfaces/surface_mesh.h"
 #include "tests/files/reference_data.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::import_fit_test {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
@@ -222,5 +220,4 @@ TEST_F(RealLeg, SoleusReadsAlikeFromEveryFormat) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::import_fit_test

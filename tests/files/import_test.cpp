@@ -22,9 +22,7 @@
 #include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/surface_mesh.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::import_test {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
@@ -468,5 +466,4 @@ RC_GTEST_PROP(Simplify, ClustersMoveVerticesByLessThanACellAndKeepVolume, ()) {
   RC_ASSERT(clustered(ball, cell).triangle == light.triangle);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::import_test

@@ -12,9 +12,7 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/gait/adams_systems.h"
 
-namespace mobil::step {
-namespace {
-
+namespace mobil::step::adams_test {
 template <std::size_t N>
 AdamsOptions<N> tolerance(double value) {
   AdamsOptions<N> o;
@@ -412,5 +410,4 @@ TEST(Adams, BitsAreTheSameEverywhere) {
   EXPECT_EQ(duffing->counts.evaluations, 717);
 }
 
-}  // namespace
-}  // namespace mobil::step
+}  // namespace mobil::step::adams_test

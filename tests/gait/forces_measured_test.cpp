@@ -14,9 +14,7 @@
 #include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::forces_measured_test {
 using namespace figure;
 
 constexpr double pi = 3.14159265358979;
@@ -198,5 +196,4 @@ TEST(ForcesOfAMeasuredWalk, AgreeWithTheForcePlatesAndTheMoments) {
   EXPECT_GT(joint("ankle_plantarflexor_Nm_kg", 2), 0.97);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::forces_measured_test

@@ -8,9 +8,7 @@
 
 #include "tests/gait/forces_figure.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::forces_test {
 using namespace figure;
 
 constexpr float tick = 1.0F / 120.0F;
@@ -388,5 +386,4 @@ TEST(Forces, TurningTheWorldTurnsTheForcesAndLeavesTheMoments) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::forces_test

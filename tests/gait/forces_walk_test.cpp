@@ -13,9 +13,7 @@
 #include "tests/files/reference_data.h"
 #include "tests/gait/forces_figure.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::forces_walk_test {
 using namespace figure;
 
 /// All of one instant of one walker. Side 0 right, 1 left.
@@ -315,5 +313,4 @@ TEST(ForcesOfOtherMeasuredWalks, CurvesResembleWintersAdultsAndOneMan) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::forces_walk_test

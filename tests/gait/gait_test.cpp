@@ -12,9 +12,7 @@
 #include "tests/gait/step_dynamics.h"
 #include "tests/gait/walkers.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::gait_test {
 using step::gravity;
 
 Body body_of(double height, double mass) {
@@ -257,5 +255,4 @@ TEST(GaitParameters, ABlocksDefaultsAreARowsInEveryLane) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::gait_test

@@ -8,9 +8,7 @@
 #include "engine/geometry.h"
 #include "tests/gait/walkers.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::kinematics_test {
 constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr float tick = 1.0F / 120.0F;
 
@@ -444,5 +442,4 @@ TEST(Kinematics, AnatomicalPositionStandsOnTheGround) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::kinematics_test

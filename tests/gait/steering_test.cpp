@@ -5,9 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace mobil::steering {
-namespace {
-
+namespace mobil::steering::steering_test {
 constexpr double degree = std::numbers::pi / 180;
 
 /// Greatest rates of the mean curves of measured walking, central differences over 2 % of the cycle: hip flexion and
@@ -259,5 +257,4 @@ TEST(Steering, ALimpsStepsAreUnevenAsAsked) {
   EXPECT_EQ(limping, 160);
 }
 
-}  // namespace
-}  // namespace mobil::steering
+}  // namespace mobil::steering::steering_test

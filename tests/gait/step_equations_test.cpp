@@ -13,9 +13,7 @@
 #include "tests/gait/step_dynamics.h"
 #include "tests/gait/walkers.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::step_equations_test {
 namespace wide_step = HWY_NAMESPACE;  // the compiler's own instruction set
 using wide_step::Wide;
 
@@ -389,5 +387,4 @@ TEST(Elimination, SolvesEachLanesOwnEquations) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::step_equations_test

@@ -9,9 +9,7 @@
 #include "systems/kinematics/kinematics.h"
 #include "tests/gait/walkers.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::step_plan_test {
 constexpr std::size_t last_knot = knot_count - 1;
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
@@ -487,5 +485,4 @@ TEST(NextStep, AStandersStyleMayChangeButItsFeetStay) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::step_plan_test

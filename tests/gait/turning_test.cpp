@@ -6,9 +6,7 @@
 #include "systems/gait/gait.h"
 #include "tests/gait/walkers.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::turning_test {
 constexpr double pi = 3.14159265358979323846, degree = pi / 180.0;
 constexpr double most_turn = 20.0 * degree;
 
@@ -202,5 +200,4 @@ TEST(Turning, AtAStrikeTheWalkerIsToBePlannedWhenAnythingChangesAndOnlyThen) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::turning_test

@@ -19,9 +19,7 @@
 #include "systems/deformation/deformation.h"
 #include "tests/fem/oracle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::frame_motion_test {
 using namespace geometry;
 
 constexpr double g = static_cast<double>(gravity_m_s2);
@@ -371,5 +369,4 @@ TEST(FrameMotion, ABellyInAMovingFrameMovesAsInSpace) {
   EXPECT_LT(turned.worst, 0.1 * turned.largest);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::frame_motion_test

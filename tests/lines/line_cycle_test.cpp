@@ -17,9 +17,7 @@
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::line_cycle_test {
 using test::Fit;
 using test::LegAngles;
 using test::posed;
@@ -231,5 +229,4 @@ TEST(LineCycle, LineMotionIsThereWhereItWasAskedForAndFollowsTheLine) {
   EXPECT_FALSE(motion_of(with, left));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::line_cycle_test

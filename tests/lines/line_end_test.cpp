@@ -9,9 +9,7 @@
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::line_end_test {
 constexpr double rounding_m = 2e-6;
 
 struct EndError {
@@ -73,5 +71,4 @@ TEST_P(LineEnd, IsWithinThreeThousandthsOfTheLengtheningUnderThePapersForce) {
 
 INSTANTIATE_TEST_SUITE_P(People, LineEnd, testing::Values(0, 7, 19, 33));
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::line_end_test

@@ -13,9 +13,7 @@
 #include "tests/engine/instruction_sets.h"
 #include "tests/lines/leg_block.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::line_motion_test {
 using namespace geometry;
 using test::Block;
 using test::degree;
@@ -179,5 +177,4 @@ TEST(LineMotion, EveryInstructionSetHasTheSameBitsAndANaNStaysInItsLane) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::line_motion_test

@@ -11,9 +11,7 @@
 #include "assets/muscles/muscle_table.h"
 #include "tests/lines/leg_block.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::line_of_action_test {
 using namespace geometry;
 using test::about;
 using test::degree;
@@ -309,5 +307,4 @@ TEST(LineOfAction, ANaNStaysInItsLane) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::line_of_action_test

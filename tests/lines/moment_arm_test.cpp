@@ -13,9 +13,7 @@
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::moment_arm_test {
 using namespace geometry;
 using test::Block;
 using test::degree;
@@ -255,5 +253,4 @@ TEST(MomentArms, NoJumpAnywhereInTheRangeOfAnyJoint) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::moment_arm_test

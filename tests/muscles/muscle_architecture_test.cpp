@@ -14,9 +14,7 @@
 #include "tests/muscles/find_member.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::muscle_architecture_test {
 Body body_of(float height, float mass, float meso = 4, Constitution constitution = Constitution::average) {
   return make_body({height, mass, {3, meso, 3}, constitution}).value();
 }
@@ -137,5 +135,4 @@ TEST(MuscleArchitecture, AGroupIsTheSumOfItsMembers) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::muscle_architecture_test

@@ -16,9 +16,7 @@
 #include "tests/muscles/find_member.h"
 #include "tests/muscles/published_lengths.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::muscle_path_test {
 using namespace geometry;
 using test::degree;
 using test::every_muscle;
@@ -202,5 +200,4 @@ TEST(MusclePath, NoPieceCutsDeepThroughABone) {
   EXPECT_GT(samples, 100000U);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::muscle_path_test

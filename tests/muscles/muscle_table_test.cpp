@@ -18,9 +18,7 @@
 #include "tests/lines/leg_pose.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::muscle_table_test {
 using namespace geometry;
 using test::degree;
 using test::LegAngles;
@@ -174,5 +172,4 @@ TEST(MusclePlan, ABodyThatWasNeverMadeIsRefused) {
   EXPECT_FALSE(make_muscle_plan(reference, static_cast<Muscle>(99)));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::muscle_table_test

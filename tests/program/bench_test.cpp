@@ -13,9 +13,7 @@
 
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::bench_test {
 namespace fs = std::filesystem;
 
 struct Figure {
@@ -179,5 +177,4 @@ TEST(Bench, BadInputIsOneLineAndNothingIsWritten) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::bench_test

@@ -14,9 +14,7 @@
 
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::body_command_test {
 using Json = nlohmann::json;
 
 Json parameters(const std::string& options) {
@@ -191,5 +189,4 @@ TEST(BodyCommand, HelpTeachesTheOptions) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::body_command_test

@@ -15,9 +15,7 @@
 #include "components/gait_style.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::cli_test {
 namespace fs = std::filesystem;
 
 /// Everything in a folder: names, and what files hold.
@@ -337,5 +335,4 @@ TEST(GoodAnatomy, TheSameFolderUnspoilt) {
   EXPECT_TRUE(fs::exists(folder.path / "out" / "walk.glb"));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::cli_test

@@ -19,9 +19,7 @@
 #include "demo/pictures/svg_plot.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::compare_test {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
@@ -396,5 +394,4 @@ TEST(Command, RefusesInOneLineAndLeavesNothing) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::compare_test

@@ -6,9 +6,7 @@
 #include <array>
 #include <cstdint>
 
-namespace mobil {
-namespace {
-
+namespace mobil::contact_sheet_test {
 Image plain(int width, int height, std::array<std::uint8_t, 4> colour) {
   Image image{width, height, {}};
   for (int i = 0; i < width * height; ++i) image.rgba.insert(image.rgba.end(), colour.begin(), colour.end());
@@ -46,5 +44,4 @@ TEST(ContactSheet, OfNoPicturesIsEmpty) {
   EXPECT_TRUE(contact_sheet(rows, 3).rgba.empty());
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::contact_sheet_test

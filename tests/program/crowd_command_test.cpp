@@ -16,9 +16,7 @@
 #include "demo/crowd/heap_count.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::crowd_command_test {
 using Json = nlohmann::json;
 
 /// The report of a crowd that is asked for so.
@@ -227,5 +225,4 @@ TEST(CrowdPeople, ChangesComeAFewTimesAMinuteAndWhoStopsGoesOn) {
   EXPECT_LT(stops, changes / 4);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::crowd_command_test

@@ -12,9 +12,7 @@
 #include <string_view>
 #include <vector>
 
-namespace mobil {
-namespace {
-
+namespace mobil::json_test {
 template <class J>
 J values() {
   J json;
@@ -65,5 +63,4 @@ TEST(Json, ReadsBackAsWhatWasWritten) {
   EXPECT_EQ(nlohmann::json::parse(shapes<Json>().dump(2))["updated"], (nlohmann::json{{"named", 2}, {"new", 1}}));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::json_test

@@ -7,9 +7,7 @@
 
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::muscle_command_test {
 const std::string push = "time_s,force_x_n,force_y_n,force_z_n\n0,0.001,0.0005,0.01\n0.1,0.002,0,0.01\n0.1,0,0,0\n";
 
 /// Runs in a folder that holds load.csv; hands back the table.
@@ -161,5 +159,4 @@ TEST(MuscleCommand, HelpShowsTheMethodsAndAnExampleThatRuns) {
   EXPECT_TRUE(std::filesystem::exists(folder.path / "damped.csv"));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::muscle_command_test

@@ -11,9 +11,7 @@
 #include "demo/paper/paper_table.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::paper_test {
 namespace fs = std::filesystem;
 
 /// Every element that is opened is closed, in order, and nothing is left over.
@@ -200,5 +198,4 @@ TEST(PaperCycle, AMusclesCycleIsOneOfTheLine) {
   EXPECT_EQ(&cycle->muscle(Muscle::quadriceps), &cycle->muscles[1]);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::paper_test

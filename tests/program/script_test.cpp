@@ -21,9 +21,7 @@
 #include "demo/walk/walk_script.h"
 #include "systems/gait/gait.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::script_test {
 class Dice {
  public:
   explicit Dice(unsigned seed) : engine_(seed) {}
@@ -396,5 +394,4 @@ TEST(Script, HelpNamesEveryWord) {
   EXPECT_TRUE(changes.has_value()) << changes.error().message;
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::script_test

@@ -15,9 +15,7 @@
 #include "demo/stress/stress.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::stress_test {
 namespace fs = std::filesystem;
 
 /// First word of every line of `mobil stress --list`.
@@ -106,5 +104,4 @@ TEST(Stress, BadInputIsOneLineAndNothingIsTried) {
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::stress_test

@@ -18,9 +18,7 @@
 #include "demo/walk/walk_tables.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::walk_test {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
@@ -491,5 +489,4 @@ TEST(Walk, PicturesOfEveryView) {
   EXPECT_EQ(pictures.size(), 9U);  // each another
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::walk_test

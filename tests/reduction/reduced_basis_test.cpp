@@ -18,9 +18,7 @@
 #include "systems/deformation/reference.h"
 #include "tests/fem/oracle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reduced_basis_test {
 using Eigen::Index;
 using oracle::Matrix;
 using oracle::Vector;
@@ -433,5 +431,4 @@ RC_GTEST_PROP(BandCholesky, SolvesAsADenseMatrixDoes, ()) {
   RC_ASSERT((dense * solution - right).norm() <= 1e-11 * (1 + right.norm()));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reduced_basis_test

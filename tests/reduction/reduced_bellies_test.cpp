@@ -14,9 +14,7 @@
 #include "assets/reduction/reduced_bellies.h"
 #include "tests/reduction/scalar_belly.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reduced_bellies_test {
 const ReducedBasis& basis_of(int kind) {
   static const auto make = [](FarEnd end, bool frame, std::uint32_t vectors) {
     const std::vector<CageStation> stations = {
@@ -170,5 +168,4 @@ TEST(ReducedBellies, RefuseBodiesOutsideTheRangeInOneLine) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reduced_bellies_test

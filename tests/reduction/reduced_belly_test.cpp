@@ -19,9 +19,7 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/fem/oracle.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reduced_belly_test {
 using oracle::Matrix;
 
 int whole(int low, int high) {
@@ -221,5 +219,4 @@ RC_GTEST_PROP(ReducedState, OfABodyAtRestIsZero, ()) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reduced_belly_test

@@ -16,9 +16,7 @@
 #include "tests/fem/oracle.h"
 #include "tests/reduction/reduction_truth.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::reduction_bound_test {
 using Loads = std::vector<std::vector<double>>;
 constexpr double tick_s = 1.0 / 60;
 
@@ -292,5 +290,4 @@ TEST(ReductionBound, IsRefusedInOneLineWhereItWouldNotHold) {
   EXPECT_NE(message(BoundedBelly::make(bound, 1, 1, 0)).find("damping"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::reduction_bound_test

@@ -17,9 +17,7 @@
 #include "demo/pictures/svg_plot.h"
 #include "tests/program/program.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::frontier_test {
 FrontierRung elements(const char* name, Method method, const Cells& cells, std::optional<double> dt_s = {},
                       bool fixed_step = false) {
   FrontierRung rung{name, {}};
@@ -245,5 +243,4 @@ TEST(Frontier, HelpTeachesWhatItWrites) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 0);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::frontier_test

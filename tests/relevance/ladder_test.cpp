@@ -10,9 +10,7 @@
 #include "assets/muscles/muscle_table.h"
 #include "systems/relevance/ladder.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::ladder_test {
 struct RandomTable {
   std::vector<AccuracyRow> rows;
   AccuracyTable table;
@@ -257,5 +255,4 @@ TEST(MachineFactor, LearnsNothingFromNothing) {
   EXPECT_EQ(machine.mean(), 3);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::ladder_test

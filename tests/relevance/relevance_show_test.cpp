@@ -16,9 +16,7 @@
 #include "demo/effects/accuracy_reference.h"
 #include "systems/relevance/relevance.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::relevance_show_test {
 constexpr double kept_part = 0.99;  // of muscle-ticks within the tolerance; all of them are within twice that
 
 struct Plan {
@@ -241,5 +239,4 @@ TEST(RelevanceShow, TolerancesAreKeptByManyBodiesAtManySpeedsAndTolerances) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::relevance_show_test

@@ -15,9 +15,7 @@
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::relevance_test {
 /// Reduced bellies of one body alone need a basis a muscle; all are quick to make.
 Person one_body(int i) {
   Person p;
@@ -415,5 +413,4 @@ TEST(Relevance, ABudgetHoldsAsTheCameraFliesOverASlowAndUnsteadyMachine) {
   EXPECT_GE(parts[parts.size() / 2], 0.5) << "and is made use of";
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::relevance_test

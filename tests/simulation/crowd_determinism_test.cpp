@@ -17,9 +17,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::crowd_determinism_test {
 constexpr int ticks = 120, apart = 30;
 constexpr play::Script script{};
 
@@ -132,5 +130,4 @@ TEST(CrowdDeterminism, HashesGoToAFileWhereOneIsNamed) {
   EXPECT_TRUE(out.flush());
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::crowd_determinism_test

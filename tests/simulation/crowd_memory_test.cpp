@@ -17,9 +17,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::crowd_memory_test {
 using play::coarse;
 
 /// One of the effects, and their sum.
@@ -251,5 +249,4 @@ TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
   EXPECT_LT(static_cast<double>(memory.lent_bytes()), few + 0.5 * (some - few));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::crowd_memory_test

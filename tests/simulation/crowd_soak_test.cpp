@@ -17,9 +17,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::crowd_soak_test {
 using play::mixed;
 
 constexpr int a_minute = 3600;  // ticks
@@ -191,5 +189,4 @@ TEST(CrowdSoak, NothingGrowsDriftsOrComesOtherwiseTheSecondTime) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::crowd_soak_test

@@ -10,9 +10,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::crowd_threads_test {
 constexpr play::Script script{.at_first = 20, .comers = 8};
 constexpr int ticks = 40;
 
@@ -82,5 +80,4 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
   EXPECT_EQ(come_and_go({.jobs = pool.jobs()}), expected);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::crowd_threads_test

@@ -17,9 +17,7 @@
 #include "tests/engine/engine_counting_memory.h"
 #include "tests/simulation/leg_muscles.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::leg_muscles_change_test {
 // ------------------------------------------------------------------------------------------------ changes under way
 
 TEST(Change, OfMaterialMakesStepsAnewAndKeepsTheState) {
@@ -243,5 +241,4 @@ TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::leg_muscles_change_test

@@ -10,9 +10,7 @@
 #include <cstdio>
 #include <string>
 
-namespace mobil {
-namespace {
-
+namespace mobil::leg_muscles_test {
 /// The same person with two sets of muscles, in two simulations.
 Difference walk_both(const Person& p, const LegMuscles& one, const LegMuscles& other, int ticks) {
   Simulation a, b;
@@ -264,5 +262,4 @@ TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::leg_muscles_test

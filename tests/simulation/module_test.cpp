@@ -11,9 +11,7 @@
 #include "systems/snapshot/snapshot_file.h"
 #include "tests/simulation/crowd_play.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::module_test {
 /// A number of the host's on a row, one more each tick.
 template <class F>
 struct Counter {
@@ -196,5 +194,4 @@ TEST(Modules, TogetherKnowEveryPartThatACrowdEverHas) {
   EXPECT_GT(muscles, 1000U);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::module_test

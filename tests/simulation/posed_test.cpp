@@ -8,9 +8,7 @@
 #include "assets/body/anthropometry.h"
 #include "tests/simulation/leg_muscles.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::posed_test {
 Entity pose_person(Simulation& simulation, int i) {
   const auto human = simulation.spawn_posed(person(i).body);
   EXPECT_TRUE(human) << human.error().message;
@@ -209,5 +207,4 @@ TEST(Posed, StandingComesToTheSameRestAfterAnyMethods) {
   EXPECT_GT(d.most, 1e-2);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::posed_test

@@ -15,9 +15,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::rollback_test {
 std::vector<Entity> fill(Simulation& simulation, int count, const LegMuscles& choice) {
   std::vector<Entity> people;
   for (int i = 0; i < count; ++i) {
@@ -183,5 +181,4 @@ TEST(Rollback, DISABLED_Milliseconds) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::rollback_test

@@ -11,9 +11,7 @@
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::simulation_change_test {
 std::uint64_t solved(const Simulation& simulation) {
   return simulation.schedule().timing("replan")->rows;
 }
@@ -238,5 +236,4 @@ TEST(Change, ARequestShowsFromTheNextStepOn) {
   EXPECT_GT(changed.get<GaitState>(a)->heading_rad, 0.3F);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::simulation_change_test

@@ -18,9 +18,7 @@
 #include "components/fade.h"
 #include "tests/simulation/leg_muscles.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::simulation_method_test {
 // Coarse meshes, whose bases are made in no time.
 constexpr Cells coarse = {2, 2, 8};
 
@@ -436,5 +434,4 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
   EXPECT_LT(4 * bytes["reduced 12 unseen"], bytes["ecd"]);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::simulation_method_test

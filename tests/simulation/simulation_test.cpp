@@ -18,9 +18,7 @@
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::simulation_test {
 constexpr int crowd_size = 40;
 
 /// Hash of each person of the crowd, by its number, after those ticks.
@@ -417,5 +415,4 @@ TEST(Memory, SteadyTicksTakeNoneAndAllIsReturned) {
   EXPECT_EQ(memory.lent(), 0U);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::simulation_test

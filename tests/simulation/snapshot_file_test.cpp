@@ -15,9 +15,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::snapshot_file_test {
 namespace fs = std::filesystem;
 
 class SnapshotFile : public ::testing::Test {
@@ -121,5 +119,4 @@ TEST_F(SnapshotFile, KilledAtAnyMomentTheLastGoodOneIsThere) {
   EXPECT_GT(ticks.size(), 3U);  // children got somewhere
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::snapshot_file_test

@@ -15,9 +15,7 @@
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::snapshot_test {
 using Bytes = std::vector<std::byte>;
 
 Bytes saved(const Simulation& simulation) {
@@ -316,5 +314,4 @@ TEST(Snapshot, MadeUpBytesWithAGoodSealDoNoHarm) {
   EXPECT_EQ(simulation.state_hash(), state);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::snapshot_test

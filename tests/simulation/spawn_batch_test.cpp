@@ -13,9 +13,7 @@
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::spawn_batch_test {
 LegMuscles muscles_of_kind(int kind) {
   LegMuscles choice;
   choice.muscles = 0b1010;  // two will do
@@ -254,5 +252,4 @@ RC_GTEST_PROP(SpawnBatch, ComingAndGoingLeavesThoseWhoStayAlone, ()) {
   for (const auto& [human, i] : here) RC_ASSERT(hash_human(simulation, human) == hash_alone(i));
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::spawn_batch_test

@@ -13,9 +13,7 @@
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::state_hash_test {
 /// People 0 to count − 1 with muscles, come in that order.
 std::vector<Entity> come(Simulation& simulation, const std::vector<int>& order) {
   std::vector<Entity> people(order.size());
@@ -140,5 +138,4 @@ TEST(Bytes, MessagesOfOneSetBitHaveUnlikeHashes) {
   EXPECT_GT(seen.size(), 8 * bytes.size());
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::state_hash_test

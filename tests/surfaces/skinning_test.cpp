@@ -16,9 +16,7 @@
 #include "engine/geometry.h"
 #include "tests/surfaces/skinned.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::skinning_test {
 using namespace geometry;
 
 constexpr double blend_m = 0.04;
@@ -399,5 +397,4 @@ TEST(PackSurface, SaysWhatIsWrongWithASurface) {
   EXPECT_NE(error(changed, bound.nodes()).find("simplify it"), std::string::npos);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::skinning_test

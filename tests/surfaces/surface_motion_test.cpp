@@ -23,9 +23,7 @@
 #include "tests/files/reference_data.h"
 #include "tests/surfaces/skinned.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::surface_motion_test {
 using namespace geometry;
 
 constexpr std::size_t phases = 12;
@@ -358,5 +356,4 @@ TEST_F(RealSurfaceMotion, TendonsAreNeitherTornNorPushedTogether) {
   }
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::surface_motion_test

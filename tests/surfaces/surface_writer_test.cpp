@@ -20,9 +20,7 @@
 #include "tests/simulation/crowd_pool.h"
 #include "tests/surfaces/skinned.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::surface_writer_test {
 using namespace geometry;
 
 struct Vertex {
@@ -456,5 +454,4 @@ TEST(SurfaceWriter, ASteadyCallTakesNoMemory) {
   EXPECT_EQ(malloc_requests, before);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::surface_writer_test

@@ -17,9 +17,7 @@
 #include "assets/surfaces/tube.h"
 #include "engine/geometry.h"
 
-namespace mobil {
-namespace {
-
+namespace mobil::surfaces_test {
 using namespace geometry;
 
 /// Every directed edge occurs once, and its reverse once; every vertex is used; nothing is NaN.
@@ -343,5 +341,4 @@ TEST(Surfaces, FollowTheirOwnMuscleOrItsGroupAndTendonsWhatIsThere) {
   EXPECT_EQ(driving_muscle(set({Muscle::hamstrings}), group, group), std::nullopt);
 }
 
-}  // namespace
-}  // namespace mobil
+}  // namespace mobil::surfaces_test

@@ -1,0 +1,38 @@
+#include "tests/engine/counting_heap.h"
+
+#include <cstdint>
+#include <cstdlib>
+#include <new>
+
+namespace mobil {
+std::atomic<std::size_t> heap_requests = 0;
+std::atomic<std::size_t> heap_refuse_at = SIZE_MAX;
+
+static void* counted(std::size_t bytes, std::size_t alignment) {
+  if (heap_requests++ >= heap_refuse_at) throw std::bad_alloc();
+  void* memory = nullptr;
+  if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, bytes) != 0)
+    throw std::bad_alloc();
+  return memory;
+}
+}  // namespace mobil
+
+// Every other form of new and delete is defined to end in these. (Inlined, gcc takes them for a mismatched pair.)
+[[gnu::noinline]] void* operator new(std::size_t bytes) {
+  return mobil::counted(bytes, alignof(std::max_align_t));
+}
+[[gnu::noinline]] void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return mobil::counted(bytes, static_cast<std::size_t>(alignment));
+}
+[[gnu::noinline]] void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
+  std::free(memory);
+}
+[[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
+  std::free(memory);
+}

@@ -8,7 +8,6 @@
 
 #include "assets/reduction/reduced_bellies.h"
 #include "assets/surfaces/muscle_cage.h"
-#include "engine/row_hash.h"
 #include "systems/deformation/deformation.h"
 #include "systems/lines/line_of_action.h"
 
@@ -17,34 +16,6 @@ namespace {
 
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
 constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
-
-class Mixer {
- public:
-  explicit Mixer(std::uint64_t start) : hash_(start) {}
-  void add(std::uint64_t word) { hash_ = mix64((hash_ + 0x9e3779b97f4a7c15) ^ word); }
-  void add(float a, float b) {
-    add(std::uint64_t{std::bit_cast<std::uint32_t>(a)} << 32 | std::bit_cast<std::uint32_t>(b));
-  }
-  void add(double value) { add(std::bit_cast<std::uint64_t>(value)); }
-  void add(bool value) { add(std::uint64_t{value}); }
-  void add(const std::optional<double>& value) {
-    add(value.has_value());
-    add(value.value_or(0));
-  }
-  void add(const Cells& cells) {
-    for (const std::uint32_t count : cells) add(std::uint64_t{count});
-  }
-  void add(Method method, const ReducedChoice& reduced) {
-    add(static_cast<std::uint64_t>(method) | std::uint64_t{reduced.vectors} << 8 | std::uint64_t{reduced.moving} << 40 |
-        std::uint64_t{reduced.corrected} << 41 | std::uint64_t{reduced.control_points} << 42 |
-        std::uint64_t{reduced.reported} << 43);
-    add(reduced.cells);
-  }
-  std::uint64_t hash() const { return hash_; }
-
- private:
-  std::uint64_t hash_;
-};
 
 /// Of the critical step: the consistent mass is lighter where it matters.
 Mass stepped_mass(const LegMuscles& choice) {
@@ -99,24 +70,6 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
                             *choice.dt_s, least));
   }
   return {};
-}
-
-std::uint64_t hash_of(const LegMuscles& choice) {
-  Mixer mixer(1);
-  mixer.add(std::uint64_t{choice.muscles.to_ulong()});
-  mixer.add(static_cast<std::uint64_t>(choice.drive) << 16 | static_cast<std::uint64_t>(choice.element) << 8 |
-            static_cast<std::uint64_t>(choice.mass));
-  mixer.add(choice.method, choice.reduced);
-  for (const double value : {choice.material.density_kg_m3, choice.material.young_pa, choice.material.poisson,
-                             choice.damping_per_s, choice.stiffness_damping_s}) {
-    mixer.add(value);
-  }
-  mixer.add(choice.inertia);
-  mixer.add(choice.line_motion);
-  mixer.add(choice.foundation_hz);
-  mixer.add(choice.cells);
-  mixer.add(choice.dt_s);
-  return mixer.hash();
 }
 
 double foundation_of(const LegMuscles& choice) {

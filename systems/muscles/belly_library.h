@@ -89,8 +89,6 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s);
 /// Of a choice in range: the sideways foundation, Hz.
 double foundation_of(const LegMuscles& choice);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);
-/// One number for all fields.
-std::uint64_t hash_of(const LegMuscles& choice);
 /// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
 /// multiplication alone: the same on every machine.
 double middle_of_range(double value, double width);

@@ -1,13 +1,14 @@
 #include "systems/muscles/muscle_parts.h"
-#include "engine/schedule.h"
 
 #include <algorithm>
 #include <string>
 
 #include "components/fade.h"
+#include "engine/schedule.h"
 #include "engine/snapshot.h"
 #include "systems/deformation/fade.h"
 #include "systems/lines/line_of_action.h"
+#include "systems/muscles/choice_words.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/owner_legs.h"
 

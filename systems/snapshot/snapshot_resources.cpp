@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 
 #include "engine/row_hash.h"
@@ -120,7 +121,7 @@ Recipe recipe_of(ResourceKind kind, Muscle muscle, const LegMuscles& choice) {
   Recipe recipe{};
   recipe.kind = kind;
   recipe.muscle = static_cast<std::uint32_t>(muscle);
-  recipe.choice = pack(choice);
+  recipe.choice = choice_words(choice);
   return recipe;
 }
 Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
@@ -140,6 +141,10 @@ Recipe named_recipe(const Module& module, const NamedResource& named) {
   recipe.across = hash_of(named.name);
   recipe.along = named.part.id;
   return recipe;
+}
+
+double number(std::uint64_t bits) {
+  return std::bit_cast<double>(bits);
 }
 
 BellyScale<float> scale_of(double across, double along) {
@@ -247,7 +252,7 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
 }
 
 Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary& library) {
-  const auto choice = unpack(recipe.choice);
+  const auto choice = choice_of(recipe.choice);
   if (choice && recipe.kind == ResourceKind::choice) {
     const auto made = library.choice(*choice);
     world.share(made, hash_of(*made));

@@ -1,6 +1,5 @@
 // Leg muscles as they are chosen: every method follows the walk, in steps as asked, with and without inertia.
 #include "tests/simulation/leg_muscles.h"
-#include "assets/muscles/muscle_table.h"
 
 #include <gtest/gtest.h>
 
@@ -9,6 +8,9 @@
 #include <cmath>
 #include <cstdio>
 #include <string>
+
+#include "assets/muscles/muscle_table.h"
+#include "systems/muscles/choice_words.h"
 
 namespace mobil::leg_muscles_test {
 /// The same person with two sets of muscles, in two simulations.
@@ -260,6 +262,37 @@ TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
     EXPECT_GT(d.apart, 0.004) << name(method);
     EXPECT_LT(d.apart, 0.045) << name(method);
   }
+}
+
+// ------------------------------------------------------------------------------------------------- a choice as words
+
+TEST(ChoiceWords, EachIsAFieldsAndComesBack) {
+  const LegMuscles usual;
+  const ChoiceWords words = choice_words(usual);
+  EXPECT_EQ(choice_of(words), usual);
+  std::size_t changed = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    ChoiceWords other = words;
+    other[i] ^= 1;
+    const auto choice = choice_of(other);
+    ASSERT_TRUE(choice) << i;
+    if (choice_words(*choice) != other) continue;  // a number that is left out counts for nothing
+    ++changed;
+    EXPECT_NE(*choice, usual) << i;
+    EXPECT_NE(hash_of(*choice), hash_of(usual)) << i;
+  }
+  EXPECT_EQ(changed, words.size() - 2);  // foundation and step are left out
+}
+
+TEST(ChoiceWords, WhatNoFieldCanBeIsRefused) {
+  const ChoiceWords words = choice_words({});
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    ChoiceWords other = words;
+    other[i] = ~std::uint64_t{0};
+    refused += choice_of(other) ? 0 : 1;
+  }
+  EXPECT_EQ(refused, words.size() - 7);  // seven doubles
 }
 
 }  // namespace mobil::leg_muscles_test

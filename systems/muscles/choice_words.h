@@ -1,0 +1,23 @@
+#pragma once
+// A choice of leg muscles as words: what its hash mixes and what a snapshot keeps.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "components/leg_muscles.h"
+
+namespace mobil {
+
+inline constexpr std::size_t choice_word_count = 27;
+using ChoiceWords = std::array<std::uint64_t, choice_word_count>;
+
+/// All fields, in a fixed order; doubles bit by bit.
+ChoiceWords choice_words(const LegMuscles& choice);
+/// The choice that has those words; nothing where an enumeration, a truth value or a count is none.
+std::optional<LegMuscles> choice_of(const ChoiceWords& words);
+/// Equal for equal choices.
+std::uint64_t hash_of(const LegMuscles& choice);
+
+}  // namespace mobil

@@ -6,7 +6,7 @@ build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev lib
   ffmpeg libbullet-dev"
 test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx"
 
-# need PACKAGE…: installs what is missing through apt; whoever is not root is told the line to run instead.
+# need PACKAGE…: installs what is missing through apt; a user who is not root gets the line to run instead.
 need() {
   local missing=() p
   for p in "$@"; do

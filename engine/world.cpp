@@ -89,12 +89,6 @@ void World::reserve_remade(Entity entity, std::span<const PartValue> parts, std:
   table.reserve(table.row_count() + rows);
 }
 
-void World::reserve(std::span<const PartValue> parts, std::uint32_t rows) {
-  key_from(parts);
-  Table& table = tables_[table_of(scratch_)];
-  table.reserve(table.row_count() + rows);
-}
-
 Place<Table> World::create_row(const TableKey& key, Entity& entity) {
   const std::uint32_t table = table_of(key);
   tables_[table].reserve_row();

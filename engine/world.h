@@ -76,12 +76,10 @@ class World {
   /// The entities created last, in the order of their creation, are as if they had never been: handles given out
   /// afterwards are the same. Takes no memory.
   void undo_create(std::span<const Entity> entities);
-  /// Room for so many more entities of these parts; and for so many of whatever parts. Then create_from, remake_from
-  /// and create_many take no memory for them.
-  void reserve(std::span<const PartValue> parts, std::uint32_t rows);
   /// Room for what `remake_from` with the same arguments makes of that entity, and of others like it: `rows` in all.
   void reserve_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned,
                       std::uint32_t rows);
+  /// Room for so many more entities of any parts.
   void reserve_entities(std::size_t more) {
     entities_.reserve(more);
     if (owner_part_ != 0) members_.reserve(entities_.size() + more);

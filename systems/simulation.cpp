@@ -1,16 +1,14 @@
 #include "systems/simulation.h"
-#include "engine/schedule.h"
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
 #include "assets/body/anthropometry.h"
-#include "components/fade.h"
 #include "engine/each.h"
 #include "engine/row_hash.h"
+#include "engine/schedule.h"
 #include "engine/state_hash.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"

@@ -78,8 +78,8 @@ const std::map<std::string, std::vector<std::string>> order = {
 /// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.
 const std::set<std::string> kernels = {"gait", "kinematics", "forces", "lines", "deformation", "skinning", "capture"};
 
-/// What the order does not allow, and the reason why it cannot hold yet. Whoever removes one removes its line: a line
-/// that no include needs fails as well.
+/// What the order does not allow, and the reason why it cannot hold yet. When an include goes, its
+/// line goes with it: a line that no include needs fails as well.
 const std::map<std::pair<std::string, std::string>, std::string> not_yet = {
     {{"systems/relevance/relevance.h", "systems/simulation.h"}, "works on Simulation from outside"},
     {{"systems/snapshot/snapshot_file.h", "systems/simulation.h"}, "works on Simulation from outside"},

@@ -1,4 +1,3 @@
-// Who comes and goes.
 #include "demo/crowd/crowd_scene.h"
 
 #include <fmt/format.h>
@@ -8,7 +7,6 @@
 
 #include "assets/body/anthropometry.h"
 #include "systems/gait/gait.h"
-#include "systems/relevance/packed_rungs.h"
 
 namespace mobil {
 namespace {
@@ -252,19 +250,7 @@ void CrowdScene::tick() {
 }
 
 std::array<std::size_t, rung_count + 1> CrowdScene::muscles_by_rung() const {
-  std::array<std::size_t, rung_count + 1> count{};
-  for (const Table& table : simulation_->world().tables()) {
-    const std::uint32_t column = table.column(type_id<Tiers<float>>());
-    if (column == Table::no_column) continue;
-    for (std::uint32_t row = 0; row < table.row_count(); ++row) {
-      Tiers<float> tiers;
-      table.read(row, column, ComponentLayout<Tiers>::words, &tiers);
-      for (std::uint32_t m = 0; m < most_muscles; ++m) {
-        if (bit_at(tiers.muscles, m)) count[std::min<std::size_t>(rung_at(tiers.rung, m), rung_count)] += 2;
-      }
-    }
-  }
-  return count;
+  return relevance_ ? relevance_->muscles_by_rung() : std::array<std::size_t, rung_count + 1>{};
 }
 
 }  // namespace mobil

@@ -153,8 +153,8 @@ class Relevance {
   Result<void> set_scene(const SceneNeeds& needs);
   const SceneNeeds& scene() const { return scene_; }
 
-  /// From the next update on this person's muscles are chosen; asked again, by other needs. Whoever has no muscles gets
-  /// them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles refuses.
+  /// From the next update on this person's muscles are chosen; asked again, by other needs. A person without
+  /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
   /// No more; muscles stay as they are.
   Status release(Entity human);
@@ -173,6 +173,8 @@ class Relevance {
   RelevanceState state() const;
   void set_state(const RelevanceState& state);
 
+  /// How many muscles have each rung of the table, both legs'; last, those with a method that was forced or refused.
+  std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
   /// Errors: Status as for components; `missing` where the person is not managed or has no such muscle.
   tl::expected<Choice, Status> why(Entity human, Muscle muscle) const;
 

@@ -1,10 +1,13 @@
 // What can be asked of Relevance: whose muscles it chooses, by what needs, and why it chose.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "engine/each.h"
+#include "engine/rows.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
@@ -202,6 +205,19 @@ tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
   }
   choice.text = explain(choice, view, std::string(goal < rung_count ? rungs[goal].name : "another"));
   return choice;
+}
+
+std::array<std::size_t, rung_count + 1> Relevance::muscles_by_rung() const {
+  std::array<std::size_t, rung_count + 1> count{};
+  each_block<Tiers>(simulation_.world(), [&](const Rows& rows, const Tiers<Lanes<float>>& block) {
+    for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
+      const Tiers<float> tiers = row_of(block, lane);
+      for (std::uint32_t m = 0; m < most_muscles; ++m) {
+        if (bit_at(tiers.muscles, m)) count[std::min<std::size_t>(rung_at(tiers.rung, m), rung_count)] += 2;
+      }
+    }
+  });
+  return count;
 }
 
 }  // namespace mobil

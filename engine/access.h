@@ -12,6 +12,7 @@
 //   Scratch<Tag>             memory to work in, as many floats as the table's tag says
 //   Tick, float              the tick; a plain float is its length in s
 //   Rows                     who the lanes are
+//   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
 //
 // It runs on every block of every table that has all components, fields and tags named (Maybes and Scratch aside).
 
@@ -344,6 +345,11 @@ struct Parameter<Tick> : AnywhereParameter {
 template <>
 struct Parameter<float> : AnywhereParameter {
   static float make(const BlockView& view, const Bound&) { return view.tick.dt_s; }
+};
+
+template <>
+struct Parameter<const Table&> : AnywhereParameter {
+  static const Table& make(const BlockView& view, const Bound&) { return view.table; }
 };
 
 template <>

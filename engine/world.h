@@ -77,6 +77,7 @@ class World {
   /// afterwards are the same. Takes no memory.
   void undo_create(std::span<const Entity> entities);
   /// Room for what `remake_from` with the same arguments makes of that entity, and of others like it: `rows` in all.
+  /// It then takes no memory.
   void reserve_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned,
                       std::uint32_t rows);
   /// Room for so many more entities of any parts.

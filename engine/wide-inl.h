@@ -208,8 +208,8 @@ HWY_INLINE Wide copy_sign(const Wide& magnitude, const Wide& sign) {
   return r;
 }
 
-/// Sine and cosine of |x| < 1000 rad, error below 2e-7 (without fused multiply-add 3e-5): reduction to ±π/4 in two parts, then least-squares
-/// polynomials (Taylor's, with the last coefficient trimmed).
+/// Sine and cosine of |x| < 1000 rad, error below 2e-7 (without fused multiply-add 3e-5): reduction to ±π/4 in two
+/// parts, then least-squares polynomials (Taylor's, with the last coefficient trimmed).
 MOBIL_WIDE_INLINE void sin_cos(const Wide& x, Wide& s, Wide& c) {
   const Wide quadrant = floor(fma(x, wide(0.636619772F), wide(0.5F)));
   Wide r = fnma(quadrant, wide(1.5707963705F), x);

@@ -34,7 +34,8 @@ double product(const Displacements& a, const Displacements& b) {
 }
 
 /// u such that K·u = `load` where it is free to move, from a u that has the prescribed ends.
-void solve(const StiffnessTerms& terms, FarEnd end, double across, double along, const Displacements& load, Displacements& u) {
+void solve(const StiffnessTerms& terms, FarEnd end, double across, double along, const Displacements& load,
+           Displacements& u) {
   const Cells& cells = terms.cells;
   const auto hold = [&](Displacements& v) {  // zero where the displacement is prescribed
     for (std::uint32_t n = 0; n < node_count(cells); ++n) {

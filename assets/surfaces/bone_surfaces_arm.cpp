@@ -12,7 +12,8 @@ namespace {
 using namespace geometry;
 
 /// A small tubular bone with a waist.
-void add_bone_of_hand(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle, double r_far) {
+void add_bone_of_hand(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle,
+                      double r_far) {
   const Vec quarter = 0.7 * near + 0.3 * far, three = 0.3 * near + 0.7 * far;
   const std::array<TubeStation, 4> line = {TubeStation{near, r_near, r_near},
                                            {quarter, r_middle, r_middle},

@@ -23,7 +23,8 @@ SurfaceMesh shaft(const LegFrame& leg, std::span<const LegSection> sections, dou
 }
 
 /// A bone of the foot or toes: from its near end to its far end, thickest there.
-void add_bone_of_foot(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle, double r_far) {
+void add_bone_of_foot(SurfaceMesh& mesh, const Vec& near, const Vec& far, double r_near, double r_middle,
+                      double r_far) {
   const Vec middle = 0.5 * (near + far) + Vec{0, 0.06 * length(far - near), 0};
   const std::array<TubeStation, 4> line = {TubeStation{near, r_near, r_near},
                                            {0.5 * (near + middle), r_middle, r_middle},
@@ -138,7 +139,7 @@ SurfaceMesh foot(const Proportions& p) {
   block(-13, -22, 51, 8, 12, 13);
   for (const Ray& r : rays) {
     add_bone_of_foot(mesh, at(r.base.x, r.base.y, r.base.z), at(r.head.x, r.head.y, r.head.z), r.base_r, r.shaft_r,
-                  r.head_r);
+                     r.head_r);
   }
   for (const double x : {-1.0, 10.0}) add_ellipsoid(mesh, at(x, -60, 113), {4.5, 3.5, 6}, 4, 8);  // sesamoids
   return mesh;

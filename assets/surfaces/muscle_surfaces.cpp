@@ -209,7 +209,8 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections) {
   SurfaceMesh mesh = loft(stations, muscle_shape);
   const std::size_t ring_count = (mesh.position.size() - 2) / muscle_segments;
   for (std::size_t r = 0; r < ring_count; ++r) {
-    for (const auto& bone : f.bones) keep_out(f, bone, std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments));
+    for (const auto& bone : f.bones)
+      keep_out(f, bone, std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments));
   }
   for (const auto& bone : f.bones) {
     keep_out(f, bone, std::span(mesh.position).first(1));

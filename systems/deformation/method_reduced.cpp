@@ -39,9 +39,8 @@ void place(const Table& table, Shared<ReducedBasis> basis, const BellyScale<Lane
            Field<const ReducedShape> shape, Field<NodalDisplacement> displacement) {
   ReducedBlock block = read_only(*basis, scale, state.data, nullptr, frame.block);
   block.next_state = state.next;
-  place_control_points(
-      block, {shape.data, displacement.data, streamed(table, displacement.words), shape.next},
-      {basis->options.far_end, end});
+  place_control_points(block, {shape.data, displacement.data, streamed(table, displacement.words), shape.next},
+                       {basis->options.far_end, end});
 }
 
 void place_still(const Table& table, Shared<ReducedBasis> basis, TagValue<ReducedStatic>,
@@ -213,7 +212,8 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
 }  // namespace of_reduced
 }  // namespace
 
-constinit const DeformationMethod reduced_method = {Method::reduced, &of_reduced::reduced_module, &of_reduced::reduced_parts, &of_reduced::recognise,
-                                                    &of_reduced::computed,       &of_reduced::begin,          &of_reduced::go_on};
+constinit const DeformationMethod reduced_method = {
+    Method::reduced,       &of_reduced::reduced_module, &of_reduced::reduced_parts, &of_reduced::recognise,
+    &of_reduced::computed, &of_reduced::begin,          &of_reduced::go_on};
 
 }  // namespace mobil

@@ -69,7 +69,8 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool) {
 }  // namespace of_static
 }  // namespace
 
-constinit const DeformationMethod static_method = {Method::statics, &of_static::static_module, &of_static::static_parts, &of_static::recognise,
-                                                   &of_static::computed,       &of_static::begin,         &of_static::go_on};
+constinit const DeformationMethod static_method = {
+    Method::statics,      &of_static::static_module, &of_static::static_parts, &of_static::recognise,
+    &of_static::computed, &of_static::begin,         &of_static::go_on};
 
 }  // namespace mobil

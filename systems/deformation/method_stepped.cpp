@@ -80,11 +80,26 @@ Module implicit_module() {
 }  // namespace of_stepped
 }  // namespace
 
-constinit const DeformationMethod explicit_method = {
-    Method::ecd, &of_stepped::explicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::ecd>, &of_stepped::computed, &of_stepped::begin, &of_stepped::go_on};
-constinit const DeformationMethod implicit_method = {
-    Method::icd, &of_stepped::implicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::icd>, &of_stepped::computed, &of_stepped::begin, &of_stepped::go_on};
-constinit const DeformationMethod newmark_method = {Method::caa, nullptr, &of_stepped::stepped_parts, &of_stepped::recognise<Method::caa>,
-                                                    &of_stepped::computed,   &of_stepped::begin,  &of_stepped::go_on};
+constinit const DeformationMethod explicit_method = {Method::ecd,
+                                                     &of_stepped::explicit_module,
+                                                     &of_stepped::stepped_parts,
+                                                     &of_stepped::recognise<Method::ecd>,
+                                                     &of_stepped::computed,
+                                                     &of_stepped::begin,
+                                                     &of_stepped::go_on};
+constinit const DeformationMethod implicit_method = {Method::icd,
+                                                     &of_stepped::implicit_module,
+                                                     &of_stepped::stepped_parts,
+                                                     &of_stepped::recognise<Method::icd>,
+                                                     &of_stepped::computed,
+                                                     &of_stepped::begin,
+                                                     &of_stepped::go_on};
+constinit const DeformationMethod newmark_method = {Method::caa,
+                                                    nullptr,
+                                                    &of_stepped::stepped_parts,
+                                                    &of_stepped::recognise<Method::caa>,
+                                                    &of_stepped::computed,
+                                                    &of_stepped::begin,
+                                                    &of_stepped::go_on};
 
 }  // namespace mobil

@@ -89,7 +89,7 @@ HWY_NOINLINE inline Pitch plan_standing_feet(Step& step) {
 
 /// Height of the lowest of heel, ball and toe tip over the ground.
 HWY_NOINLINE inline Wide clearance(const LegSize& leg, const Wide& toes_length, const Wide& ankle_up, const Wide& pitch,
-                          const Wide& toes) {
+                                   const Wide& toes) {
   Wide p_s, p_c, t_s, t_c;
   sin_cos(pitch, p_s, p_c);
   sin_cos(pitch + toes, t_s, t_c);

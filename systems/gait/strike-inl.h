@@ -42,7 +42,8 @@ HWY_NOINLINE inline Wide double_support_of(const Wide& cadence, const Wide& scal
 
 /// Height of the hips in mid-stance. Legs of one stiffness sink under the weight that a body of this height carries
 /// beyond 22 kg/m²; they sink less and less, and a light body's cannot become longer than straight.
-HWY_NOINLINE inline Wide mid_stance_height(const Wide& height, const Wide& mass, const GaitStyleOf<Lanes<float>>& style) {
+HWY_NOINLINE inline Wide mid_stance_height(const Wide& height, const Wide& mass,
+                                           const GaitStyleOf<Lanes<float>>& style) {
   const Wide stand = ratio(fraction::hip_height, height);
   const Wide stiffness = load(style.leg_stiffness_n_per_m) * height / 1.8F;
   const Wide excess = (mass - 22.0F * height * height) * gravity_f / (stiffness * stand);

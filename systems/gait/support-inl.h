@@ -42,7 +42,7 @@ struct SupportLanes {
 };
 
 MOBIL_WIDE_INLINE void support_acceleration(const SupportMasses& m, const SupportLanes& s, const Wide (&force)[3],
-                                     Wide (&acceleration)[3]) {
+                                            Wide (&acceleration)[3]) {
   const Wide &length = s.q[0], &length_rate = s.rate[0], &leg_rate = s.rate[1], &trunk_rate = s.rate[2];
   Wide l_s, l_c, u_s, u_c;
   sin_cos(s.q[1], l_s, l_c);

@@ -51,7 +51,7 @@ struct SwingTorques {
 /// The torques of given accelerations (equations 4 and 5 of the two-link swing leg), the hip accelerating by (forward,
 /// up) in m/s².
 MOBIL_WIDE_INLINE SwingTorques swing_torques(const SwingMasses& m, const SwingLanes& s, const Wide (&acceleration)[2],
-                                      const Wide& hip_forward, const Wide& hip_up) {
+                                             const Wide& hip_forward, const Wide& hip_up) {
   Wide t_s, t_c, s_s, s_c;
   sin_cos(s.q[0], t_s, t_c);
   sin_cos(s.q[1], s_s, s_c);

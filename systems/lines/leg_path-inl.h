@@ -47,7 +47,7 @@ MOBIL_WIDE_INLINE WideVec turned(const Leg& leg, LegBone bone, const WideVec& at
 }
 
 MOBIL_WIDE_INLINE Leg load_leg(const MuscleLines& lines, const LegScale<Lanes<float>>& scale,
-                        const LegFrames<Lanes<float>>& legs) {
+                               const LegFrames<Lanes<float>>& legs) {
   Leg leg;
   leg.knee = load(legs.knee_m);
   leg.rotation[0] = load(legs.pelvis);
@@ -103,7 +103,7 @@ struct Touch {
   WideVec at;
 };
 MOBIL_WIDE_INLINE Touch over_edge(const WideVec& from, const WideVec& to, const WideVec& p, const WideVec& axis,
-                           PathHold side) {
+                                  PathHold side) {
   const WideVec a = from - p, b = to - p;
   const Wide turn = dot(cross(a, b), axis);
   const Wide a_along = dot(a, axis), b_along = dot(b, axis);

@@ -49,10 +49,8 @@ struct Writer {
     for (const std::uint32_t count : cells) put(count);
   }
   template <class T>
-    requires std::is_enum_v<T> || std::is_integral_v<T>
-  constexpr void operator()(T value) {
-    put(static_cast<std::uint64_t>(value));
-  }
+  requires std::is_enum_v<T> || std::is_integral_v<T>
+  constexpr void operator()(T value) { put(static_cast<std::uint64_t>(value)); }
 };
 
 struct Reader {
@@ -81,10 +79,8 @@ struct Reader {
     value = static_cast<std::uint32_t>(take(std::numeric_limits<std::uint32_t>::max()));
   }
   template <class T>
-    requires std::is_enum_v<T>
-  void operator()(T& value) {
-    value = static_cast<T>(take(static_cast<std::uint64_t>(last_of(T{}))));
-  }
+  requires std::is_enum_v<T>
+  void operator()(T& value) { value = static_cast<T>(take(static_cast<std::uint64_t>(last_of(T{})))); }
 };
 
 }  // namespace

@@ -37,6 +37,7 @@ void begin(const EffectStart& start, RowValues& values) {
 }  // namespace of_line_motion
 }  // namespace
 
-constinit const MuscleEffect line_motion_effect = {&of_line_motion::module, &of_line_motion::wanted, &of_line_motion::begin};
+constinit const MuscleEffect line_motion_effect = {&of_line_motion::module, &of_line_motion::wanted,
+                                                   &of_line_motion::begin};
 
 }  // namespace mobil

@@ -154,7 +154,8 @@ class Relevance {
   const SceneNeeds& scene() const { return scene_; }
 
   /// From the next update on this person's muscles are chosen; asked again, by other needs. A person without
-  /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles refuses.
+  /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles
+  /// refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
   /// No more; muscles stay as they are.
   Status release(Entity human);

@@ -63,8 +63,7 @@ class FullBelly {
       loads.leftCols(inputs - frame) = far_traction(mesh, end == FarEnd::free) / mass_scale_;
     }
     if (frame > 0) loads.rightCols(frame) = mass * frame_fields(mesh, across, along);
-    rest_ = modes.values.cwiseInverse().asDiagonal() *
-            (modes.vectors.transpose() * loads(moving, Eigen::all));
+    rest_ = modes.values.cwiseInverse().asDiagonal() * (modes.vectors.transpose() * loads(moving, Eigen::all));
     dragged_ = modes.vectors.transpose() * (mass * step)(moving, Eigen::all);
     if (held_) rest_.col(0) += dragged_;
 

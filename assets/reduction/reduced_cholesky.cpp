@@ -73,6 +73,7 @@ void BandCholesky::solve_all(Matrix& columns) const {
 }
 
 void BandCholesky::solve(Eigen::Ref<Columns> columns) const {
+  if (columns.cols() == 0) return;
   if (columns.cols() != 1) return solve_all(columns);
   // one alone is some times faster as a vector
   Eigen::VectorXd one = columns.col(0);

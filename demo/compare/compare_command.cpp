@@ -56,6 +56,7 @@ Result<void> walk_reference_speeds(const Walker& walker, Comparison& comparison)
   if (!body) return tl::unexpected(body.error());
   for (std::size_t s = 0; s < comparison.reference.sets.size(); ++s) {
     for (std::size_t c = 0; c < speed_class_count; ++c) {
+      if (!comparison.reference.sets[s].measured[c]) continue;
       const double speed = comparison.reference.sets[s].speed_m_s(c, static_cast<double>(body->hip_height_m));
       const auto stride = walker.at(static_cast<float>(speed));
       if (!stride) return tl::unexpected(stride.error());
@@ -111,10 +112,13 @@ Result<bool> run_compare(const CompareText& text) {
   const auto folder = text.reference.empty() ? std::nullopt : std::optional<std::filesystem::path>(text.reference);
   auto reference = read_gait_reference(folder);
   if (!reference) return tl::unexpected(reference.error());
-  Comparison comparison{options->body, std::move(*reference), {}, {}, {}, {}, {}};
+  Comparison comparison{options->body, std::move(*reference), {}, {}, {}, {}, {}, {}};
   const Walker walker{options->body, options->gait.style};
   if (auto done = walk_reference_speeds(walker, comparison); !done) return tl::unexpected(done.error());
   if (auto done = walk_variations(walker, comparison); !done) return tl::unexpected(done.error());
+  auto balance = walk_balance_scenes(options->body, options->gait.style);
+  if (!balance) return tl::unexpected(balance.error());
+  comparison.balance = std::move(*balance);
   const auto verdicts = judge(comparison);
   if (auto done = write_all(text.out, comparison, verdicts); !done) return tl::unexpected(done.error());
   fmt::print("{}", comparison_text(comparison, verdicts));

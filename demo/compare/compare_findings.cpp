@@ -17,21 +17,32 @@ constexpr PeakWindow hip_moment_peaks[] = {{"extensor", true, 0, 30}, {"flexor",
 constexpr PeakWindow knee_moment_peaks[] = {{"extensor", true, 6, 30}};
 constexpr PeakWindow ankle_moment_peaks[] = {{"plantarflexor", true, 30, 60}};
 
+/// Peaks near zero are not judged by their ratio: N m/kg.
+constexpr double least_moment_peak = 0.2;
+
 constexpr std::array<std::span<const PeakWindow>, gait_quantity_count> peak_windows = {
     hip_peaks,      knee_peaks,       ankle_peaks,       vertical_peaks,
     fore_aft_peaks, hip_moment_peaks, knee_moment_peaks, ankle_moment_peaks};
 
-PeakFinding examine_peak(std::span<const CurvePair> pairs, std::size_t own, const PeakWindow& window) {
-  PeakFinding finding{window.name, find_peak(*pairs[own].ours, window), {}, {}, 0, 1};
+/// `own`: which of the pairs is of the set that walks; `scale`: how much each measured curve was scaled.
+PeakFinding examine_peak(std::span<const CurvePair> pairs, std::size_t own, const PeakWindow& window,
+                         std::span<const double> scale, double least) {
+  PeakFinding finding{window.name, find_peak(*pairs[own].ours, window), {}, {}, {}, 0, 1, 0};
   std::vector<double> measured;
-  for (const auto& pair : pairs) {
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const CurvePair& pair = pairs[i];
     const Peak ours = find_peak(*pair.ours, window), theirs = find_peak(pair.measured->mean, window);
     finding.timing.push_back(timing_error(ours.percent, theirs.percent));
     finding.ratio.push_back(ours.value / theirs.value);
+    finding.ratio_printed.push_back(scale[i] * ours.value / theirs.value);
     measured.push_back(theirs.value);
   }
   finding.timing_outside = outside_range(finding.timing);
   finding.ratio_outside = ratio_to_range(finding.ours.value, measured);
+  if (finding.ratio_outside != 1) {
+    const double nearest = finding.ours.value / finding.ratio_outside;
+    finding.size_outside = (finding.ours.value - nearest) / std::max(std::abs(nearest), least);
+  }
   return finding;
 }
 
@@ -42,14 +53,25 @@ std::span<const PeakWindow> peaks_of(GaitQuantity quantity) {
 }
 
 std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReference& reference, GaitQuantity quantity) {
+  CurveFinding finding{};
+  std::vector<MeasuredCurve> measured;
+  for (std::size_t s = 0; s < reference.sets.size(); ++s) {
+    if (!reference.sets[s].measured[walk.speed_class]) continue;
+    finding.set.push_back(s);
+    measured.push_back(reference.sets[s].scaled(walk.speed_class, quantity, walk.stride.leg_m));
+  }
   std::vector<CurvePair> pairs;
-  for (const auto& set : reference.sets) {
+  std::vector<double> scale;
+  for (std::size_t i = 0; i < finding.set.size(); ++i) {
+    const MeasuredSet& set = reference.sets[finding.set[i]];
     const CycleCurve* ours = walk.stride.curve(quantity, set.hip_from_vertical);
     if (ours == nullptr) return std::nullopt;
-    pairs.push_back({ours, &set.curve[walk.speed_class][index(quantity)]});
+    pairs.push_back({ours, &measured[i]});
+    scale.push_back(is_moment(quantity) ? walk.stride.leg_m / set.leg_m : 1);
   }
-  CurveFinding finding{};
+  double fastest = 0;
   for (const auto& pair : pairs) {
+    fastest = std::max(fastest, fastest_change(pair.measured->mean));
     finding.inside.push_back(inside_bands({&pair, 1}));
     finding.rms.push_back(rms_distance(*pair.ours, pair.measured->mean));
     finding.correlation.push_back(correlation(*pair.ours, pair.measured->mean));
@@ -58,7 +80,10 @@ std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReferenc
   finding.rms_nearer_set = std::ranges::min(finding.rms);
   finding.rms_nearer_point = rms_to_nearer_mean(pairs);
   finding.best_correlation = std::ranges::max(finding.correlation);
-  for (const auto& window : peaks_of(quantity)) finding.peaks.push_back(examine_peak(pairs, walk.set, window));
+  const auto own = static_cast<std::size_t>(std::ranges::find(finding.set, walk.set) - finding.set.begin());
+  finding.rate_ratio = fastest_change(*pairs[own].ours) / fastest;
+  const double least = is_moment(quantity) ? least_moment_peak : 0;
+  for (const auto& window : peaks_of(quantity)) finding.peaks.push_back(examine_peak(pairs, own, window, scale, least));
   return finding;
 }
 

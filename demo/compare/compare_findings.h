@@ -18,18 +18,22 @@ struct ComparedWalk {
   WalkedStride stride;
 };
 
-/// One peak of ours against each set's. `timing`: ours later, in percent of the cycle; `ratio`: ours over the set's.
+/// One peak of ours against each set's. `timing`: ours later, in percent of the cycle; `ratio`: ours over the set's,
+/// moments scaled to our leg; `ratio_printed`: over the set's as it was published.
 struct PeakFinding {
   std::string_view name;
   Peak ours;
-  std::vector<double> timing, ratio;
+  std::vector<double> timing, ratio, ratio_printed;
   double timing_outside;  // from the range of the sets, 0 inside
   double ratio_outside;   // to the nearest value of that range, 1 inside
+  double size_outside;  // from that value, as a part of it or of the least that counts (moments: 0.2 N m/kg); 0 inside
 };
 
-/// Vectors: one entry a set, each in its own convention.
+/// Vectors: one entry for each set that has the speed class (their numbers in `set`), each in its own convention.
 struct CurveFinding {
+  std::vector<std::size_t> set;
   std::vector<double> inside, rms, correlation;
+  double rate_ratio;  // our fastest change over the fastest of the sets'
   double inside_union, rms_nearer_set, rms_nearer_point, best_correlation;
   std::vector<PeakFinding> peaks;
 };

@@ -55,6 +55,15 @@ double correlation(const CycleCurve& a, const CycleCurve& b) {
   return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : 0;
 }
 
+double fastest_change(const CycleCurve& curve) {
+  double fastest = 0;
+  for (std::size_t i = 0; i < counted; ++i) {
+    const double change = curve[(i + 1) % counted] - curve[(i + counted - 1) % counted];
+    fastest = std::max(fastest, std::abs(change) * 100 / (2 * percent_per_point));
+  }
+  return fastest;
+}
+
 Peak find_peak(const CycleCurve& curve, const PeakWindow& window) {
   const double sign = window.maximum ? 1 : -1;
   const int first = window.from / percent_per_point, last = window.to / percent_per_point;

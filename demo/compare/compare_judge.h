@@ -28,6 +28,9 @@ double rms_to_nearer_mean(std::span<const CurvePair> pairs);
 /// Pearson's; 0 where one of the curves is constant.
 double correlation(const CycleCurve& a, const CycleCurve& b);
 
+/// The fastest it changes, per cycle: over central differences of 4 %.
+double fastest_change(const CycleCurve& curve);
+
 /// Where in the cycle a curve has a peak to be compared, in percent; beyond 100 it goes on into the next cycle.
 struct PeakWindow {
   std::string_view name;

@@ -61,9 +61,10 @@ PlotFigure cycle_figure(const Comparison& comparison, const char* title, std::sp
       panel.y.label = row.axis;
       for (std::size_t s = 0; s < reference.sets.size(); ++s) {
         const bool other = s != walk.set;
+        if (!reference.sets[s].measured[walk.speed_class]) continue;
         if (other && row.quantity == GaitQuantity::hip) continue;
-        add_measured(panel, reference.sets[s].curve[walk.speed_class][index(row.quantity)], reference.sets[s].name,
-                     set_colour(s), other);
+        add_measured(panel, reference.sets[s].scaled(walk.speed_class, row.quantity, walk.stride.leg_m),
+                     reference.sets[s].name, set_colour(s), other);
       }
       if (const auto* curve = walk.stride.curve(row.quantity, own.hip_from_vertical)) {
         panel.lines.push_back({cycle_percents(), cycle_values(*curve), ours_colour, "mobil", 1.8, false});

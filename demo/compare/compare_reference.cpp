@@ -26,35 +26,45 @@ struct CurveColumn {
 struct SetLayout {
   std::array<std::string_view, 3> file;  // angles, ground reaction, moments
   std::string_view class_column;
-  std::array<std::string_view, speed_class_count> class_name;
+  std::array<std::string_view, speed_class_count> class_name;  // empty: not measured
   std::array<CurveColumn, gait_quantity_count> column;
 };
 
-constexpr SetLayout schwartz = {{"schwartz2008_angles.csv", "schwartz2008_grf.csv", "schwartz2008_moments_powers.csv"},
-                                "speed_class",
-                                {"slow", "free", "fast"},
-                                {{{0, "hip_flexion_deg", "hip_flexion_sd"},
-                                  {0, "knee_flexion_deg", "knee_flexion_sd"},
-                                  {0, "ankle_dorsiflexion_deg", "ankle_dorsiflexion_sd"},
-                                  {1, "vertical_BW", "vertical_sd"},
-                                  {1, "foreaft_BW", "foreaft_sd"},
-                                  {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
-                                  {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
-                                  {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
-constexpr SetLayout winter = {{"winter_joint_angles.csv", "winter_grf.csv", "winter_joint_moments.csv"},
-                              "cadence_class",
-                              {"slow", "natural", "fast"},
-                              {{{0, "hip_flexion_deg", "hip_sd"},
-                                {0, "knee_flexion_deg", "knee_sd"},
-                                {0, "ankle_dorsiflexion_deg", "ankle_sd"},
-                                {1, "vertical_BW", "vertical_sd"},
-                                {1, "foreaft_BW", "foreaft_sd"},
-                                {2, "hip_extensor_Nm_kg", "hip_sd"},
-                                {2, "knee_extensor_Nm_kg", "knee_sd"},
-                                {2, "ankle_plantarflexor_Nm_kg", "ankle_sd"}}}};
+constexpr SetLayout schwartz_layout = {{"schwartz2008_angles", "schwartz2008_grf", "schwartz2008_moments_powers"},
+                                       "speed_class",
+                                       {"very_slow", "slow", "free", "fast", "very_fast"},
+                                       {{{0, "hip_flexion_deg", "hip_flexion_sd"},
+                                         {0, "knee_flexion_deg", "knee_flexion_sd"},
+                                         {0, "ankle_dorsiflexion_deg", "ankle_dorsiflexion_sd"},
+                                         {1, "vertical_BW", "vertical_sd"},
+                                         {1, "foreaft_BW", "foreaft_sd"},
+                                         {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
+                                         {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
+                                         {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
+constexpr SetLayout winter_layout = {{"winter_joint_angles", "winter_grf", "winter_joint_moments"},
+                                     "cadence_class",
+                                     {"", "slow", "natural", "fast", ""},
+                                     {{{0, "hip_flexion_deg", "hip_sd"},
+                                       {0, "knee_flexion_deg", "knee_sd"},
+                                       {0, "ankle_dorsiflexion_deg", "ankle_sd"},
+                                       {1, "vertical_BW", "vertical_sd"},
+                                       {1, "foreaft_BW", "foreaft_sd"},
+                                       {2, "hip_extensor_Nm_kg", "hip_sd"},
+                                       {2, "knee_extensor_Nm_kg", "knee_sd"},
+                                       {2, "ankle_plantarflexor_Nm_kg", "ankle_sd"}}}};
 
-constexpr std::string_view schwartz_steps = "schwartz2008_spatiotemporal.csv";
+constexpr std::string_view schwartz_steps = "schwartz2008_spatiotemporal";
 constexpr std::string_view winter_speeds = "com_vertical_excursion_computed.csv";
+
+/// Legs of the people measured, m: of Schwartz's children estimated from their mean age of 10.5 years (0.71 to 0.77
+/// would change their moments by 4 %), of Winter's adults that of a height of 1.75 m.
+constexpr double children_leg_m = 0.74, adults_leg_m = 1.75 * fraction::hip_height;
+
+/// Where a class of a set stands: the slowest and the fastest of Schwartz were published apart.
+std::string table_name(std::string_view file, std::size_t speed_class) {
+  const bool extreme = speed_class == compared_class::very_slow || speed_class == compared_class::very_fast;
+  return fmt::format("{}{}.csv", file, extreme ? "_extremes" : "");
+}
 
 /// A table of the folder, or the built-in one of that name.
 class Tables {
@@ -115,9 +125,11 @@ Result<void> read_curves(const Tables& tables, const SetLayout& layout, Measured
     for (const auto& column : layout.column) {
       if (column.file == f) required.insert(required.end(), {column.mean, column.sd});
     }
-    const auto table = tables.read(layout.file[f], required);
-    if (!table) return tl::unexpected(table.error());
     for (std::size_t c = 0; c < speed_class_count; ++c) {
+      if (layout.class_name[c].empty()) continue;
+      const auto table = tables.read(table_name(layout.file[f], c), required);
+      if (!table) return tl::unexpected(table.error());
+      set.measured[c] = true;
       const auto rows = rows_of_class(*table, layout.class_column, layout.class_name[c]);
       if (!rows) return tl::unexpected(rows.error());
       for (std::size_t q = 0; q < gait_quantity_count; ++q) {
@@ -155,12 +167,12 @@ Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBan
   constexpr std::array<std::string_view, 5> names = {"speed_dimless", "step_length_per_leg", "step_length_sd",
                                                      "cadence_dimless", "cadence_sd"};
   const std::array<std::string_view, 6> required = {"speed_class", names[0], names[1], names[2], names[3], names[4]};
-  const auto table = tables.read(schwartz_steps, required);
-  if (!table) return tl::unexpected(table.error());
   constexpr double leg = fraction::hip_height;
   const double root = std::sqrt(leg);
   for (std::size_t c = 0; c < speed_class_count; ++c) {
-    const auto v = row_values(*table, "speed_class", schwartz.class_name[c], names);
+    const auto table = tables.read(table_name(schwartz_steps, c), required);
+    if (!table) return tl::unexpected(table.error());
+    const auto v = row_values(*table, "speed_class", schwartz_layout.class_name[c], names);
     if (!v) return tl::unexpected(v.error());
     set.speed[c] = (*v)[0];
     band.norm.push_back({(*v)[0] * root, (*v)[1] * leg, (*v)[2] * leg, (*v)[3] / root, (*v)[4] / root});
@@ -210,17 +222,18 @@ Result<std::vector<ExcursionNorm>> read_excursion(const Tables& tables) {
 }
 
 Result<MeasuredSet> read_winter(const Tables& tables) {
-  MeasuredSet set{"Winter 1991", false, true, {}, {}};
+  MeasuredSet set{"Winter 1991", true, adults_leg_m};
   constexpr std::array<std::string_view, 1> speed = {"speed_m_s"};
   const std::array<std::string_view, 2> required = {"source", "speed_m_s"};
   const auto table = tables.read(winter_speeds, required);
   if (!table) return tl::unexpected(table.error());
   for (std::size_t c = 0; c < speed_class_count; ++c) {
-    const auto v = row_values(*table, "source", fmt::format("winter_{}", winter.class_name[c]), speed);
+    if (winter_layout.class_name[c].empty()) continue;
+    const auto v = row_values(*table, "source", fmt::format("winter_{}", winter_layout.class_name[c]), speed);
     if (!v) return tl::unexpected(v.error());
-    set.speed[c] = (*v)[0];
+    set.speed[c] = (*v)[0] / std::sqrt(gravity_m_s2 * set.leg_m);
   }
-  if (auto done = read_curves(tables, winter, set); !done) return tl::unexpected(done.error());
+  if (auto done = read_curves(tables, winter_layout, set); !done) return tl::unexpected(done.error());
   return set;
 }
 
@@ -231,19 +244,28 @@ Result<void> check_folder(const Tables& tables, const fs::path& folder) {
     return fail(
         fmt::format("--reference {}: no such folder; name one with tables of measured walking", folder.string()));
   }
-  std::vector<std::string_view> names(winter.file.begin(), winter.file.end());
-  for (const auto& table : reference_tables()) names.push_back(table.name);
+  std::vector<std::string> names;
+  for (const auto& file : winter_layout.file) names.push_back(table_name(file, compared_class::slow));
+  for (const auto& table : reference_tables()) names.emplace_back(table.name);
   if (std::ranges::any_of(names, [&](std::string_view name) { return tables.in_folder(name); })) return {};
   return fail(
       fmt::format("--reference {}: holds none of the tables, such as {}; leave the option out for those that "
                   "the program carries",
-                  folder.string(), winter.file[0]));
+                  folder.string(), names[0]));
 }
 
 }  // namespace
 
-double MeasuredSet::speed_m_s(std::size_t speed_class, double leg_m) const {
-  return dimensionless ? speed[speed_class] * std::sqrt(gravity_m_s2 * leg_m) : speed[speed_class];
+double MeasuredSet::speed_m_s(std::size_t speed_class, double person_leg_m) const {
+  return speed[speed_class] * std::sqrt(gravity_m_s2 * person_leg_m);
+}
+
+MeasuredCurve MeasuredSet::scaled(std::size_t speed_class, GaitQuantity quantity, double person_leg_m) const {
+  MeasuredCurve scaled = curve[speed_class][index(quantity)];
+  if (!is_moment(quantity)) return scaled;
+  for (double& v : scaled.mean) v *= person_leg_m / leg_m;
+  for (double& v : scaled.sd) v *= person_leg_m / leg_m;
+  return scaled;
 }
 
 std::optional<StepNorm> StepBand::at(double speed) const {
@@ -264,10 +286,10 @@ Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder)
     if (auto ok = check_folder(tables, *folder); !ok) return tl::unexpected(ok.error());
   }
   GaitReference reference;
-  MeasuredSet set{"Schwartz 2008", true, false, {}, {}};
+  MeasuredSet set{"Schwartz 2008", false, children_leg_m};
   StepBand band{"Schwartz 2008, children", {}};
   if (auto done = read_schwartz_steps(tables, set, band); !done) return tl::unexpected(done.error());
-  if (auto done = read_curves(tables, schwartz, set); !done) return tl::unexpected(done.error());
+  if (auto done = read_curves(tables, schwartz_layout, set); !done) return tl::unexpected(done.error());
   reference.sets.push_back(std::move(set));
   if (auto done = read_lencioni_steps(tables, reference.steps); !done) return tl::unexpected(done.error());
   reference.steps.push_back(std::move(band));
@@ -275,7 +297,7 @@ Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder)
   if (!excursion) return tl::unexpected(excursion.error());
   reference.excursion = std::move(*excursion);
 
-  if (tables.in_folder(winter.file[0])) {
+  if (tables.in_folder(table_name(winter_layout.file[0], compared_class::slow))) {
     auto second = read_winter(tables);
     if (!second) return tl::unexpected(second.error());
     reference.sets.push_back(std::move(*second));

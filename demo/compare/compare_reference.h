@@ -26,20 +26,32 @@ constexpr std::size_t index(GaitQuantity quantity) {
   return static_cast<std::size_t>(quantity);
 }
 
-/// Speeds come in three classes, the same for every set: slow, free, fast.
-inline constexpr std::size_t speed_class_count = 3;
-inline constexpr std::array<std::string_view, speed_class_count> compared_class_name = {"slow", "free", "fast"};
+constexpr bool is_moment(GaitQuantity quantity) {
+  return index(quantity) >= index(GaitQuantity::hip_moment);
+}
 
-/// One published set of curves. `speed`: in m/s, or over √(g · leg length) where `dimensionless`. `hip_from_vertical`:
-/// the thigh's angle is measured from the vertical, otherwise from the tilted pelvis.
+inline constexpr std::size_t speed_class_count = 5;
+namespace compared_class {
+enum : std::size_t { very_slow, slow, free, fast, very_fast };
+}
+inline constexpr std::array<std::string_view, speed_class_count> compared_class_name = {"very slow", "slow", "free",
+                                                                                        "fast", "very fast"};
+
+/// One published set of curves, of people whose legs (hip to ground) are `leg_m` long. `hip_from_vertical`: the thigh's
+/// angle is measured from the vertical, otherwise from the tilted pelvis.
 struct MeasuredSet {
   std::string name;
-  bool dimensionless, hip_from_vertical;
-  std::array<double, speed_class_count> speed;
-  std::array<std::array<MeasuredCurve, gait_quantity_count>, speed_class_count> curve;  // [class][quantity]
+  bool hip_from_vertical;
+  double leg_m;
+  std::array<bool, speed_class_count> measured{};  // whether there are curves of that class
+  std::array<double, speed_class_count> speed{};   // over √(g · leg length)
+  std::array<std::array<MeasuredCurve, gait_quantity_count>, speed_class_count> curve{};  // [class][quantity]
 
-  /// Of a person with such a leg (hip to ground), m/s.
-  double speed_m_s(std::size_t speed_class, double leg_m) const;
+  /// Of a person with such a leg, m/s.
+  double speed_m_s(std::size_t speed_class, double person_leg_m) const;
+  /// A curve of a person with such a leg who walks alike: forces in body weights are the same, moments in N m/kg grow
+  /// with the leg.
+  MeasuredCurve scaled(std::size_t speed_class, GaitQuantity quantity, double person_leg_m) const;
 };
 
 /// Steps at one speed over √(g · height): length over height, frequency times √(height / g); mean and deviation.

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <utility>
 
 #include "demo/program/json.h"
 
@@ -29,7 +30,8 @@ std::string short_name(const MeasuredSet& set) {
   return set.name.substr(0, set.name.find(' '));
 }
 
-std::string angle_line(const GaitReference& reference, const CurveFinding& finding, double rms_bound) {
+std::string angle_line(const GaitReference& reference, const CurveFinding& finding, double rms_bound,
+                       double most_rate) {
   std::string line =
       fmt::format("{:>4.0f} %{} {:>5.1f}{} ", 100 * finding.inside_union, finding.inside_union >= 0.9 ? ' ' : '!',
                   finding.rms_nearer_set, finding.rms_nearer_set <= rms_bound ? ' ' : '!');
@@ -37,26 +39,34 @@ std::string angle_line(const GaitReference& reference, const CurveFinding& findi
   for (const auto& peak : finding.peaks) {
     peaks.push_back(fmt::format("{:+.1f}{}", peak.timing_outside, std::abs(peak.timing_outside) <= 3 ? ' ' : '!'));
   }
-  line += fmt::format(" {:<14}", fmt::format("{}", fmt::join(peaks, " ")));
-  for (std::size_t s = 0; s < reference.sets.size(); ++s) {
-    alone.push_back(
-        fmt::format("{} {:.0f} % {:.1f}", short_name(reference.sets[s]), 100 * finding.inside[s], finding.rms[s]));
+  line += fmt::format(" {:<14} {:>4.2f}{}", fmt::format("{}", fmt::join(peaks, " ")), finding.rate_ratio,
+                      finding.rate_ratio <= most_rate ? ' ' : '!');
+  for (std::size_t i = 0; i < finding.set.size(); ++i) {
+    alone.push_back(fmt::format("{} {:.0f} % {:.1f}", short_name(reference.sets[finding.set[i]]),
+                                100 * finding.inside[i], finding.rms[i]));
   }
   return line + fmt::format(" {}", fmt::join(alone, ", "));
 }
 
-std::string force_line(const CurveFinding& finding) {
+/// Moments are beside the measured ones scaled to our leg; in brackets also beside Schwartz' as they were published.
+std::string force_line(const GaitReference& reference, GaitQuantity quantity, const CurveFinding& finding) {
   std::vector<std::string> peaks;
   for (const auto& peak : finding.peaks) {
-    peaks.push_back(fmt::format("{} {:.2f} ({:+.0f} %)", peak.name, peak.ours.value, 100 * (peak.ratio_outside - 1)));
+    const double sign = peak.ours.value < 0 ? -1 : 1;  // more is +, whichever way the peak points
+    std::string beside = fmt::format("{:+.0f} %", 100 * sign * peak.size_outside);
+    for (std::size_t i = 0; i < finding.set.size() && is_moment(quantity); ++i) {
+      beside += fmt::format(", {}'s as printed {:+.0f} %", short_name(reference.sets[finding.set[i]]),
+                            100 * (peak.ratio_printed[i] - 1));
+    }
+    peaks.push_back(fmt::format("{} {:.2f} ({})", peak.name, peak.ours.value, beside));
   }
   return fmt::format("{:>4.0f} %  r {:.3f}  {}", 100 * finding.inside_union, finding.best_correlation,
                      fmt::join(peaks, ", "));
 }
 
-Json per_set(const GaitReference& reference, const std::vector<double>& values) {
+Json per_set(const GaitReference& reference, const CurveFinding& finding, const std::vector<double>& values) {
   Json object;
-  for (std::size_t s = 0; s < reference.sets.size(); ++s) object[short_name(reference.sets[s])] = values[s];
+  for (std::size_t i = 0; i < finding.set.size(); ++i) object[short_name(reference.sets[finding.set[i]])] = values[i];
   return object;
 }
 
@@ -64,17 +74,20 @@ Json finding_json(const GaitReference& reference, GaitQuantity quantity, const C
   Json json;
   json["unit"] = is_angle(quantity) ? "deg" : index(quantity) < 5 ? "body weights" : "N m/kg";
   json["inside_union"] = finding.inside_union;
-  json["inside"] = per_set(reference, finding.inside);
+  json["inside"] = per_set(reference, finding, finding.inside);
+  json["fastest_of_measured"] = finding.rate_ratio;
   json["rms_nearer_set"] = finding.rms_nearer_set;
   json["rms_nearer_point"] = finding.rms_nearer_point;
-  json["rms"] = per_set(reference, finding.rms);
-  json["correlation"] = per_set(reference, finding.correlation);
+  json["rms"] = per_set(reference, finding, finding.rms);
+  json["correlation"] = per_set(reference, finding, finding.correlation);
   for (const auto& peak : finding.peaks) {
-    json["peaks"].push_back({{"name", peak.name},
-                             {"percent", peak.ours.percent},
-                             {"value", peak.ours.value},
-                             {"timing_error_percent", per_set(reference, peak.timing)},
-                             {"ratio", per_set(reference, peak.ratio)}});
+    Json entry = {{"name", peak.name},
+                  {"percent", peak.ours.percent},
+                  {"value", peak.ours.value},
+                  {"timing_error_percent", per_set(reference, finding, peak.timing)},
+                  {"ratio", per_set(reference, finding, peak.ratio)}};
+    if (is_moment(quantity)) entry["ratio_as_printed"] = per_set(reference, finding, peak.ratio_printed);
+    json["peaks"].push_back(std::move(entry));
   }
   return json;
 }
@@ -112,6 +125,19 @@ Json walk_json(const Comparison& comparison, const ComparedWalk& walk) {
   return json;
 }
 
+Json balance_json(const std::vector<BalancedScene>& scenes) {
+  Json json = Json::array();
+  for (const auto& scene : scenes) {
+    json.push_back({{"scene", scene.name},
+                    {"unit", "N m/kg"},
+                    {"pitch_rms", scene.moment.pitch_rms},
+                    {"pitch_peak", scene.moment.pitch_peak},
+                    {"roll_rms", scene.moment.roll_rms},
+                    {"roll_peak", scene.moment.roll_peak}});
+  }
+  return json;
+}
+
 Json varied_json(const std::vector<VariedWalk>& walks, std::string_view name) {
   Json json = Json::array();
   for (const auto& walk : walks) {
@@ -143,13 +169,13 @@ std::string comparison_text(const Comparison& comparison, const std::vector<Verd
   text += '\n';
   if (!reference.note.empty()) fmt::format_to(out, "({})\n", reference.note);
 
-  fmt::format_to(out, "\n{:<34} {:<6} {:>7} {:>6}  {:<14} {}\n", "joint angles", "", "inside", "rms", "peaks, % off",
-                 "each set alone: inside, rms (deg)");
+  fmt::format_to(out, "\n{:<34} {:<6} {:>7} {:>6}  {:<14} {:<5} {}\n", "joint angles", "", "inside", "rms",
+                 "peaks, % off", "rate", "each set alone: inside, rms (deg)");
   for (const auto& walk : comparison.walks) {
     for (std::size_t q = 0; q < 3; ++q) {
       const auto finding = examine(walk, reference, quantities[q]);
       fmt::format_to(out, "{:<34} {:<6} {}\n", q == 0 ? walk_name(comparison, walk) : "", gait_quantity_name[q],
-                     angle_line(reference, *finding, angle_rms_bound_deg[q]));
+                     angle_line(reference, *finding, angle_rms_bound_deg(walk.speed_class), rate_bound[q]));
     }
   }
   text += "\nground reaction (body weights), moments (N m/kg)\n";
@@ -161,8 +187,15 @@ std::string comparison_text(const Comparison& comparison, const std::vector<Verd
     fmt::format_to(out, "{}, mean of both feet {:.4f} body weights\n", walk_name(comparison, walk),
                    walk.stride.forces->mean_weights);
     for (std::size_t q = 3; q < gait_quantity_count; ++q) {
-      fmt::format_to(out, "  {:<14} {}\n", gait_quantity_name[q], force_line(*examine(walk, reference, quantities[q])));
+      fmt::format_to(out, "  {:<14} {}\n", gait_quantity_name[q],
+                     force_line(reference, quantities[q], *examine(walk, reference, quantities[q])));
     }
+  }
+  text += "\nmoment of the ground that the motion does not account for (N m/kg, rms and peak)\n";
+  for (const auto& scene : comparison.balance) {
+    const UnbalancedMoment& m = scene.moment;
+    fmt::format_to(out, "  {:<22} pitch {:.3f} {:.2f}  roll {:.3f} {:.2f}\n", scene.name, m.pitch_rms, m.pitch_peak,
+                   m.roll_rms, m.roll_peak);
   }
   text += "\ncentre of mass and steps\n";
   for (const auto& walk : comparison.walks) {
@@ -201,6 +234,7 @@ std::string comparison_json(const Comparison& comparison, const std::vector<Verd
   json["by_height"] = varied_json(comparison.by_height, "height_m");
   json["by_step_length"] = varied_json(comparison.by_step_length, "asked_step_length_m");
   json["by_mass"] = varied_json(comparison.by_mass, "mass_kg");
+  json["balance"] = balance_json(comparison.balance);
   std::size_t held = 0, missing = 0;
   for (const auto& v : verdicts) {
     held += v.held.value_or(false) ? 1 : 0;

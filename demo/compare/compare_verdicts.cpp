@@ -15,7 +15,7 @@ constexpr GaitQuantity moment_quantities[] = {GaitQuantity::hip_moment, GaitQuan
                                               GaitQuantity::ankle_moment};
 constexpr double inside_bound = 0.9, timing_bound_percent = 3;
 constexpr double ground_peak_bound = 0.10, moment_peak_bound = 0.20, weight_bound = 0.01;
-constexpr double vertical_correlation_bound = 0.97, correlation_bound = 0.9;
+constexpr double vertical_correlation_bound = 0.98, fore_aft_correlation_bound = 0.95, correlation_bound = 0.9;
 
 class Verdicts {
  public:
@@ -38,7 +38,7 @@ class Verdicts {
 double worst_size(const CurveFinding& finding) {
   double worst = 0;
   for (const auto& peak : finding.peaks) {
-    if (peak.name != "valley") worst = std::max(worst, std::abs(peak.ratio_outside - 1));
+    if (peak.name != "valley") worst = std::max(worst, std::abs(peak.size_outside));
   }
   return worst;
 }
@@ -61,8 +61,10 @@ void judge_angles(const Comparison& comparison, const ComparedWalk& walk, const 
     const auto finding = examine(walk, comparison.reference, angle_quantities[i]);
     const std::string of = fmt::format("{}: {} ", name, gait_quantity_name[index(angle_quantities[i])]);
     verdicts.at_least(of + "inside the band, share of the cycle", finding->inside_union, inside_bound, "1");
-    verdicts.at_most(of + "rms from the nearer mean", finding->rms_nearer_set, angle_rms_bound_deg[i], "deg");
+    verdicts.at_most(of + "rms from the nearer mean", finding->rms_nearer_set, angle_rms_bound_deg(walk.speed_class),
+                     "deg");
     verdicts.at_most(of + "peaks off in time", worst_timing(*finding), timing_bound_percent, "% of the cycle");
+    verdicts.at_most(of + "fastest, of the fastest measured", finding->rate_ratio, rate_bound[i], "1");
   }
 }
 
@@ -79,7 +81,8 @@ void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const 
   verdicts.at_least(name + ": vertical force, correlation", vertical->best_correlation, vertical_correlation_bound,
                     "1");
   verdicts.at_most(name + ": fore-aft peaks off in size, share", worst_size(*fore_aft), ground_peak_bound, "1");
-  verdicts.at_least(name + ": fore-aft force, correlation", fore_aft->best_correlation, correlation_bound, "1");
+  verdicts.at_least(name + ": fore-aft force, correlation", fore_aft->best_correlation, fore_aft_correlation_bound,
+                    "1");
   verdicts.within(name + ": mean vertical force of both feet", walk.stride.forces->mean_weights, 1 - weight_bound,
                   1 + weight_bound, "body weights");
   for (const auto quantity : moment_quantities) {
@@ -160,6 +163,11 @@ std::vector<Verdict> judge(const Comparison& comparison) {
     judge_angles(comparison, walk, name, verdicts);
     judge_forces(comparison, walk, name, verdicts);
     judge_centre_of_mass(comparison, walk, name, verdicts);
+  }
+  for (const auto& scene : comparison.balance) {
+    const std::string of = fmt::format("{}: unbalanced moment, ", scene.name);
+    verdicts.at_most(of + "pitch, rms", scene.moment.pitch_rms, balance_bound, "N m/kg");
+    verdicts.at_most(of + "roll, rms", scene.moment.roll_rms, balance_bound, "N m/kg");
   }
   judge_steps(comparison.reference, comparison.by_speed, "speed", verdicts);
   judge_steps(comparison.reference, comparison.by_height, "height", verdicts);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/compare/compare_balance.h"
 #include "demo/compare/compare_findings.h"
 
 namespace mobil {
@@ -23,6 +24,7 @@ struct Comparison {
   std::vector<VariedWalk> by_height;       // m, at one speed, build unchanged
   std::vector<VariedWalk> by_step_length;  // m, at one speed
   std::vector<VariedWalk> by_mass;         // kg, at one speed
+  std::vector<BalancedScene> balance;      // the body asked for
 };
 
 /// One bound. `held` is absent where the quantity is not simulated; `unit` is "1" where there is none.
@@ -32,8 +34,15 @@ struct Verdict {
   std::optional<bool> held;
 };
 
-/// Most that the angles of hip, knee and ankle may differ from the nearer mean, root mean square, degrees.
-inline constexpr double angle_rms_bound_deg[] = {4, 5, 4};
+/// Most that joint angles may differ from the nearer mean, root mean square: degrees, more at the slowest and the
+/// fastest speed.
+constexpr double angle_rms_bound_deg(std::size_t speed_class) {
+  return speed_class == compared_class::very_slow || speed_class == compared_class::very_fast ? 4 : 3;
+}
+/// Most that hip, knee and ankle may turn faster than the fastest measured.
+inline constexpr double rate_bound[] = {1.2, 1.2, 1.5};
+/// Most that the unbalanced moment may be, N m/kg.
+inline constexpr double balance_bound = 0.02;
 
 /// Every bound over all walks. Where there are several sets: the union of their bands, the nearer of their means, the
 /// range of their peaks.

@@ -69,6 +69,7 @@ StrideForces sample_forces(const TickRows& rows) {
 WalkedStride sample_stride(const Human& human, const TickRows& rows, bool with_forces) {
   WalkedStride stride{};
   stride.height_m = value(human.body.request.height_m);
+  stride.leg_m = value(human.body.hip_height_m);
   stride.speed_m_s = value(human.gait.speed_m_s);
   stride.step_length_m = value(human.gait.step_length_m);
   stride.step_frequency_hz = value(human.gait.step_frequency_hz);

@@ -20,7 +20,7 @@ struct StrideForces {
 
 /// The right leg's cycle. Angles in degrees, heights over the ground in m; percents of the cycle.
 struct WalkedStride {
-  double height_m;
+  double height_m, leg_m;  // hip to ground
   double speed_m_s, step_length_m, step_frequency_hz;
   double double_support_cycle;  // one double support as a fraction of the cycle
   CycleCurve hip_from_pelvis, hip_from_vertical, knee, ankle, com_height;

@@ -138,8 +138,8 @@ Result<void> paper_figure15(PaperRun& run) {
   if (!body) return tl::unexpected(body.error());
   const MeasuredSet& people = reference->sets.front();
   std::vector<Walk> walks;
-  for (std::size_t c = 0; c < speed_class_count; ++c) {
-    run.progress("walking", static_cast<double>(c) / (speed_class_count + 1));
+  for (std::size_t c = compared_class::slow; c <= compared_class::fast; ++c) {
+    run.progress("walking", static_cast<double>(c - compared_class::slow) / 4);
     const std::string name(compared_class_name[c]);
     auto walk = walk_at(people.speed_m_s(c, static_cast<double>(body->hip_height_m)), "schwartz_" + name, name);
     if (!walk) return tl::unexpected(walk.error());

@@ -12,11 +12,15 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "assets/body/segment_inertia.h"
+#include "demo/compare/compare_balance.h"
 #include "demo/compare/compare_judge.h"
 #include "demo/compare/compare_reference.h"
 #include "demo/compare/compare_verdicts.h"
 #include "demo/compare/compare_walk.h"
 #include "demo/pictures/svg_plot.h"
+#include "engine/geometry.h"
+#include "tests/gait/forces_figure.h"
 #include "tests/program/program.h"
 
 namespace mobil::compare_test {
@@ -174,12 +178,13 @@ Comparison mean_walker(const GaitReference& reference, std::size_t speed_class) 
   stride.ankle = mean(GaitQuantity::ankle);
   stride.forces = {mean(GaitQuantity::vertical),    mean(GaitQuantity::fore_aft),     mean(GaitQuantity::hip_moment),
                    mean(GaitQuantity::knee_moment), mean(GaitQuantity::ankle_moment), 1.0};
+  stride.leg_m = reference.sets[0].leg_m;
   stride.double_support_cycle = 0.1;
   stride.com_lowest_percent = 4;
   stride.com_highest_percent = 29;
   const double speed = reference.sets[0].speed_m_s(speed_class, 0.9);
   stride.com_highest_m = excursion_at(reference, speed).mean_m;
-  return {{}, reference, {{0, speed_class, speed, stride}}, {}, {}, {}, {}};
+  return {{}, reference, {{0, speed_class, speed, stride}}, {}, {}, {}, {}, {}};
 }
 
 std::vector<std::string> failed(const Comparison& comparison) {
@@ -193,6 +198,7 @@ std::vector<std::string> failed(const Comparison& comparison) {
 TEST(Verdicts, WhoWalksAsTheMeanKeepsEveryBound) {
   const auto reference = built_in();
   for (std::size_t c = 0; c < speed_class_count; ++c) {
+    ASSERT_TRUE(reference.sets[0].measured[c]);
     EXPECT_EQ(failed(mean_walker(reference, c)), std::vector<std::string>());
   }
 }
@@ -200,7 +206,7 @@ TEST(Verdicts, WhoWalksAsTheMeanKeepsEveryBound) {
 TEST(Verdicts, EachFaultBreaksItsOwnBound) {
   const auto reference = built_in();
   const auto broken = [&](auto fault) {
-    auto comparison = mean_walker(reference, 1);
+    auto comparison = mean_walker(reference, compared_class::free);
     fault(comparison.walks[0].stride);
     std::string all;
     for (const auto& name : failed(comparison)) all += name.substr(name.find(": ") + 2) + "; ";
@@ -220,7 +226,7 @@ TEST(Verdicts, EachFaultBreaksItsOwnBound) {
 }
 
 TEST(Verdicts, OneHumpIsNotTwo) {
-  auto comparison = mean_walker(built_in(), 1);
+  auto comparison = mean_walker(built_in(), compared_class::free);
   auto& vertical = comparison.walks[0].stride.forces->vertical;
   for (std::size_t i = 0; i < cycle_points; ++i) {
     vertical[i] = i < 30 ? std::sin(std::numbers::pi * static_cast<double>(i) / 30) : 0;
@@ -249,8 +255,70 @@ TEST(Reference, StepsAreReadBetweenTheNormsAndNotBeyond) {
 
 TEST(Reference, SpeedFollowsTheLegWhereItIsDimensionless) {
   const auto set = built_in().sets[0];
-  EXPECT_NEAR(set.speed_m_s(1, 0.9), 0.4294 * std::sqrt(9.81 * 0.9), 1e-9);
-  EXPECT_NEAR(set.speed_m_s(2, 1.2) / set.speed_m_s(2, 0.3), 2, 1e-9);
+  EXPECT_NEAR(set.speed_m_s(compared_class::free, 0.9), 0.4294 * std::sqrt(9.81 * 0.9), 1e-9);
+  EXPECT_NEAR(set.speed_m_s(compared_class::fast, 1.2) / set.speed_m_s(compared_class::fast, 0.3), 2, 1e-9);
+}
+
+TEST(Reference, MomentsGrowWithTheLegAndForcesDoNot) {
+  const auto set = built_in().sets[0];
+  const auto measured = [&](GaitQuantity q) { return set.curve[compared_class::fast][index(q)]; };
+  const auto tall = [&](GaitQuantity q) { return set.scaled(compared_class::fast, q, 1.25 * set.leg_m); };
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    using enum GaitQuantity;
+    EXPECT_EQ(tall(vertical).mean[i], measured(vertical).mean[i]);
+    EXPECT_NEAR(tall(hip_moment).mean[i], 1.25 * measured(hip_moment).mean[i], 1e-12);
+    EXPECT_NEAR(tall(ankle_moment).sd[i], 1.25 * measured(ankle_moment).sd[i], 1e-12);
+  }
+}
+
+/// A figure stiff as a board that turns about an axis through its centre of mass, faster and faster.
+TEST(Balance, AMomentThatTheMotionAsksForIsNotMissed) {
+  const Body body = make_body({.height_m = 1.8F, .mass_kg = 80}).value();
+  const figure::Stance upright = figure::upright(1.8);
+  const auto place = figure::places(1.8, upright);
+  figure::Vector centre = figure::Vector::Zero();
+  double mass = 0;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto m = static_cast<double>(body.mass_kg[s]);
+    centre += m * (place[s] + figure::of(geometry::to_double(body.centre_of_mass_m[s])));
+    mass += m;
+  }
+  centre /= mass;
+  constexpr double tick_s = 1.0 / 240, spin_up = 3, weight = 800;  // rad/s²
+  for (const bool pitch : {true, false}) {
+    const figure::Vector axis = pitch ? figure::Vector::UnitX() : figure::Vector::UnitZ();
+    double inertia = 0;
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      const auto m = static_cast<double>(body.mass_kg[s]);
+      const figure::Vector arm = place[s] + figure::of(geometry::to_double(body.centre_of_mass_m[s])) - centre;
+      const Vec3<double> own = segment_inertia_kg_m2(body, static_cast<Segment>(s));
+      inertia += m * arm.cross(axis).squaredNorm() + (pitch ? own.x : own.z);
+    }
+    for (const double borne : {0.0, 0.5, 1.0}) {  // of the moment, by a force under the centre of mass and beside it
+      BalanceMeter meter(body);
+      const double lever = borne * inertia * spin_up / weight;
+      GroundReaction<float> ground{};
+      ground.force_n[left] = {0, static_cast<float>(weight), 0};
+      // a force up at (x, z) from the centre has the moment (−z F, 0, x F)
+      ground.centre_m[left] = {static_cast<float>(centre.x() + (pitch ? 0 : lever)), 0,
+                               static_cast<float>(centre.z() - (pitch ? lever : 0))};
+      for (int i = -8; i <= 8; ++i) {
+        const double t = i * tick_s;
+        const figure::Rotation turn = figure::turn(0.5 * spin_up * t * t, axis);
+        Pose<float> pose;
+        for (std::size_t s = 0; s < segment_count; ++s) {
+          pose.position_m[s] = figure::row(centre + turn * (place[s] - centre));
+          pose.rotation[s] = {static_cast<float>(turn.x()), static_cast<float>(turn.y()), static_cast<float>(turn.z()),
+                              static_cast<float>(turn.w())};
+        }
+        meter.add(pose, ground, tick_s);
+      }
+      const UnbalancedMoment lacking = meter.result();
+      const double expected = (1 - borne) * inertia * spin_up / mass;
+      EXPECT_NEAR(pitch ? lacking.pitch_rms : lacking.roll_rms, expected, 2e-3);
+      EXPECT_NEAR(pitch ? lacking.roll_rms : lacking.pitch_rms, 0, 2e-3);
+    }
+  }
 }
 
 TEST(Reference, AFolderIsReadWholeOrRefused) {
@@ -279,9 +347,9 @@ TEST(Reference, ASecondSetInTheSameFormatJoinsTheBands) {
     std::ofstream out(folder.path / file);
     out << "cadence_class,percent_gait" << header << '\n';
     const char* names[] = {"slow", "natural", "fast"};
-    for (std::size_t c = 0; c < speed_class_count; ++c) {
+    for (std::size_t c = compared_class::slow; c <= compared_class::fast; ++c) {
       for (std::size_t i = 0; i < cycle_points; ++i) {
-        out << names[c] << ',' << 2 * i;
+        out << names[c - compared_class::slow] << ',' << 2 * i;
         for (const auto q : quantities) out << ',' << first.sets[0].curve[c][index(q)].mean[i] << ",1";
         out << '\n';
       }
@@ -302,8 +370,10 @@ TEST(Reference, ASecondSetInTheSameFormatJoinsTheBands) {
   ASSERT_EQ(both->sets.size(), 2U);
   EXPECT_TRUE(both->note.empty());
   EXPECT_TRUE(both->sets[1].hip_from_vertical);
-  EXPECT_EQ(both->sets[1].speed_m_s(1, 0.5), 1.3);
-  EXPECT_NEAR(both->sets[1].curve[2][index(knee)].mean[20], first.sets[0].curve[2][index(knee)].mean[20], 1e-4);
+  EXPECT_NEAR(both->sets[1].speed_m_s(compared_class::free, both->sets[1].leg_m), 1.3, 1e-12);
+  EXPECT_FALSE(both->sets[1].measured[compared_class::very_slow] || both->sets[1].measured[compared_class::very_fast]);
+  EXPECT_NEAR(both->sets[1].curve[compared_class::fast][index(knee)].mean[20],
+              first.sets[0].curve[compared_class::fast][index(knee)].mean[20], 1e-4);
 }
 
 RC_GTEST_PROP(Plot, TicksAreRoundAndWithinTheRange, ()) {
@@ -365,7 +435,7 @@ TEST(Command, WritesNumbersAndPlotsAndSaysWhatDoesNotHold) {
   const Ran ran = run_mobil("compare --height 1.80 --mass 70 --out out", folder.path);
   ASSERT_EQ(ran.status, 0) << ran.err;
   const Json json = Json::parse(read_bytes(folder.path / "out/compare.json"));
-  ASSERT_EQ(json.at("walks").size(), 3U);
+  ASSERT_EQ(json.at("walks").size(), 5U);
   for (const auto& walk : json.at("walks")) {
     const auto& knee = walk.at("quantities").at("knee");
     EXPECT_EQ(knee.at("ours").size(), cycle_points);

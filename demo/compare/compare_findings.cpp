@@ -90,9 +90,10 @@ std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReferenc
 ExcursionNorm excursion_at(const GaitReference& reference, double speed_m_s) {
   const auto& norms = reference.excursion;
   if (norms.size() < 2) return norms.empty() ? ExcursionNorm{speed_m_s, NAN, NAN} : norms.front();
+  const double speed = std::clamp(speed_m_s, norms.front().speed_m_s, norms.back().speed_m_s);
   std::size_t i = 0;
-  while (i + 2 < norms.size() && speed_m_s > norms[i + 1].speed_m_s) ++i;
-  const double t = (speed_m_s - norms[i].speed_m_s) / (norms[i + 1].speed_m_s - norms[i].speed_m_s);
+  while (i + 2 < norms.size() && speed > norms[i + 1].speed_m_s) ++i;
+  const double t = (speed - norms[i].speed_m_s) / (norms[i + 1].speed_m_s - norms[i].speed_m_s);
   return {speed_m_s, norms[i].mean_m + t * (norms[i + 1].mean_m - norms[i].mean_m),
           norms[i].sd_m + t * (norms[i + 1].sd_m - norms[i].sd_m)};
 }

@@ -44,7 +44,8 @@ std::span<const PeakWindow> peaks_of(GaitQuantity quantity);
 /// Against the curves of that speed class of every set; nothing where the quantity is not simulated.
 std::optional<CurveFinding> examine(const ComparedWalk& walk, const GaitReference& reference, GaitQuantity quantity);
 
-/// The excursion of the centre of mass at a speed, on the line through the two nearest norms.
+/// The excursion of the centre of mass at a speed, between the two nearest norms; beyond the slowest and
+/// the fastest, theirs.
 ExcursionNorm excursion_at(const GaitReference& reference, double speed_m_s);
 
 }  // namespace mobil

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <system_error>
 #include <utility>
 
@@ -145,6 +146,32 @@ Result<void> read_curves(const Tables& tables, const SetLayout& layout, Measured
   return {};
 }
 
+Result<void> read_schwartz_pelvis(const Tables& tables, MeasuredSet& set) {
+  constexpr std::array<std::string_view, 3> names = {"pelvis_tilt_anterior_deg", "pelvis_rotation_forward_deg",
+                                                     "pelvis_obliquity_up_deg"};
+  const std::array<std::string_view, 5> required = {"speed_class", "percent_gait", names[0], names[1], names[2]};
+  for (std::size_t c = 0; c < speed_class_count; ++c) {
+    const auto table = tables.read(table_name(schwartz_layout.file[0], c), required);
+    if (!table) return tl::unexpected(table.error());
+    const auto rows = rows_of_class(*table, "speed_class", schwartz_layout.class_name[c]);
+    if (!rows) return tl::unexpected(rows.error());
+    std::array<CycleCurve, 3> curve;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto read = read_curve(*table, *rows, names[i]);
+      if (!read) return tl::unexpected(read.error());
+      curve[i] = *read;
+    }
+    const auto half_range = [](const CycleCurve& of) {
+      const auto [low, high] = std::ranges::minmax(of);
+      return 0.5 * (high - low);
+    };
+    set.pelvis_tilt_deg[c] = std::accumulate(curve[0].begin(), curve[0].end() - 1, 0.0) / (cycle_points - 1);
+    set.pelvis_rotation_deg[c] = half_range(curve[1]);
+    set.pelvis_list_deg[c] = half_range(curve[2]);
+  }
+  return {};
+}
+
 /// The numbers of the row that has `key` in `key_column`.
 template <std::size_t N>
 Result<std::array<double, N>> row_values(const CsvTable& table, std::string_view key_column, std::string_view key,
@@ -164,9 +191,10 @@ Result<std::array<double, N>> row_values(const CsvTable& table, std::string_view
 
 /// Schwartz's speeds, and his steps as a band: from leg lengths to heights at the same leg as a generated body's.
 Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBand& band) {
-  constexpr std::array<std::string_view, 5> names = {"speed_dimless", "step_length_per_leg", "step_length_sd",
-                                                     "cadence_dimless", "cadence_sd"};
-  const std::array<std::string_view, 6> required = {"speed_class", names[0], names[1], names[2], names[3], names[4]};
+  constexpr std::array<std::string_view, 6> names = {"speed_dimless",   "step_length_per_leg", "step_length_sd",
+                                                     "cadence_dimless", "cadence_sd",          "opposite_foot_off_pct"};
+  const std::array<std::string_view, 7> required = {"speed_class", names[0], names[1], names[2],
+                                                    names[3],      names[4], names[5]};
   constexpr double leg = fraction::hip_height;
   const double root = std::sqrt(leg);
   for (std::size_t c = 0; c < speed_class_count; ++c) {
@@ -175,6 +203,8 @@ Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBan
     const auto v = row_values(*table, "speed_class", schwartz_layout.class_name[c], names);
     if (!v) return tl::unexpected(v.error());
     set.speed[c] = (*v)[0];
+    set.step_length[c] = (*v)[1];
+    set.double_support[c] = 0.01 * (*v)[5];
     band.norm.push_back({(*v)[0] * root, (*v)[1] * leg, (*v)[2] * leg, (*v)[3] / root, (*v)[4] / root});
   }
   return {};
@@ -290,6 +320,7 @@ Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder)
   StepBand band{"Schwartz 2008, children", {}};
   if (auto done = read_schwartz_steps(tables, set, band); !done) return tl::unexpected(done.error());
   if (auto done = read_curves(tables, schwartz_layout, set); !done) return tl::unexpected(done.error());
+  if (auto done = read_schwartz_pelvis(tables, set); !done) return tl::unexpected(done.error());
   reference.sets.push_back(std::move(set));
   if (auto done = read_lencioni_steps(tables, reference.steps); !done) return tl::unexpected(done.error());
   reference.steps.push_back(std::move(band));

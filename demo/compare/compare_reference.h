@@ -45,6 +45,10 @@ struct MeasuredSet {
   double leg_m;
   std::array<bool, speed_class_count> measured{};  // whether there are curves of that class
   std::array<double, speed_class_count> speed{};   // over √(g · leg length)
+  /// Step length over leg length, and one double support as a part of the cycle; 0 where the set does not say.
+  std::array<double, speed_class_count> step_length{}, double_support{};
+  /// Of the pelvis, degrees: mean anterior tilt, half the range of its turn to the side and of its list.
+  std::array<double, speed_class_count> pelvis_tilt_deg{}, pelvis_rotation_deg{}, pelvis_list_deg{};
   std::array<std::array<MeasuredCurve, gait_quantity_count>, speed_class_count> curve{};  // [class][quantity]
 
   /// Of a person with such a leg, m/s.

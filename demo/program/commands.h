@@ -23,6 +23,7 @@ Subcommand muscle_command();
 Subcommand body_command();
 Subcommand bench_command();
 Subcommand compare_command();
+Subcommand gait_fit_command();
 Subcommand stress_command();
 Subcommand paper_command();
 Subcommand frontier_command();

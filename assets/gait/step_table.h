@@ -1,0 +1,31 @@
+#pragma once
+// Steps of people of all speeds and step lengths, fitted to measured walking: README.md beside this file says to what.
+
+#include <array>
+#include <cstddef>
+
+#include "assets/gait/step_shape.h"
+
+namespace mobil {
+
+namespace step_table {
+inline constexpr std::size_t speed_count = 9, length_count = 5;
+/// Speed over √(g · leg), the leg from hip to ground; step length over the usual one of that speed.
+inline constexpr std::array<double, speed_count> speed = {0.17, 0.24, 0.31, 0.38, 0.45, 0.52, 0.59, 0.66, 0.73};
+inline constexpr std::array<double, length_count> length = {0.76, 0.88, 1.00, 1.06, 1.12};
+inline constexpr std::size_t usual = 2;  // of `length`
+}  // namespace step_table
+
+/// What was given at a speed: the usual step length (of the leg), one double support (of the cycle), the pelvis' mean
+/// tilt and how far it turns and lists to each side (rad).
+struct StepGiven {
+  double step_length, double_support, pelvis_tilt, pelvis_rotation, pelvis_list;
+};
+
+/// A shape whose lengths are of a body of height 1 m.
+using TabledShape = std::array<float, shape::size>;
+
+extern const std::array<StepGiven, step_table::speed_count> step_given;
+extern const std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count> step_shapes;
+
+}  // namespace mobil

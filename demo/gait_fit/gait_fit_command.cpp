@@ -1,0 +1,99 @@
+// `mobil fit-gait`: fits the table of steps to measured walking and writes it as source.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "assets/files/output_file.h"
+#include "demo/gait_fit/step_grid.h"
+#include "demo/gait_fit/step_quality.h"
+#include "demo/program/commands.h"
+
+namespace mobil {
+namespace {
+
+using namespace step_table;
+
+struct FitText {
+  std::string out = "step_table.cpp";
+  std::size_t threads = 0;
+};
+
+std::string source(const std::vector<StepNode>& nodes) {
+  std::string text =
+      "// Written by `mobil fit-gait --out assets/gait/step_table.cpp`: README.md says from what. Do not edit.\n\n"
+      "#include \"assets/gait/step_table.h\"\n\nnamespace mobil {\n\n// clang-format off\n"
+      "const std::array<StepGiven, step_table::speed_count> step_given = {{\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    const StepTargets& t = nodes[s * length_count].targets;
+    fmt::format_to(out, "  {{{:#.6g}, {:#.6g}, {:#.6g}, {:#.6g}, {:#.6g}}},\n", t.step_length, t.double_support,
+                   t.pelvis_tilt, t.pelvis_rotation, t.pelvis_list);
+  }
+  text +=
+      "}};\n\nconst std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count> "
+      "step_shapes = {{\n";
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    text += "  {{\n";
+    for (std::size_t l = 0; l < length_count; ++l) {
+      const TabledShape shape = tabled(nodes[s * length_count + l].shape);
+      fmt::format_to(out, "    // speed {:g}, length {:g}\n    {{", speed[s], length[l]);
+      for (std::size_t i = 0; i < shape.size(); ++i)
+        fmt::format_to(out, "{}{:#.6g}F,", i % 16 == 0 ? "\n      " : " ", shape[i]);
+      text += "\n    },\n";
+    }
+    text += "  }},\n";
+  }
+  return text + "}};\n// clang-format on\n\n}  // namespace mobil\n";
+}
+
+void print(const std::vector<StepNode>& nodes) {
+  fmt::print("\n{:>5} {:>6} {:>7}  {:<14} {:<11} {:<17} {:>5} {:>5} {:>5} {:>5} {:>5} {:>5}\n", "speed", "length",
+             "cost", "angles, deg", "forces, r", "moments, r", "CoP", "aside", "slack", "clear", "pad", "rise");
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const StepNode& node = nodes[i];
+    const StepQuality q = step_quality(node.task, node.targets, fitted(tabled(node.shape)));
+    fmt::print("{:>5.2f} {:>6.2f} {:>7.2f}  {:.1f} {:.1f} {:.1f}    {:.3f} {:.3f} {:.3f} {:.3f} {:.3f} ",
+               speed[i / length_count], length[i % length_count], node.cost, q.rms[0], q.rms[1], q.rms[2],
+               q.correlation[3], q.correlation[4], q.correlation[5], q.correlation[6], q.correlation[7]);
+    for (const double m : {q.lacking_m, q.aside_m, q.slack_m, q.clearance_m, q.pad_m, q.rise_m})
+      fmt::print("{:>5.1f} ", 1000 * m);
+    fmt::print("\n");
+  }
+  fmt::print("CoP: most that the centre of pressure is moved for exact balance, and the like, mm\n");
+}
+
+Result<void> run_fit(const FitText& text) {
+  const auto reference = read_gait_reference({});
+  if (!reference) return tl::unexpected(reference.error());
+  const Threads threads(static_cast<int>(text.threads));
+  const auto nodes = fit_grid(*reference, 0, threads.jobs(), [](const char* stage, double cost) {
+    fmt::print(stderr, "{}: sum of squares {:.2f}\n", stage, cost);
+  });
+  if (auto done = write_file(text.out, source(nodes)); !done) return done;
+  print(nodes);
+  fmt::print("look at {}\n", text.out);
+  return {};
+}
+
+}  // namespace
+
+Subcommand gait_fit_command() {
+  auto text = std::make_shared<FitText>();
+  Subcommand command{.name = "fit-gait", .about = "Fit the table of steps to measured walking, and write it as source"};
+  command.footer =
+      "For those who change the library: some minutes. Prints how near each step is to what it was fitted to.\n"
+      "Example: mobil fit-gait --out assets/gait/step_table.cpp";
+  add_options(command, {{"--out", &text->out, "Source file to write"},
+                        {"--threads", &text->threads, "0: as many as the machine has"}});
+  command.run = [text] {
+    const auto done = run_fit(*text);
+    return done ? 0 : complain("fit-gait", done.error().message);
+  };
+  return command;
+}
+
+}  // namespace mobil

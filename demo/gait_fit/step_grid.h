@@ -1,0 +1,40 @@
+#pragma once
+// A table of steps over speed and step length, fitted node by node.
+
+#include <functional>
+#include <vector>
+
+#include "assets/gait/step_table.h"
+#include "demo/gait_fit/step_objective.h"
+#include "engine/jobs.h"
+
+namespace mobil {
+
+/// A person of 1.75 m, whose steps are kept for a body of 1 m.
+inline constexpr double fitted_height_m = 1.75;
+
+/// One node while it is fitted. `cost`: the least sum of squares found.
+struct StepNode {
+  StepTask task;
+  StepTargets targets;
+  StepShape shape;  // in m, of fitted_height_m
+  double cost;
+};
+
+/// Node (speed, length) of step_table, its shape not yet fitted. `set` of the reference is what it is fitted to.
+StepNode step_node(const GaitReference& reference, std::size_t set, std::size_t speed, std::size_t length);
+
+/// Fits a node from a shape, at once or by way of the angles alone, and keeps what is better than it was: true then.
+bool fit_node(StepNode& node, const StepShape& from, bool by_angles);
+
+/// Fits all nodes: usual steps from a first guess and from their neighbours until none gains, the others from those,
+/// and all from their neighbours. The same bits for any number of threads. `progress`: what is done, and the sum of all
+/// costs.
+std::vector<StepNode> fit_grid(const GaitReference& reference, std::size_t set, const Jobs& jobs,
+                               const std::function<void(const char* stage, double cost)>& progress);
+
+/// Between metres of fitted_height_m and a body of height 1.
+TabledShape tabled(const StepShape& shape);
+StepShape fitted(const TabledShape& shape);
+
+}  // namespace mobil

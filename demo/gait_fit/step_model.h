@@ -1,0 +1,66 @@
+#pragma once
+// A steady walk of two equal steps in double precision: where everything is over the cycle of the right leg, and the
+// forces that it takes. Twice continuously differentiable through heel strike and toe-off by the form of its curves.
+//
+// Right leg's cycle from its heel strike; the left leg is half a cycle later, mirrored. World axes: x to the left, y
+// up, z forward, the origin at the right foothold (the ground under the ankle of the flat foot, on the walking line).
+// All forces and moments are per kg of body.
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "assets/gait/step_shape.h"
+#include "components/lanes.h"
+
+namespace mobil {
+
+/// Sizes of a leg, m.
+struct StepBody {
+  double height, leg;  // hip to ground
+  double thigh, shank, ankle_height, heel_back, ball_forward, toe_joint_height, toes_length, hip_half_spacing;
+  double heel_radius, ball_radius;  // a foot rolls on the rims of its heel and its ball
+};
+StepBody step_body(double height_m);
+
+/// What does not change while a step is fitted. Angles rad.
+struct StepTask {
+  StepBody body;
+  double speed_m_s, step_length_m;
+  double double_support;  // of the cycle
+  double half_width_m, toe_out;
+  double pelvis_rotation, pelvis_list, pelvis_tilt, pelvis_tilt_wave;
+};
+
+inline constexpr std::size_t cycle_samples = 200;
+using Samples = std::array<double, cycle_samples>;
+
+/// Of the right leg, at equal times from its heel strike.
+struct StepCycle {
+  Samples hips_forward, hips_up, hips_left, trunk;
+  Samples pitch, stance_pitch;  // of the foot; and as if it stood all the time
+  Samples ankle_forward, ankle_up, ankle_out;
+  Samples thigh, shank, knee, tilt;  // angles in the leg's plane; knee = thigh − shank
+  Samples slack;                     // how much shorter than straight the leg is, m
+  Samples pad_up, pad_forward;
+  std::array<bool, cycle_samples> swings;
+  Samples swung;                              // 0 to 1 over the swing
+  Samples heel_clear, ball_clear, toe_clear;  // over the ground
+  Samples centre_up;                          // of mass
+  Samples total_forward, total_up;            // ground reaction of both feet, N/kg
+  Samples share, pressure;                    // of the right foot: of the weight; centre of pressure ahead of the ankle
+  Samples pressure_aside;   // how far the motion wants it from between the feet's lines, to the left, m
+  Samples wanted_pressure;  // of both feet, where the motion asks for it
+  Samples lacking;          // how much further forward that is than where `pressure` has it, m
+  Samples borne;            // centre of pressure of the right foot ahead of the ankle, as the forces have it
+  Samples forward, up;      // ground reaction of the right foot, body weights
+  Samples hip_moment, knee_moment, ankle_moment;  // N m/kg, extensor and plantarflexor positive
+};
+
+/// `exact`: both feet's centres of pressure are moved by what they lack, so that no moment is left unbalanced.
+void evaluate_step(const StepTask& task, const StepShape& shape, bool exact, StepCycle& cycle);
+
+/// A shape to begin with.
+StepShape first_shape(const StepTask& task);
+
+}  // namespace mobil

@@ -1,0 +1,37 @@
+#pragma once
+// What a step is fitted to: measured curves, and what every step must keep.
+
+#include <vector>
+
+#include "demo/compare/compare_findings.h"
+#include "demo/gait_fit/levenberg_marquardt.h"
+#include "demo/gait_fit/step_model.h"
+
+namespace mobil {
+
+/// Mean and deviation over the cycle.
+struct Target {
+  Samples mean, sd;
+};
+
+/// Measured people at one speed, whose moments are those of a leg as long as the fitted one's.
+struct StepTargets {
+  double speed, step_length, double_support;         // over √(g · leg); of the leg; of the cycle
+  double pelvis_tilt, pelvis_rotation, pelvis_list;  // rad: mean, and how far to each side
+  ExcursionNorm rise;                                // of the centre of mass
+  std::array<Target, gait_quantity_count> curve;     // by GaitQuantity
+};
+
+/// Of a set at a speed between its slowest and its fastest, by cubic interpolation between classes; beyond, at its
+/// ends.
+StepTargets step_targets(const GaitReference& reference, std::size_t set, double speed, double leg_m);
+
+/// How much each aim counts.
+struct StepWeights {
+  double angles = 1, forces = 1, moments = 1, balance = 30;
+};
+
+/// Residuals of a shape: from the targets, and of balance, clearance, reach, sole, smoothness, rates.
+Residuals step_residuals(const StepTask& task, const StepTargets& targets, const StepWeights& weights);
+
+}  // namespace mobil

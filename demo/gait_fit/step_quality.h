@@ -1,0 +1,28 @@
+#pragma once
+// How good a fitted step is.
+
+#include <array>
+
+#include "demo/compare/compare_reference.h"
+#include "demo/gait_fit/step_model.h"
+#include "demo/gait_fit/step_objective.h"
+
+namespace mobil {
+
+struct StepQuality {
+  std::array<double, gait_quantity_count> rms, correlation, rate;  // against the targets; rate: over theirs
+  double lacking_m;                                                // most that the centre of pressure is moved
+  double aside_m;                                                  // most that it lies beside the feet's lines
+  double slack_m;                                                  // least
+  double clearance_m;                                              // least in the middle two thirds of swing
+  double pad_m;                                                    // most that the heel slides
+  double rise_m;                                                   // of the centre of mass
+};
+
+StepQuality step_quality(const StepTask& task, const StepTargets& targets, const StepShape& shape);
+
+/// A curve of the step as measured ones are published: every 2 %, degrees, body weights, N m/kg; the hip from the
+/// pelvis.
+CycleCurve published(const StepCycle& cycle, GaitQuantity quantity);
+
+}  // namespace mobil

@@ -1,0 +1,137 @@
+// The fitted steps: the least-squares method, the model of a step, and the table as it was written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "assets/gait/step_table.h"
+#include "demo/gait_fit/step_grid.h"
+#include "demo/gait_fit/step_quality.h"
+#include "demo/gait_fit/upper_body.h"
+
+namespace mobil::gait_fit_test {
+using namespace step_table;
+
+constexpr double gravity = 9.81;
+
+const GaitReference& reference() {
+  static const GaitReference read = *read_gait_reference(std::nullopt);
+  return read;
+}
+
+/// A node with the shape that the table has.
+StepNode node(std::size_t s, std::size_t l) {
+  StepNode made = step_node(reference(), 0, s, l);
+  made.shape = fitted(step_shapes[s][l]);
+  return made;
+}
+
+StepCycle cycle_of(const StepNode& node) {
+  StepCycle cycle;
+  evaluate_step(node.task, node.shape, true, cycle);
+  return cycle;
+}
+
+double mean(const Samples& samples) {
+  return std::accumulate(samples.begin(), samples.end(), 0.0) / cycle_samples;
+}
+
+TEST(LeastSquaresFit, FindsTheBottomOfACurvedValley) {
+  std::array<double, 2> x = {-1.2, 1};  // Rosenbrock's
+  const std::array<double, 2> scale = {0.1, 1};
+  const double sum = least_squares(
+      [](std::span<const double> at, std::vector<double>& residual) {
+        residual = {10 * (at[1] - at[0] * at[0]), 1 - at[0]};
+      },
+      scale, {200, 0}, x);
+  EXPECT_LT(sum, 1e-12);
+  EXPECT_NEAR(x[0], 1, 1e-5);
+  EXPECT_NEAR(x[1], 1, 1e-5);
+}
+
+TEST(LeastSquaresFit, ReturnsTheSumThatItLeavesAndNeverMore) {
+  std::array<double, 1> x = {3};
+  const std::array<double, 1> scale = {1};
+  const auto residuals = [](std::span<const double> at, std::vector<double>& residual) {
+    residual = {std::atan(at[0]), 0.5};  // Newton's step overshoots from here
+  };
+  EXPECT_NEAR(least_squares(residuals, scale, {50, 0}, x), 0.25, 1e-9);
+}
+
+TEST(UpperBody, WeighsWhatLegsLeaveAndStandsOverTheHips) {
+  EXPECT_NEAR(upper_body.mass, 1 - 2 * (0.1 + 0.0465 + 0.0145), 1e-9);
+  EXPECT_GT(upper_body.up, 0.15);
+  EXPECT_LT(std::abs(upper_body.forward), 0.005);
+  // turned as one piece about the hips it goes as far as it is high
+  EXPECT_NEAR(upper_body.by_chest + upper_body.by_pelvis, upper_body.up, 0.01);
+}
+
+/// What no force can change over a whole stride.
+TEST(StepModel, ForcesBearTheWeightAndNeitherSpeedUpNorTurn) {
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    const StepNode n = node(s, usual);
+    const StepCycle c = cycle_of(n);
+    EXPECT_NEAR(mean(c.total_up), gravity, 1e-9);
+    EXPECT_NEAR(mean(c.total_forward), 0, 1e-9);
+    EXPECT_NEAR(2 * mean(c.up), 1, 1e-3);  // two feet
+    EXPECT_NEAR(mean(c.forward), 0, 1e-3);
+  }
+}
+
+/// Both feet together press where the motion asks for it, at every instant.
+TEST(StepModel, FeetPressWhereTheMotionAsksForIt) {
+  const StepNode n = node(4, usual);
+  const StepCycle c = cycle_of(n);
+  for (std::size_t i = 0; i < cycle_samples; ++i) {
+    const std::size_t left = (i + cycle_samples / 2) % cycle_samples;
+    const double lead = i < cycle_samples / 2 ? -n.task.step_length_m : n.task.step_length_m;
+    const double of_left = c.pressure[left] + lead + c.lacking[i];
+    EXPECT_NEAR(c.share[i] * c.borne[i] + (1 - c.share[i]) * of_left, c.wanted_pressure[i], 1e-12) << i;
+    EXPECT_NEAR(c.share[i] + c.share[left], 1, 1e-12) << i;
+  }
+}
+
+TEST(StepTable, EveryStepKeepsItsFeetAndKnees) {
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    for (std::size_t l = 0; l < length_count; ++l) {
+      const StepNode n = node(s, l);
+      const StepQuality q = step_quality(n.task, n.targets, n.shape);
+      const std::string name = std::to_string(s) + ' ' + std::to_string(l);
+      EXPECT_GT(q.slack_m, 0) << name;
+      EXPECT_GT(q.clearance_m, 0.008) << name;
+      EXPECT_LT(q.pad_m, 0.005) << name;
+      EXPECT_LT(q.aside_m, 0.025 * fitted_height_m) << name;
+    }
+  }
+}
+
+TEST(StepTable, UsualStepsAreNearWhatWasMeasured) {
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    const StepNode n = node(s, usual);
+    const StepQuality q = step_quality(n.task, n.targets, n.shape);
+    const double at_ends = s == 0 || s + 2 >= speed_count ? 4 : 3;
+    using enum GaitQuantity;
+    for (const GaitQuantity angle : {hip, knee, ankle}) EXPECT_LT(q.rms[index(angle)], at_ends) << speed[s];
+    EXPECT_GT(q.correlation[index(vertical)], 0.97) << speed[s];
+    EXPECT_GT(q.correlation[index(fore_aft)], 0.97) << speed[s];
+    for (const GaitQuantity moment : {hip_moment, knee_moment, ankle_moment})
+      EXPECT_GT(q.correlation[index(moment)], 0.9) << speed[s];
+  }
+}
+
+TEST(StepTable, AStepIsMadeAgainFromItsNeighbour) {
+  const StepNode written = node(4, usual);
+  StepNode again = written;
+  again.cost = INFINITY;
+  const StepShape neighbour = node(3, usual).shape;
+  fit_node(again, neighbour, false);
+  fit_node(again, neighbour, true);
+  const StepQuality a = step_quality(written.task, written.targets, written.shape),
+                    b = step_quality(again.task, again.targets, again.shape);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a.rms[i], b.rms[i], 0.3);
+  for (std::size_t i = 3; i < gait_quantity_count; ++i) EXPECT_NEAR(a.correlation[i], b.correlation[i], 0.01);
+}
+
+}  // namespace mobil::gait_fit_test

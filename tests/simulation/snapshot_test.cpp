@@ -81,7 +81,7 @@ Told run(Simulation& simulation, std::vector<Entity> people, int ticks, std::uin
 
 TEST(Snapshot, RestoredItGoesOnWithTheSameBitsAndHandlesHereAndElsewhere) {
   Simulation simulation({.threads = 2});
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1U, 2U, 3U}) {
     std::vector<Entity> people = simulation.people();
     people = run(simulation, people, 25, seed).people;
     const std::uint64_t before = simulation.state_hash(), world = hash_world(simulation);

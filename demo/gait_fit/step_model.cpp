@@ -61,7 +61,7 @@ class Model {
     off_ = 0.5 + t_.double_support;
   }
   void move();
-  void load(bool exact);
+  void load();
 
  private:
   double at(const ShapePart& part, std::size_t i) const { return p_[part.first + i]; }
@@ -258,7 +258,7 @@ double Model::second(const Samples& q, std::size_t i, double travel) const {
   return (after - 2 * q[i] + before) / (dt * dt);
 }
 
-void Model::load(bool exact) {
+void Model::load() {
   const StepBody& b = t_.body;
   const double step = t_.step_length_m, stride = 2 * step, h = b.height;
   static thread_local Track knee, ankle, centre[3];  // of the three segments' masses
@@ -354,17 +354,14 @@ void Model::load(bool exact) {
     const double roll = -leg_roll[i] + leg_roll[o] + upper_y[i] * ux - c_.hips_left[i] * uy;
     const double left_foot = t_.half_width_m;
     c_.pressure_aside[i] = -roll / bearing - (1 - 2 * c_.share[i]) * left_foot;
-    double own = pressure[i], others = pressure[o] + lead;
-    const double mean = c_.share[i] * own + (1 - c_.share[i]) * others;
-    double lacking = c_.wanted_pressure[i] - mean;
+    const double mean = c_.share[i] * pressure[i] + (1 - c_.share[i]) * (pressure[o] + lead);
+    const double lacking = c_.wanted_pressure[i] - mean, own = pressure[i] + lacking;
     c_.lacking[i] = lacking;
+    c_.borne[i] = own;
     const double centre_up =
         (upper_body.mass * upper_y[i] + thigh_mass * (centre[0].y[i] + centre[0].y[o]) +
          shank_mass * (centre[1].y[i] + centre[1].y[o]) + foot_mass * (centre[2].y[i] + centre[2].y[o]));
     c_.centre_up[i] = centre_up;
-    if (!exact) lacking = 0;
-    own += lacking;
-    c_.borne[i] = own;
     const double u1 = std::clamp(phase / t_.double_support, 0.0, 1.0);
     const double u2 = std::clamp((phase - 0.5) / t_.double_support, 0.0, 1.0);
     double push = 0;
@@ -414,10 +411,10 @@ StepBody step_body(double height_m) {
           0.035 * k};
 }
 
-void evaluate_step(const StepTask& task, const StepShape& shape, bool exact, StepCycle& cycle) {
+void evaluate_step(const StepTask& task, const StepShape& shape, StepCycle& cycle) {
   Model model(task, shape, cycle);
   model.move();
-  model.load(exact);
+  model.load();
 }
 
 StepShape first_shape(const StepTask& task) {

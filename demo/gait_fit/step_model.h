@@ -57,8 +57,8 @@ struct StepCycle {
   Samples hip_moment, knee_moment, ankle_moment;  // N m/kg, extensor and plantarflexor positive
 };
 
-/// `exact`: both feet's centres of pressure are moved by what they lack, so that no moment is left unbalanced.
-void evaluate_step(const StepTask& task, const StepShape& shape, bool exact, StepCycle& cycle);
+/// Both feet's centres of pressure are moved by what they lack, so that no moment is left unbalanced.
+void evaluate_step(const StepTask& task, const StepShape& shape, StepCycle& cycle);
 
 /// A shape to begin with.
 StepShape first_shape(const StepTask& task);

@@ -121,7 +121,7 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   static thread_local StepCycle c;
   StepShape shape;
   std::copy(unknown.begin(), unknown.end(), shape.begin());
-  evaluate_step(task, shape, true, c);
+  evaluate_step(task, shape, c);
   Gathered all(residual);
   const auto track = [&](GaitQuantity quantity, double weight, double least_sd, double most_sd, auto ours) {
     const Target& target = targets.curve[index(quantity)];

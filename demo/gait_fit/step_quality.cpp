@@ -46,7 +46,7 @@ CycleCurve published(const StepCycle& cycle, GaitQuantity quantity) {
 
 StepQuality step_quality(const StepTask& task, const StepTargets& targets, const StepShape& shape) {
   static thread_local StepCycle c;
-  evaluate_step(task, shape, true, c);
+  evaluate_step(task, shape, c);
   StepQuality q{};
   for (std::size_t i = 0; i < gait_quantity_count; ++i) {
     const CycleCurve ours = published(c, static_cast<GaitQuantity>(i)), theirs = thinned(targets.curve[i].mean);

@@ -30,7 +30,7 @@ StepNode node(std::size_t s, std::size_t l) {
 
 StepCycle cycle_of(const StepNode& node) {
   StepCycle cycle;
-  evaluate_step(node.task, node.shape, true, cycle);
+  evaluate_step(node.task, node.shape, cycle);
   return cycle;
 }
 

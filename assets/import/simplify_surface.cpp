@@ -56,7 +56,8 @@ std::size_t remove_specks(SurfaceMesh& mesh, double share) {
   for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) ++triangles_of[find(mesh.triangle[t])];
   std::size_t largest = 0;
   for (const auto& [piece, count] : triangles_of) largest = std::max(largest, count);
-  const auto total = static_cast<double>(mesh.triangle.size() / 3);
+  const std::size_t triangles = mesh.triangle.size() / 3;
+  const auto total = static_cast<double>(triangles);
   const auto stays = [&](std::size_t count) { return count == largest || static_cast<double>(count) >= share * total; };
   std::vector<std::uint32_t> kept;
   kept.reserve(mesh.triangle.size());

@@ -80,7 +80,7 @@ Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, const
 }
 
 /// What is left of an error of second order in the cells' size, of twice the cells taken away.
-void extrapolate(Projected& fine, Projected coarse) {
+void extrapolate(Projected& fine, const Projected& coarse) {
   const auto one = [](MatrixXd& f, const MatrixXd& c) {
     if (f.size() > 0) f += (f - c) / 3;
   };

@@ -57,7 +57,7 @@ void add_subcommand(CLI::App& app, const Subcommand& from, int& exit_status) {
 std::string first_left_over(const CLI::App& app, int argc, const char* const* argv) {
   const auto left = app.remaining(true);
   std::string first;
-  for (const std::string argument : std::span<const char* const>(argv + 1, argv + argc)) {
+  for (std::string argument : std::span<const char* const>(argv + 1, argv + argc)) {
     if (std::ranges::find(left, argument) == left.end()) continue;
     if (argument.starts_with("-") && !app.get_subcommands().empty()) return argument;
     if (first.empty()) first = argument;

@@ -74,9 +74,12 @@ class BulletWorld {
 
  private:
   // In rows about the origin: single precision is lost on bodies further away, which then leap about.
-  static constexpr int a_row = 32;
-  static double start_x(int number) { return 4 * cube_m * (number % a_row - a_row / 2); }
-  static double start_y(int number) { return 4 * cube_m * (number / a_row - a_row / 2); }
+  static constexpr int a_row = 32, half_row = a_row / 2;
+  static double start_x(int number) { return 4 * cube_m * (number % a_row - half_row); }
+  static double start_y(int number) {
+    const int row = number / a_row;
+    return 4 * cube_m * (row - half_row);
+  }
 
   void add(int number) {
     std::vector<btVector3> at;

@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <utility>
 
 namespace mobil {
@@ -110,7 +111,8 @@ std::size_t different_words(const Bellies& a, const Bellies& b, std::size_t but_
   const auto count = [&](const std::vector<Lanes<float>>& x, const std::vector<Lanes<float>>& y) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       for (std::size_t l = 0; l < lane_count; ++l) {
-        if (l != but_lane && std::memcmp(&x[i].lane[l], &y[i].lane[l], sizeof(float)) != 0) ++different;
+        if (l != but_lane && std::bit_cast<std::uint32_t>(x[i].lane[l]) != std::bit_cast<std::uint32_t>(y[i].lane[l]))
+          ++different;
       }
     }
   };

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cfloat>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
@@ -100,7 +101,9 @@ std::size_t different_reports(const BellyReport<Lanes<float>>& a, const BellyRep
         &BellyReport<Lanes<float>>::volume_ratio, &BellyReport<Lanes<float>>::kinetic_energy_j,
         &BellyReport<Lanes<float>>::strain_energy_j}) {
     for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l != but_lane && std::memcmp(&(a.*field).lane[l], &(b.*field).lane[l], sizeof(float)) != 0) ++different;
+      if (l != but_lane &&
+          std::bit_cast<std::uint32_t>((a.*field).lane[l]) != std::bit_cast<std::uint32_t>((b.*field).lane[l]))
+        ++different;
     }
   }
   return different;

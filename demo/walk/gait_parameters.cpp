@@ -49,6 +49,7 @@ std::string gait_parameter_table() {
 
 std::vector<std::string> gait_parameter_names() {
   std::vector<std::string> names;
+  names.reserve(gait_parameters.size());
   for (const GaitParameter& parameter : gait_parameters) names.emplace_back(parameter.name);
   return names;
 }

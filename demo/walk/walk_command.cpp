@@ -167,7 +167,7 @@ Result<void> run_walk(const WalkOptions& options) {
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));
     changes = std::move(*planned);
   }
-  const auto added = simulation.add_leg_muscles(*entity, options.muscles);
+  auto added = simulation.add_leg_muscles(*entity, options.muscles);
   if (!added) return added;
   if (options.forces) simulation.add_forces(*entity);
   const Human human = *simulation.human(*entity);

@@ -21,33 +21,25 @@ struct JointMoments {
   F hip_nm[2], knee_nm[2], ankle_nm[2];
 };
 
-/// Where a foot would press the ground with the body rolling over it, on the ground of the world: the point (m), the
-/// direction from heel to toe (unit), and how far along it the sole in contact reaches behind and ahead of the point
-/// (m).
-template <class F>
-struct FootContact {
-  F x_m, z_m;
-  F along_x, along_z;
-  F back_m, ahead_m;
-};
-
-/// The points that accelerations are taken of: the body's centre of mass, then of each leg, right before left, five.
+/// The points of the legs that moments are taken of: of each leg, right before left, five.
 inline constexpr std::size_t leg_points = 5;
 enum LegPoint : std::size_t { hip_point, knee_point, ankle_point, ball_point, foot_centre_point };
-constexpr std::size_t tracked_point(std::size_t side, LegPoint p) {
-  return 1 + side * leg_points + p;
+constexpr std::size_t leg_point(std::size_t side, LegPoint p) {
+  return side * leg_points + p;
 }
-inline constexpr std::size_t tracked_points = 1 + 2 * leg_points;
 
-/// What `joint_forces` keeps from one tick to the next: the last tick's places and contacts, and how far each point had
-/// come in the tick before (m, world frame). 328 bytes a person. All zero: nothing is known yet; two ticks later it is.
+/// How a walker moves now, in the frame of the stance foothold: x to the left, y up, z the way the walking line heads
+/// there. What accelerates the body against gravity, Σ m (a + g), and the moment of that with its turning about the
+/// foothold, Σ r × m (a + g) + dL/dt, over all 48 segments; per kg of the body's mass. Places (m) and accelerations
+/// (m/s²) of the legs' points. The way the thighs face and each foot points (unit, on the ground), and the foot's pitch
+/// (rad, toes up).
 template <class F>
-struct MotionHistory {
-  Vec3<F> place_m[tracked_points], step_m[tracked_points];
-  FootContact<F> contact[2];
-  F forward_x, forward_z;  // the way the thighs face, unit
-  F load_right;            // planned share of the weight on the right foot
-  F ticks_known;           // 0, 1, or 2 for two and more
+struct BodyMotion {
+  Vec3<F> force_per_kg, moment_per_kg;
+  F centre_height_m;
+  Vec3<F> place_m[2 * leg_points], acceleration[2 * leg_points];
+  F facing_x, facing_z;
+  F foot_x[2], foot_z[2], foot_pitch[2];
 };
 
 }  // namespace mobil

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "components/curve.h"
 #include "components/gait_style.h"
 #include "components/lanes.h"
+#include "components/step_shape.h"
 
 namespace mobil {
 
@@ -35,20 +35,34 @@ struct Gait {
 ///   rotation (that side forward) = A cos π(φ − rotation)
 ///   list (that side up) = A (first cos π(φ − first phase) + third cos 3π(φ − third phase))
 ///   tilt (anterior) = mean + A cos 2π(φ − tilt)
-///   shift (toward that side) = A sin π(φ − shift)
 /// The odd harmonics change sign from one step to the next as the sides change, so all are smooth through heel strike.
 namespace pelvis_phase {
-inline constexpr float rotation = 0.16F;
-inline constexpr float list_first = 0.70F, list_first_phase = 0.272F;
-inline constexpr float list_third = 0.30F, list_third_phase = 0.314F;
-inline constexpr float tilt = -0.166F;
-inline constexpr float shift = 0.10F;
+inline constexpr int rotation_1000 = 160, list_first_1000 = 272, list_third_1000 = 314, tilt_1000 = -166;
+inline constexpr float rotation = rotation_1000 / 1000.0F;
+inline constexpr float list_first = 0.70F, list_first_phase = list_first_1000 / 1000.0F;
+inline constexpr float list_third = 0.30F, list_third_phase = list_third_1000 / 1000.0F;
+inline constexpr float tilt = tilt_1000 / 1000.0F;
 }  // namespace pelvis_phase
 
 /// One double support in percent of the cycle: `at_rest` less `per_cadence` for each step a minute (at a height of 1.8
 /// m) as Bruderlin & Calvert have it, through Schwartz (2008): 12, 10 and 8 % at slow, free and fast speed.
 namespace double_support_law {
 inline constexpr double at_rest = 23.6, per_cadence = 0.131, least = 6.0, most = 18.0;
+}
+
+/// Toes lie flat until the heel has risen by `from` (rad); from there on the foot rolls over their tips. By how much
+/// the toes are pitched, for d = heel's rise − from: part · d³/(d² + within²). The tips stay where they are.
+namespace toe_rocker {
+inline constexpr float from = 0.35F, within = 0.40F, part = 0.7F;
+}
+
+/// A step at which the style's values hold, of body height.
+inline constexpr double natural_step_h = 0.43;
+
+/// How far arms swing, of what the style has at a natural step: by_speed · speed/√(g · leg), at most 1; and what they
+/// follow: the opposite leg's line from hip to ankle from −reach_back to 1 times half a step over the leg.
+namespace arm_swing {
+inline constexpr double by_speed = 1.5, reach_back = 1.15;
 }
 
 /// After toe-off the toes, bent upward against the pitch of the foot, straighten between these parts of the swing.
@@ -59,51 +73,62 @@ inline constexpr float from = 0.25F, to = 0.85F;
 /// The manner of a walk at a heel strike: amplitudes and postures that blend from one strike to the next. Angles rad.
 template <class F>
 struct Manner {
-  F pelvis_rotation, pelvis_list, pelvis_shift_m, pelvis_tilt, pelvis_tilt_wave;
+  F pelvis_rotation, pelvis_list, pelvis_tilt, pelvis_tilt_wave;
   F shoulder_rotation, leg_back, leg_forward;  // range of the hip-to-ankle line, which the opposite arm follows
   F arm_back, arm_forward, elbow_back, elbow_forward, arm_abduction, forearm_pronation, finger_flexion;
 };
 
-/// How a walker is at a heel strike, the instant at which two steps meet: all that both must agree on so that pose and
-/// joint angles go on smoothly. A function of body and gait alone (systems/gait/strike-inl.h), so it is known before
-/// either step is solved. Standing is a strike too, of length 0 and no speed. m, s, rad.
+/// How a walker is at a heel strike, the instant at which two steps meet. A function of body and gait alone
+/// (systems/gait/strike.h), so it is known before either step is solved. Standing is a strike too, of length 0 and no
+/// speed. m, s, rad.
 template <class F>
 struct Strike {
-  F speed_m_s;             // of the gait that it belongs to; 0: standing
-  F length_m;              // from the trailing foothold to the leading one
-  F behind_m;              // hips behind the leading foothold
-  F forward_velocity;      // of the hips
-  F up_mean_m, up_wave_m;  // height of the hips: mean and amplitude of its wave, one a step
-  F pace_hz;               // steps a second
-  F trunk_pitch;
-  F foot_pitch, foot_pitch_rate;  // of the leading foot, toes up
-  F knee, knee_rate;              // to which the trailing knee may stretch
-  F stance_knee, toe_off_knee;
-  F half_width_m, toe_out;          // of the leading foot
-  F double_support, flat, release;  // parts of the step after it: on both feet; until foot flat; until the knee yields
+  F speed_m_s;                // of the gait that it belongs to; 0: standing
+  F length_m;                 // from the trailing foothold to the leading one
+  F pace_hz;                  // steps a second
+  F half_width_m, toe_out;    // of the leading foot
+  F double_support;           // after it, of the cycle
+  F shape[step_shape::size];  // of a steady walk (components/step_shape.h), lengths in m
   Manner<F> manner;
 };
 
-/// One solved step of one individual, from the heel strike of its stance foot to the other's. Places relative to the
-/// stance foothold, the point of the ground under the ankle when the foot is flat; z forward, y up, "out" away from the
-/// body's middle on the leg's own side. Angles rad, lengths m, times s from heel strike.
+/// How many polynomials another way of the hips has.
+inline constexpr std::size_t other_way_count = 5;
+
+/// A polynomial of degree 5, its coefficients from the constant on.
+template <class F>
+struct Quintic {
+  F coefficient[6];
+};
+
+/// One step of one individual, from the heel strike of its stance foot to the other's. Places relative to the stance
+/// foothold, the point of the ground under the ankle when the foot is flat; z forward, y up, "out" away from the body's
+/// middle on the leg's own side. Angles rad, lengths m, times s from heel strike.
+///
+/// The phase p goes from 0 to 1 over the step, at the pace of the strikes at either end. The numbers of both strikes'
+/// shapes are mixed: those of `from` while both feet are on the ground, then with e(p) = 10 q³ − 15 q⁴ + 6 q⁵ (q the
+/// part of single support that is over; of the whole step where it begins at rest) to those of `to`. All is twice
+/// continuously differentiable, from step to step too.
 template <class F>
 struct StepPlan {
-  F duration_s, double_support_s, flat_s;  // step; its first part on both feet; heel strike to foot flat
-  F load_from, load_to;  // share of the weight on the support foot at the start and at the end of double support
+  F duration_s, double_support_s;    // of the step; of its first part on both feet
+  F double_support, landing;         // phases at which the other foot leaves the ground and comes to it; both 0: stands
   F step_length_m, length_before_m;  // to the next foothold, from the one before
+  F stride_part;                     // how far the other foot swings, of what the strikes' walks do
+  F mixed_from;                      // phase from which on the shapes are mixed
   F phase_rate_from, phase_rate_to;  // of the phase of the step over the time as a part of the step
   F trailing_half_width_m, trailing_toe_out;
   Whole<F> revision;  // of the gait that it was solved for
   Whole<F> settled;   // 1: the next step is this one mirrored, as long as the gait stays
-  Whole<F> clamped;   // 1: no forces within bounds make this step; it is as near as they come
+  Whole<F> clamped;   // 1: the centre of pressure that this step asks for lies beyond the soles
   Strike<F> from, to;
-  Curve<F> hip_forward_m, hip_up_m, trunk_pitch;  // over the step: the middle of the hips, the trunk's lean
-  Curve<F> support_pitch;                         // toe-up pitch of the stance foot from foot flat to the end
-  Curve<F> trailing_pitch;                        // of the other foot in double support
-  /// The other foot from toe-off to heel strike: its pitch and its ankle, relative to the stance foothold.
-  Curve<F> swing_pitch, swing_forward_m, swing_up_m;
-  F swing_out_m[2], swing_out_slope[2];  // at its start and its end: the ankle's place to the side, its change a swing
+  Quintic<F> even_m;  // by p: the hips' way without what is periodic
+  /// The other foot from toe-off to heel strike, by the part of the swing: its pitch and its ankle's place relative to
+  /// the stance foothold, without the bumps of its shape.
+  Quintic<F> swing_pitch, swing_forward_m, swing_up_m, swing_out_m;
+  /// Where the strikes differ the hips go another way by 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, u the part
+  /// of the step's time: forward, and toward the stance foot.
+  F ahead_m[other_way_count], aside_m[other_way_count];
 };
 
 /// Where a walker is: time since heel strike of the stance foot (0 right, 1 left), steps taken, and the point of the

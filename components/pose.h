@@ -24,11 +24,12 @@ struct JointAngles {
   F shoulder_flexion[2], elbow_flexion[2];
 };
 
-/// Lowest points of each foot in the world (m): under the heel, under the ball (toe joint); index 0 right, 1 left.
+/// Points of each foot's sole in the world (m): under the heel, under the ball (toe joint), under the tips of the toes;
+/// index 0 right, 1 left.
 /// `phase`: 0–1 over that side's gait cycle, 0 at its heel strike.
 template <class F>
 struct Feet {
-  Vec3<F> heel_m[2], toe_m[2];
+  Vec3<F> heel_m[2], toe_m[2], tip_m[2];
   F phase[2];
 };
 

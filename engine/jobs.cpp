@@ -23,8 +23,8 @@ struct Threads::Arena {
 };
 
 namespace {
-/// oneTBB is not built with ThreadSanitizer, which cannot see what it orders: the sanitizer is told here that all of a
-/// loop's bodies come after what its caller did before, and before what the caller does next.
+/// ThreadSanitizer cannot see how oneTBB synchronises, because oneTBB is not built with it. These two calls declare it:
+/// all bodies of a loop run after what the caller did before, and before what it does next.
 #if defined(__SANITIZE_THREAD__)
 void before(char* point) {
   __tsan_release(point);

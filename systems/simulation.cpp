@@ -110,7 +110,7 @@ Result<void> Simulation::turn_to(Entity human, float heading_rad) {
 }
 
 Status Simulation::add_forces(Entity human) {
-  return mobil::add_forces(world_, human, static_cast<float>(tick_s()));
+  return mobil::add_forces(world_, human);
 }
 
 Status Simulation::remove_forces(Entity human) {

@@ -125,7 +125,7 @@ class Simulation {
   /// nothing has changed.
   Result<void> turn_to(Entity human, float heading_rad);
 
-  /// The effect of ground reaction and joint moments (components/forces.h), for the tick before the present one. Posed
+  /// The effect of ground reaction and joint moments (components/forces.h). Posed
   /// people have no gait that it could follow from: Status::missing.
   Status add_forces(Entity human);
   Status remove_forces(Entity human);

@@ -28,6 +28,7 @@ inline constexpr double foot_length = 0.152;
 /// Ankle to the point under the heel (backward) and to the point under the ball (forward), along the sole.
 inline constexpr double heel_back = 0.034, ball_forward = 0.078, toes_length = foot_length - heel_back - ball_forward;
 inline constexpr double toe_joint_height = 0.008;
+inline constexpr double heel_radius = 0.030 / 1.75;  // the heel rolls on a round rim
 inline constexpr double shoulder_height = 0.818, shoulder_half_spacing = 0.100;
 inline constexpr double upper_arm = 0.186, forearm = 0.146, hand = 0.108;
 /// Kneecap's centre from the knee's, knee straight: in front, and above (below, as measured on the

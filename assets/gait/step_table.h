@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "assets/gait/step_shape.h"
+#include "components/step_shape.h"
 
 namespace mobil {
 
@@ -23,7 +23,7 @@ struct StepGiven {
 };
 
 /// A shape whose lengths are of a body of height 1 m.
-using TabledShape = std::array<float, shape::size>;
+using TabledShape = std::array<float, step_shape::size>;
 
 extern const std::array<StepGiven, step_table::speed_count> step_given;
 extern const std::array<std::array<TabledShape, step_table::length_count>, step_table::speed_count> step_shapes;

@@ -96,8 +96,8 @@ MatrixXd position_gramian(const VectorXd& omega2, double damping_per_s, const Ma
 
 }  // namespace
 
-Columns orthonormalise(const StiffnessTerms& terms, Eigen::Ref<const Columns> basis,
-                       Eigen::Ref<const Columns> mass_basis, Columns& fields) {
+Columns orthonormalise(const StiffnessTerms& terms, const Eigen::Ref<const Columns>& basis,
+                       const Eigen::Ref<const Columns>& mass_basis, Columns& fields) {
   Columns mass_fields = mass_times(terms, fields);
   std::vector<Index> kept;
   for (int round = 0; round < 2; ++round) {  // once leaves what rounding left of the others

@@ -36,7 +36,7 @@ inline constexpr double walk_stretch_m = 0.0158;
 
 /// Makes `fields` orthonormal in M₁ to `basis` (with M₁·basis) and in themselves, from the first on; those that depend
 /// on others are left out. Their M₁·fields.
-Columns orthonormalise(const StiffnessTerms& terms, Eigen::Ref<const Columns> basis,
-                       Eigen::Ref<const Columns> mass_basis, Columns& fields);
+Columns orthonormalise(const StiffnessTerms& terms, const Eigen::Ref<const Columns>& basis,
+                       const Eigen::Ref<const Columns>& mass_basis, Columns& fields);
 
 }  // namespace mobil

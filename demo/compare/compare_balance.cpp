@@ -114,13 +114,14 @@ BalanceMeter::Moving BalanceMeter::between(const Pose<float>& before, const Pose
 void BalanceMeter::add(const Pose<float>& pose, const GroundReaction<float>& ground, double tick_s) {
   if (last_.size() == 3) last_.erase(last_.begin());
   last_.push_back(pose);
+  const GroundReaction<float> reaction = std::exchange(ground_, ground);
   if (last_.size() < 3) return;
   const Moving before = between(last_[0], last_[1], tick_s), after = between(last_[1], last_[2], tick_s);
   const Vec centre = 0.5 * (before.centre + after.centre);
   Vec lacking = (-1 / tick_s) * (after.momentum - before.momentum);
   for (std::size_t side = 0; side < 2; ++side) {
-    const Vec arm = to_double(ground.centre_m[side]) - centre;
-    lacking = lacking + cross(arm, to_double(ground.force_n[side]));
+    const Vec arm = to_double(reaction.centre_m[side]) - centre;
+    lacking = lacking + cross(arm, to_double(reaction.force_n[side]));
   }
   const Vec ahead = normalised(before.forward + after.forward), across{ahead.z, 0, -ahead.x};
   const double pitch = dot(lacking, across) / total_kg_, roll = dot(lacking, ahead) / total_kg_;

@@ -27,8 +27,7 @@ struct UnbalancedMoment {
 class BalanceMeter {
  public:
   explicit BalanceMeter(const Body& body);
-  /// After each tick of `tick_s`: the pose, and the ground reaction, which belongs to the pose before. Nothing is known
-  /// in the first two.
+  /// After each tick of `tick_s`: the pose and the ground reaction. Nothing is known in the first two.
   void add(const Pose<float>& pose, const GroundReaction<float>& ground, double tick_s);
   UnbalancedMoment result() const;
 
@@ -41,7 +40,8 @@ class BalanceMeter {
   std::array<double, segment_count> mass_{};
   std::array<Vec3<double>, segment_count> centre_{}, inertia_{};
   double total_kg_ = 0;
-  std::vector<Pose<float>> last_;  // up to three, the newest last
+  std::vector<Pose<float>> last_;   // up to three, the newest last
+  GroundReaction<float> ground_{};  // at the middle one
   std::size_t counted_ = 0;
   double pitch_squares_ = 0, roll_squares_ = 0, pitch_peak_ = 0, roll_peak_ = 0;
 };

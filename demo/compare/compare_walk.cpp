@@ -16,7 +16,7 @@ namespace {
 constexpr double degrees = 180 / std::numbers::pi;
 constexpr double tick_s = 1.0 / 240;
 
-/// What a tick leaves behind; forces belong to the tick before and are moved there.
+/// What a tick leaves behind.
 struct TickRows {
   std::vector<double> phase;  // cycles since the end of the settling
   std::vector<double> hip, tilt, knee, ankle, com;
@@ -37,7 +37,7 @@ void add_motion(const Simulation& simulation, Entity entity, TickRows& rows) {
 }
 
 /// False where forces are not simulated.
-bool add_forces_before(const Simulation& simulation, Entity entity, double mass_kg, TickRows& rows) {
+bool add_forces(const Simulation& simulation, Entity entity, double mass_kg, TickRows& rows) {
   const auto ground = simulation.get<GroundReaction>(entity);
   const auto moments = simulation.get<JointMoments>(entity);
   if (!ground || !moments) return false;
@@ -56,7 +56,7 @@ double mean(const std::vector<double>& values) {
 }
 
 StrideForces sample_forces(const TickRows& rows) {
-  const std::vector<double> phase(rows.phase.begin(), rows.phase.begin() + static_cast<long>(rows.vertical.size()));
+  const std::vector<double>& phase = rows.phase;
   const auto sample = [&](const std::vector<double>& values) { return sample_cycle(phase, values); };
   std::vector<double> within;
   for (std::size_t i = 0; i < phase.size(); ++i) {
@@ -145,11 +145,8 @@ Result<WalkedStride> walk_stride(const BodyRequest& body, const GaitRequest& gai
   TickRows rows;
   bool with_forces = true;
   const auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {
-    if (!rows.phase.empty()) {
-      with_forces = with_forces && add_forces_before(simulation, *entity, static_cast<double>(body.mass_kg), rows);
-    }
-    if (phase > 1.1) return;  // the last tick is there for the forces of the one before
     rows.phase.push_back(phase);
+    with_forces = with_forces && add_forces(simulation, *entity, static_cast<double>(body.mass_kg), rows);
     add_motion(simulation, *entity, rows);
   });
   if (!walked) return tl::unexpected(walked.error());

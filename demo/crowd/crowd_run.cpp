@@ -73,8 +73,8 @@ std::size_t row_bytes(const World& world, Entity entity) {
 
 double percentile_ms(const std::vector<CrowdTick>& ticks, double part, double CrowdTick::*what) {
   if (ticks.empty()) return 0;
-  std::vector<double> all;
-  for (const CrowdTick& tick : ticks) all.push_back(tick.*what);
+  std::vector<double> all(ticks.size());
+  std::ranges::transform(ticks, all.begin(), what);
   const auto at = static_cast<std::size_t>(std::ceil(part * static_cast<double>(all.size())));
   const auto nth = all.begin() + static_cast<std::ptrdiff_t>(std::clamp<std::size_t>(at, 1, all.size()) - 1);
   std::nth_element(all.begin(), nth, all.end());

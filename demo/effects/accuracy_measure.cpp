@@ -208,8 +208,8 @@ std::string accuracy_source(const std::vector<AccuracyRow>& rows, const std::arr
     return text + "F";
   };
   const auto list = [&](const std::array<float, rung_count>& values) {
-    std::vector<std::string> texts;
-    for (const float value : values) texts.push_back(number(value));
+    std::array<std::string, rung_count> texts;
+    std::ranges::transform(values, texts.begin(), number);
     return fmt::format("{{{}}}", fmt::join(texts, ", "));
   };
   std::string source;

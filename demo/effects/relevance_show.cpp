@@ -49,8 +49,9 @@ Result<Crowd> make_crowd(std::size_t humans) {
   for (std::size_t i = 0; i < humans; ++i) {
     const Entity human = (*made)->people()[i];
     auto state = *world.get<GaitState>(human);
-    state.line_x_m = apart_m * static_cast<float>(i % across);
-    state.line_z_m = apart_m * static_cast<float>(i / across);
+    const std::size_t column = i % across, row = i / across;
+    state.line_x_m = apart_m * static_cast<float>(column);
+    state.line_z_m = apart_m * static_cast<float>(row);
     world.set(human, state);
   }
   for (int i = 0; i < 60; ++i) (*made)->simulation().tick();

@@ -51,18 +51,21 @@ std::string source(const std::vector<StepNode>& nodes) {
 }
 
 void print(const std::vector<StepNode>& nodes) {
-  fmt::print("\n{:>5} {:>6} {:>7}  {:<14} {:<11} {:<17} {:>5} {:>5} {:>5} {:>5} {:>5} {:>5}\n", "speed", "length",
-             "cost", "angles, deg", "forces, r", "moments, r", "CoP", "aside", "slack", "clear", "pad", "rise");
+  fmt::print("\n{:>5} {:>6} {:>7}  {:<14} {:<11} {:<17} {:<14} {:>5} {:>5} {:>5} {:>5} {:>5} {:>5}\n", "speed",
+             "length", "cost", "angles, deg", "forces, r", "moments, r", "rates", "CoP", "aside", "slack", "clear",
+             "pad", "rise");
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     const StepNode& node = nodes[i];
     const StepQuality q = step_quality(node.task, node.targets, fitted(tabled(node.shape)));
-    fmt::print("{:>5.2f} {:>6.2f} {:>7.2f}  {:.1f} {:.1f} {:.1f}    {:.3f} {:.3f} {:.3f} {:.3f} {:.3f} ",
-               speed[i / length_count], length[i % length_count], node.cost, q.rms[0], q.rms[1], q.rms[2],
-               q.correlation[3], q.correlation[4], q.correlation[5], q.correlation[6], q.correlation[7]);
+    fmt::print(
+        "{:>5.2f} {:>6.2f} {:>7.2f}  {:.1f} {:.1f} {:.1f}    {:.3f} {:.3f} {:.3f} {:.3f} {:.3f} {:.2f} {:.2f} {:.2f} ",
+        speed[i / length_count], length[i % length_count], node.cost, q.rms[0], q.rms[1], q.rms[2], q.correlation[3],
+        q.correlation[4], q.correlation[5], q.correlation[6], q.correlation[7], q.rate[0], q.rate[1], q.rate[2]);
     for (const double m : {q.lacking_m, q.aside_m, q.slack_m, q.clearance_m, q.pad_m, q.rise_m})
       fmt::print("{:>5.1f} ", 1000 * m);
     fmt::print("\n");
   }
+  fmt::print("rates: the fastest change of hip, knee and ankle over the measured one's\n");
   fmt::print("CoP: most that the centre of pressure is moved for exact balance, and the like, mm\n");
 }
 

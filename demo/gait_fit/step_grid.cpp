@@ -12,7 +12,7 @@ namespace {
 
 using namespace step_table;
 
-constexpr double degree = std::numbers::pi / 180, gravity = 9.81;
+constexpr double degree = std::numbers::pi / 180;
 
 double solve(const StepNode& node, const StepWeights& weights, int most_steps, StepShape& shape) {
   static constexpr StepShape scales = shape_scales();
@@ -43,7 +43,7 @@ StepNode step_node(const GaitReference& reference, std::size_t set, std::size_t 
   const GaitStyle style;
   StepTask& task = node.task;
   task.body = body;
-  task.speed_m_s = node.targets.speed * std::sqrt(gravity * body.leg);
+  task.speed_m_s = node.targets.speed * std::sqrt(gravity_m_s2 * body.leg);
   task.step_length_m = times * node.targets.step_length * body.leg;
   task.double_support = node.targets.double_support;
   task.half_width_m = 0.5 * static_cast<double>(style.step_width_h) * body.height;
@@ -52,6 +52,16 @@ StepNode step_node(const GaitReference& reference, std::size_t set, std::size_t 
   task.pelvis_list = node.targets.pelvis_list;
   task.pelvis_tilt = node.targets.pelvis_tilt;
   task.pelvis_tilt_wave = static_cast<double>(style.pelvis_tilt_wave_deg) * degree;
+  const double stride = task.step_length_m / (natural_step_h * body.height);
+  const double swinging = std::min(arm_swing::by_speed * node.targets.speed, 1.0) * std::min(stride, 1.25);
+  const double reach = std::max(0.5 * task.step_length_m / (body.thigh + body.shank), 0.15);
+  task.leg_back = -arm_swing::reach_back * reach;
+  task.leg_forward = reach;
+  task.arm_back = swinging * static_cast<double>(style.arm_back_deg) * degree;
+  task.arm_forward = swinging * static_cast<double>(style.arm_forward_deg) * degree;
+  task.elbow_back = static_cast<double>(style.elbow_back_deg) * degree;
+  task.elbow_forward =
+      task.elbow_back + swinging * static_cast<double>(style.elbow_forward_deg - style.elbow_back_deg) * degree;
   node.targets.rise.mean_m *= times * times;  // as of a leg of fixed length
   node.shape = first_shape(task);
   return node;
@@ -113,7 +123,7 @@ std::vector<StepNode> fit_grid(const GaitReference& reference, std::size_t set, 
 
 TabledShape tabled(const StepShape& fitted) {
   TabledShape out{};
-  for (const ShapePart& part : shape::parts) {
+  for (const ShapePart& part : step_shape::parts) {
     for (std::size_t i = part.first; i < part.first + part.count; ++i)
       out[i] = static_cast<float>(part.is_length ? fitted[i] / fitted_height_m : fitted[i]);
   }
@@ -122,7 +132,7 @@ TabledShape tabled(const StepShape& fitted) {
 
 StepShape fitted(const TabledShape& tabled) {
   StepShape out{};
-  for (const ShapePart& part : shape::parts) {
+  for (const ShapePart& part : step_shape::parts) {
     for (std::size_t i = part.first; i < part.first + part.count; ++i)
       out[i] = static_cast<double>(tabled[i]) * (part.is_length ? fitted_height_m : 1);
   }

@@ -10,9 +10,6 @@
 
 namespace mobil {
 
-/// A person of 1.75 m, whose steps are kept for a body of 1 m.
-inline constexpr double fitted_height_m = 1.75;
-
 /// One node while it is fitted. `cost`: the least sum of squares found.
 struct StepNode {
   StepTask task;

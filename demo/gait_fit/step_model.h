@@ -10,16 +10,19 @@
 #include <cstddef>
 #include <vector>
 
-#include "assets/gait/step_shape.h"
 #include "components/lanes.h"
+#include "components/step_shape.h"
 
 namespace mobil {
+
+/// Steps are fitted for a person of this height.
+inline constexpr double fitted_height_m = 1.75;
 
 /// Sizes of a leg, m.
 struct StepBody {
   double height, leg;  // hip to ground
   double thigh, shank, ankle_height, heel_back, ball_forward, toe_joint_height, toes_length, hip_half_spacing;
-  double heel_radius, ball_radius;  // a foot rolls on the rims of its heel and its ball
+  double heel_radius;  // a foot rolls on the rim of its heel
 };
 StepBody step_body(double height_m);
 
@@ -30,6 +33,8 @@ struct StepTask {
   double double_support;  // of the cycle
   double half_width_m, toe_out;
   double pelvis_rotation, pelvis_list, pelvis_tilt, pelvis_tilt_wave;
+  /// Each arm follows the opposite leg's line from hip to ankle, from `leg_back` to `leg_forward`.
+  double leg_back, leg_forward, arm_back, arm_forward, elbow_back, elbow_forward;
 };
 
 inline constexpr std::size_t cycle_samples = 200;
@@ -40,8 +45,9 @@ struct StepCycle {
   Samples hips_forward, hips_up, hips_left, trunk;
   Samples pitch, stance_pitch;  // of the foot; and as if it stood all the time
   Samples ankle_forward, ankle_up, ankle_out;
-  Samples thigh, shank, knee, tilt;  // angles in the leg's plane; knee = thigh − shank
-  Samples slack;                     // how much shorter than straight the leg is, m
+  Samples thigh, shank, tilt;  // angles: in the leg's plane, and of the pelvis
+  Samples hip, knee, ankle;    // flexion, dorsiflexion; the hip from the tilted pelvis
+  Samples slack;               // how much shorter than straight the leg is, m
   Samples pad_up, pad_forward;
   std::array<bool, cycle_samples> swings;
   Samples swung;                              // 0 to 1 over the swing

@@ -9,7 +9,7 @@ namespace mobil {
 namespace {
 
 constexpr std::size_t n = cycle_samples;
-constexpr double degrees = 180 / std::numbers::pi, gravity = 9.81;
+constexpr double degrees = 180 / std::numbers::pi, gravity = gravity_m_s2;
 
 constexpr double rise_margin = 0.0005;  // m, kept from the bounds
 
@@ -46,6 +46,10 @@ std::array<double, speed_class_count> class_weights(const MeasuredSet& set, doub
   return weight;
 }
 
+/// By how much a curve changes in a cycle if it goes on as fast as there, over 4 % of it.
+double rate(const Samples& q, std::size_t i) {
+  return std::abs(q[(i + 4) % n] - q[(i + n - 4) % n]) / 8 * n;
+}
 double third(const Samples& q, std::size_t i) {
   return q[(i + 3) % n] - 3 * q[(i + 2) % n] + 3 * q[(i + 1) % n] - q[i];
 }
@@ -118,26 +122,26 @@ void Aims::peaks(GaitQuantity quantity, double weight, double spare, const Sampl
 }
 
 void Aims::gather(std::span<const double> unknown, std::vector<double>& residual) const {
-  static thread_local StepCycle c;
+  StepCycle c;
   StepShape shape;
   std::copy(unknown.begin(), unknown.end(), shape.begin());
   evaluate_step(task, shape, c);
   Gathered all(residual);
-  const auto track = [&](GaitQuantity quantity, double weight, double least_sd, double most_sd, auto ours) {
+  const auto track = [&](GaitQuantity quantity, double weight, double least_sd, double most_sd) {
     const Target& target = targets.curve[index(quantity)];
+    const Samples ours = samples_of(c, quantity);
     all.curve(weight,
-              [&](std::size_t i) { return (ours(i) - target.mean[i]) / std::clamp(target.sd[i], least_sd, most_sd); });
+              [&](std::size_t i) { return (ours[i] - target.mean[i]) / std::clamp(target.sd[i], least_sd, most_sd); });
   };
   using enum GaitQuantity;
-  const auto ankle_deg = [&](std::size_t i) { return degrees * (c.pitch[i] - c.shank[i]); };
-  track(hip, weights.angles, 2.5, 2.5, [&](std::size_t i) { return degrees * (c.thigh[i] + c.tilt[i]); });
-  track(knee, weights.angles, 2.2, 2.2, [&](std::size_t i) { return degrees * c.knee[i]; });
-  track(ankle, weights.angles, 2.2, 2.2, ankle_deg);
-  track(vertical, 4 * weights.forces, 0.04, 1, [&](std::size_t i) { return c.up[i]; });
-  track(fore_aft, 3 * weights.forces, 0.015, 1, [&](std::size_t i) { return c.forward[i]; });
-  track(hip_moment, 1.5 * weights.moments, 0.10, 0.15, [&](std::size_t i) { return c.hip_moment[i]; });
-  track(knee_moment, 1.5 * weights.moments, 0.10, 0.15, [&](std::size_t i) { return c.knee_moment[i]; });
-  track(ankle_moment, 1.5 * weights.moments, 0.10, 0.15, [&](std::size_t i) { return c.ankle_moment[i]; });
+  track(hip, weights.angles, 2.5, 2.5);
+  track(knee, weights.angles, 2.2, 2.2);
+  track(ankle, weights.angles, 2.2, 2.2);
+  track(vertical, 4 * weights.forces, 0.04, 1);
+  track(fore_aft, 3 * weights.forces, 0.015, 1);
+  track(hip_moment, 1.5 * weights.moments, 0.10, 0.15);
+  track(knee_moment, 1.5 * weights.moments, 0.10, 0.15);
+  track(ankle_moment, 1.5 * weights.moments, 0.10, 0.15);
   peaks(vertical, weights.forces, 0.08, c.up, all);
   peaks(fore_aft, weights.forces, 0.08, c.forward, all);
   peaks(hip_moment, weights.moments, 0.17, c.hip_moment, all);
@@ -155,35 +159,55 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   all.curve(60, [&](std::size_t i) { return c.pressure_aside[i] / (half_sole / 0.045); });
   all.curve(600, [&](std::size_t i) { return beyond(std::abs(c.pressure_aside[i]), 0.9 * half_sole); });
   all.curve(2000, [&](std::size_t i) { return below(c.slack[i], 0.0012); });
-  all.curve(2000, [&](std::size_t i) {
+  all.curve(3000, [&](std::size_t i) {
     if (!c.swings[i]) return 0.0;
-    const double need = 0.010 * std::clamp(6 * c.swung[i], 0.0, 1.0) * std::clamp(6 * (1 - c.swung[i]), 0.0, 1.0);
+    const double need = 0.0105 * std::clamp(6 * c.swung[i], 0.0, 1.0) * std::clamp(6 * (1 - c.swung[i]), 0.0, 1.0);
     return below(std::min({c.heel_clear[i], c.ball_clear[i], c.toe_clear[i]}), need);
   });
   all.curve(3, [&](std::size_t i) { return degrees * third(c.knee, i); });
   for (const Samples* moment : {&c.hip_moment, &c.knee_moment, &c.ankle_moment})
     all.curve(8, [&](std::size_t i) { return bend(*moment, i); });
-  all.curve(0.5, [&](std::size_t i) { return degrees * (third(c.pitch, i) - third(c.shank, i)); });
+  all.curve(0.5, [&](std::size_t i) { return degrees * third(c.ankle, i); });
   all.curve(0.9, [&](std::size_t i) { return degrees * third(c.pitch, i); });
   all.curve(40, [&](std::size_t i) { return bend(c.up, i); });
   all.curve(15, [&](std::size_t i) { return bend(c.total_up, i) / gravity; });
-  const auto slow_enough = [&](double most, auto angle) {
-    all.curve(1.0 / 7, [&](std::size_t i) {
-      return beyond(std::abs(angle((i + 4) % n) - angle((i + n - 4) % n)) / 8 * n, most);
-    });
-  };
-  slow_enough(most_rate[0], [&](std::size_t i) { return degrees * c.thigh[i]; });
-  slow_enough(most_rate[1], [&](std::size_t i) { return degrees * c.knee[i]; });
-  slow_enough(most_rate[2], ankle_deg);
+  const Samples* turning[3] = {&c.hip, &c.knee, &c.ankle};
+  for (std::size_t k = 0; k < 3; ++k)
+    all.curve(1.0 / 5, [&](std::size_t i) { return beyond(degrees * rate(*turning[k], i), most_rate[k]); });
   const auto [low, high] = std::ranges::minmax(c.centre_up);
   all.one(500 * (below(high - low, least_rise) + beyond(high - low, most_rise)));
   all.curve(3000, [&](std::size_t i) { return below(c.pad_up[i], 0) + beyond(c.pad_up[i], 0.008); });
   all.curve(8000, [&](std::size_t i) { return beyond(std::abs(c.pad_forward[i]), 0.003); });
-  const StepShape scale = shape_scales();
-  for (std::size_t k = 0; k < shape::size; ++k) all.one(0.02 * (shape[k] - first[k]) / scale[k]);
+  static constexpr StepShape scale = shape_scales();
+  for (std::size_t k = 0; k < step_shape::size; ++k) all.one(0.02 * (shape[k] - first[k]) / scale[k]);
 }
 
 }  // namespace
+
+Samples samples_of(const StepCycle& cycle, GaitQuantity quantity) {
+  const auto in_degrees = [](Samples angle) {
+    for (double& a : angle) a *= degrees;
+    return angle;
+  };
+  switch (quantity) {
+    case GaitQuantity::hip:
+      return in_degrees(cycle.hip);
+    case GaitQuantity::knee:
+      return in_degrees(cycle.knee);
+    case GaitQuantity::ankle:
+      return in_degrees(cycle.ankle);
+    case GaitQuantity::vertical:
+      return cycle.up;
+    case GaitQuantity::fore_aft:
+      return cycle.forward;
+    case GaitQuantity::hip_moment:
+      return cycle.hip_moment;
+    case GaitQuantity::knee_moment:
+      return cycle.knee_moment;
+    default:
+      return cycle.ankle_moment;
+  }
+}
 
 StepTargets step_targets(const GaitReference& reference, std::size_t of, double speed, double leg_m) {
   const MeasuredSet& set = reference.sets[of];
@@ -215,13 +239,10 @@ Residuals step_residuals(const StepTask& task, const StepTargets& targets, const
                                           {},
                                           targets.rise.mean_m - targets.rise.sd_m + rise_margin,
                                           targets.rise.mean_m + targets.rise.sd_m - rise_margin});
-  constexpr std::array<double, 3> allowed = {1.17, 1.17, 1.46};  // of the fastest measured
+  constexpr std::array<double, 3> allowed = {1.14, 1.14, 1.42};  // of the fastest measured
   for (std::size_t q = 0; q < 3; ++q) {
     const Samples& mean = targets.curve[q].mean;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double rate = std::abs(mean[(i + 4) % n] - mean[(i + n - 4) % n]) / 8 * n;
-      aims->most_rate[q] = std::max(aims->most_rate[q], allowed[q] * rate);
-    }
+    for (std::size_t i = 0; i < n; ++i) aims->most_rate[q] = std::max(aims->most_rate[q], allowed[q] * rate(mean, i));
   }
   return [aims](std::span<const double> unknown, std::vector<double>& residual) { aims->gather(unknown, residual); };
 }

@@ -26,6 +26,9 @@ struct StepTargets {
 /// ends.
 StepTargets step_targets(const GaitReference& reference, std::size_t set, double speed, double leg_m);
 
+/// A curve of the step as measured ones are published: degrees, body weights, N m/kg; the hip from the pelvis.
+Samples samples_of(const StepCycle& cycle, GaitQuantity quantity);
+
 /// How much each aim counts.
 struct StepWeights {
   double angles = 1, forces = 1, moments = 1, balance = 30;

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace mobil {
 namespace {
-
-constexpr double degrees = 180 / std::numbers::pi;
 
 CycleCurve thinned(const Samples& samples) {
   CycleCurve curve{};
@@ -19,33 +16,11 @@ CycleCurve thinned(const Samples& samples) {
 }  // namespace
 
 CycleCurve published(const StepCycle& cycle, GaitQuantity quantity) {
-  Samples angle{};
-  const auto in_degrees = [&](auto at) {
-    for (std::size_t i = 0; i < cycle_samples; ++i) angle[i] = degrees * at(i);
-    return thinned(angle);
-  };
-  switch (quantity) {
-    case GaitQuantity::hip:
-      return in_degrees([&](std::size_t i) { return cycle.thigh[i] + cycle.tilt[i]; });
-    case GaitQuantity::knee:
-      return in_degrees([&](std::size_t i) { return cycle.knee[i]; });
-    case GaitQuantity::ankle:
-      return in_degrees([&](std::size_t i) { return cycle.pitch[i] - cycle.shank[i]; });
-    case GaitQuantity::vertical:
-      return thinned(cycle.up);
-    case GaitQuantity::fore_aft:
-      return thinned(cycle.forward);
-    case GaitQuantity::hip_moment:
-      return thinned(cycle.hip_moment);
-    case GaitQuantity::knee_moment:
-      return thinned(cycle.knee_moment);
-    default:
-      return thinned(cycle.ankle_moment);
-  }
+  return thinned(samples_of(cycle, quantity));
 }
 
 StepQuality step_quality(const StepTask& task, const StepTargets& targets, const StepShape& shape) {
-  static thread_local StepCycle c;
+  StepCycle c;
   evaluate_step(task, shape, c);
   StepQuality q{};
   for (std::size_t i = 0; i < gait_quantity_count; ++i) {

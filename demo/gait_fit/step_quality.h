@@ -21,8 +21,7 @@ struct StepQuality {
 
 StepQuality step_quality(const StepTask& task, const StepTargets& targets, const StepShape& shape);
 
-/// A curve of the step as measured ones are published: every 2 %, degrees, body weights, N m/kg; the hip from the
-/// pelvis.
+/// samples_of the step every 2 %.
 CycleCurve published(const StepCycle& cycle, GaitQuantity quantity);
 
 }  // namespace mobil

@@ -1,40 +1,64 @@
 #pragma once
-// Head, arms and trunk with the pelvis as one piece: how its centre of mass and its angular momentum follow the lean of
-// the chest and the attitude of the pelvis, for small angles. A body of height 1 m and mass 1 kg.
+// Head and trunk with the pelvis as one piece: how its centre of mass and its angular momentum follow the lean of the
+// chest and the attitude of the pelvis, for small angles; and the arms. A body of height 1 m and mass 1 kg.
 
 #include <cstddef>
 
 #include "assets/body/anthropometry.h"
+#include "assets/body/column.h"
 #include "assets/body/segment_inertia.h"
 
 namespace mobil {
-
-/// The pelvis' anterior tilt of somebody who stands upright, as gait laboratories measure it (front and back of the
-/// iliac crest): that of the anatomical position, from which the column is turned.
-inline constexpr double neutral_tilt_deg = 11.5;
-
-/// How much of the way from the pelvis' attitude to the chest's a vertebra has turned: two thirds in the five lumbar
-/// ones, the rest evenly up to the first thoracic.
-constexpr double column_part(Segment vertebra) {
-  const auto above = static_cast<double>(index(vertebra) - index(Segment::L5)) + 1;
-  constexpr double lumbar = 5, all = 17, lumbar_part = 2.0 / 3;
-  return above <= lumbar ? lumbar_part * above / lumbar
-                         : lumbar_part + (1 - lumbar_part) * (above - lumbar) / (all - lumbar);
-}
 
 struct UpperBody {
   double mass;
   double up, forward;                    // of the centre of mass from the middle of the hips, upright
   double by_chest, by_pelvis;            // how far the centre goes per rad of either
   double spin_by_chest, spin_by_pelvis;  // angular momentum about the centre per rad/s of either
+  double spin_by_list;                   // of the pelvis, about the axis along
+  struct {
+    double up, forward, aside, by_chest, by_pelvis;
+  } shoulder;
 };
 
+/// Upper arm, and forearm with the hand as one piece: masses, centres below the joint above, moments of inertia about
+/// them.
+struct ArmBody {
+  double upper, upper_centre, upper_spin, length, lower, lower_centre, lower_spin;
+};
+
+constexpr ArmBody make_arm() {
+  using enum Segment;
+  const UnitBody& u = unit_body;
+  ArmBody a{u.mass_fraction[index(upper_arm_right)],
+            -u.centre_of_mass[index(upper_arm_right)].y,
+            unit_inertia[index(upper_arm_right)].x,
+            fraction::upper_arm,
+            0,
+            0,
+            0};
+  double below[segment_count]{};
+  for (const Segment s : {forearm_right, hand_right, fingers_right, thumb_right}) {
+    if (s != forearm_right) below[index(s)] = below[index(segment_parent[index(s)])] - u.joint_offset[index(s)].y;
+    a.lower += u.mass_fraction[index(s)];
+    a.lower_centre += u.mass_fraction[index(s)] * (below[index(s)] - u.centre_of_mass[index(s)].y);
+  }
+  a.lower_centre /= a.lower;
+  for (const Segment s : {forearm_right, hand_right, fingers_right, thumb_right}) {
+    const double off = below[index(s)] - u.centre_of_mass[index(s)].y - a.lower_centre;
+    a.lower_spin += u.mass_fraction[index(s)] * off * off + unit_inertia[index(s)].x;
+  }
+  return a;
+}
+
+inline constexpr ArmBody arm_body = make_arm();
+
 /// Kinematics turns vertebra by vertebra from the pelvis' attitude to the chest's, and from the shoulders up to a head
-/// that stays upright; arms hang on the chest.
+/// that stays upright.
 constexpr UpperBody make_upper_body() {
   using enum Segment;
   const UnitBody& u = unit_body;
-  const UnitInertia inertia = make_unit_inertia();
+  const UnitInertia& inertia = unit_inertia;
   double y[segment_count]{}, z[segment_count]{}, chest[segment_count]{}, pelvis_part[segment_count]{};
   double dz_chest[segment_count]{}, dz_pelvis[segment_count]{};  // of each joint, forward per rad of pitch
   pelvis_part[0] = 1;
@@ -42,11 +66,13 @@ constexpr UpperBody make_upper_body() {
   UpperBody b{};
   double ny = 0, nz = 0, nc = 0, np = 0;
   double cy[segment_count]{}, cc[segment_count]{}, cp[segment_count]{};
-  const auto counted = [&](std::size_t s) { return s <= top || s >= index(clavicle_right); };
+  const auto counted = [&](std::size_t s) {
+    return s <= top || s == index(clavicle_right) || s == index(clavicle_left);
+  };
   for (std::size_t s = 0; s < segment_count; ++s) {
     if (!counted(s)) continue;
     if (s >= first && s <= shoulders) {
-      chest[s] = column_part(static_cast<Segment>(s));
+      chest[s] = column_parts()[s - first];
       pelvis_part[s] = 1 - chest[s];
     } else if (s > shoulders && s <= top) {
       chest[s] = 1 - static_cast<double>(s - shoulders) / static_cast<double>(top - shoulders);
@@ -80,7 +106,12 @@ constexpr UpperBody make_upper_body() {
     const double m = u.mass_fraction[s];
     b.spin_by_chest += m * (cy[s] - b.up) * (cc[s] - b.by_chest) + inertia[s].x * chest[s];
     b.spin_by_pelvis += m * (cy[s] - b.up) * (cp[s] - b.by_pelvis) + inertia[s].x * pelvis_part[s];
+    b.spin_by_list += m * (cy[s] - b.up) * (cp[s] - b.by_pelvis) + inertia[s].z * pelvis_part[s];
   }
+  const std::size_t collar = index(clavicle_left);
+  const Vec3<double>& o = u.joint_offset[index(upper_arm_left)];
+  b.shoulder = {y[collar] + o.y, z[collar] + o.z, u.joint_offset[collar].x + o.x, dz_chest[collar] + o.y,
+                dz_pelvis[collar]};
   return b;
 }
 

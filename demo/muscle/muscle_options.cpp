@@ -70,7 +70,7 @@ Result<E> choose(std::string_view option, const std::string& text, const Names& 
 Result<Mass> choose_mass(Method method, const std::string& text) {
   const Mass own = method == Method::icd || method == Method::caa ? Mass::consistent : Mass::lumped;
   if (text.empty()) return own;
-  const auto mass = choose<Mass>("--mass", text, mass_name);
+  auto mass = choose<Mass>("--mass", text, mass_name);
   if (!mass) return mass;
   if (method == Method::ecd && *mass == Mass::consistent) {
     return fail(

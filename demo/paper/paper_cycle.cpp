@@ -28,7 +28,7 @@ struct MuscleRows {
 
 struct TickRows {
   std::vector<double> phase, com_height, com_sideways, pelvis, knee;
-  std::vector<double> force_phase, force;  // forces belong to the tick before
+  std::vector<double> force;
   std::vector<MuscleRows> muscle;
 };
 
@@ -68,10 +68,7 @@ double thickness(const Simulation& simulation, const MusclePlan& plan, Entity mu
 
 void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) {
   const Entity entity = human.entity;
-  if (!rows.phase.empty()) {
-    rows.force_phase.push_back(rows.phase.back());
-    rows.force.push_back(value(simulation.get<GroundReaction>(entity)->force_n[right].y));
-  }
+  rows.force.push_back(value(simulation.get<GroundReaction>(entity)->force_n[right].y));
   const auto com = simulation.get<CentreOfMass>(entity)->position_m;
   rows.com_height.push_back(value(com.y));
   rows.com_sideways.push_back(value(com.x));  // walking toward +z
@@ -103,7 +100,7 @@ PaperCycle sample(const Simulation& simulation, const Human& human, const TickRo
   cycle.com_sideways_m = over(rows.com_sideways);
   cycle.pelvis_height_m = over(rows.pelvis);
   cycle.knee_flexion_deg = over(rows.knee);
-  cycle.ground_n = sample_cycle(rows.force_phase, rows.force);
+  cycle.ground_n = sample_cycle(rows.phase, rows.force);
   for (std::size_t m = 0; m < human.muscles.size(); ++m) {
     const MusclePlan& plan = human.muscles[m].plan;
     const Entity muscle = human.muscles[m].entity[right];

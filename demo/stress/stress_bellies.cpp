@@ -106,15 +106,19 @@ Result<std::uint32_t> substeps_of(const Bellies& bellies, double tick_s) {
   return most;
 }
 
+std::size_t different_lanes(const Lanes<float>& a, const Lanes<float>& b, std::size_t but_lane) {
+  std::size_t different = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    if (l != but_lane && std::bit_cast<std::uint32_t>(a.lane[l]) != std::bit_cast<std::uint32_t>(b.lane[l]))
+      ++different;
+  }
+  return different;
+}
+
 std::size_t different_words(const Bellies& a, const Bellies& b, std::size_t but_lane) {
   std::size_t different = 0;
   const auto count = [&](const std::vector<Lanes<float>>& x, const std::vector<Lanes<float>>& y) {
-    for (std::size_t i = 0; i < x.size(); ++i) {
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        if (l != but_lane && std::bit_cast<std::uint32_t>(x[i].lane[l]) != std::bit_cast<std::uint32_t>(y[i].lane[l]))
-          ++different;
-      }
-    }
+    for (std::size_t i = 0; i < x.size(); ++i) different += different_lanes(x[i], y[i], but_lane);
   };
   count(a.displacement, b.displacement);
   count(a.velocity, b.velocity);

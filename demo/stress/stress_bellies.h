@@ -59,6 +59,9 @@ Result<std::uint32_t> substeps_of(const Bellies& bellies, double tick_s);
 /// Words that differ between two blocks of one template in displacement and velocity, but for `but_lane`.
 std::size_t different_words(const Bellies& a, const Bellies& b, std::size_t but_lane = lane_count);
 
+/// The same of two lanes of numbers.
+std::size_t different_lanes(const Lanes<float>& a, const Lanes<float>& b, std::size_t but_lane);
+
 /// A spindle of a length of 0.12 m, bent a little to one side. The mesh of most rows.
 HexahedralMesh spindle(const Cells& cells);
 

@@ -99,13 +99,8 @@ std::size_t different_reports(const BellyReport<Lanes<float>>& a, const BellyRep
   for (Lanes<float> BellyReport<Lanes<float>>::*field :
        {&BellyReport<Lanes<float>>::elongation_m, &BellyReport<Lanes<float>>::reaction_n,
         &BellyReport<Lanes<float>>::volume_ratio, &BellyReport<Lanes<float>>::kinetic_energy_j,
-        &BellyReport<Lanes<float>>::strain_energy_j}) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l != but_lane &&
-          std::bit_cast<std::uint32_t>((a.*field).lane[l]) != std::bit_cast<std::uint32_t>((b.*field).lane[l]))
-        ++different;
-    }
-  }
+        &BellyReport<Lanes<float>>::strain_energy_j})
+    different += different_lanes(a.*field, b.*field, but_lane);
   return different;
 }
 

@@ -47,12 +47,11 @@ MotionRow motion_row(const Simulation& simulation, Entity entity) {
           *simulation.get<Feet>(entity), *simulation.get<CentreOfMass>(entity)};
 }
 
-/// Those of the tick before, where they are simulated. A walker never leaves the ground, so that no force at all means
-/// that none is known yet.
-std::optional<WalkForces> forces_before(const Simulation& simulation, Entity entity) {
+/// Where they are simulated.
+std::optional<WalkForces> walk_forces(const Simulation& simulation, Entity entity) {
   const auto ground = simulation.get<GroundReaction>(entity);
   const auto moments = simulation.get<JointMoments>(entity);
-  if (!ground || !moments || (ground->force_n[right].y == 0 && ground->force_n[left].y == 0)) return std::nullopt;
+  if (!ground || !moments) return std::nullopt;
   return WalkForces{*ground, *moments};
 }
 
@@ -95,7 +94,6 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
   std::uint32_t steps_before = 0;
-  std::optional<MotionRow> held;  // until the forces of its tick are known
   for (std::uint32_t i = 0; i < total; ++i) {
     if (options.script) {
       auto done = apply_changes(changes, options.script->path, human.entity, simulation, outcome.changes);
@@ -107,8 +105,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
     const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
     if (steps != steps_before) outcome.clamped_steps += simulation.get<StepPlan>(human.entity)->clamped;
     steps_before = steps;
-    if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
-    held = motion_row(simulation, human.entity);
+    walked.motion.add(motion_row(simulation, human.entity), walk_forces(simulation, human.entity));
     add_muscle_rows(simulation, human, method, walked.muscles);
     if (i % ticks_per_frame == 0) {
       show_progress("walking", i + std::size_t{1}, total);
@@ -121,8 +118,6 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   outcome.simulated_s = simulation.time_s();
   const auto timings = simulation.schedule().timings();
   outcome.stages.assign(timings.begin(), timings.end());
-  if (forces_before(simulation, human.entity)) simulation.tick();  // one more, for the forces of the last row
-  if (held) walked.motion.add(*held, forces_before(simulation, human.entity));
   show("");
   return walked;
 }

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 
 #include "assets/body/anthropometry.h"
+#include "assets/gait/step_curves-inl.h"
 #include "engine/wide_geometry-inl.h"
 #include "systems/forces/forces.h"
 #include "systems/forces/leg_model.h"
@@ -35,102 +36,153 @@ struct Plane {
   HWY_INLINE Flat of(const WideVec& v) const { return {fma(v.x, x, v.z * z), v.y}; }
 };
 
-/// A person now: tracked points, and their accelerations a tick ago.
-struct Motion {
-  WideVec now[tracked_points], acceleration[tracked_points];
-};
-
-/// What carries a person.
+/// What carries a person, in the frame of the stance foothold.
 struct Support {
   WideVec force[2], centre[2];
 };
 
-HWY_INLINE WideVec centre_of(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, std::size_t segment) {
-  const Wide height = load(size.height_m);
-  const Vec3<double>& c = unit_body.centre_of_mass[segment];
-  const WideVec own = {wide(static_cast<float>(c.x)) * height, wide(static_cast<float>(c.y)) * height,
-                       wide(static_cast<float>(c.z)) * height};
-  return load(pose.position_m[segment]) + rotate(load(pose.rotation[segment]), own);
+/// A foot on the ground: where the ankle of the flat foot is, the way it points, how far the part that bears reaches
+/// from there, and where the walk presses it.
+struct Sole {
+  Wide x, z, along_x, along_z;
+  Wide back, front, pressed;
+};
+
+/// The foot of the right side (right_one = 1) or the left (0) at a phase of its cycle, `off` that of its toe-off; `of`:
+/// the numbers of its walk.
+template <class Shape>
+HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motion, const Wide& right_one,
+                          const Wide& height, const Wide& cycle, const Wide& off) {
+  namespace f = fraction;
+  constexpr auto tip = static_cast<float>(f::ball_forward + f::toes_length), ball = static_cast<float>(f::ball_forward);
+  constexpr auto heel = -static_cast<float>(f::heel_back);
+  auto side = [&](const Lanes<float>& of_right, const Lanes<float>& of_left) {
+    return select(right_one > 0.0F, load(of_right), load(of_left));
+  };
+  const Vec3<Lanes<float>>& right_ankle = motion.place_m[leg_point(right, ankle_point)];
+  const Vec3<Lanes<float>>& left_ankle = motion.place_m[leg_point(left, ankle_point)];
+  Sole s;
+  s.along_x = side(motion.foot_x[right], motion.foot_x[left]);
+  s.along_z = side(motion.foot_z[right], motion.foot_z[left]);
+  const Wide pitch = side(motion.foot_pitch[right], motion.foot_pitch[left]);
+  const Wide rolled = planted_ankle(height, pitch).along.value;
+  s.x = fnma(rolled, s.along_x, side(right_ankle.x, left_ankle.x));
+  s.z = fnma(rolled, s.along_z, side(right_ankle.z, left_ankle.z));
+  const Wide toes_down = clamp(1.0F - max(pitch, 0.0F) * (1.0F / forces::toes_lifted), 0.0F, 1.0F);
+  const Wide heel_up = clamp(max(-pitch, 0.0F) * (1.0F / forces::heel_lifted), 0.0F, 1.0F);
+  s.front = height * min(fma(toes_down, wide(tip - heel), wide(heel + forces::pad)), tip);
+  s.back = height * fma(heel_up, wide(ball - forces::pad - heel), wide(heel));
+  const Wide x = 2.0F * clamp(cycle / off, 0.0F, 1.0F) - 1.0F;
+  s.pressed = fma(wide(forces::pressed_ahead), height, legendre_sum(of, step_shape::pressure, x));
+  return s;
 }
 
-HWY_NOINLINE void track(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
-                        const CentreOfMass<Lanes<float>>& centre, WideVec* now) {
-  using enum Segment;
-  now[0] = load(centre.position_m);
-  for (std::size_t side = 0; side < 2; ++side) {
-    auto of = [&](Segment s) { return index(on_side(s, side)); };
-    now[tracked_point(side, hip_point)] = load(pose.position_m[of(thigh_right)]);
-    now[tracked_point(side, knee_point)] = load(pose.position_m[of(shank_right)]);
-    now[tracked_point(side, ankle_point)] = load(pose.position_m[of(foot_right)]);
-    now[tracked_point(side, ball_point)] = load(pose.position_m[of(toes_right)]);
-    const WideVec foot = centre_of(size, pose, of(foot_right)), toes = centre_of(size, pose, of(toes_right));
-    now[tracked_point(side, foot_centre_point)] = fma(wide(forces::toes_of_foot), toes - foot, foot);
-  }
+/// What of the weight a foot has taken over in a part of double support.
+template <class Shape>
+HWY_INLINE Wide taken(const Shape& of, const Wide& u) {
+  const Wide rest = 1.0F - u;
+  const Wide tail = fma(u, fma(u, of(step_shape::share, 2), of(step_shape::share, 1)), of(step_shape::share, 0));
+  return 1.0F - rest * rest * fma(u, tail, wide(1.0F));
 }
 
-/// Total force of the ground, and how it is split and where it acts, from the last tick's contacts.
-HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const MotionHistory<Lanes<float>>& history,
-                          const Motion& motion, float tick_s, Support& out) {
+/// The stance foot's share of the weight as the walk has it, and by how much the feet push apart, of the weight.
+struct Shares {
+  Wide stance, push;
+};
+
+HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
+  const OneShape from{plan.from.shape};
+  const Wide off = load(plan.double_support), landing = load(plan.landing);
+  const WideMask from_stands = load(plan.from.speed_m_s) <= 0.0F, to_stands = load(plan.to.speed_m_s) <= 0.0F;
+  const Wide u = clamp(phase / max(off, 1e-3F), 0.0F, 1.0F), x = 2.0F * u - 1.0F;
+  const Wide left_over = 0.5F * smooth((phase - landing) / max(1.0F - landing, 1e-3F));
+  const Wide stance = select(from_stands, 0.5F + 0.5F * smooth(u), taken(from, u));
+  const Wide apart =
+      from(step_shape::split, 1) + x * from(step_shape::split, 2) + (1.5F * x * x - 0.5F) * from(step_shape::split, 3);
+  return {select(from_stands & to_stands, wide(0.5F), select(to_stands, stance - left_over, stance)),
+          select(from_stands, wide(0.0F), 4.0F * u * (1.0F - u) * apart)};
+}
+
+/// Total force of the ground, and how it is split and where it acts.
+HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                          const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
   const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
-  const WideVec body = load(history.place_m[0]);
-  const WideVec& a = motion.acceleration[0];
-  const Wide lift = a.y + wide(forces::gravity);
-  const WideVec total = {mass * a.x, mass * lift, mass * a.z};
+  const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
+  const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+  const Wide off = load(plan.double_support);
+  const Wide right_stands = select(equal(state.stance_side, right), one, zero);
+  const Wide stance_off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
+  const Sole sole[2] = {
+      sole_of(of, motion, right_stands, height, 0.5F * phase, stance_off),
+      sole_of(OneShape{plan.from.shape}, motion, one - right_stands, height, 0.5F + 0.5F * phase, 0.5F + 0.5F * off)};
+  const Shares planned = planned_shares(plan, phase);
+  Wide share[2] = {planned.stance, one - planned.stance};
 
-  const WideVec travel = motion.now[0] - body + load(history.step_m[0]);
-  const Wide rate = wide(0.5F / tick_s);
-  const Wide speed2 = rate * rate * fma(travel.x, travel.x, travel.z * travel.z);
-  const Wide froude = speed2 / (wide(forces::rest_froude * forces::gravity) * height);
-  const Wide rest = one / fma(froude, froude, one);
-
-  // Where the total makes no moment about the centre of mass, and the share that would bring it there.
-  const Wide arm = body.y / max(lift, one);
-  const Wide balance_x = fnma(arm, a.x, body.x), balance_z = fnma(arm, a.z, body.z);
+  // Where the ground must press so that its moment is the motion's.
+  const WideVec total = load(motion.force_per_kg), moment = load(motion.moment_per_kg);
+  const Wide lift = max(total.y, 1.0F);
+  const Wide wanted_x = moment.z / lift, wanted_z = -(moment.x / lift);
   Wide x[2], z[2];
-  for (std::size_t side = 0; side < 2; ++side) {
-    x[side] = load(history.contact[side].x_m);
-    z[side] = load(history.contact[side].z_m);
+  for (std::size_t k = 0; k < 2; ++k) {
+    x[k] = fma(sole[k].pressed, sole[k].along_x, sole[k].x);
+    z[k] = fma(sole[k].pressed, sole[k].along_z, sole[k].z);
   }
-  const Wide apart_x = x[right] - x[left], apart_z = z[right] - z[left];
-  const Wide apart2 = max(fma(apart_x, apart_x, apart_z * apart_z), wide(1e-6F));
-  const Wide balanced = clamp(fma(balance_x - x[left], apart_x, (balance_z - z[left]) * apart_z) / apart2, 0.0F, 1.0F);
-  const Wide planned = load(history.load_right);
-  const Wide on_both = wide(4.0F) * planned * (one - planned);
-  const Wide share_right = fma(rest * on_both, balanced - planned, planned);
-  const Wide share[2] = {share_right, one - share_right};
-  const Wide lacking_x = rest * (balance_x - fma(share_right, apart_x, x[left]));
-  const Wide lacking_z = rest * (balance_z - fma(share_right, apart_z, z[left]));
-
+  // The stance foot's share that would do with these centres; who stands has it.
+  auto balanced = [&] {
+    const Wide apart_x = x[0] - x[1], apart_z = z[0] - z[1];
+    const Wide apart2 = max(fma(apart_x, apart_x, apart_z * apart_z), wide(1e-6F));
+    return clamp(fma(wanted_x - x[1], apart_x, (wanted_z - z[1]) * apart_z) / apart2, 0.0F, 1.0F);
+  };
+  const WideMask stands = (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
+  share[0] = select(stands, balanced(), share[0]);
+  share[1] = one - share[0];
+  const Wide lacking_x = wanted_x - fma(share[0], x[0], share[1] * x[1]);
+  const Wide lacking_z = wanted_z - fma(share[0], z[0], share[1] * z[1]);
   const Wide half_width = wide(forces::half_sole_width) * height;
-  for (std::size_t side = 0; side < 2; ++side) {
-    const FootContact<Lanes<float>>& c = history.contact[side];
-    const Wide along_x = load(c.along_x), along_z = load(c.along_z);
-    const Wide along = min(max(fma(lacking_x, along_x, lacking_z * along_z), -load(c.back_m)), load(c.ahead_m));
-    const Wide aside = min(max(fma(lacking_x, along_z, -(lacking_z * along_x)), -half_width), half_width);
-    x[side] = fma(along, along_x, fma(aside, along_z, x[side]));
-    z[side] = fma(along, along_z, fnma(aside, along_x, z[side]));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Sole& s = sole[k];
+    const Wide along = min(max(s.pressed + fma(lacking_x, s.along_x, lacking_z * s.along_z), s.back), s.front);
+    const Wide aside = min(max(fma(lacking_x, s.along_z, -(lacking_z * s.along_x)), -half_width), half_width);
+    x[k] = fma(along, s.along_x, fma(aside, s.along_z, s.x));
+    z[k] = fma(along, s.along_z, fnma(aside, s.along_x, s.z));
   }
-  const Wide mean_x = fma(share[right], x[right], share[left] * x[left]);
-  const Wide mean_z = fma(share[right], z[right], share[left] * z[left]);
-  const Wide pivot = wide(forces::pivot_height) * max(body.y, wide(0.1F) * height);
+  // What is left is made up by the shares, where both feet bear.
+  const WideMask both = (share[0] > 0.001F) & (share[0] < 0.999F);
+  share[0] = select(both, balanced(), share[0]);
+  share[1] = one - share[0];
+
+  const Wide mean_x = fma(share[0], x[0], share[1] * x[1]), mean_z = fma(share[0], z[0], share[1] * z[1]);
+  const Wide pivot =
+      (forces::pivot_height + of(step_shape::split, 0)) * max(load(motion.centre_height_m), 0.1F * height);
+  WideVec force[2], centre[2];
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Wide up = share[k] * total.y, lean = up / pivot;
+    const Wide push = forces::gravity * (k == 0 ? planned.push : -planned.push);
+    force[k] = {mass * fma(lean, mean_x - x[k], share[k] * total.x), mass * up,
+                mass * (fma(lean, mean_z - z[k], share[k] * total.z) + push)};
+    centre[k] = {x[k], zero, z[k]};
+  }
+  auto of_side = [&](const WideVec(&stance_first)[2], std::size_t side) {
+    const WideMask first = side == right ? right_stands > 0.0F : right_stands <= 0.0F;
+    const WideVec &a = stance_first[0], &b = stance_first[1];
+    return WideVec{select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
+  };
   for (std::size_t side = 0; side < 2; ++side) {
-    const Wide up = share[side] * total.y, lean = up / pivot;
-    out.force[side] = {fma(lean, mean_x - x[side], share[side] * total.x), up,
-                       fma(lean, mean_z - z[side], share[side] * total.z)};
-    out.centre[side] = {x[side], zero, z[side]};
+    out.force[side] = of_side(force, side);
+    out.centre[side] = of_side(centre, side);
   }
 }
 
-/// Hip, knee and ankle moments of one leg a tick ago, from the foot up.
-HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const MotionHistory<Lanes<float>>& history,
-                              const Motion& motion, const Support& ground, std::size_t side, Wide* hip_knee_ankle) {
-  const Plane plane = {load(history.forward_x), load(history.forward_z)};
+/// Hip, knee and ankle moments of one leg, from the foot up.
+HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                              const Support& ground, std::size_t side, Wide* hip_knee_ankle) {
+  const Plane plane = {load(motion.facing_x), load(motion.facing_z)};
   const Wide mass = load(size.mass_kg);
   Flat at[leg_points], push[leg_points];  // places, and accelerations against gravity
   for (std::size_t p = 0; p < leg_points; ++p) {
-    const std::size_t i = tracked_point(side, static_cast<LegPoint>(p));
-    at[p] = plane.of(load(history.place_m[i]));
-    push[p] = plane.of(motion.acceleration[i]);
+    const std::size_t i = leg_point(side, static_cast<LegPoint>(p));
+    at[p] = plane.of(load(motion.place_m[i]));
+    push[p] = plane.of(load(motion.acceleration[i]));
     push[p].up = push[p].up + wide(forces::gravity);
   }
   // A rod's rate of angular momentum: mass · gyration² · (rod × difference of its ends' accelerations).
@@ -156,96 +208,24 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const MotionHi
   hip_knee_ankle[0] = turning;
 }
 
-/// Where a foot presses when the body rolls over it.
-HWY_NOINLINE void touch(const Wide& height, const WideVec& hip, const WideVec& ankle, const WideVec& heel,
-                        const WideVec& ball, FootContact<Lanes<float>>& contact) {
-  const Wide zero = wide(0.0F), one = wide(1.0F);
-  const Wide dx = ball.x - heel.x, dz = ball.z - heel.z;
-  const Wide sole = max(sqrt(fma(dx, dx, dz * dz)), wide(1e-4F));
-  const Wide along_x = dx / sole, along_z = dz / sole;
-  const WideVec leg = hip - ankle;
-  const Wide slope = fma(leg.x, along_x, leg.z * along_z) / max(leg.y, wide(0.1F) * height);
-  const Wide s = (slope - wide(forces::rocker_slope)) * wide(1.0F / forces::rocker_range);
-  const Wide rocker = fma(wide(forces::rocker_reach), s / sqrt(fma(s, s, one)),
-                          wide(forces::rocker_centre - static_cast<float>(fraction::ball_forward)));
-  // Heights over one another, so that a foot that hovers a little still stands on its lower end.
-  const Wide heel_up = max(heel.y - ball.y, zero), ball_up = max(ball.y - heel.y, zero);
-  // From the ball, which stays where it is as the heel rises.
-  const Wide rolled = fma(wide(forces::toe_travel), heel_up, rocker * height);
-  const Wide toes = wide(static_cast<float>(fraction::toes_length)) * height;
-  const Wide heel_bears = clamp(one - heel_up / (wide(forces::heel_pad) * height), 0.0F, 1.0F);
-  const Wide ball_bears = clamp(one - ball_up / (wide(forces::ball_pad) * height), 0.0F, 1.0F);
-  const Wide rearmost = -(heel_bears * sole), foremost = fma(ball_bears, sole + toes, -sole);
-  const Wide place = min(max(rolled, rearmost), foremost);
-  store(fma(place, along_x, ball.x), contact.x_m);
-  store(fma(place, along_z, ball.z), contact.z_m);
-  store(along_x, contact.along_x);
-  store(along_z, contact.along_z);
-  store(max(place - rearmost, zero), contact.back_m);
-  store(foremost - place, contact.ahead_m);
-}
-
-/// The way the thighs face, from their own axes to the left.
-HWY_INLINE Plane facing(const Pose<Lanes<float>>& pose) {
-  const Wide zero = wide(0.0F), one = wide(1.0F);
-  const WideVec left_of_it = {one, zero, zero};
-  const WideVec both = rotate(load(pose.rotation[index(Segment::thigh_right)]), left_of_it) +
-                       rotate(load(pose.rotation[index(Segment::thigh_left)]), left_of_it);
-  const Wide long_ = max(sqrt(fma(both.x, both.x, both.z * both.z)), wide(1e-6F));
-  return {-both.z / long_, both.x / long_};
-}
-
-HWY_NOINLINE void remember(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
-                           const Feet<Lanes<float>>& feet, const StepPlan<Lanes<float>>& plan,
-                           const GaitState<Lanes<float>>& state, const Motion& motion,
-                           MotionHistory<Lanes<float>>& history) {
-  const Wide one = wide(1.0F);
-  for (std::size_t i = 0; i < tracked_points; ++i) {
-    store(motion.now[i] - load(history.place_m[i]), history.step_m[i]);
-    store(motion.now[i], history.place_m[i]);
-  }
-  for (std::size_t side = 0; side < 2; ++side) {
-    touch(load(size.height_m), motion.now[tracked_point(side, hip_point)], motion.now[tracked_point(side, ankle_point)],
-          load(feet.heel_m[side]), load(feet.toe_m[side]), history.contact[side]);
-  }
-  const Plane forward = facing(pose);
-  store(forward.x, history.forward_x);
-  store(forward.z, history.forward_z);
-  const Wide u = clamp(load(state.time_s) / max(load(plan.double_support_s), wide(1e-6F)), 0.0F, 1.0F),
-             left_over = one - u;
-  const Wide over = fnma(left_over * left_over, fma(wide(forces::load_curve), u, one), one);
-  const Wide from = load(plan.load_from), share = fma(over, load(plan.load_to) - from, from);
-  store(select(equal(state.stance_side, right), share, one - share), history.load_right);
-  store(min(load(history.ticks_known) + one, wide(2.0F)), history.ticks_known);
-}
-
-void forces_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, const Feet<Lanes<float>>& feet,
-                  const CentreOfMass<Lanes<float>>& centre, const StepPlan<Lanes<float>>& plan,
-                  const GaitState<Lanes<float>>& state, MotionHistory<Lanes<float>>& history,
-                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments, float tick_s) {
-  Motion motion;
-  track(size, pose, centre, motion.now);
-  const Wide per_tick2 = wide(1.0F / (tick_s * tick_s)), zero = wide(0.0F);
-  for (std::size_t i = 0; i < tracked_points; ++i) {
-    const WideVec second = motion.now[i] - load(history.place_m[i]) - load(history.step_m[i]);
-    motion.acceleration[i] = {second.x * per_tick2, second.y * per_tick2, second.z * per_tick2};
-  }
+void forces_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                  const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
   Support ground;
-  support(size, history, motion, tick_s, ground);
-  const WideMask known = load(history.ticks_known) >= wide(2.0F);
-  auto where_known = [&](const WideVec& v, Vec3<Lanes<float>>& to) {
-    store(WideVec{select(known, v.x, zero), select(known, v.y, zero), select(known, v.z, zero)}, to);
-  };
+  support(size, motion, plan, state, ground);
+  Wide s, c;
+  sin_cos(load(state.heading_rad), s, c);
+  const Wide line_x = load(state.line_x_m), line_z = load(state.line_z_m);
   for (std::size_t side = 0; side < 2; ++side) {
-    where_known(ground.force[side], reaction.force_n[side]);
-    where_known(ground.centre[side], reaction.centre_m[side]);
+    const WideVec &f = ground.force[side], &p = ground.centre[side];
+    store(WideVec{fma(f.x, c, f.z * s), f.y, fnma(f.x, s, f.z * c)}, reaction.force_n[side]);
+    store(WideVec{line_x + fma(p.x, c, p.z * s), p.y, line_z + fnma(p.x, s, p.z * c)}, reaction.centre_m[side]);
     Wide joint[3];
-    leg_moments(size, history, motion, ground, side, joint);
-    store(select(known, joint[0], zero), moments.hip_nm[side]);
-    store(select(known, joint[1], zero), moments.knee_nm[side]);
-    store(select(known, joint[2], zero), moments.ankle_nm[side]);
+    leg_moments(size, motion, ground, side, joint);
+    store(joint[0], moments.hip_nm[side]);
+    store(joint[1], moments.knee_nm[side]);
+    store(joint[2], moments.ankle_nm[side]);
   }
-  remember(size, pose, feet, plan, state, motion, history);
 }
 
 }  // namespace mobil::HWY_NAMESPACE
@@ -256,11 +236,10 @@ namespace mobil {
 
 HWY_EXPORT(forces_block);
 
-void joint_forces(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, const Feet<Lanes<float>>& feet,
-                  const CentreOfMass<Lanes<float>>& centre, const StepPlan<Lanes<float>>& plan,
-                  const GaitState<Lanes<float>>& state, MotionHistory<Lanes<float>>& history,
-                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments, float tick_s) {
-  HWY_DYNAMIC_DISPATCH(forces_block)(size, pose, feet, centre, plan, state, history, reaction, moments, tick_s);
+void joint_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                  const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
+  HWY_DYNAMIC_DISPATCH(forces_block)(size, motion, plan, state, reaction, moments);
 }
 
 }  // namespace mobil

@@ -33,23 +33,16 @@ inline constexpr Rod shank = {
 /// Its centre of mass is a tracked point of its own.
 inline constexpr Rod foot = {static_cast<float>(mass_of(Segment::foot_right) + mass_of(Segment::toes_right)), 0.0F,
                              0.475F};
-inline constexpr float toes_of_foot = static_cast<float>(mass_of(Segment::toes_right)) / foot.mass;
 
-/// Share of the vertical force taken over: 1 − (1 − u)²(1 + load_curve·u).
-inline constexpr float load_curve = 1.3F;
-/// Height over the ground of the point that the feet's forces lean toward, of the centre of mass's.
+/// Height over the ground of the point that the feet's forces lean toward, of the centre of mass's; the fitted walk
+/// adds to it.
 inline constexpr float pivot_height = 1.4F;
-/// Centre of pressure ahead of the ankle, foot flat, in body heights: rocker_centre + rocker_reach · x/√(1 + x²),
-/// x = (slope of the leg − rocker_slope)/rocker_range.
-inline constexpr float rocker_centre = 0.037F, rocker_reach = 0.052F, rocker_slope = -0.02F, rocker_range = 0.19F;
-/// Its further travel as the heel rises, of the heel's height.
-inline constexpr float toe_travel = 0.10F;
-/// Height of heel and ball over one another at which the upper end bears nothing, in body heights: the pads are soft
-/// and round.
-inline constexpr float heel_pad = 0.020F, ball_pad = 0.022F;
+/// The fitted centre of pressure is counted from here, ahead of the ankle, in body heights.
+inline constexpr float pressed_ahead = 0.05F / 1.75F;
+/// Pitch (rad) from which on the heel alone bears, and heel rise from which on the forefoot alone does; how far that
+/// end bears, in body heights: pads are soft and round.
+inline constexpr float toes_lifted = 0.30F, heel_lifted = 0.15F, pad = 0.03F / 1.75F;
 /// To each side of the foot's line, in body heights.
 inline constexpr float half_sole_width = 0.025F;
-/// v²/(g·height) at which rest and motion count alike: 0.15 m/s at 1.75 m.
-inline constexpr float rest_froude = 0.0013F;
 
 }  // namespace mobil::forces

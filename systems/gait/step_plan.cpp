@@ -4,15 +4,31 @@
 #define HWY_TARGET_INCLUDE "systems/gait/step_plan.cpp"
 #include <hwy/foreach_target.h>
 
-#include "systems/gait/feet-inl.h"
+#include "systems/gait/balance-inl.h"
 #include "systems/gait/gait.h"
-#include "systems/gait/hips-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// How far speed may change from step to step, and what a walk starts with and stops from, m/s at a leg of 0.90 m.
-constexpr float most_faster = 0.45F, most_slower = 0.55F, first_speed = 0.80F, last_speed = 0.70F;
+constexpr float most_faster = 0.25F, most_slower = 0.30F, first_speed = 0.60F, last_speed = 0.60F;
+/// A first and a last step, of the pace that they lead to or come from; phases until its foot leaves the ground, and at
+/// which it comes to it.
+constexpr float first_step = 0.9F, last_step = 1.1F, first_double_support = 0.45F, last_landing = 0.85F;
+/// How far the centre of pressure may lie from where walks have it, of the height.
+constexpr float most_astray = 0.04F;
+
+/// The part of a step's time at which it has a phase.
+HWY_NOINLINE inline Wide time_of_phase(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
+  Wide low = wide(0.0F), high = wide(1.0F);
+  for (int i = 0; i < 20; ++i) {
+    const Wide middle = 0.5F * (low + high);
+    const WideMask later = step_phase(plan, middle) < phase;
+    low = select(later, middle, low);
+    high = select(later, high, middle);
+  }
+  return high;
+}
 
 HWY_INLINE WideMask either(const WideMask& m, const Wide& yes, const Wide& no) {
   return select(m, yes, no) > 0.5F;
@@ -39,8 +55,6 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   r.step_length = select(to_stand, law, select(abs(r.speed - aim) < 1e-6F, length, scaled));
   const Wide uneven = load(wanted.style.step_asymmetry);
   r.length = r.step_length * (1.0F + select(right_lands, uneven, -uneven));
-  const Wide cadence = 60.0F * r.speed / max(r.step_length, 1e-3F) * sqrt(height / 1.8F);
-  r.double_support_cycle = double_support_of(cadence, load(wanted.style.double_support_scale));
   make_strike(r, wanted.style, to);
 }
 
@@ -61,54 +75,90 @@ HWY_INLINE void store_flags(const WideMask& mask, Lanes<std::uint32_t>& words) {
   for (std::size_t l = 0; l < lane_count; ++l) words[l] = static_cast<std::uint32_t>(one[l]);
 }
 
+/// The other foot's way through the air.
+HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
+  const OneShape from{plan.from.shape}, to{plan.to.shape};
+  const Wide off = load(plan.double_support), part = 0.5F * (load(plan.landing) - off);  // of the cycle
+  // How the pitch leaves the ground and comes to it, by the part of the swing.
+  const Wide lift = usual_rise + from(step_shape::times, 1), rising = part / (0.5F + 0.5F * off - lift);
+  Moving leaving = {wide(0.0F), wide(0.0F), wide(0.0F)};
+  for (std::size_t i = 0; i < step_shape::rise.count; ++i) {
+    const auto k = static_cast<float>(i + 3);
+    const Wide v = from(step_shape::rise, i);
+    leaving = {leaving.value - v, leaving.rate - k * v, leaving.bend - (k * (k - 1)) * v};
+  }
+  leaving = {leaving.value, leaving.rate * rising, leaving.bend * rising * rising};
+  auto start = [&](const ShapePart& p, const Wide& span) {
+    const Wide per = part / span;
+    return Moving{to(p, 0), to(p, 1) * per, (2.0F * to(p, 2) - 6.0F * to(p, 1)) * per * per};
+  };
+  const Moving landing = start(step_shape::strike, usual_flat + to(step_shape::times, 0));
+  const Moving pad_up = start(step_shape::pad_up, wide(pad_part)),
+               pad_on = start(step_shape::pad_forward, wide(pad_part));
+  auto moved = [](const Moving& by_pitch, const Moving& pitch) {
+    return Moving{by_pitch.value, by_pitch.rate * pitch.rate,
+                  fma(by_pitch.bend, pitch.rate * pitch.rate, by_pitch.rate * pitch.bend)};
+  };
+  auto plus = [](const Moving& a, const Moving& b) {
+    return Moving{a.value + b.value, a.rate + b.rate, a.bend + b.bend};
+  };
+  auto scaled = [](const Moving& a, const Wide& by, const Wide& from_there) {
+    return Moving{fma(a.value, by, from_there), a.rate * by, a.bend * by};
+  };
+  const PlantedAnkle off_ankle = planted_ankle(height, leaving.value), on_ankle = planted_ankle(height, landing.value);
+  const Moving off_along = moved(off_ankle.along, leaving);
+  const Moving on_along = plus(moved(on_ankle.along, landing), pad_on);
+  Wide off_s, off_c, on_s, on_c;
+  sin_cos(load(plan.trailing_toe_out), off_s, off_c);
+  sin_cos(load(plan.to.toe_out), on_s, on_c);
+  store_quintic(leaving, landing, plan.swing_pitch);
+  store_quintic(moved(off_ankle.up, leaving), plus(moved(on_ankle.up, landing), pad_up), plan.swing_up_m);
+  store_quintic(scaled(off_along, off_c, -load(plan.length_before_m)), scaled(on_along, on_c, load(plan.step_length_m)),
+                plan.swing_forward_m);
+  store_quintic(scaled(off_along, off_s, load(plan.trailing_half_width_m)),
+                scaled(on_along, on_s, load(plan.to.half_width_m)), plan.swing_out_m);
+}
+
 /// Solves the step from plan.from to plan.to.
 HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                              const WideMask& right_lands, StepPlan<Lanes<float>>& plan) {
   const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
-  Step step;
-  step.height = load(size.height_m);
-  step.mass = load(size.mass_kg);
-  step.leg = leg_size(step.height);
-  step.style = &wanted.style;
-  step.plan = &plan;
-  step.from_stands = load(from.speed_m_s) <= 0.0F;
-  step.to_stands = load(to.speed_m_s) <= 0.0F;
-  const WideMask stays = step.from_stands & step.to_stands;
+  const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
+  const WideMask from_stands = load(from.speed_m_s) <= 0.0F, to_stands = load(to.speed_m_s) <= 0.0F;
+  const WideMask stays = from_stands & to_stands;
   const Wide pace_from = load(from.pace_hz), pace_to = load(to.pace_hz);
   const Wide uneven = load(wanted.style.time_asymmetry);
-  const Wide even = select(step.from_stands | step.to_stands, 1.3F / max(max(pace_from, pace_to), 0.1F),
-                           2.0F / max(pace_from + pace_to, 0.1F));
-  step.duration = select(stays, wide(0.25F), even * (1.0F + select(right_lands, uneven, -uneven)));
-  step.rate_from = pace_from * step.duration;
-  step.rate_to = pace_to * step.duration;
-  const Wide part =
-      select(step.from_stands, select(step.to_stands, wide(1.0F), wide(0.45F)), load(from.double_support));
-  step.double_support = part * step.duration;
-  step.flat = min(select(step.from_stands, wide(0.1F), load(from.flat) / max(pace_from, 0.1F)), 0.6F * step.duration);
-  step.support = footing(load(from.half_width_m), load(from.toe_out));
-  step.trailing = footing(load(plan.trailing_half_width_m), load(plan.trailing_toe_out));
-  step.landing = footing(load(to.half_width_m), load(to.toe_out));
-  store(step.duration, plan.duration_s);
-  store(step.double_support, plan.double_support_s);
-  store(step.flat, plan.flat_s);
-  store(select(stays, wide(0.5F), wide(1.0F)), plan.load_to);
+  const Wide even = select(from_stands, first_step / max(pace_to, 0.1F),
+                           select(to_stands, last_step / max(pace_from, 0.1F), 2.0F / max(pace_from + pace_to, 0.1F)));
+  const Wide duration = select(stays, wide(0.25F), even * (1.0F + select(right_lands, uneven, -uneven)));
+  store(duration, plan.duration_s);
+  store(pace_from * duration, plan.phase_rate_from);
+  store(pace_to * duration, plan.phase_rate_to);
+  const Wide off =
+      select(stays, zero, select(from_stands, wide(first_double_support), 2.0F * load(from.double_support)));
+  store(off, plan.double_support);
+  store(select(to_stands, select(stays, zero, wide(last_landing)), one), plan.landing);
+  store(select(from_stands, zero, off), plan.mixed_from);
   store(load(to.length_m), plan.step_length_m);
   store(load(from.length_m), plan.length_before_m);
-  store(step.rate_from, plan.phase_rate_from);
-  store(step.rate_to, plan.phase_rate_to);
 
-  WideMask held = plan_support(step);
-  const Pitch toe_off = plan_standing_feet(step);
-  held = held | plan_swing(step, toe_off);
-  store_flags(held & either(stays, wide(0.0F), wide(1.0F)), plan.clamped);
+  const Wide length = load(to.length_m);
+  const Wide usual_from = load(from.speed_m_s) / max(pace_from, 0.1F),
+             usual_to = load(to.speed_m_s) / max(pace_to, 0.1F);
+  store_quintic({zero, usual_from, zero}, {length, usual_to, zero}, plan.even_m);
+  const Wide usual = select(from_stands | to_stands, 2.0F * max(usual_from, usual_to), usual_from + usual_to);
+  store(clamp((load(from.length_m) + length) / max(usual, 1e-3F), 0.0F, 1.5F), plan.stride_part);
+  store(select(stays, zero, time_of_phase(plan, off) * duration), plan.double_support_s);
+  plan_swing(height, plan);
+  const WideMask alike = same_words(from, to);
+  const Wide astray = balance_step(height, alike | stays, plan);
+  store_flags(astray > most_astray * height, plan.clamped);
 
-  const Wide load_from = load(plan.load_from);
-  const WideMask even_load = either(stays, select(load_from >= 0.5F, wide(1.0F), wide(0.0F)), wide(1.0F));
   const WideMask even_steps = (abs(load(wanted.style.step_asymmetry)) + abs(uneven)) <= 0.0F;
   const WideMask there = abs(load(to.speed_m_s) - load(wanted.speed_m_s)) <= 0.0F;
   const WideMask same_feet = (abs(load(plan.trailing_half_width_m) - load(from.half_width_m)) +
                               abs(load(plan.trailing_toe_out) - load(from.toe_out))) <= 0.0F;
-  store_flags(same_words(from, to) & (even_load & even_steps) & (there & same_feet), plan.settled);
+  store_flags(alike & even_steps & (there & same_feet), plan.settled);
   plan.revision = wanted.revision;
 }
 
@@ -120,7 +170,6 @@ void first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, left_lands, plan.to);
   plan.trailing_half_width_m = plan.from.half_width_m;
   plan.trailing_toe_out = plan.from.toe_out;
-  store(select(load(wanted.speed_m_s) <= 0.0F, wide(0.5F), zero), plan.load_from);
   solve_step(size, wanted, left_lands, plan);
 }
 
@@ -128,8 +177,6 @@ void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
                 const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask right_lands = equal(state.stance_side, left), fresh = zero > one;
-  const WideMask stood = (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
-  store(select(stood, wide(0.5F), zero), plan.load_from);
   const WideMask sides_change =
       (load(plan.step_length_m) + load(plan.length_before_m)) > 0.0F;  // as advance_gait has it
   auto keep = [](const WideMask& where, const Lanes<float>& kept, Lanes<float>& value) {

@@ -2,12 +2,11 @@
 #define HWY_TARGET_INCLUDE "systems/kinematics/kinematics.cpp"
 #include <hwy/foreach_target.h>
 
-#include <hwy/cache_control.h>
-
 #include "assets/body/anthropometry.h"
-#include "engine/wide_curve-inl.h"
+#include "assets/body/column.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/kinematics_wide-inl.h"
+#include "systems/kinematics/step_feet-inl.h"
 
 // Functions here are kept apart where a compiler would otherwise put all of a skeleton into one.
 
@@ -43,8 +42,6 @@ constexpr UnitSkeleton unit_skeleton = make_unit_skeleton();
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
-
-constexpr float pi_f = 3.14159265F;
 
 /// The pose under construction.
 struct Skeleton {
@@ -99,91 +96,45 @@ HWY_INLINE Ground part_way(const Ground& a, const Ground& b, const Wide& part) {
 
 /// What the pelvis does now, seen from the right side.
 struct PelvisMotion {
-  Wide rotation, list, tilt, shift;
+  Wide rotation, list, tilt;
+  HWY_INLINE WideQuat turn(const Wide& heading) const {
+    return turn_yzx(heading + rotation, -list, tilt);
+  }
 };
 
 HWY_INLINE Wide manner(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
   return mix(load(from), load(to), part);
 }
 
-HWY_NOINLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const Wide& phase, const Wide& eased,
+/// By its series, for |x| < 3.
+constexpr float cosine(double x) {
+  double term = 1, sum = 1;
+  for (int k = 1; k < 16; ++k) {
+    term *= -x * x / ((2 * k - 1) * (2 * k));
+    sum += term;
+  }
+  return static_cast<float>(sum);
+}
+
+/// cos K π (p − at/1000) from the waves of p.
+template <int K, int At>
+HWY_INLINE Wide wave(const StepWaves& w) {
+  constexpr double half_turn = 3.14159265358979324, angle = half_turn * K * At / 1000;
+  constexpr float c = cosine(angle), s = cosine(angle - half_turn / 2);
+  return fma(wide(c), w.cosine[K], s * w.sine[K]);
+}
+
+HWY_NOINLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased,
                                         const Wide& sign) {
   namespace p = pelvis_phase;
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
-  auto wave = [&](float at, float harmonic) {
-    Wide s, c;
-    sin_cos(pi_f * harmonic * (phase - at), s, c);
-    return c;
-  };
   PelvisMotion m;
-  m.rotation = sign * manner(from.pelvis_rotation, to.pelvis_rotation, eased) * wave(p::rotation, 1.0F);
+  m.rotation = sign * manner(from.pelvis_rotation, to.pelvis_rotation, eased) * wave<1, p::rotation_1000>(w);
   m.list = sign * manner(from.pelvis_list, to.pelvis_list, eased) *
-           (p::list_first * wave(p::list_first_phase, 1.0F) + p::list_third * wave(p::list_third_phase, 3.0F));
-  m.tilt = fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave(p::tilt, 2.0F),
+           (p::list_first * wave<1, p::list_first_1000>(w) + p::list_third * wave<3, p::list_third_1000>(w));
+  m.tilt = fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, p::tilt_1000>(w),
                manner(from.pelvis_tilt, to.pelvis_tilt, eased));
-  m.shift = sign * manner(from.pelvis_shift_m, to.pelvis_shift_m, eased) * wave(p::shift + 0.5F, 1.0F);
   return m;
-}
-
-/// A foot: pitch, bend of the toes, heading of the line under it, toe-out; its ankle's height, distance from the body's
-/// middle line on the leg's own side, and place along the line.
-struct FootMotion {
-  Wide pitch, toes, toe_out, ankle_up, ankle_out, ankle_forward;
-  Wide swung;  // part of the way from its last foothold to the next
-};
-
-/// A standing foot, about the heel with the toes up, about the toe joint with the heel up.
-HWY_INLINE void plant(const Wide& height, const Wide& half_width, FootMotion& foot) {
-  namespace f = fraction;
-  Wide s, c, out_s, out_c;
-  sin_cos(foot.pitch, s, c);
-  sin_cos(foot.toe_out, out_s, out_c);
-  const Wide back = static_cast<float>(f::heel_back) * height, ball = static_cast<float>(f::ball_forward) * height;
-  const Wide tall = static_cast<float>(f::ankle_height) * height;
-  const Wide joint = static_cast<float>(f::toe_joint_height) * height;
-  const Wide over = tall - joint;
-  const WideMask on_heel = foot.pitch >= 0.0F;
-  const Wide along = select(on_heel, fnma(tall, s, back * (c - 1.0F)), fnma(over, s, ball * (1.0F - c)));
-  foot.ankle_up = select(on_heel, fma(back, s, tall * c), joint + fnma(ball, s, over * c));
-  foot.ankle_out = fma(out_s, along, half_width);
-  foot.ankle_forward = out_c * along;
-}
-
-HWY_NOINLINE FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& time) {
-  const Wide flat = load(plan.flat_s), zero = wide(0.0F);
-  const Wide u = time / flat;
-  const Wide pitch = load(plan.from.foot_pitch), rest = clamp(1.0F - u, 0.0F, 1.0F);
-  const Wide rocked = rest * rest * rest * fma(fma(load(plan.from.foot_pitch_rate), flat, 3.0F * pitch), u, pitch);
-  const Wide rolled = curve_at(plan.support_pitch, (time - flat) / (load(plan.duration_s) - flat));
-  FootMotion foot;
-  foot.pitch = select(time < flat, rocked, min(rolled, 0.0F));
-  foot.toes = max(-foot.pitch, 0.0F);
-  foot.toe_out = load(plan.from.toe_out);
-  foot.swung = zero;
-  plant(height, load(plan.from.half_width_m), foot);
-  return foot;
-}
-
-/// The other foot: places relative to its last foothold while it stands, to the stance foothold while it swings.
-HWY_NOINLINE FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& time) {
-  const Wide off = load(plan.double_support_s);
-  const WideMask swings = time >= off;
-  const Wide u = clamp((time - off) / max(load(plan.duration_s) - off, 1e-3F), 0.0F, 1.0F);
-  FootMotion foot;
-  foot.pitch = select(swings, curve_at(plan.swing_pitch, u), min(curve_at(plan.trailing_pitch, time / off), 0.0F));
-  constexpr float straighten = 1.0F / (swing_toes::to - swing_toes::from);
-  foot.toes = -foot.pitch * (1.0F - ease((u - swing_toes::from) * straighten));
-  foot.swung = ease(u);
-  foot.toe_out = mix(load(plan.trailing_toe_out), load(plan.to.toe_out), foot.swung);
-  plant(height, load(plan.trailing_half_width_m), foot);
-  foot.ankle_up = select(swings, curve_at(plan.swing_up_m, u), foot.ankle_up);
-  foot.ankle_out = select(swings,
-                          hermite(u, load(plan.swing_out_m[0]), load(plan.swing_out_slope[0]),
-                                  load(plan.swing_out_m[1]), load(plan.swing_out_slope[1])),
-                          foot.ankle_out);
-  foot.ankle_forward =
-      select(swings, curve_at(plan.swing_forward_m, u) + load(plan.length_before_m), foot.ankle_forward);
-  return foot;
 }
 
 /// Where the foot of one side is, in the frame of the stance foothold, and its heading there.
@@ -222,14 +173,39 @@ HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
   return mix(b, a, part) - width * part * (1.0F - part);
 }
 
+/// Where a hip is from the middle of both, in the pelvis' heading.
+HWY_INLINE WideVec hip_of(const PelvisMotion& motion, std::size_t side, const Wide& height) {
+  return rotate(motion.turn(wide(0.0F)),
+                scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
+}
+
+/// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, and less the nearer it is to the
+/// ground it left or comes to.
+HWY_NOINLINE void draw_in(FootMotion& foot, Foothold& at, const PelvisPlace& root, const PelvisMotion& motion,
+                          std::size_t side, const Wide& height) {
+  const WideVec hip = hip_of(motion, side, height);
+  const Wide hip_left = root.position.x + fma(hip.x, root.cosine, hip.z * root.sine);
+  const Wide hip_ahead = root.position.z + fnma(hip.x, root.sine, hip.z * root.cosine);
+  const Wide dx = at.ankle.left - hip_left, dz = at.ankle.forward - hip_ahead;
+  const Wide dy = foot.ankle_up - root.position.y - hip.y;
+  const Wide distance = sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
+  constexpr float full = static_cast<float>(fraction::thigh + fraction::shank);
+  const Wide most = 0.9995F * full * height;
+  const Wide within = fma(0.01F * full * height, foot.in_the_air, wide(1e-5F));
+  const Wide near = max(1.0F - abs(distance - most) / within, 0.0F);
+  const Wide reached = min(distance, most) - within * (1.0F / 6.0F) * near * near * near;
+  const Wide part = mix(wide(1.0F), reached / distance, smooth(4.0F * foot.in_the_air));
+  at.ankle = {fma(part, dx, hip_left), fma(part, dz, hip_ahead)};
+  foot.ankle_up = fma(part, dy, root.position.y + hip.y);
+}
+
 /// Height of the middle of the hips at which a leg is as straight as a knee becomes.
 HWY_NOINLINE Wide highest_hips(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
                                const PelvisMotion& motion, std::size_t side, const Wide& height) {
-  const WideVec hip = rotate(turn_yzx(motion.rotation, -motion.list, motion.tilt),
-                             scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
+  const WideVec hip = hip_of(motion, side, height);
   const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
   const Wide x = fnma(dz, root.sine, dx * root.cosine) - hip.x, z = fma(dx, root.sine, dz * root.cosine) - hip.z;
-  constexpr float straightest = static_cast<float>(fraction::thigh + fraction::shank) * 0.99975F;  // 2.6 degrees
+  constexpr float straightest = static_cast<float>(fraction::thigh + fraction::shank) * 0.9999F;  // 1.6 degrees
   const Wide reach = straightest * height;
   return foot.ankle_up - hip.y + sqrt(max(reach * reach - fma(x, x, z * z), 0.0F));
 }
@@ -249,8 +225,7 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
 
   // In the frame of the stance foothold, then turned into the pelvis's heading: small numbers, so that the knee keeps
   // its digits however far somebody walks.
-  const WideQuat local = turn_yzx(motion.rotation, -motion.list, motion.tilt);
-  const WideVec hip = rotate(local, scaled(unit_skeleton.joint_offset[index(thigh)], height));
+  const WideVec hip = hip_of(motion, side, height);
   const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
   const WideVec d = {fnma(dz, root.sine, dx * root.cosine) - hip.x, foot.ankle_up - root.position.y - hip.y,
                      fma(dx, root.sine, dz * root.cosine) - hip.z};
@@ -295,7 +270,9 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
   constexpr float tall = static_cast<float>(fraction::ankle_height), back = static_cast<float>(fraction::heel_back);
   constexpr float joint = static_cast<float>(fraction::toe_joint_height);
   store(ankle_at + rotate(sole, scaled({0, -tall, -back}, height)), feet.heel_m[side]);
+  constexpr float tip = static_cast<float>(fraction::toes_length);
   store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -joint, 0}, height)), feet.toe_m[side]);
+  store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -joint, tip}, height)), feet.tip_m[side]);
   return direction;
 }
 
@@ -304,11 +281,20 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
 HWY_NOINLINE void pose_column(const Wide& heading, const Wide& turned_back, const Wide& lean,
                               const Skeleton& skeleton) {
   constexpr std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
-  const WideQuat pelvis = skeleton.rotation(Segment::pelvis), upright = turn_y(heading);
+  // The sacrum's plate faces up in somebody who stands, whose pelvis laboratories find tilted.
+  const WideQuat base = skeleton.rotation(Segment::pelvis) * turn_x(wide(-static_cast<float>(neutral_tilt)));
+  const WideQuat upright = turn_y(heading);
   const WideQuat chest = turn_y(heading + turned_back) * turn_x(lean);
   for (std::size_t s = first; s <= shoulders; ++s) {
-    const float part = static_cast<float>(s - first + 1) / static_cast<float>(shoulders - first + 1);
-    skeleton.hang(static_cast<Segment>(s), part_way(pelvis, chest, wide(part)));
+    constexpr ColumnParts parts = column_parts();
+    const auto part = static_cast<float>(parts[s - first]);
+    const WideQuat turned = part_way(base, chest, wide(part));
+    if (s == first) {
+      const WideVec offset = scaled(unit_skeleton.joint_offset[s], skeleton.height);
+      skeleton.put(static_cast<Segment>(s), skeleton.position(Segment::pelvis) + rotate(base, offset), turned);
+    } else {
+      skeleton.hang(static_cast<Segment>(s), turned);
+    }
   }
   for (std::size_t s = shoulders + 1; s <= head; ++s) {
     const float part = static_cast<float>(s - shoulders) / static_cast<float>(head - shoulders);
@@ -353,42 +339,46 @@ HWY_INLINE FootMotion foot_of(const WideMask& stands, const FootMotion& stance, 
           select(stands, stance.ankle_up, other.ankle_up),
           select(stands, stance.ankle_out, other.ankle_out),
           select(stands, stance.ankle_forward, other.ankle_forward),
-          other.swung};
+          other.swung,
+          select(stands, wide(0.0F), other.in_the_air)};
 }
 
 void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
                 Feet<Lanes<float>>& feet) {
-  // The lanes read their plans here and there, which no hardware foresees; in a crowd plans come from memory.
-  for (std::size_t line = 0; line < sizeof(plan) / sizeof(Lanes<float>); ++line)
-    hwy::Prefetch(reinterpret_cast<const Lanes<float>*>(&plan) + line);
   const Wide one = wide(1.0F), zero = wide(0.0F);
   const Skeleton skeleton{load(size.height_m), pose};
   const Wide time = load(state.time_s);
   const WideMask right_stands = equal(state.stance_side, right), left_stands = equal(state.stance_side, left);
-  const Wide u = time / load(plan.duration_s), eased = ease(u);
-  const Wide phase = hermite(u, zero, load(plan.phase_rate_from), one, load(plan.phase_rate_to));
-  const PelvisMotion motion = pelvis_motion(plan, phase, eased, select(right_stands, one, -one));
+  const Wide u = time / load(plan.duration_s), eased = smooth(u), phase = step_phase(plan, u);
+  const StepWaves waves = step_waves(phase);
+  const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+  const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one));
   const Line line = line_of(plan, state);
 
   PelvisPlace pelvis;
-  const Wide aside = -motion.shift, along = curve_at(plan.hip_forward_m, u);
-  const Ground place = part_way(turned(aside, along, line.before_s, line.before_c),
-                                turned(aside, along, line.ahead_s, line.ahead_c), eased);
-  pelvis.position = {place.left, curve_at(plan.hip_up_m, u), place.forward};
+  const HipsPlace hips = hips_place(plan, of, u, phase, waves);
+  const Wide aside = select(right_stands, hips.aside, -hips.aside);
+  const Ground place = part_way(turned(aside, hips.forward, line.before_s, line.before_c),
+                                turned(aside, hips.forward, line.ahead_s, line.ahead_c), eased);
+  constexpr auto standing = static_cast<float>(fraction::hip_height);
+  pelvis.position = {place.left, fma(wide(standing), skeleton.height, harmonics(of, step_shape::hips_up, 4, waves)),
+                     place.forward};
   pelvis.heading = mix(line.before, line.ahead, eased);
   sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
-  const FootMotion stance = stance_foot(plan, skeleton.height, time), other = other_foot(plan, skeleton.height, time);
+  const FootMotion stance = stance_foot(plan, of, skeleton.height, phase);
+  const FootMotion other = other_foot(plan, of, skeleton.height, phase);
   FootMotion foot[2];
   Foothold at[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const WideMask stands = side == right ? right_stands : left_stands;
     foot[side] = foot_of(stands, stance, other);
     at[side] = foothold(line, foot[side], stands, wide(side == left ? 1.0F : -1.0F));
+    draw_in(foot[side], at[side], pelvis, motion, side, skeleton.height);
   }
   // Where a leg would be too short, in a turn or at a very slow walk, the pelvis sinks.
-  const Wide rounding = 0.0003F * skeleton.height;
+  const Wide rounding = 0.0004F * skeleton.height;
   auto limit = [&](std::size_t side) {
     return highest_hips(foot[side], at[side], pelvis, motion, side, skeleton.height);
   };
@@ -400,7 +390,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   sin_cos(heading, s, c);
   const Ground world = turned(place.left, place.forward, s, c);
   skeleton.put(Segment::pelvis, origin + WideVec{world.left, pelvis.position.y, world.forward},
-               turn_yzx(heading + pelvis.heading + motion.rotation, -motion.list, motion.tilt));
+               motion.turn(heading + pelvis.heading));
 
   Wide leg[2];
   for (std::size_t side = 0; side < 2; ++side) {
@@ -411,7 +401,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
   pose_column(heading + pelvis.heading, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation,
-              curve_at(plan.trunk_pitch, u), skeleton);
+              harmonics(of, step_shape::trunk, 3, waves), skeleton);
   const ArmManner arms = {manner(from.arm_back, to.arm_back, eased),
                           manner(from.arm_forward, to.arm_forward, eased),
                           manner(from.elbow_back, to.elbow_back, eased),

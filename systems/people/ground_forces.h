@@ -7,7 +7,7 @@ namespace mobil {
 
 /// Stale handles answer Status::stale_entity, posed people Status::missing: they have no gait that forces could follow
 /// from.
-Status add_forces(World& world, Entity person, float tick_s);
+Status add_forces(World& world, Entity person);
 Status remove_forces(World& world, Entity person);
 
 }  // namespace mobil

@@ -14,6 +14,7 @@
 #include "engine/snapshot.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
+#include "systems/kinematics/body_motion.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/line_of_action.h"
 
@@ -72,9 +73,10 @@ Module walking_module() {
 }
 
 Module forces_module() {
-  return {.name = "forces",
-          .parts = {component_part<MotionHistory>(), component_part<GroundReaction>(), component_part<JointMoments>()},
-          .systems = [](ScheduleBuilder& systems) { systems.add("forces", &joint_forces); }};
+  return {
+      .name = "forces",
+      .parts = {component_part<BodyMotion>(), component_part<GroundReaction>(), component_part<JointMoments>()},
+      .systems = [](ScheduleBuilder& systems) { systems.add("motion", &walker_motion).add("forces", &joint_forces); }};
 }
 
 Module skeleton_module() {

@@ -36,7 +36,7 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
   const std::string_view name = rungs[choice.rung].name;
   const double error_mm = 1e3 * static_cast<double>(choice.predicted_error_m);
   const double allowed_mm = 1e3 * static_cast<double>(choice.tolerance_m);
-  const std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm,
+  std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm,
                                           allowed_mm, choice.predicted_cost_us);
   switch (choice.reason) {
     case Reason::tolerance:

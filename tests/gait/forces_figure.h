@@ -10,6 +10,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "systems/forces/forces.h"
+#include "systems/kinematics/body_motion.h"
 #include "tests/engine/row_lanes.h"
 
 namespace mobil::figure {
@@ -96,21 +97,18 @@ inline Vector body_centre(double height, const Stance& s) {
   return sum / mass;
 }
 
-/// Sixteen people and what `joint_forces` makes of them.
+/// Sixteen people in three poses and what `joint_forces` makes of them.
 struct Block {
   BodySize<Lanes<float>> size{};
   StepPlan<Lanes<float>> plan{};
   GaitState<Lanes<float>> state{};
-  Pose<Lanes<float>> pose{};
-  Feet<Lanes<float>> feet{};
-  CentreOfMass<Lanes<float>> centre{};
-  MotionHistory<Lanes<float>> history{};
+  std::array<Pose<Lanes<float>>, 3> pose{};
+  BodyMotion<Lanes<float>> motion{};
   GroundReaction<Lanes<float>> reaction{};
   JointMoments<Lanes<float>> moments{};
 
-  void stand(std::size_t lane, const Stance& s) {
-    const double height = static_cast<double>(size.height_m[lane]);
-    const auto at = places(height, s);
+  void stand(std::size_t lane, const Stance& s, std::size_t which) {
+    const auto at = places(static_cast<double>(size.height_m[lane]), s);
     Pose<float> p;
     for (std::size_t i = 0; i < segment_count; ++i) {
       p.position_m[i] = row(at[i]);
@@ -118,18 +116,8 @@ struct Block {
       p.rotation[i] = {static_cast<float>(q.x()), static_cast<float>(q.y()), static_cast<float>(q.z()),
                        static_cast<float>(q.w())};
     }
-    Feet<float> f{};
-    for (std::size_t side = 0; side < 2; ++side) {
-      const std::size_t foot = index(on_side(Segment::foot_right, side)), toes = foot + 1;
-      f.heel_m[side] =
-          row(at[foot] + s.rotation[foot] * Vector(0, -fraction::ankle_height, -fraction::heel_back) * height);
-      f.toe_m[side] = row(at[toes] + s.rotation[toes] * Vector(0, -fraction::toe_joint_height, 0) * height);
-    }
-    put(p, pose, lane);
-    put(f, feet, lane);
-    put(CentreOfMass<float>{row(body_centre(height, s))}, centre, lane);
+    put(p, pose[which], lane);
   }
-  void tick(float tick_s) { joint_forces(size, pose, feet, centre, plan, state, history, reaction, moments, tick_s); }
   Vector force(std::size_t lane, std::size_t side) const {
     const auto& f = reaction.force_n[side];
     return Eigen::Vector3f(f.x[lane], f.y[lane], f.z[lane]).cast<double>();
@@ -155,21 +143,20 @@ inline std::unique_ptr<Block> random_people(unsigned seed) {
     b->size.height_m[l] = dice(1.2, 2.2);
     b->size.mass_kg[l] = dice(30, 200);
     b->plan.duration_s[l] = 0.5F;
-    b->plan.double_support_s[l] = 0.1F;
-    b->plan.load_from[l] = b->plan.load_to[l] = 0.5F;
   }
   return b;
 }
 
 using Motion = std::function<Stance(std::size_t lane, double time)>;
 
-/// Three ticks about time 0 from an empty history: what is written then belongs to time 0.
-inline void three_ticks(Block& b, const Motion& motion, float tick_s) {
-  b.history = {};
-  for (int k = -1; k <= 1; ++k) {
-    for (std::size_t l = 0; l < lane_count; ++l) b.stand(l, motion(l, k * static_cast<double>(tick_s)));
-    b.tick(tick_s);
+/// Forces at time 0, from the poses then and `apart_s` before and after.
+inline void forces_of(Block& b, const Motion& motion, float apart_s) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (std::size_t l = 0; l < lane_count; ++l)
+      b.stand(l, motion(l, (static_cast<double>(k) - 1) * static_cast<double>(apart_s)), k);
   }
+  motion_of_poses(b.size, b.pose[0], b.pose[1], b.pose[2], apart_s, b.motion);
+  joint_forces(b.size, b.motion, b.plan, b.state, b.reaction, b.moments);
 }
 
 /// A body thrown about with every joint in motion.

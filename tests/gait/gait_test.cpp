@@ -8,8 +8,8 @@
 #include <set>
 #include <string>
 
-#include "systems/gait/step_math.h"
 #include "tests/gait/step_dynamics.h"
+#include "tests/gait/step_math.h"
 #include "tests/gait/walkers.h"
 
 namespace mobil::gait_test {

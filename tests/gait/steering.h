@@ -199,10 +199,9 @@ class Watch : public Findings {
     if (!(value > worst.value)) return;
     std::ostringstream text;
     text << what << " at " << now.time_s << " s: step " << now.state.steps << ", " << now.state.time_s << " of "
-         << plan_.duration_s << " s, toe-off " << plan_.double_support_s << ", flat " << plan_.flat_s << ", "
-         << plan_.from.speed_m_s << " to " << plan_.to.speed_m_s << " m/s, turn " << now.state.turn_rad << ", clamped "
-         << plan_.clamped << "; " << walker_->body.height_m << " m, " << walker_->body.mass_kg << " kg; asked "
-         << walker_->asked;
+         << plan_.duration_s << " s, toe-off " << plan_.double_support_s << ", " << plan_.from.speed_m_s << " to "
+         << plan_.to.speed_m_s << " m/s, turn " << now.state.turn_rad << ", clamped " << plan_.clamped << "; "
+         << walker_->body.height_m << " m, " << walker_->body.mass_kg << " kg; asked " << walker_->asked;
     worst = {value, text.str()};
   }
 

@@ -1,6 +1,6 @@
 #include "tests/gait/step_dynamics.h"
 
-#include "systems/gait/step_math.h"
+#include "tests/gait/step_math.h"
 
 namespace mobil::step {
 

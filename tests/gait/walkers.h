@@ -140,6 +140,11 @@ inline void ask_natural(Walkers& w, std::size_t lane, Dice& dice, double style_p
   if (!w.ask(lane, request)) throw std::runtime_error("a natural walk was refused");
 }
 
+/// When the stance foot of a step that is like the one before has come down flat, s.
+inline float flat_s(const StepPlan<Lanes<float>>& plan, std::size_t l) {
+  return 2 * (0.09F + plan.from.shape[step_shape::times.first][l]) * plan.duration_s[l];
+}
+
 inline std::unique_ptr<Walkers> random_walkers(unsigned seed, double style_part = 0.0) {
   Dice dice{std::mt19937(seed)};
   auto w = std::make_unique<Walkers>();

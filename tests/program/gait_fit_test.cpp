@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "assets/gait/step_table.h"
+#include "assets/gait/step_lookup.h"
 #include "demo/gait_fit/step_grid.h"
 #include "demo/gait_fit/step_quality.h"
 #include "demo/gait_fit/upper_body.h"
@@ -14,7 +14,7 @@
 namespace mobil::gait_fit_test {
 using namespace step_table;
 
-constexpr double gravity = 9.81;
+constexpr double gravity = gravity_m_s2;
 
 const GaitReference& reference() {
   static const GaitReference read = *read_gait_reference(std::nullopt);
@@ -61,7 +61,7 @@ TEST(LeastSquaresFit, ReturnsTheSumThatItLeavesAndNeverMore) {
 }
 
 TEST(UpperBody, WeighsWhatLegsLeaveAndStandsOverTheHips) {
-  EXPECT_NEAR(upper_body.mass, 1 - 2 * (0.1 + 0.0465 + 0.0145), 1e-9);
+  EXPECT_NEAR(upper_body.mass + 2 * (arm_body.upper + arm_body.lower), 1 - 2 * (0.1 + 0.0465 + 0.0145), 1e-9);
   EXPECT_GT(upper_body.up, 0.15);
   EXPECT_LT(std::abs(upper_body.forward), 0.005);
   // turned as one piece about the hips it goes as far as it is high
@@ -80,6 +80,20 @@ TEST(StepModel, ForcesBearTheWeightAndNeitherSpeedUpNorTurn) {
   }
 }
 
+/// The whole body's force is that of its centre of mass, arms and legs included.
+TEST(StepModel, TheGroundPushesTheCentreOfMass) {
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    const StepNode n = node(s, usual);
+    const StepCycle c = cycle_of(n);
+    const double dt = 2 * n.task.step_length_m / n.task.speed_m_s / cycle_samples;
+    for (std::size_t i = 0; i < cycle_samples; ++i) {
+      const double before = c.centre_up[(i + cycle_samples - 1) % cycle_samples],
+                   after = c.centre_up[(i + 1) % cycle_samples];
+      EXPECT_NEAR(c.total_up[i], gravity + (after - 2 * c.centre_up[i] + before) / (dt * dt), 1e-6) << s << ' ' << i;
+    }
+  }
+}
+
 /// Both feet together press where the motion asks for it, at every instant.
 TEST(StepModel, FeetPressWhereTheMotionAsksForIt) {
   const StepNode n = node(4, usual);
@@ -93,6 +107,32 @@ TEST(StepModel, FeetPressWhereTheMotionAsksForIt) {
   }
 }
 
+TEST(StepLookup, GivesTheTableAtItsNodes) {
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    for (std::size_t l = 0; l < length_count; ++l) {
+      const TabledStep step =
+          tabled_step(static_cast<float>(speed[s]),
+                      static_cast<float>(length[l] * usual_step(static_cast<float>(speed[s])).step_length));
+      EXPECT_NEAR(step.usual.step_length, step_given[s].step_length, 1e-5);
+      for (std::size_t i = 0; i < step_shape::size; ++i)
+        EXPECT_NEAR(step.shape[i], step_shapes[s][l][i], 2e-5 * (1 + std::abs(step_shapes[s][l][i]))) << i;
+    }
+  }
+}
+
+TEST(StepLookup, StandsAtZeroAndNeverJumps) {
+  for (const float number : tabled_step(0, 0.5F).shape) EXPECT_EQ(number, 0);
+  const StepShape scale = shape_scales();
+  TabledStep before = tabled_step(0, 0.2F);
+  for (float at = 0.001F; at < 0.9F; at += 0.001F) {  // slower and faster than the table, shorter and longer
+    const TabledStep now = tabled_step(at, 0.2F + at);
+    for (std::size_t i = 0; i < step_shape::size; ++i)
+      EXPECT_NEAR(now.shape[i], before.shape[i], 0.5 * scale[i]) << at << ' ' << i;
+    EXPECT_NEAR(now.usual.double_support, before.usual.double_support, 0.001);
+    before = now;
+  }
+}
+
 TEST(StepTable, EveryStepKeepsItsFeetAndKnees) {
   for (std::size_t s = 0; s < speed_count; ++s) {
     for (std::size_t l = 0; l < length_count; ++l) {
@@ -100,8 +140,8 @@ TEST(StepTable, EveryStepKeepsItsFeetAndKnees) {
       const StepQuality q = step_quality(n.task, n.targets, n.shape);
       const std::string name = std::to_string(s) + ' ' + std::to_string(l);
       EXPECT_GT(q.slack_m, 0) << name;
-      EXPECT_GT(q.clearance_m, 0.008) << name;
-      EXPECT_LT(q.pad_m, 0.005) << name;
+      EXPECT_GT(q.clearance_m, 0.0095) << name;
+      EXPECT_LT(q.pad_m, 0.0055) << name;
       EXPECT_LT(q.aside_m, 0.025 * fitted_height_m) << name;
     }
   }
@@ -111,7 +151,7 @@ TEST(StepTable, UsualStepsAreNearWhatWasMeasured) {
   for (std::size_t s = 0; s < speed_count; ++s) {
     const StepNode n = node(s, usual);
     const StepQuality q = step_quality(n.task, n.targets, n.shape);
-    const double at_ends = s == 0 || s + 2 >= speed_count ? 4 : 3;
+    const double at_ends = s == 0 || s + 2 >= speed_count ? 4.5 : 3;
     using enum GaitQuantity;
     for (const GaitQuantity angle : {hip, knee, ankle}) EXPECT_LT(q.rms[index(angle)], at_ends) << speed[s];
     EXPECT_GT(q.correlation[index(vertical)], 0.97) << speed[s];
@@ -121,13 +161,14 @@ TEST(StepTable, UsualStepsAreNearWhatWasMeasured) {
   }
 }
 
-TEST(StepTable, AStepIsMadeAgainFromItsNeighbour) {
+TEST(StepTable, AStepIsMadeAgainFromItsNeighbours) {
   const StepNode written = node(4, usual);
   StepNode again = written;
   again.cost = INFINITY;
-  const StepShape neighbour = node(3, usual).shape;
-  fit_node(again, neighbour, false);
-  fit_node(again, neighbour, true);
+  for (const auto& [s, l] : {std::pair{std::size_t{5}, usual}, {std::size_t{4}, usual + 1}}) {
+    const StepShape neighbour = node(s, l).shape;
+    fit_node(again, neighbour, false);
+  }
   const StepQuality a = step_quality(written.task, written.targets, written.shape),
                     b = step_quality(again.task, again.targets, again.shape);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(a.rms[i], b.rms[i], 0.3);

@@ -122,7 +122,7 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
   for (int round = 0; round < 3; ++round) {
     EXPECT_EQ(simulation.add_forces(human), Status::ok);
     EXPECT_EQ(simulation.add_forces(human), Status::ok);  // there already
-    EXPECT_TRUE(has_column<MotionHistory>(simulation, human));
+    EXPECT_TRUE(has_column<BodyMotion>(simulation, human));
     EXPECT_TRUE(has_column<GroundReaction>(simulation, human));
     EXPECT_TRUE(has_column<JointMoments>(simulation, human));
     EXPECT_FALSE(has_column<JointMoments>(simulation, other));
@@ -131,7 +131,7 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
     EXPECT_EQ(simulation.get<GroundReaction>(other).error(), Status::missing);
     EXPECT_EQ(simulation.remove_forces(human), Status::ok);
     EXPECT_EQ(simulation.remove_forces(human), Status::ok);
-    EXPECT_FALSE(has_column<MotionHistory>(simulation, human));
+    EXPECT_FALSE(has_column<BodyMotion>(simulation, human));
     EXPECT_FALSE(has_column<GroundReaction>(simulation, human));
     EXPECT_FALSE(has_column<JointMoments>(simulation, human));
     EXPECT_EQ(simulation.world().find(human).table, bare);

@@ -17,7 +17,7 @@ struct ShapePart {
 
 /// Phases run from a leg's own heel strike: of its cycle (0 to 1), of a step (0 to 2), or of a part of either (0 to 1).
 /// Lengths m, angles rad, of a body of 1.75 m. Harmonics: a mean (but for `aside`), then cosines, then sines.
-namespace shape {
+namespace step_shape {
 inline constexpr ShapePart hips_forward{"hips_forward", 0, 9, 0.01, true};  // beside even speed: harmonics of the step
 inline constexpr ShapePart hips_up{"hips_up", 9, 9, 0.01, true};  // beside standing height: harmonics of the step
 inline constexpr ShapePart trunk{"trunk", 18, 7, 0.03};           // lean of the chest: harmonics of the step
@@ -38,13 +38,13 @@ inline constexpr ShapePart split{"split", 71, 4, 0.05};  // fore-aft force betwe
 inline constexpr std::size_t size = 75;
 inline constexpr std::array parts = {hips_forward,  hips_up,  trunk,  aside,       strike,   rise,  times, swing_pitch,
                                      swing_forward, swing_up, pad_up, pad_forward, pressure, share, split};
-}  // namespace shape
+}  // namespace step_shape
 
-using StepShape = std::array<double, shape::size>;
+using StepShape = std::array<double, step_shape::size>;
 
 constexpr StepShape shape_scales() {
   StepShape scales{};
-  for (const ShapePart& part : shape::parts) {
+  for (const ShapePart& part : step_shape::parts) {
     for (std::size_t i = 0; i < part.count; ++i) scales[part.first + i] = part.scale;
   }
   return scales;

@@ -1,0 +1,29 @@
+#pragma once
+// How the column bends between pelvis and chest.
+
+#include <array>
+#include <cstddef>
+
+#include "components/segments.h"
+
+namespace mobil {
+
+/// The pelvis' anterior tilt of somebody who stands upright, as gait laboratories measure it (front and back of the
+/// iliac crest), rad: that of the anatomical position, from which the column is turned.
+inline constexpr double neutral_tilt = 11.5 * 3.14159265358979324 / 180;
+
+/// How much of the way from the pelvis' attitude to the chest's a vertebra has turned, from the fifth lumbar to the
+/// first thoracic: two thirds in the five lumbar ones, the rest evenly.
+using ColumnParts = std::array<double, index(Segment::T1) - index(Segment::L5) + 1>;
+constexpr ColumnParts column_parts() {
+  constexpr double lumbar = 5, all = 17, lumbar_part = 2.0 / 3;
+  ColumnParts parts{};
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto above = static_cast<double>(i + 1);
+    parts[i] = above <= lumbar ? lumbar_part * above / lumbar
+                               : lumbar_part + (1 - lumbar_part) * (above - lumbar) / (all - lumbar);
+  }
+  return parts;
+}
+
+}  // namespace mobil

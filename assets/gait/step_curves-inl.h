@@ -1,0 +1,215 @@
+// The curves that a step's shape stands for (components/step_shape.h), of sixteen walkers. Include it as
+// engine/wide-inl.h says.
+
+#if defined(MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_
+#undef MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_
+#else
+#define MOBIL_ASSETS_GAIT_STEP_CURVES_INL_H_
+#endif
+
+#include "assets/body/anthropometry.h"
+#include "components/gait.h"
+#include "engine/wide_curve-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+/// Foot flat and heel rise in the usual walk, of the cycle from a leg's own heel strike; the part of the cycle in which
+/// the heel's pad yields.
+constexpr float usual_flat = 0.09F, usual_rise = 0.30F, pad_part = 0.05F;
+
+/// The numbers of two strikes' shapes, mixed.
+struct MixedShape {
+  const Lanes<float>*from, *to;
+  Wide part;
+  HWY_INLINE Wide operator()(const ShapePart& p, std::size_t i) const {
+    return mix(load(from[p.first + i]), load(to[p.first + i]), part);
+  }
+};
+/// The numbers of one.
+struct OneShape {
+  const Lanes<float>* numbers;
+  HWY_INLINE Wide operator()(const ShapePart& p, std::size_t i) const { return load(numbers[p.first + i]); }
+};
+
+/// From 0 at 0 to 1 at 1, twice continuously differentiable.
+HWY_INLINE Wide smooth(const Wide& u) {
+  const Wide v = clamp(u, 0.0F, 1.0F);
+  return v * v * v * fma(v, fma(v, wide(6.0F), wide(-15.0F)), wide(10.0F));
+}
+
+/// cos and sin of k π p, p the phase of the step.
+struct StepWaves {
+  Wide cosine[9], sine[9];
+};
+
+HWY_NOINLINE inline StepWaves step_waves(const Wide& phase) {
+  StepWaves w;
+  w.cosine[0] = wide(1.0F);
+  w.sine[0] = wide(0.0F);
+  sin_cos(3.14159265F * phase, w.sine[1], w.cosine[1]);
+  for (std::size_t k = 2; k < 9; ++k) {
+    const std::size_t a = k / 2, b = k - a;
+    w.cosine[k] = fma(w.cosine[a], w.cosine[b], -(w.sine[a] * w.sine[b]));
+    w.sine[k] = fma(w.sine[a], w.cosine[b], w.cosine[a] * w.sine[b]);
+  }
+  return w;
+}
+
+/// A mean and `count` harmonics of the step.
+template <class Shape>
+HWY_INLINE Wide harmonics(const Shape& of, const ShapePart& part, std::size_t count, const StepWaves& w) {
+  Wide sum = of(part, 0);
+  for (std::size_t k = 1; k <= count; ++k)
+    sum = fma(of(part, k), w.cosine[2 * k], fma(of(part, count + k), w.sine[2 * k], sum));
+  return sum;
+}
+
+/// The hips' way to the left while the right foot stands, to the right while the left one does.
+template <class Shape>
+HWY_INLINE Wide hips_aside(const Shape& of, const StepWaves& w) {
+  const ShapePart& p = step_shape::aside;
+  return fma(of(p, 0), w.cosine[1], fma(of(p, 1), w.cosine[3], fma(of(p, 2), w.sine[1], of(p, 3) * w.sine[3])));
+}
+
+/// (1 − u)³ times a polynomial that starts with the part's first number and no slope of its own; 0 from u = 1 on.
+template <class Shape>
+HWY_INLINE Wide falling(const Shape& of, const ShapePart& part, const Wide& u) {
+  const Wide left = max(1.0F - u, 0.0F);
+  Wide tail = wide(0.0F);
+  for (std::size_t i = part.count - 1; i > 0; --i) tail = u * (of(part, i) + tail);
+  return left * left * left * fma(of(part, 0), fma(u, fma(u, wide(6.0F), wide(3.0F)), wide(1.0F)), tail);
+}
+
+/// Pitch from heel rise (u = 0) to toe-off (u = 1): heel up, negative.
+template <class Shape>
+HWY_INLINE Wide heel_rise(const Shape& of, const Wide& u) {
+  const Wide v = clamp(u, 0.0F, 1.0F);
+  Wide sum = wide(0.0F);
+  for (std::size_t i = step_shape::rise.count; i > 0; --i) sum = fma(v, sum, of(step_shape::rise, i - 1));
+  return -(v * v * v * sum);
+}
+
+/// Legendre polynomials of x.
+template <class Shape>
+HWY_INLINE Wide legendre_sum(const Shape& of, const ShapePart& part, const Wide& x) {
+  Wide before = wide(1.0F), now = x, sum = fma(of(part, 1), x, of(part, 0));
+  for (std::size_t k = 2; k < part.count; ++k) {
+    const auto degree = static_cast<float>(k);
+    const Wide next = (x * now) * ((2 * degree - 1) / degree) - before * ((degree - 1) / degree);
+    before = now;
+    now = next;
+    sum = fma(of(part, k), now, sum);
+  }
+  return sum;
+}
+
+/// 64 (u (1 − u))³ times Legendre polynomials.
+template <class Shape>
+HWY_INLINE Wide bumps(const Shape& of, const ShapePart& part, const Wide& u) {
+  const Wide bump = u * (1.0F - u);
+  return 64.0F * bump * bump * bump * legendre_sum(of, part, 2.0F * u - 1.0F);
+}
+
+/// A value and its first two derivatives.
+struct Moving {
+  Wide value, rate, bend;
+};
+
+/// Pitch of the toes, heel up, of a foot whose heel has risen by `heel_up`, with its derivatives by that.
+HWY_NOINLINE inline Moving toe_pitch(const Wide& heel_up) {
+  constexpr float w2 = toe_rocker::within * toe_rocker::within, part = toe_rocker::part;
+  const Wide d = max(heel_up - toe_rocker::from, 0.0F), d2 = d * d, r = 1.0F / (d2 + w2);
+  return {part * d * d2 * r, part * d2 * (d2 + 3.0F * w2) * r * r,
+          (2.0F * part * w2) * d * (3.0F * w2 - d2) * r * r * r};
+}
+
+/// The ankle of a planted foot by its pitch, and its derivatives by that: how far it is ahead of the foothold along the
+/// foot, and its height. Toes up the foot rolls on the rim of its heel, heel up over its toes.
+struct PlantedAnkle {
+  Moving along, up;
+  Wide toes;  // how far they are bent upward
+};
+
+HWY_NOINLINE inline PlantedAnkle planted_ankle(const Wide& height, const Wide& pitch) {
+  namespace f = fraction;
+  constexpr auto back = static_cast<float>(f::heel_back), ball = static_cast<float>(f::ball_forward);
+  constexpr auto rim = static_cast<float>(f::heel_radius), toes = static_cast<float>(f::toes_length);
+  constexpr auto joint = static_cast<float>(f::toe_joint_height);
+  constexpr float over_rim = static_cast<float>(f::ankle_height) - rim;
+  constexpr float over_joint = static_cast<float>(f::ankle_height) - joint;
+  Wide s, c, q_s, q_c;
+  sin_cos(pitch, s, c);
+  const Wide heel_up = max(-pitch, 0.0F);
+  const Moving q = toe_pitch(heel_up);
+  sin_cos(q.value, q_s, q_c);
+  const WideMask on_heel = pitch >= 0.0F;
+  // heel up: the joint from the tips, the ankle from the joint; s is minus the sine of the heel's rise
+  const Wide joint_y = fma(wide(toes), q_s, joint * q_c), joint_z = fma(wide(toes), q_c, -joint * q_s);
+  const Wide ankle_y = fma(wide(-ball), s, over_joint * c), ankle_z = fma(wide(ball), c, over_joint * s);
+  const Wide bend2 = q.rate * q.rate;
+  const Wide rolled = fma(wide(back), c, -over_rim * s), risen = fma(wide(back), s, over_rim * c);
+  PlantedAnkle a;
+  a.along = {select(on_heel, rolled - back - rim * pitch, (ball + toes) - joint_z - ankle_z),
+             select(on_heel, -risen - rim, -fma(joint_y, q.rate, ankle_y)),
+             select(on_heel, -rolled, fma(joint_y, q.bend, fma(joint_z, bend2, ankle_z)))};
+  a.up = {select(on_heel, risen + rim, joint_y + ankle_y), select(on_heel, rolled, -fma(joint_z, q.rate, ankle_z)),
+          select(on_heel, -risen, fma(joint_z, q.bend, -fma(joint_y, bend2, ankle_y)))};
+  for (Moving* m : {&a.along, &a.up}) *m = {m->value * height, m->rate * height, m->bend * height};
+  a.toes = heel_up - q.value;
+  return a;
+}
+
+HWY_INLINE Wide quintic_at(const Quintic<Lanes<float>>& q, const Wide& u) {
+  Wide sum = load(q.coefficient[5]);
+  for (std::size_t k = 5; k > 0; --k) sum = fma(sum, u, load(q.coefficient[k - 1]));
+  return sum;
+}
+
+/// From one state at u = 0 to another at u = 1, derivatives by u.
+HWY_NOINLINE inline void store_quintic(const Moving& a, const Moving& b, Quintic<Lanes<float>>& out) {
+  const Wide r = b.value - a.value - a.rate - 0.5F * a.bend, s = b.rate - a.rate - a.bend, q = 0.5F * (b.bend - a.bend);
+  store(a.value, out.coefficient[0]);
+  store(a.rate, out.coefficient[1]);
+  store(0.5F * a.bend, out.coefficient[2]);
+  store(10.0F * r - 4.0F * s + q, out.coefficient[3]);
+  store(7.0F * s - 15.0F * r - 2.0F * q, out.coefficient[4]);
+  store(6.0F * r - 3.0F * s + q, out.coefficient[5]);
+}
+
+/// Phase of the step at a part of its time: at the pace of the strikes at either end, and no change of pace there.
+HWY_NOINLINE inline Wide step_phase(const StepPlan<Lanes<float>>& plan, const Wide& u) {
+  const Wide from = load(plan.phase_rate_from), to = load(plan.phase_rate_to);
+  const Wide r = 1.0F - from, s = to - from;
+  return u * fma(u * u, fma(u, fma(u, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), from);
+}
+
+/// How far the numbers of the shapes are mixed.
+HWY_INLINE Wide mixed_part(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
+  const Wide start = load(plan.mixed_from);
+  return smooth((phase - start) / (1.0F - start));
+}
+
+/// 64 u³(1 − u)³ times Legendre polynomials of 2u − 1.
+HWY_INLINE Wide other_way(const Lanes<float> (&by)[other_way_count], const Wide& u) {
+  return bumps(OneShape{by}, {"", 0, other_way_count, 0}, u);
+}
+
+/// The middle of the hips: forward from the stance foothold, to the left while the right foot stands (else to the
+/// right).
+struct HipsPlace {
+  Wide forward, aside;
+};
+
+/// `u`: the part of the step's time at which its phase has those waves.
+HWY_NOINLINE inline HipsPlace hips_place(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& u,
+                                         const Wide& phase, const StepWaves& w) {
+  return {quintic_at(plan.even_m, phase) + harmonics(of, step_shape::hips_forward, 4, w) + other_way(plan.ahead_m, u),
+          hips_aside(of, w) - other_way(plan.aside_m, u)};
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,86 @@
+#include "assets/gait/step_lookup.h"
+
+#include <algorithm>
+
+namespace mobil {
+namespace {
+
+using namespace step_table;
+
+/// Standing, beside what the slowest walk has.
+constexpr double standing_length = 0.25, standing_double_support = 0.22;
+
+/// Nodes that make up a value, and how much of each.
+struct Blend {
+  std::array<std::size_t, 4> node;
+  std::array<float, 4> weight;
+  float walks;  // 1; less below the slowest node
+};
+
+Blend speed_blend(float at) {
+  constexpr auto first = static_cast<float>(speed.front());
+  constexpr auto apart = static_cast<float>((speed.back() - speed.front()) / (speed_count - 1));
+  const float place = std::clamp((at - first) / apart, 0.0F, static_cast<float>(speed_count - 1));
+  const std::size_t i = std::min(static_cast<std::size_t>(place), speed_count - 2);
+  const float u = place - static_cast<float>(i), v = 1 - u;
+  Blend b;
+  b.node = {i == 0 ? 0 : i - 1, i, i + 1, std::min(i + 2, speed_count - 1)};
+  b.weight = {-0.5F * u * v * v, v * (1 + u - 1.5F * u * u), u * (1 + v - 1.5F * v * v), -0.5F * v * u * u};
+  // Where a neighbour lacks, the slope is that to the other one.
+  if (i == 0) {
+    b.weight[1] += 2 * b.weight[0];
+    b.weight[2] -= b.weight[0];
+    b.weight[0] = 0;
+  }
+  if (i + 2 == speed_count) {
+    b.weight[2] += 2 * b.weight[3];
+    b.weight[1] -= b.weight[3];
+    b.weight[3] = 0;
+  }
+  b.walks = std::clamp(at / first, 0.0F, 1.0F);
+  return b;
+}
+
+StepGiven usual_of(const Blend& b) {
+  StepGiven sum{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const StepGiven& g = step_given[b.node[k]];
+    const auto w = static_cast<double>(b.weight[k]);
+    sum.step_length += w * g.step_length;
+    sum.double_support += w * g.double_support;
+    sum.pelvis_tilt += w * g.pelvis_tilt;
+    sum.pelvis_rotation += w * g.pelvis_rotation;
+    sum.pelvis_list += w * g.pelvis_list;
+  }
+  const auto walks = static_cast<double>(b.walks);
+  sum.step_length = standing_length + walks * (sum.step_length - standing_length);
+  sum.double_support = standing_double_support + walks * (sum.double_support - standing_double_support);
+  sum.pelvis_rotation *= walks;
+  sum.pelvis_list *= walks;
+  return sum;
+}
+
+}  // namespace
+
+StepGiven usual_step(float at) {
+  return usual_of(speed_blend(at));
+}
+
+TabledStep tabled_step(float at, float step_length) {
+  const Blend b = speed_blend(at);
+  TabledStep out{usual_of(b), {}};
+  constexpr auto least = static_cast<float>(length.front()), most = static_cast<float>(length.back());
+  const float times = std::clamp(step_length / static_cast<float>(out.usual.step_length), least, most);
+  std::size_t l = 0;
+  while (l + 2 < length_count && times > static_cast<float>(length[l + 1])) ++l;
+  const auto low = static_cast<float>(length[l]), high = static_cast<float>(length[l + 1]);
+  const float part = (times - low) / (high - low);
+  for (std::size_t k = 0; k < 4; ++k) {
+    const float shorter = b.walks * b.weight[k] * (1 - part), longer = b.walks * b.weight[k] * part;
+    const TabledShape &x = step_shapes[b.node[k]][l], &y = step_shapes[b.node[k]][l + 1];
+    for (std::size_t i = 0; i < step_shape::size; ++i) out.shape[i] += shorter * x[i] + longer * y[i];
+  }
+  return out;
+}
+
+}  // namespace mobil

@@ -1,0 +1,22 @@
+#pragma once
+// The table of steps at any speed and step length.
+
+#include "assets/gait/step_table.h"
+
+namespace mobil {
+
+/// The walk of a body of height 1 m at a speed and a step length: what is usual there, and its shape.
+struct TabledStep {
+  StepGiven usual;
+  TabledShape shape;
+};
+
+/// `speed` over √(g · leg), the leg from hip to ground; `length`: of a step, over the leg. Between nodes by the cubic
+/// of Catmull and Rom in speed and straight in step length over the usual one. Below the slowest node straight on to
+/// standing at 0; beyond the fastest, and beyond the table's step lengths, its ends.
+TabledStep tabled_step(float speed, float length);
+
+/// What is usual at a speed; tabled_step's.
+StepGiven usual_step(float speed);
+
+}  // namespace mobil

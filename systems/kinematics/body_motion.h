@@ -1,0 +1,25 @@
+#pragma once
+// From the solved step to how all 48 segments accelerate.
+
+#include "components/body.h"
+#include "components/forces.h"
+#include "components/gait.h"
+#include "components/pose.h"
+
+namespace mobil {
+
+/// The motion of bodies of which three poses are known, `apart_s` seconds apart, in a frame of their own: central
+/// differences of places, Euler's equations of each segment in its own axes (inertias: assets/body/segment_inertia.h).
+void motion_of_poses(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& before,
+                     const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after, float apart_s,
+                     BodyMotion<Lanes<float>>& motion);
+
+/// The motion of walkers at this instant of their step, from the step alone: no memory, no lag. Near either end of the
+/// step that of `difference_s` within it.
+void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                   const GaitState<Lanes<float>>& state, BodyMotion<Lanes<float>>& motion);
+
+/// Between the poses that walker_motion takes differences of, s: longer blurs, shorter shows single precision.
+inline constexpr float difference_s = 0.006F;
+
+}  // namespace mobil

@@ -133,14 +133,16 @@ struct StepPlan {
 
 /// Where a walker is: time since heel strike of the stance foot (0 right, 1 left), steps taken, and the point of the
 /// walking line beside the stance foothold with the line's heading there: about +Y, 0 toward +Z, positive to the left;
-/// how much the line turns to the next foothold and how much it turned from the one before. All zero: right heel
-/// strike at the origin, walking toward +Z.
+/// how much the line turns to the next foothold and how much it turned from the one before. Footholds lie beside the
+/// line, on an arc from one to the next; in a turn they are all moved by a shift, to the left of it, so that the ground
+/// can push the body inward. All zero: right heel strike at the origin, walking toward +Z.
 template <class F>
 struct GaitState {
   F time_s;
   Whole<F> stance_side, steps;
   F line_x_m, line_z_m, heading_rad;
   F turn_rad, turn_before_rad;
+  F shift_m, shift_before_m, shift_next_m;  // of the stance foothold, of the one before and of the next
 };
 
 }  // namespace mobil

@@ -33,12 +33,6 @@ struct OneShape {
   HWY_INLINE Wide operator()(const ShapePart& p, std::size_t i) const { return load(numbers[p.first + i]); }
 };
 
-/// From 0 at 0 to 1 at 1, twice continuously differentiable.
-HWY_INLINE Wide smooth(const Wide& u) {
-  const Wide v = clamp(u, 0.0F, 1.0F);
-  return v * v * v * fma(v, fma(v, wide(6.0F), wide(-15.0F)), wide(10.0F));
-}
-
 /// cos and sin of k π p, p the phase of the step.
 struct StepWaves {
   Wide cosine[9], sine[9];
@@ -118,7 +112,7 @@ struct Moving {
 };
 
 /// Pitch of the toes, heel up, of a foot whose heel has risen by `heel_up`, with its derivatives by that.
-HWY_NOINLINE inline Moving toe_pitch(const Wide& heel_up) {
+HWY_INLINE Moving toe_pitch(const Wide& heel_up) {
   constexpr float w2 = toe_rocker::within * toe_rocker::within, part = toe_rocker::part;
   const Wide d = max(heel_up - toe_rocker::from, 0.0F), d2 = d * d, r = 1.0F / (d2 + w2);
   return {part * d * d2 * r, part * d2 * (d2 + 3.0F * w2) * r * r,
@@ -132,7 +126,8 @@ struct PlantedAnkle {
   Wide toes;  // how far they are bent upward
 };
 
-HWY_NOINLINE inline PlantedAnkle planted_ankle(const Wide& height, const Wide& pitch) {
+/// Inlined, so that who takes the places alone does not pay for the derivatives.
+HWY_INLINE PlantedAnkle planted_ankle(const Wide& height, const Wide& pitch) {
   namespace f = fraction;
   constexpr auto back = static_cast<float>(f::heel_back), ball = static_cast<float>(f::ball_forward);
   constexpr auto rim = static_cast<float>(f::heel_radius), toes = static_cast<float>(f::toes_length);

@@ -83,4 +83,17 @@ TabledStep tabled_step(float at, float step_length) {
   return out;
 }
 
+void add_styles(float at, std::span<const float, style_effects.size()> amounts, TabledShape& shape) {
+  const auto first = static_cast<float>(speed.front()), last = static_cast<float>(speed.back());
+  const float place = std::clamp((at - first) / (last - first), 0.0F, 1.0F) * static_cast<float>(speed_count - 1);
+  const std::size_t node = std::min(static_cast<std::size_t>(place), speed_count - 2);
+  const float part = place - static_cast<float>(node), walks = std::clamp(at / first, 0.0F, 1.0F);
+  for (std::size_t e = 0; e < amounts.size(); ++e) {
+    if (amounts[e] == 0.0F) continue;
+    const float slower = walks * (1 - part) * amounts[e], faster = walks * part * amounts[e];
+    const TabledShape &a = step_styles[node][e], &b = step_styles[node + 1][e];
+    for (std::size_t i = 0; i < step_shape::size; ++i) shape[i] += slower * a[i] + faster * b[i];
+  }
+}
+
 }  // namespace mobil

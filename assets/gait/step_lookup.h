@@ -1,7 +1,9 @@
 #pragma once
 // The table of steps at any speed and step length.
 
-#include "assets/gait/step_table.h"
+#include <span>
+
+#include "assets/gait/step_styles.h"
 
 namespace mobil {
 
@@ -15,6 +17,10 @@ struct TabledStep {
 /// of Catmull and Rom in speed and straight in step length over the usual one. Below the slowest node straight on to
 /// standing at 0; beyond the fastest, and beyond the table's step lengths, its ends.
 TabledStep tabled_step(float speed, float length);
+
+/// Adds to a shape what the manner of a walk changes at that speed: so many units of each effect of step_styles.h,
+/// straight between nodes.
+void add_styles(float speed, std::span<const float, style_effects.size()> amounts, TabledShape& shape);
 
 /// What is usual at a speed; tabled_step's.
 StepGiven usual_step(float speed);

@@ -10,6 +10,7 @@
 #include "assets/files/output_file.h"
 #include "demo/gait_fit/step_grid.h"
 #include "demo/gait_fit/step_quality.h"
+#include "demo/gait_fit/step_styles.h"
 #include "demo/program/commands.h"
 
 namespace mobil {
@@ -19,8 +20,17 @@ using namespace step_table;
 
 struct FitText {
   std::string out = "step_table.cpp";
+  bool styles = false;
   std::size_t threads = 0;
 };
+
+void append(const TabledShape& shape, int digits, std::string& text) {
+  const auto out = std::back_inserter(text);
+  text += "    {";
+  for (std::size_t i = 0; i < shape.size(); ++i)
+    fmt::format_to(out, "{}{:#.{}g}F,", i % 16 == 0 ? "\n      " : " ", shape[i], digits);
+  text += "\n    },\n";
+}
 
 std::string source(const std::vector<StepNode>& nodes) {
   std::string text =
@@ -39,11 +49,37 @@ std::string source(const std::vector<StepNode>& nodes) {
   for (std::size_t s = 0; s < speed_count; ++s) {
     text += "  {{\n";
     for (std::size_t l = 0; l < length_count; ++l) {
-      const TabledShape shape = tabled(nodes[s * length_count + l].shape);
-      fmt::format_to(out, "    // speed {:g}, length {:g}\n    {{", speed[s], length[l]);
-      for (std::size_t i = 0; i < shape.size(); ++i)
-        fmt::format_to(out, "{}{:#.6g}F,", i % 16 == 0 ? "\n      " : " ", shape[i]);
-      text += "\n    },\n";
+      fmt::format_to(out, "    // speed {:g}, length {:g}\n", speed[s], length[l]);
+      append(tabled(nodes[s * length_count + l].shape), 6, text);
+    }
+    text += "  }},\n";
+  }
+  return text + "}};\n// clang-format on\n\n}  // namespace mobil\n";
+}
+
+/// Every usual node of the table that this program has.
+std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
+  std::vector<StyleChanges> changes(speed_count);
+  in_parallel(jobs, speed_count, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t s = begin; s < end; ++s) {
+      StepNode node = step_node(reference, 0, s, usual);
+      node.shape = fitted(step_shapes[s][usual]);
+      changes[s] = style_changes(node);
+      fmt::print(stderr, "speed {:g}\n", speed[s]);
+    }
+  });
+  std::string text =
+      "// Written by `mobil fit-gait --styles --out assets/gait/step_styles.cpp` from step_table.cpp: README.md. Do "
+      "not "
+      "edit.\n\n"
+      "#include \"assets/gait/step_styles.h\"\n\nnamespace mobil {\n\n// clang-format off\n"
+      "const std::array<std::array<TabledShape, style_effects.size()>, step_table::speed_count> step_styles = {{\n";
+  const auto out = std::back_inserter(text);
+  for (std::size_t s = 0; s < speed_count; ++s) {
+    text += "  {{\n";
+    for (std::size_t k = 0; k < changes[s].size(); ++k) {
+      fmt::format_to(out, "    // speed {:g}, {}\n", speed[s], style_effects[k].what);
+      append(tabled(changes[s][k]), 4, text);
     }
     text += "  }},\n";
   }
@@ -73,6 +109,7 @@ Result<void> run_fit(const FitText& text) {
   const auto reference = read_gait_reference({});
   if (!reference) return tl::unexpected(reference.error());
   const Threads threads(static_cast<int>(text.threads));
+  if (text.styles) return write_file(text.out, styles_source(*reference, threads.jobs()));
   const auto nodes = fit_grid(*reference, 0, threads.jobs(), [](const char* stage, double cost) {
     fmt::print(stderr, "{}: sum of squares {:.2f}\n", stage, cost);
   });
@@ -90,8 +127,10 @@ Subcommand gait_fit_command() {
   command.footer =
       "For those who change the library: some minutes. Prints how near each step is to what it was fitted to.\n"
       "Example: mobil fit-gait --out assets/gait/step_table.cpp";
-  add_options(command, {{"--out", &text->out, "Source file to write"},
-                        {"--threads", &text->threads, "0: as many as the machine has"}});
+  add_options(command,
+              {{"--out", &text->out, "Source file to write"},
+               {"--styles", &text->styles, "Write how this program's table changes with the manner of a walk instead"},
+               {"--threads", &text->threads, "0: as many as the machine has"}});
   command.run = [text] {
     const auto done = run_fit(*text);
     return done ? 0 : complain("fit-gait", done.error().message);

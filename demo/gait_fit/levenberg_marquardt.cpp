@@ -17,6 +17,22 @@ double squares(const std::vector<double>& r) {
   return sum;
 }
 
+/// Derivatives of the residuals by the unknowns over their scale; `now` becomes the residuals themselves.
+Eigen::MatrixXd derivatives(const Residuals& residuals, std::span<const double> scale, std::span<const double> unknown,
+                            std::vector<double>& now) {
+  std::vector<double> there, tried(unknown.begin(), unknown.end());
+  residuals(unknown, now);
+  Eigen::MatrixXd jacobian(static_cast<Eigen::Index>(now.size()), static_cast<Eigen::Index>(unknown.size()));
+  for (std::size_t k = 0; k < unknown.size(); ++k) {
+    tried[k] += difference * scale[k];
+    residuals(tried, there);
+    tried[k] = unknown[k];
+    for (std::size_t i = 0; i < now.size(); ++i)
+      jacobian(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) = (there[i] - now[i]) / difference;
+  }
+  return jacobian;
+}
+
 }  // namespace
 
 double least_squares(const Residuals& residuals, std::span<const double> scale, const LeastSquares& options,
@@ -24,22 +40,13 @@ double least_squares(const Residuals& residuals, std::span<const double> scale, 
   const auto n = static_cast<Eigen::Index>(unknown.size());
   std::vector<double> now, there, tried(unknown.begin(), unknown.end());
   residuals(unknown, now);
-  const auto m = static_cast<Eigen::Index>(now.size());
-  Eigen::MatrixXd jacobian(m, n);
   double sum = squares(now), damping = 1e-2;
   for (int step = 0; step < options.most_steps; ++step) {
-    for (Eigen::Index j = 0; j < n; ++j) {
-      const auto k = static_cast<std::size_t>(j);
-      std::copy(unknown.begin(), unknown.end(), tried.begin());
-      tried[k] += difference * scale[k];
-      residuals(tried, there);
-      for (Eigen::Index i = 0; i < m; ++i)
-        jacobian(i, j) = (there[static_cast<std::size_t>(i)] - now[static_cast<std::size_t>(i)]) / difference;
-    }
+    const Eigen::MatrixXd jacobian = derivatives(residuals, scale, unknown, now);
     Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
     normal.selfadjointView<Eigen::Lower>().rankUpdate(jacobian.transpose());
     normal = normal.selfadjointView<Eigen::Lower>();
-    const Eigen::VectorXd slope = jacobian.transpose() * Eigen::Map<const Eigen::VectorXd>(now.data(), m);
+    const Eigen::VectorXd slope = jacobian.transpose() * Eigen::Map<const Eigen::VectorXd>(now.data(), jacobian.rows());
     const double least = 1e-3 * normal.trace() / static_cast<double>(n);
     double next = sum;
     for (int retry = 0; retry < most_retries; ++retry, damping *= 4) {

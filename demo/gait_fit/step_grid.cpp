@@ -13,6 +13,7 @@ namespace {
 using namespace step_table;
 
 constexpr double degree = std::numbers::pi / 180;
+constexpr double evenness = 0.15;  // how strongly nodes are drawn to their neighbours', per scale of each number
 
 double solve(const StepNode& node, const StepWeights& weights, int most_steps, StepShape& shape) {
   static constexpr StepShape scales = shape_scales();
@@ -31,6 +32,25 @@ double by_way_of_angles(const StepNode& node, StepShape& shape) {
   solve(node, {.angles = 1, .forces = 0.1, .moments = 0.03, .balance = 1}, 60, shape);
   solve(node, {.angles = 1, .forces = 0.5, .moments = 0.3, .balance = 8}, 60, shape);
   return solve(node, {}, 250, shape);
+}
+
+/// The mean of a node's neighbours on either side, in speed and in step length where it has both; its own shape where
+/// it has neither.
+StepShape between_neighbours(const std::vector<StepNode>& nodes, std::size_t i) {
+  const std::size_t s = i / length_count, l = i % length_count;
+  StepShape sum{};
+  double count = 0;
+  const auto add = [&](std::size_t low, std::size_t high) {
+    for (const std::size_t other : {low, high}) {
+      for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += nodes[other].shape[k];
+      ++count;
+    }
+  };
+  if (s > 0 && s + 1 < speed_count) add(i - length_count, i + length_count);
+  if (l > 0 && l + 1 < length_count) add(i - 1, i + 1);
+  if (count == 0) return nodes[i].shape;
+  for (double& number : sum) number /= count;
+  return sum;
 }
 
 }  // namespace
@@ -63,7 +83,7 @@ StepNode step_node(const GaitReference& reference, std::size_t set, std::size_t 
   task.elbow_forward =
       task.elbow_back + swinging * static_cast<double>(style.elbow_forward_deg - style.elbow_back_deg) * degree;
   node.targets.rise.mean_m *= times * times;  // as of a leg of fixed length
-  node.shape = first_shape(task);
+  node.shape = node.targets.likely = first_shape(task);
   return node;
 }
 
@@ -118,6 +138,21 @@ std::vector<StepNode> fit_grid(const GaitReference& reference, std::size_t set, 
     stage("all from their neighbours", false, [](std::size_t, std::size_t) {
       return Others{{-1, 0}, {1, 0}, {0, -1}, {0, 1}};
     });
+  // Numbers that the aims leave free go evenly from node to node, so that steps between nodes are like them.
+  for (int times = 0; times < 4; ++times) {
+    const std::vector<StepNode> before = nodes;
+    in_parallel(jobs, nodes.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        StepNode& node = nodes[i];
+        node.targets.likely = between_neighbours(before, i);
+        node.targets.drawn = evenness;
+        node.cost = solve(node, {}, 100, node.shape);
+      }
+    });
+    double cost = 0;
+    for (const StepNode& node : nodes) cost += node.cost;
+    progress("even", cost);
+  }
   return nodes;
 }
 

@@ -459,6 +459,7 @@ StepShape first_shape(const StepTask& task) {
   set(step_shape::aside, {0, 0, -0.02 * k});
   set(step_shape::strike, {0.38 * std::min(1.0, task.step_length_m / (0.75 * k)), -0.3, -0.9});
   set(step_shape::rise, {0.6, 0.4});
+  set(step_shape::times, {0, -0.22});
   set(step_shape::pressure, {0, 0.08 * k});
   set(step_shape::share, {1.3});
   set(step_shape::swing_up, {0.05 * k});

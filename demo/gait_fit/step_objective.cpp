@@ -95,7 +95,6 @@ struct Aims {
   StepTask task;
   StepTargets targets;
   StepWeights weights;
-  StepShape first;
   std::array<double, 3> most_rate;  // of hip, knee and ankle, degrees a cycle
   double least_rise, most_rise;     // of the centre of mass, m
 
@@ -179,7 +178,11 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   all.curve(3000, [&](std::size_t i) { return below(c.pad_up[i], 0) + beyond(c.pad_up[i], 0.008); });
   all.curve(8000, [&](std::size_t i) { return beyond(std::abs(c.pad_forward[i]), 0.003); });
   static constexpr StepShape scale = shape_scales();
-  for (std::size_t k = 0; k < step_shape::size; ++k) all.one(0.02 * (shape[k] - first[k]) / scale[k]);
+  for (std::size_t k = 0; k < step_shape::size; ++k) all.one(targets.drawn * (shape[k] - targets.likely[k]) / scale[k]);
+  // Two ways of rolling lead to steps nearly as good, with heel rise early and with it late. All nodes take one of
+  // them: between steps of unlike ways there would be neither.
+  constexpr std::size_t heel_rise = step_shape::times.first + 1;
+  all.one((shape[heel_rise] - first_shape(task)[heel_rise]) / scale[heel_rise]);
 }
 
 }  // namespace
@@ -212,7 +215,7 @@ Samples samples_of(const StepCycle& cycle, GaitQuantity quantity) {
 StepTargets step_targets(const GaitReference& reference, std::size_t of, double speed, double leg_m) {
   const MeasuredSet& set = reference.sets[of];
   const auto weight = class_weights(set, speed);
-  StepTargets targets{speed, 0, 0, 0, 0, 0, excursion_at(reference, speed * std::sqrt(gravity * leg_m)), {}};
+  StepTargets targets{speed, 0, 0, 0, 0, 0, excursion_at(reference, speed * std::sqrt(gravity * leg_m)), {}, {}};
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     targets.step_length += weight[c] * set.step_length[c];
     targets.double_support += weight[c] * set.double_support[c];
@@ -235,7 +238,6 @@ Residuals step_residuals(const StepTask& task, const StepTargets& targets, const
   auto aims = std::make_shared<Aims>(Aims{task,
                                           targets,
                                           weights,
-                                          first_shape(task),
                                           {},
                                           targets.rise.mean_m - targets.rise.sd_m + rise_margin,
                                           targets.rise.mean_m + targets.rise.sd_m - rise_margin});

@@ -20,6 +20,8 @@ struct StepTargets {
   double pelvis_tilt, pelvis_rotation, pelvis_list;  // rad: mean, and how far to each side
   ExcursionNorm rise;                                // of the centre of mass
   std::array<Target, gait_quantity_count> curve;     // by GaitQuantity
+  StepShape likely;                                  // what the numbers of the shape are drawn to
+  double drawn = 0.02;                               // how strongly, per their scale
 };
 
 /// Of a set at a speed between its slowest and its fastest, by cubic interpolation between classes; beyond, at its

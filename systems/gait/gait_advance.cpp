@@ -9,13 +9,38 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 constexpr float pi_f = 3.14159265F;
-constexpr float most_turn = 20.0F * pi_f / 180.0F;  // a step
+constexpr float most_turn = 30.0F * pi_f / 180.0F;  // a step
+/// Sideways, m/s²: the most, and by how much more or less from one step to the next, which soles can make up for.
+constexpr float most_sideways = 1.1F, most_change = 0.6F;
+constexpr float centre_over_gravity = 0.56F / 9.81F;  // height of the centre of mass, of the height; s²/m
+/// What of the way that the balance asks for feet are put outward, soles do the rest; how near a foot may come to the
+/// other's line when it is put to the inside, of the distance in a straight walk; how far it may go to the outside, of
+/// the height.
+constexpr float by_feet = 0.85F, nearest = 0.4F, farthest = 0.08F;
 
-/// How much of the way to the wanted heading the line turns along a step of this length.
-HWY_INLINE Wide next_turn(const Wide& heading, const Wide& wanted, const Wide& step_length) {
-  const Wide off = wanted - heading;
-  const Wide way = off - (2.0F * pi_f) * floor(off * (0.5F / pi_f) + 0.5F);
-  return select(step_length > 0.0F, clamp(way, -most_turn, most_turn), wide(0.0F));
+/// How much of the way to the wanted heading the line turns along a step: not more than the step after it can undo.
+HWY_INLINE Wide next_turn(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                          const Wide& wanted) {
+  const Wide off = wanted - load(state.heading_rad), before = load(state.turn_before_rad);
+  const Wide way = off - (2.0F * pi_f) * floor(off * (0.5F / pi_f) + 0.5F), far = abs(way);
+  const Wide per_sideways = load(plan.duration_s) / max(load(plan.to.speed_m_s), 0.1F);
+  const Wide most = min(most_sideways * per_sideways, most_turn), change = most_change * per_sideways;
+  const Wide wished = copy_sign(min(select(far <= change, far, 0.5F * (far + change)), most), way);
+  const Wide turn = min(max(wished, before - change), before + change);
+  return select(load(plan.step_length_m) > 0.0F, min(max(turn, -most), most), wide(0.0F));
+}
+
+/// Where the next foot is put beside its place on the line, to the left.
+HWY_INLINE Wide next_shift(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                           const GaitState<Lanes<float>>& state, const Wide& turn) {
+  const Wide height = load(size.height_m);
+  const Wide inward = load(plan.to.speed_m_s) * turn / load(plan.duration_s);
+  const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m);
+  const Wide lands_left = select(equal(state.stance_side, right), wide(1.0F), wide(-1.0F));
+  // Seen outward from the stance foot to the one that lands.
+  const Wide outward = lands_left * (-by_feet * centre_over_gravity * height * inward - load(state.shift_m));
+  const Wide kept = min(max(outward, (nearest - 1.0F) * apart), farthest * height);
+  return fma(lands_left, kept, load(state.shift_m));
 }
 
 void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
@@ -38,8 +63,12 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
   store(select(done, turn, before), state.turn_before_rad);
   store(select(done, zero, turn), state.turn_rad);
 
+  const WideMask lands = done & walked;
+  const Wide shift = load(state.shift_m);
+  store(select(lands, shift, load(state.shift_before_m)), state.shift_before_m);
+  store(select(lands, load(state.shift_next_m), shift), state.shift_m);
   Lanes<float> steps;
-  store(select(done & walked, one, zero), steps);
+  store(select(lands, one, zero), steps);
   for (std::size_t l = 0; l < lane_count; ++l) {
     const auto n = static_cast<std::uint32_t>(steps[l]);
     state.steps[l] += n;
@@ -59,11 +88,14 @@ std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
   return bits;
 }
 
-void turn_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state,
-                float tick_s) {
+void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state, float tick_s) {
   const WideMask begun = load(state.time_s) < tick_s;
-  const Wide turn = next_turn(load(state.heading_rad), load(wanted.heading_rad), load(plan.step_length_m));
+  const Wide turn = next_turn(plan, state, load(wanted.heading_rad));
   store(select(begun, turn, load(state.turn_rad)), state.turn_rad);
+  const WideMask walks = (load(plan.step_length_m) + load(plan.length_before_m)) > 0.0F;
+  const Wide shift = select(walks, next_shift(size, plan, state, turn), load(state.shift_before_m));
+  store(select(begun, shift, load(state.shift_next_m)), state.shift_next_m);
 }
 
 }  // namespace mobil::HWY_NAMESPACE
@@ -85,9 +117,9 @@ std::uint32_t lanes_to_plan(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
   return HWY_DYNAMIC_DISPATCH(to_plan_block)(plan, wanted, state, tick_s);
 }
 
-void turn_gait(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state,
-               float tick_s) {
-  HWY_DYNAMIC_DISPATCH(turn_block)(plan, wanted, state, tick_s);
+void turn_gait(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
+               GaitState<Lanes<float>>& state, float tick_s) {
+  HWY_DYNAMIC_DISPATCH(turn_block)(size, plan, wanted, state, tick_s);
 }
 
 }  // namespace mobil

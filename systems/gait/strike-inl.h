@@ -8,6 +8,8 @@
 #endif
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 
 #include "assets/body/anthropometry.h"
 #include "assets/gait/step_lookup.h"
@@ -45,9 +47,48 @@ HWY_NOINLINE inline Wide sunk(const Wide& height, const Wide& mass, const GaitSt
   return stand * (load(style.mid_stance_height) - 1.0F - select(excess > 0.0F, sag, 0.1F * sag));
 }
 
+/// By style_effects; and the greatest of them, to pass over who walks as usual.
+struct StyleAmounts {
+  Lanes<float> of[style_effects.size()];
+  Lanes<float> most;
+};
+
+/// How a walk's manner differs from the usual one, in the units of style_effects and in their order.
+HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitStyleOf<Lanes<float>>& style) {
+  constexpr GaitStyle usual;
+  // A leg that is damped more bends less under its load: how far a spring of that damping (of critical) overshoots, by
+  // a parabola through 0.2, 0.4 and 1, of what it does at 0.4.
+  const Wide damping = load(style.leg_damping) - usual.leg_damping;
+  const Wide amounts[] = {
+      load(style.strike_pitch_deg) - usual.strike_pitch_deg,
+      load(style.strike_knee_deg) - usual.strike_knee_deg,
+      load(style.stance_knee_deg) - usual.stance_knee_deg,
+      load(style.toe_off_knee_deg) - usual.toe_off_knee_deg,
+      load(style.knee_release_cycle) - usual.knee_release_cycle,
+      load(style.swing_knee_deg) - usual.swing_knee_deg,
+      load(style.swing_ankle_deg) - usual.swing_ankle_deg,
+      (load(style.toe_clearance_m) - usual.toe_clearance_m) * (1.75F / height),
+      load(style.foot_pivot_h) - usual.foot_pivot_h,
+      load(style.hip_fall) - usual.hip_fall,
+      damping * fma(wide(0.94F), damping, wide(-0.90F)),
+      load(style.roll_over) - usual.roll_over,
+      load(style.trunk_lean_deg) - usual.trunk_lean_deg,
+      usual.trunk_stiffness / load(style.trunk_stiffness) - 1.0F,
+  };
+  static_assert(std::size(amounts) == style_effects.size());
+  StyleAmounts out;
+  Wide most = wide(0.0F);
+  for (std::size_t k = 0; k < style_effects.size(); ++k) {
+    store(amounts[k], out.of[k]);
+    most = max(most, abs(amounts[k]));
+  }
+  store(most, out.most);
+  return out;
+}
+
 /// The table's step of each lane, in the body's own lengths; zero where the lane stands. `length`: of the step that
 /// ends here, also where it is not the mean of both sides.
-HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wide& length,
+HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wide& length, const StyleAmounts& amounts,
                                  Strike<Lanes<float>>& strike) {
   const Wide leg = ratio(fraction::hip_height, height);
   Lanes<float> tall, fast, far;
@@ -55,7 +96,12 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
   store(speed / sqrt(gravity_f * leg), fast);
   store(length / leg, far);
   for (std::size_t l = 0; l < lane_count; ++l) {
-    const TabledStep step = tabled_step(fast[l], far[l]);
+    TabledStep step = tabled_step(fast[l], far[l]);
+    if (amounts.most[l] > 0) {
+      std::array<float, style_effects.size()> by;
+      for (std::size_t k = 0; k < by.size(); ++k) by[k] = amounts.of[k][l];
+      add_styles(fast[l], by, step.shape);
+    }
     strike.double_support[l] = static_cast<float>(step.usual.double_support);
     const float longer = std::clamp(far[l] / static_cast<float>(step.usual.step_length), 0.5F, 1.5F);
     strike.manner.pelvis_rotation[l] = longer * static_cast<float>(step.usual.pelvis_rotation);
@@ -81,7 +127,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   auto walking = [&](const Wide& value) { return select(stands, wide(0.0F), value); };
   const Wide step = select(stands, wide(1.0F), r.step_length);  // no division by zero
   const Wide stride = min(r.step_length / ratio(natural_step_h, r.height), 1.25F);
-  look_up(r.height, r.speed, select(stands, wide(1.0F), r.length), strike);
+  look_up(r.height, r.speed, select(stands, wide(1.0F), r.length), style_amounts(r.height, style), strike);
   store(r.speed, strike.speed_m_s);
   store(walking(r.length), strike.length_m);
   store(walking(r.speed / step), strike.pace_hz);
@@ -98,16 +144,19 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
       store(load(strike.shape[i]) * by, strike.shape[i]);
   };
   auto beyond = [](const Lanes<float>& value, float than) { return load(value) - than; };
-  times(step_shape::strike, load(style.strike_pitch_deg) * (1.0F / usual.strike_pitch_deg));
   more(step_shape::times, 0, walking(beyond(style.foot_flat_cycle, usual.foot_flat_cycle)));
-  more(step_shape::swing_pitch, 0, walking(beyond(style.swing_ankle_deg, usual.swing_ankle_deg) * degree_f));
-  more(step_shape::swing_up, 0,
-       walking(beyond(style.toe_clearance_m, usual.toe_clearance_m) +
-               beyond(style.swing_knee_deg, usual.swing_knee_deg) * degree_f * 0.12F * r.height));
+  // A foot lands heel first, foot flat comes after heel strike and toe-off after heel rise, however manners add up.
+  auto within = [&](const ShapePart& part, std::size_t i, float low, float high) {
+    Lanes<float>& number = strike.shape[part.first + i];
+    store(clamp(load(number), low, high), number);
+  };
+  within(step_shape::strike, 0, 0, 0.7F);
+  within(step_shape::times, 0, -0.05F, 0.08F);
+  within(step_shape::times, 1, -0.27F, 0.15F);
   const Wide sink = sunk(r.height, r.mass, style), lean = load(style.trunk_lean_deg) * degree_f;
   more(step_shape::hips_up, 0,
        select(stands, sink, sink - (usual.mid_stance_height - 1.0F) * ratio(fraction::hip_height, r.height)));
-  more(step_shape::trunk, 0, select(stands, lean, lean - usual.trunk_lean_deg * degree_f));
+  more(step_shape::trunk, 0, select(stands, lean, wide(0.0F)));
   times(step_shape::aside, load(style.step_width_h) * (1.0F / usual.step_width_h) +
                                beyond(style.pelvis_shift_h, usual.pelvis_shift_h) * (1.0F / usual.pelvis_shift_h));
 

@@ -68,6 +68,7 @@ struct Line {
   Wide before, ahead;  // chords' headings: half the turns
   Wide before_s, before_c, ahead_s, ahead_c;
   Wide length_before, length;
+  Wide shift_before, shift, shift_next;  // of footholds, to the left
 };
 
 HWY_INLINE Line line_of(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state) {
@@ -78,6 +79,9 @@ HWY_INLINE Line line_of(const StepPlan<Lanes<float>>& plan, const GaitState<Lane
   sin_cos(line.ahead, line.ahead_s, line.ahead_c);
   line.length_before = load(plan.length_before_m);
   line.length = load(plan.step_length_m);
+  line.shift_before = load(state.shift_before_m);
+  line.shift = load(state.shift_m);
+  line.shift_next = load(state.shift_next_m);
   return line;
 }
 
@@ -94,26 +98,38 @@ HWY_INLINE Ground part_way(const Ground& a, const Ground& b, const Wide& part) {
   return {mix(a.left, b.left, part), mix(a.forward, b.forward, part)};
 }
 
-/// What the pelvis does now, seen from the right side.
+/// A place in the frame of the stance foothold, of one that is `left` of and `forward` along a line through it. The
+/// line is the arc to the foothold before mixed with that to the next one; both leave the foothold along the same
+/// tangent.
+HWY_INLINE Ground on_line(const Line& line, const Wide& left, const Wide& forward, const Wide& ahead) {
+  // From a chord to its arc: a parabola through both footholds.
+  constexpr float shortest = 0.05F;
+  const Wide back = (forward + line.length_before) / max(line.length_before, shortest);
+  const Wide on = (forward - line.length) / max(line.length, shortest);
+  return part_way(turned(fnma(line.before, forward * back, left), forward, line.before_s, line.before_c),
+                  turned(fma(line.ahead, forward * on, left), forward, line.ahead_s, line.ahead_c), ahead);
+}
+
+/// How much longer the outer leg would have to be at a strike in a turn, to a foothold that is shifted and, on the
+/// outer arc, further ahead: the pelvis sinks by it.
+HWY_INLINE Wide longer_leg(const Wide& length, const Wide& half_turn, const Wide& shift_before, const Wide& shift,
+                           const Wide& height) {
+  constexpr float leg = static_cast<float>(fraction::hip_height), aside = 0.022F;  // from hip to ankle, of the height
+  constexpr float out = 0.075F;  // foot and hip from the middle, of the height
+  const Wide far = max(abs(shift_before), abs(shift));
+  const Wide ahead = abs(half_turn) * fma(wide(out), height, far);
+  return fma(far, far + 2.0F * aside * height, ahead * (ahead + length)) / (2.0F * leg * height);
+}
+
+/// What the pelvis does now, seen from the right side; its turn and the hips' places from their middle, in its heading.
 struct PelvisMotion {
   Wide rotation, list, tilt;
-  HWY_INLINE WideQuat turn(const Wide& heading) const {
-    return turn_yzx(heading + rotation, -list, tilt);
-  }
+  WideQuat turn;
+  WideVec hip[2];
 };
 
 HWY_INLINE Wide manner(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
   return mix(load(from), load(to), part);
-}
-
-/// By its series, for |x| < 3.
-constexpr float cosine(double x) {
-  double term = 1, sum = 1;
-  for (int k = 1; k < 16; ++k) {
-    term *= -x * x / ((2 * k - 1) * (2 * k));
-    sum += term;
-  }
-  return static_cast<float>(sum);
 }
 
 /// cos K π (p − at/1000) from the waves of p.
@@ -125,7 +141,7 @@ HWY_INLINE Wide wave(const StepWaves& w) {
 }
 
 HWY_NOINLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased,
-                                        const Wide& sign) {
+                                        const Wide& sign, const Wide& height) {
   namespace p = pelvis_phase;
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
   PelvisMotion m;
@@ -134,6 +150,10 @@ HWY_NOINLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, cons
            (p::list_first * wave<1, p::list_first_1000>(w) + p::list_third * wave<3, p::list_third_1000>(w));
   m.tilt = fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, p::tilt_1000>(w),
                manner(from.pelvis_tilt, to.pelvis_tilt, eased));
+  m.turn = turn_yzx(m.rotation, -m.list, m.tilt);
+  for (std::size_t side = 0; side < 2; ++side)
+    m.hip[side] =
+        rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
   return m;
 }
 
@@ -148,15 +168,15 @@ HWY_INLINE Foothold foothold(const Line& line, const FootMotion& foot, const Wid
   // Planted before: the frame of the foothold before. Landing: that of the next. In the air: between the two.
   Wide before_s = 2.0F * line.before_s * line.before_c, before_c = 1.0F - 2.0F * line.before_s * line.before_s;
   Wide ahead_s = 2.0F * line.ahead_s * line.ahead_c, ahead_c = 1.0F - 2.0F * line.ahead_s * line.ahead_s;
-  Ground from = turned(left, along, before_s, before_c),
-         to = turned(left, along - line.length_before - line.length, ahead_s, ahead_c);
+  Ground from = turned(left + line.shift_before, along, before_s, before_c),
+         to = turned(left + line.shift_next, along - line.length_before - line.length, ahead_s, ahead_c);
   from.left = fnma(line.length_before, line.before_s, from.left);
   from.forward = fnma(line.length_before, line.before_c, from.forward);
   to.left = fma(line.length, line.ahead_s, to.left);
   to.forward = fma(line.length, line.ahead_c, to.forward);
   const Ground other = part_way(from, to, foot.swung);
   Foothold f;
-  f.ankle = {select(stands, left, other.left), select(stands, along, other.forward)};
+  f.ankle = {select(stands, left + line.shift, other.left), select(stands, along, other.forward)};
   f.heading = select(stands, wide(0.0F), mix(2.0F * line.before, 2.0F * line.ahead, foot.swung));
   return f;
 }
@@ -167,23 +187,23 @@ struct PelvisPlace {
   Wide heading, sine, cosine;
 };
 
+/// The stance foothold in the world.
+struct Origin {
+  WideVec position;
+  Wide heading, sine, cosine;
+};
+
 /// The lower of two, rounded off where they are within `width`: C¹, never above either.
 HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
   const Wide part = clamp(0.5F + 0.5F * (b - a) / width, 0.0F, 1.0F);
   return mix(b, a, part) - width * part * (1.0F - part);
 }
 
-/// Where a hip is from the middle of both, in the pelvis' heading.
-HWY_INLINE WideVec hip_of(const PelvisMotion& motion, std::size_t side, const Wide& height) {
-  return rotate(motion.turn(wide(0.0F)),
-                scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
-}
-
 /// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, and less the nearer it is to the
 /// ground it left or comes to.
 HWY_NOINLINE void draw_in(FootMotion& foot, Foothold& at, const PelvisPlace& root, const PelvisMotion& motion,
                           std::size_t side, const Wide& height) {
-  const WideVec hip = hip_of(motion, side, height);
+  const WideVec& hip = motion.hip[side];
   const Wide hip_left = root.position.x + fma(hip.x, root.cosine, hip.z * root.sine);
   const Wide hip_ahead = root.position.z + fnma(hip.x, root.sine, hip.z * root.cosine);
   const Wide dx = at.ankle.left - hip_left, dz = at.ankle.forward - hip_ahead;
@@ -202,7 +222,7 @@ HWY_NOINLINE void draw_in(FootMotion& foot, Foothold& at, const PelvisPlace& roo
 /// Height of the middle of the hips at which a leg is as straight as a knee becomes.
 HWY_NOINLINE Wide highest_hips(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
                                const PelvisMotion& motion, std::size_t side, const Wide& height) {
-  const WideVec hip = hip_of(motion, side, height);
+  const WideVec& hip = motion.hip[side];
   const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
   const Wide x = fnma(dz, root.sine, dx * root.cosine) - hip.x, z = fma(dx, root.sine, dz * root.cosine) - hip.z;
   constexpr float straightest = static_cast<float>(fraction::thigh + fraction::shank) * 0.9999F;  // 1.6 degrees
@@ -212,9 +232,8 @@ HWY_NOINLINE Wide highest_hips(const FootMotion& foot, const Foothold& at, const
 
 /// Thigh, kneecap, shank, foot and toes of one side; returns the forward angle of the line from hip to ankle.
 HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
-                           const PelvisMotion& motion, const WideVec& origin, const Wide& origin_heading,
-                           std::size_t side, const Skeleton& skeleton, JointAngles<Lanes<float>>& angles,
-                           Feet<Lanes<float>>& feet) {
+                           const PelvisMotion& motion, const Origin& origin, const WideQuat& facing, std::size_t side,
+                           const Skeleton& skeleton, JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet) {
   using enum Segment;
   const Segment thigh = on_side(thigh_right, side), patella = on_side(patella_right, side);
   const Segment shank = on_side(shank_right, side), foot_segment = on_side(foot_right, side);
@@ -225,7 +244,7 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
 
   // In the frame of the stance foothold, then turned into the pelvis's heading: small numbers, so that the knee keeps
   // its digits however far somebody walks.
-  const WideVec hip = hip_of(motion, side, height);
+  const WideVec& hip = motion.hip[side];
   const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
   const WideVec d = {fnma(dz, root.sine, dx * root.cosine) - hip.x, foot.ankle_up - root.position.y - hip.y,
                      fma(dx, root.sine, dz * root.cosine) - hip.z};
@@ -241,7 +260,7 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
   const Wide shank_angle = direction - atan2(bulge, distance - near);
   const Wide flexion = thigh_angle - shank_angle;
 
-  const WideQuat tilted = turn_y(origin_heading + root.heading) * turn_z(aside);
+  const WideQuat tilted = facing * turn_z(aside);
   skeleton.hang(thigh, tilted * turn_x(-thigh_angle));
   skeleton.hang(shank, tilted * turn_x(-shank_angle));
   // The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
@@ -254,13 +273,11 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
       skeleton.position(shank) + rotate(on_the_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height)),
       on_the_way);
 
-  const Wide yaw = origin_heading + at.heading + foot.toe_out * (side == left ? 1.0F : -1.0F);
+  const Wide yaw = origin.heading + at.heading + foot.toe_out * (side == left ? 1.0F : -1.0F);
   const WideQuat outward = turn_y(yaw);
-  Wide s, c;
-  sin_cos(origin_heading, s, c);
-  const Ground ankle = turned(at.ankle.left, at.ankle.forward, s, c);
+  const Ground ankle = turned(at.ankle.left, at.ankle.forward, origin.sine, origin.cosine);
   const WideQuat sole = outward * turn_x(-foot.pitch), toe_rotation = outward * turn_x(-(foot.pitch + foot.toes));
-  const WideVec ankle_at = origin + WideVec{ankle.left, foot.ankle_up, ankle.forward};
+  const WideVec ankle_at = origin.position + WideVec{ankle.left, foot.ankle_up, ankle.forward};
   skeleton.put(foot_segment, ankle_at, sole);
   skeleton.hang(toes, toe_rotation);
 
@@ -278,13 +295,13 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
 
 /// The column from the sacrum to the head, each vertebra turned a little on the one below: the pelvis's turn is undone
 /// and, up to the shoulders, reversed; from there to the head, which stays in the walking plane, undone again.
-HWY_NOINLINE void pose_column(const Wide& heading, const Wide& turned_back, const Wide& lean,
+HWY_NOINLINE void pose_column(const WideQuat& facing, const Wide& turned_back, const Wide& lean,
                               const Skeleton& skeleton) {
   constexpr std::size_t first = index(Segment::L5), shoulders = index(Segment::T1), head = index(Segment::head);
   // The sacrum's plate faces up in somebody who stands, whose pelvis laboratories find tilted.
-  const WideQuat base = skeleton.rotation(Segment::pelvis) * turn_x(wide(-static_cast<float>(neutral_tilt)));
-  const WideQuat upright = turn_y(heading);
-  const WideQuat chest = turn_y(heading + turned_back) * turn_x(lean);
+  constexpr HalfAngle level = half_of(-neutral_tilt);
+  const WideQuat base = skeleton.rotation(Segment::pelvis) * turn_x(level);
+  const WideQuat chest = facing * (turn_y(turned_back) * turn_x(lean));
   for (std::size_t s = first; s <= shoulders; ++s) {
     constexpr ColumnParts parts = column_parts();
     const auto part = static_cast<float>(parts[s - first]);
@@ -298,7 +315,7 @@ HWY_NOINLINE void pose_column(const Wide& heading, const Wide& turned_back, cons
   }
   for (std::size_t s = shoulders + 1; s <= head; ++s) {
     const float part = static_cast<float>(s - shoulders) / static_cast<float>(head - shoulders);
-    skeleton.hang(static_cast<Segment>(s), part_way(chest, upright, wide(part)));
+    skeleton.hang(static_cast<Segment>(s), part_way(chest, facing, wide(part)));
   }
 }
 
@@ -324,10 +341,11 @@ HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::
   skeleton.hang(of(upper_arm_right), arm);
   const WideQuat forearm = arm * (turn_x(-elbow) * turn_y(0.7F * pronation));
   skeleton.hang(of(forearm_right), forearm);
-  const WideQuat hand = forearm * turn_x(wide(-0.10F));
+  constexpr HalfAngle wrist = half_of(-0.10), thumb = half_of(-0.35);
+  const WideQuat hand = forearm * turn_x(wrist);
   skeleton.hang(of(hand_right), hand);
   skeleton.hang(of(fingers_right), hand * turn_x(-arm_manner.fingers));
-  skeleton.hang(of(thumb_right), hand * (turn_z(wide(0.45F * out)) * turn_x(wide(-0.35F))));
+  skeleton.hang(of(thumb_right), hand * (turn_z(wide(0.45F * out)) * turn_x(thumb)));
   store(shoulder, angles.shoulder_flexion[side]);
   store(elbow, angles.elbow_flexion[side]);
 }
@@ -353,18 +371,20 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Wide u = time / load(plan.duration_s), eased = smooth(u), phase = step_phase(plan, u);
   const StepWaves waves = step_waves(phase);
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
-  const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one));
+  const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one), skeleton.height);
   const Line line = line_of(plan, state);
 
   PelvisPlace pelvis;
   const HipsPlace hips = hips_place(plan, of, u, phase, waves);
   const Wide aside = select(right_stands, hips.aside, -hips.aside);
-  const Ground place = part_way(turned(aside, hips.forward, line.before_s, line.before_c),
-                                turned(aside, hips.forward, line.ahead_s, line.ahead_c), eased);
+  const Ground place = on_line(line, aside, hips.forward, eased);
   constexpr auto standing = static_cast<float>(fraction::hip_height);
-  pelvis.position = {place.left, fma(wide(standing), skeleton.height, harmonics(of, step_shape::hips_up, 4, waves)),
-                     place.forward};
-  pelvis.heading = mix(line.before, line.ahead, eased);
+  const Wide up = harmonics(of, step_shape::hips_up, 4, waves) -
+                  mix(longer_leg(line.length_before, line.before, line.shift_before, line.shift, skeleton.height),
+                      longer_leg(line.length, line.ahead, line.shift, line.shift_next, skeleton.height), eased);
+  pelvis.position = {place.left, fma(wide(standing), skeleton.height, up), place.forward};
+  // At the rates of both turns at either strike.
+  pelvis.heading = (phase - 0.5F) * mix(-2.0F * line.before, 2.0F * line.ahead, eased);
   sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
   const FootMotion stance = stance_foot(plan, of, skeleton.height, phase);
@@ -384,23 +404,22 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   };
   pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(right), limit(left), rounding), rounding);
 
-  const Wide heading = load(state.heading_rad);
-  const WideVec origin = {load(state.line_x_m), zero, load(state.line_z_m)};
-  Wide s, c;
-  sin_cos(heading, s, c);
-  const Ground world = turned(place.left, place.forward, s, c);
-  skeleton.put(Segment::pelvis, origin + WideVec{world.left, pelvis.position.y, world.forward},
-               motion.turn(heading + pelvis.heading));
+  Origin origin = {{load(state.line_x_m), zero, load(state.line_z_m)}, load(state.heading_rad), zero, zero};
+  sin_cos(origin.heading, origin.sine, origin.cosine);
+  const Ground world = turned(place.left, place.forward, origin.sine, origin.cosine);
+  const WideQuat facing = turn_y(origin.heading + pelvis.heading);
+  skeleton.put(Segment::pelvis, origin.position + WideVec{world.left, pelvis.position.y, world.forward},
+               facing * motion.turn);
 
   Wide leg[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const WideMask stands = side == right ? right_stands : left_stands;
-    leg[side] = pose_leg(foot[side], at[side], pelvis, motion, origin, heading, side, skeleton, angles, feet);
+    leg[side] = pose_leg(foot[side], at[side], pelvis, motion, origin, facing, side, skeleton, angles, feet);
     store(0.5F * select(stands, u, u + 1.0F), feet.phase[side]);
   }
 
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
-  pose_column(heading + pelvis.heading, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation,
+  pose_column(facing, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation,
               harmonics(of, step_shape::trunk, 3, waves), skeleton);
   const ArmManner arms = {manner(from.arm_back, to.arm_back, eased),
                           manner(from.arm_forward, to.arm_forward, eased),

@@ -27,6 +27,27 @@ HWY_INLINE WideQuat turn_y(const Wide& angle) {
   return {wide(0.0F), s, wide(0.0F), c};
 }
 
+/// By its series, for |x| < 3.
+constexpr float cosine(double x) {
+  double term = 1, sum = 1;
+  for (int k = 1; k < 16; ++k) {
+    term *= -x * x / ((2 * k - 1) * (2 * k));
+    sum += term;
+  }
+  return static_cast<float>(sum);
+}
+
+/// Sine and cosine of half an angle that is known beforehand.
+struct HalfAngle {
+  float sine, cosine;
+};
+constexpr HalfAngle half_of(double angle) {
+  return {cosine(0.5 * angle - 0.5 * 3.14159265358979324), cosine(0.5 * angle)};
+}
+HWY_INLINE WideQuat turn_x(const HalfAngle& half) {
+  return {wide(half.sine), wide(0.0F), wide(0.0F), wide(half.cosine)};
+}
+
 /// Between two rotations that are less than a right angle apart, part of the way.
 MOBIL_WIDE_INLINE WideQuat part_way(const WideQuat& a, const WideQuat& b, const Wide& part) {
   const WideQuat m = {fma(part, b.x - a.x, a.x), fma(part, b.y - a.y, a.y), fma(part, b.z - a.z, a.z),

@@ -14,6 +14,8 @@ std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<f
   state.line_x_m -= plan.length_before_m * std::sin(state.heading_rad);
   state.line_z_m -= plan.length_before_m * std::cos(state.heading_rad);
   state.turn_rad = 0.0F;
+  state.shift_next_m = state.shift_m;
+  state.shift_m = state.shift_before_m;  // and the one before that is too long ago to matter
   return state;
 }
 

@@ -103,7 +103,9 @@ TEST(Kinematics, TheSkeletonHangsTogetherAndJointsKeepTheirRange) {
         unit = std::fmax(unit, std::fabs(1.0 - (q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w)));
         // The pelvis hangs on nothing, the column on a pelvis turned by its neutral tilt; the kneecap slides round the
         // knee.
-        if (s == 0 || s == index(Segment::L5) || s == index(Segment::patella_right) || s == index(Segment::patella_left)) continue;
+        if (s == 0 || s == index(Segment::L5) || s == index(Segment::patella_right) ||
+            s == index(Segment::patella_left))
+          continue;
         // A leg that would have to be longer than straight leaves its foot where it is planted.
         const bool straight = (s == index(Segment::foot_right) && w.angles.knee_flexion[right][l] < 0.01F) ||
                               (s == index(Segment::foot_left) && w.angles.knee_flexion[left][l] < 0.01F);
@@ -275,9 +277,11 @@ TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float time = now->plan.duration_s[l] * (static_cast<float>(t) + 0.5F) / 40.0F;
       const float x = dice.single(-2, 2), z = dice.single(-2, 2), heading = dice.single(-3, 3);
-      const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3);
-      put(GaitState<float>{time, right, 0, x, z, heading, turn, turn_before}, now->state, l);
-      put(GaitState<float>{time, left, 1, -x, z, -heading, -turn, -turn_before}, then->state, l);
+      const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3), shift = 0.2F * turn;
+      put(GaitState<float>{time, right, 0, x, z, heading, turn, turn_before, shift, -shift, 0.5F * shift}, now->state,
+          l);
+      put(GaitState<float>{time, left, 1, -x, z, -heading, -turn, -turn_before, -shift, shift, -0.5F * shift},
+          then->state, l);
     }
     now->place();
     then->place();
@@ -309,8 +313,9 @@ TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
       const auto side = static_cast<std::uint32_t>(t % 2);
       const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3);
       x[l] = dice.single(-20, 20), z[l] = dice.single(-20, 20), heading[l] = dice.single(-3, 3);
-      put(GaitState<float>{time, side, 0, 0, 0, 0, turn, turn_before}, ahead->state, l);
-      put(GaitState<float>{time, side, 0, x[l], z[l], heading[l], turn, turn_before}, turned->state, l);
+      put(GaitState<float>{time, side, 0, 0, 0, 0, turn, turn_before, 0.03F, 0.02F, 0.01F}, ahead->state, l);
+      put(GaitState<float>{time, side, 0, x[l], z[l], heading[l], turn, turn_before, 0.03F, 0.02F, 0.01F},
+          turned->state, l);
     }
     ahead->place();
     turned->place();
@@ -397,7 +402,7 @@ TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
   float high = 0, low = 9, aside_low = 9, aside_high = -9;
   for (int i = 0; i < 200; ++i) {
     const float lag = 2.0F * duration * static_cast<float>(i) / 200.0F;
-    put(GaitState<float>{std::fmod(lag, duration), i < 100 ? 0U : 1U, 0, 0, 0, 0, 0, 0}, w->state, 5);
+    put(GaitState<float>{std::fmod(lag, duration), i < 100 ? 0U : 1U, 0, 0, 0, 0, 0, 0, 0, 0, 0}, w->state, 5);
     w->place();
     const float degrees = 57.29578F;
     const float hip = w->angles.hip_flexion[right][5] * degrees, knee = w->angles.knee_flexion[right][5] * degrees;

@@ -99,7 +99,7 @@ struct Walkers {
   void tick(float tick_s) {
     advance_gait(plan, state, tick_s);
     if (const std::uint32_t lanes = lanes_to_plan(plan, gait, state, tick_s); lanes != 0) replan(lanes);
-    turn_gait(plan, gait, state, tick_s);
+    turn_gait(size, plan, gait, state, tick_s);
     place();
   }
   /// From the end of this step to the start of the next, all at once.
@@ -107,7 +107,7 @@ struct Walkers {
     state.time_s = plan.duration_s;
     advance_gait(plan, state, 0.0F);
     replan(0xFFFF);
-    turn_gait(plan, gait, state, 1e-3F);
+    turn_gait(size, plan, gait, state, 1e-3F);
   }
 };
 

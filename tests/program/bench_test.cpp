@@ -45,7 +45,15 @@ struct Bench {
   std::map<std::string, Figure> figures;
 };
 
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+constexpr auto measures_for_long = "under a sanitizer these benches measure for ten minutes what other tests have run";
+
 TEST(Bench, PromisedNamesArePositiveAndFinite) {
+  if (sanitized) GTEST_SKIP() << measures_for_long;
   const Bench bench("machine gait kinematics lines skinning");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
   EXPECT_EQ(bench.ran.err, "");
@@ -74,6 +82,7 @@ TEST(Bench, PromisedNamesArePositiveAndFinite) {
 }
 
 TEST(Bench, MeasuresWhatIsAskedAndTheMachine) {
+  if (sanitized) GTEST_SKIP() << measures_for_long;
   const Bench bench("skinning");
   ASSERT_EQ(bench.ran.status, 0) << bench.ran.err;
   EXPECT_TRUE(bench.figures.contains("machine.fma_peak_gflops"));

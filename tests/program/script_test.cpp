@@ -115,7 +115,7 @@ TEST(GaitParameters, TheTableThatIsPrintedCanBeTypedBackIn) {
     listed.push_back(name);
     EXPECT_EQ(unit, parameter->unit);
     EXPECT_EQ(meaning, parameter->meaning);
-    EXPECT_LE(line.size(), 140U) << line;
+    EXPECT_LE(line.size(), 120U) << line;
     GaitStyle style;
     for (const auto& [text, value] : {std::pair{low, parameter->low}, std::pair{high, parameter->high},
                                       std::pair{standard, GaitStyle{}.*parameter->value}}) {

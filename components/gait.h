@@ -10,7 +10,7 @@
 namespace mobil {
 
 /// What a caller asks of a walk. Speed (m/s), step length (m) and step frequency (steps/s): any two give the third;
-/// one alone is completed by step length = 0.004 · steps per minute · height (Bruderlin & Calvert); none means 5 km/h;
+/// one alone is completed by the step that people of that leg take at that speed (assets/gait); none means 5 km/h;
 /// three must agree within 1 %. A speed of 0 asks to stand.
 struct GaitRequest {
   std::optional<float> speed_m_s{}, step_length_m{}, step_frequency_hz{};

@@ -1,6 +1,7 @@
 #include "assets/gait/step_lookup.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace mobil {
 namespace {
@@ -64,6 +65,11 @@ StepGiven usual_of(const Blend& b) {
 
 StepGiven usual_step(float at) {
   return usual_of(speed_blend(at));
+}
+
+double usual_step_length(float at) {
+  const double beyond = std::max(static_cast<double>(at) / speed.back(), 1.0);
+  return usual_step(at).step_length * std::sqrt(beyond);
 }
 
 TabledStep tabled_step(float at, float step_length) {

@@ -22,6 +22,10 @@ TabledStep tabled_step(float speed, float length);
 /// straight between nodes.
 void add_styles(float speed, std::span<const float, style_effects.size()> amounts, TabledShape& shape);
 
+/// The step that people take at a speed, over the leg: tabled_step's, and beyond the fastest node growing with the root
+/// of speed, so that a length and a frequency each belong to one speed.
+double usual_step_length(float speed);
+
 /// What is usual at a speed; tabled_step's.
 StepGiven usual_step(float speed);
 

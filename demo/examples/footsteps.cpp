@@ -1,10 +1,14 @@
-// A system of one's own: every heel strike with its place, side and tick, as sounds and footprints need it. A component
-// keeps the last strike of each walker; after a tick the host collects those that are new.
+// A system of one's own: when and where each foot strikes with its heel, lies flat, lifts its heel and leaves the
+// ground, as sounds, dust and footprints need it. A component keeps the last of each of these for either foot of each
+// walker; after a tick the host collects what is new.
 //
-// Prints the strikes, and exits with 1 where they are not as many as the steps walked or do not alternate.
+// Prints what happens, and exits with 1 where a foot does not go through all four, in their order, as often as it
+// steps.
 
+#include <array>
 #include <cstdio>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "engine/each.h"
@@ -13,50 +17,69 @@
 
 using mobil::Lanes, mobil::Whole;
 
-/// A walker's last heel strike: where the heel is then (m, on the ground), which side (0 right, 1 left) and in which
-/// tick; and the steps counted so far.
+enum Event : std::uint32_t { heel_strike, foot_flat, heel_off, toe_off };
+constexpr std::array names = {"heel strike", "foot flat", "heel off", "toe off"};
+
+/// By event and side (0 right, 1 left): the tick in which it was last, from 1 on (0: never), and where the heel or the
+/// toes were then (m, on the ground). And which of heel and toes are down.
 template <class F>
-struct HeelStrike {
-  F x_m, z_m;
-  Whole<F> side, tick, steps;
+struct FootEvents {
+  Whole<F> tick[4][2];
+  F x_m[4][2], z_m[4][2];
+  Whole<F> heel_down[2], toes_down[2];
 };
 
-/// Reads what gait and kinematics wrote, and so runs after them.
-void listen(const mobil::GaitState<Lanes<float>>& gait, const mobil::Feet<Lanes<float>>& feet, mobil::Tick tick,
-            HeelStrike<Lanes<float>>& strike) {
-  for (std::size_t lane = 0; lane < mobil::lane_count; ++lane) {
-    if (gait.steps[lane] == strike.steps[lane]) continue;
-    const std::uint32_t side = gait.stance_side[lane];
-    strike.x_m[lane] = feet.heel_m[side].x[lane];
-    strike.z_m[lane] = feet.heel_m[side].z[lane];
-    strike.side[lane] = side;
-    strike.tick[lane] = tick.index;
-    strike.steps[lane] = gait.steps[lane];
+/// What touches is down below the first height and up above the second, so that nothing is reported twice.
+constexpr float down_m = 0.006F, up_m = 0.012F;
+
+/// Reads what kinematics wrote, and so runs after it.
+void listen(const mobil::Feet<Lanes<float>>& feet, mobil::Tick tick, FootEvents<Lanes<float>>& events) {
+  const auto look = [&](std::uint32_t& down, const mobil::Vec3<Lanes<float>>& at, std::size_t lane, std::size_t side,
+                        Event comes, Event goes) {
+    const float height = at.y[lane];
+    const bool now = down != 0 ? height < up_m : height < down_m;
+    if (now == (down != 0)) return;
+    down = now ? 1 : 0;
+    const Event event = now ? comes : goes;
+    events.tick[event][side][lane] = tick.index + 1;
+    events.x_m[event][side][lane] = at.x[lane];
+    events.z_m[event][side][lane] = at.z[lane];
+  };
+  for (std::size_t side = 0; side < 2; ++side) {
+    for (std::size_t lane = 0; lane < mobil::lane_count; ++lane) {
+      look(events.heel_down[side][lane], feet.heel_m[side], lane, side, heel_strike, heel_off);
+      look(events.toes_down[side][lane], feet.tip_m[side], lane, side, foot_flat, toe_off);
+    }
   }
 }
 
 mobil::Module footsteps_module() {
   return {.name = "footsteps",
-          .parts = {mobil::component_part<HeelStrike>()},
+          .parts = {mobil::component_part<FootEvents>()},
           .systems = [](mobil::ScheduleBuilder& systems) { systems.add("footsteps", &listen); }};
 }
 
 struct Footstep {
   mobil::Entity walker;
-  HeelStrike<float> strike;
+  Event event;
+  std::uint32_t side;
+  float x_m, z_m;
 };
 
-/// Heel strikes of the tick that ran last.
+/// What happened in the tick that ran last.
 std::vector<Footstep> footsteps_of(const mobil::Simulation& simulation) {
   std::vector<Footstep> all;
-  mobil::each_block<HeelStrike>(simulation.world(),
-                                [&](const mobil::Rows& rows, const HeelStrike<Lanes<float>>& strike) {
-                                  for (std::size_t lane = 0; lane < rows.live; ++lane) {
-                                    if (strike.steps[lane] == 0 || strike.tick[lane] + 1 != simulation.ticks())
-                                      continue;
-                                    all.push_back({rows.entity[lane], *simulation.get<HeelStrike>(rows.entity[lane])});
-                                  }
-                                });
+  mobil::each_block<FootEvents>(simulation.world(), [&](const mobil::Rows& rows,
+                                                        const FootEvents<Lanes<float>>& events) {
+    for (std::size_t lane = 0; lane < rows.live; ++lane) {
+      for (const Event event : {heel_strike, foot_flat, heel_off, toe_off}) {
+        for (std::uint32_t side = 0; side < 2; ++side) {
+          if (events.tick[event][side][lane] != simulation.ticks()) continue;
+          all.push_back({rows.entity[lane], event, side, events.x_m[event][side][lane], events.z_m[event][side][lane]});
+        }
+      }
+    }
+  });
   return all;
 }
 
@@ -72,24 +95,29 @@ int main() {
     std::fprintf(stderr, "%s\n", spawned.error().message.c_str());
     return 2;
   }
-  for (const mobil::Entity walker : walkers) simulation.world().add(walker, HeelStrike<float>{});
+  for (const mobil::Entity walker : walkers) simulation.world().add(walker, FootEvents<float>{});
 
-  std::map<std::uint32_t, std::vector<HeelStrike<float>>> heard;  // by walker
-  for (int tick = 0; tick < 180; ++tick) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Footstep>> heard;  // by walker and side
+  for (int tick = 0; tick < 240; ++tick) {
     simulation.tick();
     for (const Footstep& step : footsteps_of(simulation)) {
-      std::printf("tick %3u: walker %u, %s heel at x = %5.2f m, z = %5.2f m\n", step.strike.tick, step.walker.index,
-                  step.strike.side == 0 ? "right" : "left ", static_cast<double>(step.strike.x_m),
-                  static_cast<double>(step.strike.z_m));
-      heard[step.walker.index].push_back(step.strike);
+      std::printf("tick %3u: walker %u, %s %-11s at x = %5.2f m, z = %5.2f m\n", simulation.ticks(), step.walker.index,
+                  step.side == 0 ? "right" : "left ", names[step.event], static_cast<double>(step.x_m),
+                  static_cast<double>(step.z_m));
+      heard[{step.walker.index, step.side}].push_back(step);
     }
   }
   for (const mobil::Entity walker : walkers) {
-    const auto& strikes = heard[walker.index];
-    if (strikes.size() != simulation.get<mobil::GaitState>(walker)->steps || strikes.size() < 4) return 1;
-    for (std::size_t i = 1; i < strikes.size(); ++i) {
-      if (strikes[i].side == strikes[i - 1].side || strikes[i].z_m <= strikes[i - 1].z_m) return 1;
+    std::size_t strikes = 0;
+    for (std::uint32_t side = 0; side < 2; ++side) {
+      const auto& steps = heard[{walker.index, side}];
+      for (std::size_t i = 0; i < steps.size(); ++i) {
+        if (steps[i].event == heel_strike) ++strikes;
+        if (i > 1 && steps[i].event != (steps[i - 1].event + 1) % 4) return 1;  // the first two tell how it stood
+      }
     }
+    const std::size_t steps = simulation.get<mobil::GaitState>(walker)->steps;
+    if (steps < 4 || strikes + 2 < steps || strikes > steps + 2) return 1;
   }
   return 0;
 }

@@ -24,12 +24,13 @@ struct FitText {
   std::size_t threads = 0;
 };
 
-void append(const TabledShape& shape, int digits, std::string& text) {
+void append(const TabledShape& shape, int digits, std::size_t a_line, std::string& text) {
   const auto out = std::back_inserter(text);
+  const bool one_line = a_line == shape.size();
   text += "    {";
   for (std::size_t i = 0; i < shape.size(); ++i)
-    fmt::format_to(out, "{}{:#.{}g}F,", i % 16 == 0 ? "\n      " : " ", shape[i], digits);
-  text += "\n    },\n";
+    fmt::format_to(out, "{}{:#.{}g}F,", i % a_line == 0 && !one_line ? "\n      " : " ", shape[i], digits);
+  text += one_line ? " },\n" : "\n    },\n";
 }
 
 std::string source(const std::vector<StepNode>& nodes) {
@@ -50,7 +51,7 @@ std::string source(const std::vector<StepNode>& nodes) {
     text += "  {{\n";
     for (std::size_t l = 0; l < length_count; ++l) {
       fmt::format_to(out, "    // speed {:g}, length {:g}\n", speed[s], length[l]);
-      append(tabled(nodes[s * length_count + l].shape), 6, text);
+      append(tabled(nodes[s * length_count + l].shape), 6, 16, text);
     }
     text += "  }},\n";
   }
@@ -79,7 +80,7 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
     text += "  {{\n";
     for (std::size_t k = 0; k < changes[s].size(); ++k) {
       fmt::format_to(out, "    // speed {:g}, {}\n", speed[s], style_effects[k].what);
-      append(tabled(changes[s][k]), 4, text);
+      append(tabled(changes[s][k]), 4, step_shape::size, text);
     }
     text += "  }},\n";
   }

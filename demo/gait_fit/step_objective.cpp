@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t n = cycle_samples;
 constexpr double degrees = 180 / std::numbers::pi, gravity = gravity_m_s2;
 
-constexpr double rise_margin = 0.0005;  // m, kept from the bounds
+constexpr double rise_margin = 0.001;  // m, kept from the bounds
 
 /// Straight between the 2 % at which curves are published.
 Samples resampled(const CycleCurve& curve) {
@@ -141,11 +141,11 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   track(hip_moment, 1.5 * weights.moments, 0.10, 0.15);
   track(knee_moment, 1.5 * weights.moments, 0.10, 0.15);
   track(ankle_moment, 1.5 * weights.moments, 0.10, 0.15);
-  peaks(vertical, weights.forces, 0.08, c.up, all);
-  peaks(fore_aft, weights.forces, 0.08, c.forward, all);
-  peaks(hip_moment, weights.moments, 0.17, c.hip_moment, all);
-  peaks(knee_moment, weights.moments, 0.17, c.knee_moment, all);
-  peaks(ankle_moment, weights.moments, 0.17, c.ankle_moment, all);
+  peaks(vertical, weights.forces, 0.06, c.up, all);
+  peaks(fore_aft, weights.forces, 0.05, c.forward, all);
+  peaks(hip_moment, weights.moments, 0.10, c.hip_moment, all);
+  peaks(knee_moment, weights.moments, 0.08, c.knee_moment, all);
+  peaks(ankle_moment, weights.moments, 0.08, c.ankle_moment, all);
   all.curve(weights.balance, [&](std::size_t i) { return gravity * c.lacking[i]; });
 
   const StepBody& b = task.body;
@@ -174,7 +174,7 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   for (std::size_t k = 0; k < 3; ++k)
     all.curve(1.0 / 5, [&](std::size_t i) { return beyond(degrees * rate(*turning[k], i), most_rate[k]); });
   const auto [low, high] = std::ranges::minmax(c.centre_up);
-  all.one(500 * (below(high - low, least_rise) + beyond(high - low, most_rise)));
+  all.one(1500 * (below(high - low, least_rise) + beyond(high - low, most_rise)));
   all.curve(3000, [&](std::size_t i) { return below(c.pad_up[i], 0) + beyond(c.pad_up[i], 0.008); });
   all.curve(8000, [&](std::size_t i) { return beyond(std::abs(c.pad_forward[i]), 0.003); });
   static constexpr StepShape scale = shape_scales();

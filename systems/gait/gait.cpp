@@ -6,11 +6,30 @@
 #include <optional>
 #include <string_view>
 
+#include "assets/body/anthropometry.h"
+#include "assets/gait/step_lookup.h"
+
 namespace mobil {
 namespace {
 
 bool inside(double value, double low, double high) {
   return value >= low && value <= high;
+}
+
+/// Length of the step that people of that leg (hip to ground) take at a speed: measured ones (assets/gait/README.md).
+double usual_length_m(double speed_m_s, double leg_m) {
+  return usual_step_length(static_cast<float>(speed_m_s / std::sqrt(9.81 * leg_m))) * leg_m;
+}
+
+/// The speed at which `of` a speed, that grows with it, is `wanted`.
+template <class Of>
+double speed_of(double wanted, Of of) {
+  double low = 0, high = 10;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (low + high);
+    (of(middle) < wanted ? low : high) = middle;
+  }
+  return high;
 }
 
 }  // namespace
@@ -25,7 +44,7 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   const double height = body.request.height_m;
   const double leg = body.thigh_length_m + body.shank_length_m;
   const double scale = std::sqrt(leg / 0.90);
-  const double law = 0.004 * 60.0 * height;  // step length over step frequency in Hz
+  const double hips = fraction::hip_height * height;
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
   if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked) {
@@ -51,11 +70,12 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
     speed = speed_asked ? *speed_asked : *length_asked * *frequency_asked;
     length = speed / *frequency_asked;
   } else if (length_asked || frequency_asked) {
-    length = length_asked ? *length_asked : law * *frequency_asked;
-    speed = length * length / law;
+    speed = length_asked ? speed_of(*length_asked, [&](double v) { return usual_length_m(v, hips); })
+                         : speed_of(*frequency_asked, [&](double v) { return v / usual_length_m(v, hips); });
+    length = length_asked ? static_cast<double>(*length_asked) : speed / *frequency_asked;
   } else {
     speed = speed_asked ? *speed_asked : 5.0 / 3.6;
-    length = std::sqrt(law * speed);
+    length = usual_length_m(speed, hips);
   }
 
   const double frequency = speed / length;

@@ -34,6 +34,15 @@ HWY_INLINE WideMask either(const WideMask& m, const Wide& yes, const Wide& no) {
   return select(m, yes, no) > 0.5F;
 }
 
+/// Of a step, at a speed.
+HWY_NOINLINE Wide usual_length(const Wide& height, const Wide& speed) {
+  const Wide leg = ratio(fraction::hip_height, height);
+  Lanes<float> of;
+  store(speed / sqrt(gravity_f * leg), of);
+  for (float& lane : of.lane) lane = static_cast<float>(usual_step_length(lane));
+  return load(of) * leg;
+}
+
 /// The steps toward the wanted gait: the strike at the end of this one.
 HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted,
                               const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
@@ -49,10 +58,9 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   r.height = height;
   r.mass = mass;
   r.speed = select(fresh, aim, select(to_stand, stopping, walking));
-  const Wide law = sqrt(0.24F * height * r.speed);
-  const Wide length = load(wanted.step_length_m);
-  const Wide scaled = length * sqrt(r.speed / max(aim, 1e-3F));
-  r.step_length = select(to_stand, law, select(abs(r.speed - aim) < 1e-6F, length, scaled));
+  const Wide length = load(wanted.step_length_m), usual = usual_length(height, r.speed);
+  const Wide scaled = length * usual / usual_length(height, aim);
+  r.step_length = select(to_stand, usual, select(abs(r.speed - aim) < 1e-6F, length, scaled));
   const Wide uneven = load(wanted.style.step_asymmetry);
   r.length = r.step_length * (1.0F + select(right_lands, uneven, -uneven));
   make_strike(r, wanted.style, to);

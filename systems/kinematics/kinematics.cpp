@@ -110,6 +110,9 @@ HWY_INLINE Ground on_line(const Line& line, const Wide& left, const Wide& forwar
                   turned(fma(line.ahead, forward * on, left), forward, line.ahead_s, line.ahead_c), ahead);
 }
 
+/// How far the pelvis sinks in a first and in a last step, of the height.
+constexpr float sink_between = 0.006F;
+
 /// How much longer the outer leg would have to be at a strike in a turn, to a foothold that is shifted and, on the
 /// outer arc, further ahead: the pelvis sinks by it.
 HWY_INLINE Wide longer_leg(const Wide& length, const Wide& half_turn, const Wide& shift_before, const Wide& shift,
@@ -193,10 +196,12 @@ struct Origin {
   Wide heading, sine, cosine;
 };
 
-/// The lower of two, rounded off where they are within `width`: C¹, never above either.
+/// The lower of two, rounded off where they are within `width`: C², never above either.
 HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
-  const Wide part = clamp(0.5F + 0.5F * (b - a) / width, 0.0F, 1.0F);
-  return mix(b, a, part) - width * part * (1.0F - part);
+  const Wide d = clamp((b - a) / width, -1.0F, 1.0F);
+  // The positive part of d with (1 − d²) 3/4 as its second derivative.
+  const Wide rounded = fma(d, fma(d, 0.375F - 0.0625F * d * d, wide(0.5F)), wide(0.1875F));
+  return min(a, b) - width * (rounded - max(d, 0.0F));
 }
 
 /// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, and less the nearer it is to the
@@ -379,7 +384,12 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Wide aside = select(right_stands, hips.aside, -hips.aside);
   const Ground place = on_line(line, aside, hips.forward, eased);
   constexpr auto standing = static_cast<float>(fraction::hip_height);
-  const Wide up = harmonics(of, step_shape::hips_up, 4, waves) -
+  // Legs that are straight in somebody who stands bend in the first and in the last step.
+  const WideMask first_or_last = (load(plan.step_length_m) + load(plan.length_before_m) > 0.0F) &
+                                 ((load(plan.from.speed_m_s) <= 0.0F) | (load(plan.to.speed_m_s) <= 0.0F));
+  const Wide there = u * (1.0F - u);
+  const Wide bent = select(first_or_last, 64.0F * sink_between * skeleton.height * there * there * there, zero);
+  const Wide up = harmonics(of, step_shape::hips_up, 4, waves) - bent -
                   mix(longer_leg(line.length_before, line.before, line.shift_before, line.shift, skeleton.height),
                       longer_leg(line.length, line.ahead, line.shift, line.shift_next, skeleton.height), eased);
   pelvis.position = {place.left, fma(wide(standing), skeleton.height, up), place.forward};
@@ -398,7 +408,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
     draw_in(foot[side], at[side], pelvis, motion, side, skeleton.height);
   }
   // Where a leg would be too short, in a turn or at a very slow walk, the pelvis sinks.
-  const Wide rounding = 0.0004F * skeleton.height;
+  const Wide rounding = 0.0002F * skeleton.height;
   auto limit = [&](std::size_t side) {
     return highest_hips(foot[side], at[side], pelvis, motion, side, skeleton.height);
   };

@@ -162,6 +162,22 @@ TEST(FirstStep, ASettledStepPlannedAgainIsTheSame) {
   });
 }
 
+/// Heavier people's feet are further apart, at one speed their steps are as long; light people's are as usual.
+TEST(FirstStep, HeavyPeopleWalkWithWiderSteps) {
+  Walkers w;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    w.set_body(l, {.height_m = 1.70F, .mass_kg = 45.0F + 6.0F * static_cast<float>(l)});
+    ASSERT_TRUE(w.ask(l, {.speed_m_s = 1.2F}));
+  }
+  w.begin();
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const double index = w.size.mass_kg[l] / (1.70 * 1.70);
+    EXPECT_NEAR(w.plan.to.half_width_m[l] / (0.5 * 0.055 * 1.70), 1 + 0.3 / 13.4 * std::fmax(index - 24.5, 0), 1e-3);
+    EXPECT_EQ(w.plan.step_length_m[l], w.plan.step_length_m[0]);
+    EXPECT_EQ(w.plan.double_support_s[l], w.plan.double_support_s[0]);
+  }
+}
+
 TEST(NextStep, UnevenStepsAlternateAndJoin) {
   Dice dice{std::mt19937(4)};
   auto w = std::make_unique<Walkers>();

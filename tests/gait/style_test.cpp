@@ -56,33 +56,43 @@ Cycle walk(float speed_m_s, const GaitStyle& style) {
 std::size_t at(float cycle) {
   return static_cast<std::size_t>(cycle * instants);
 }
+auto place(const std::vector<float>& of, float cycle) {
+  return of.begin() + static_cast<long>(at(cycle));
+}
 float greatest(const std::vector<float>& of, float from, float to) {
-  return *std::max_element(of.begin() + static_cast<long>(at(from)), of.begin() + static_cast<long>(at(to)));
+  return *std::max_element(place(of, from), place(of, to));
 }
 float least(const std::vector<float>& of, float from, float to) {
-  return *std::min_element(of.begin() + static_cast<long>(at(from)), of.begin() + static_cast<long>(at(to)));
+  return *std::min_element(place(of, from), place(of, to));
 }
 
 struct Aspect {
   const char* name;
   float GaitStyle::*parameter;
   float by;
-  std::function<float(const Cycle&)> value;
+  std::function<float(const Cycle&, const Cycle&)> value;  // of a walk beside the usual one
 };
 
 /// In the parameter's own unit, where it has one that can be seen.
 TEST(Style, ParametersChangeWhatTheyAreCalledBy) {
   const std::vector<Aspect> aspects = {
-      {"strike pitch", &GaitStyle::strike_pitch_deg, 4, [](const Cycle& c) { return c.pitch[0]; }},
-      {"strike knee", &GaitStyle::strike_knee_deg, 6, [](const Cycle& c) { return c.knee[0]; }},
-      {"stance knee", &GaitStyle::stance_knee_deg, 6, [](const Cycle& c) { return least(c.knee, 0.22F, 0.46F); }},
-      {"toe-off knee", &GaitStyle::toe_off_knee_deg, -6, [](const Cycle& c) { return c.knee[at(c.off)]; }},
-      {"swing knee", &GaitStyle::swing_knee_deg, 8, [](const Cycle& c) { return greatest(c.knee, c.off, 0.95F); }},
-      {"swing ankle", &GaitStyle::swing_ankle_deg, 4, [](const Cycle& c) { return c.ankle[at(0.5F * c.off + 0.5F)]; }},
+      {"strike pitch", &GaitStyle::strike_pitch_deg, 4, [](const Cycle& c, const Cycle&) { return c.pitch[0]; }},
+      {"strike knee", &GaitStyle::strike_knee_deg, 6, [](const Cycle& c, const Cycle&) { return c.knee[0]; }},
+      {"stance knee", &GaitStyle::stance_knee_deg, 6,
+       [](const Cycle& c, const Cycle& usual) {
+         const auto least = std::min_element(place(usual.knee, 0.22F), place(usual.knee, 0.46F));
+         return c.knee[static_cast<std::size_t>(least - usual.knee.begin())];
+       }},
+      {"toe-off knee", &GaitStyle::toe_off_knee_deg, -6,
+       [](const Cycle& c, const Cycle&) { return c.knee[at(c.off)]; }},
+      {"swing knee", &GaitStyle::swing_knee_deg, 8,
+       [](const Cycle& c, const Cycle&) { return greatest(c.knee, c.off, 0.95F); }},
+      {"swing ankle", &GaitStyle::swing_ankle_deg, 4,
+       [](const Cycle& c, const Cycle&) { return c.ankle[at(0.5F * c.off + 0.5F)]; }},
       {"toe clearance", &GaitStyle::toe_clearance_m, 0.02F,
-       [](const Cycle& c) { return c.toe_up[at(0.5F * c.off + 0.5F)]; }},
+       [](const Cycle& c, const Cycle&) { return c.toe_up[at(0.5F * c.off + 0.5F)]; }},
       {"trunk lean", &GaitStyle::trunk_lean_deg, 5,
-       [](const Cycle& c) {
+       [](const Cycle& c, const Cycle&) {
          float sum = 0;
          for (const float lean : c.lean) sum += lean / instants;
          return sum;
@@ -94,7 +104,7 @@ TEST(Style, ParametersChangeWhatTheyAreCalledBy) {
     for (const Aspect& aspect : aspects) {
       GaitStyle style;
       style.*aspect.parameter += aspect.by;
-      const float changed = aspect.value(walk(speed, style)) - aspect.value(before);
+      const float changed = aspect.value(walk(speed, style), before) - aspect.value(before, before);
       EXPECT_NEAR(changed / aspect.by, 1, 0.5) << aspect.name << " at " << speed << " m/s";
     }
   }

@@ -45,11 +45,6 @@ struct Bench {
   std::map<std::string, Figure> figures;
 };
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr bool sanitized = true;
-#else
-constexpr bool sanitized = false;
-#endif
 constexpr auto measures_for_long = "under a sanitizer these benches measure for ten minutes what other tests have run";
 
 TEST(Bench, PromisedNamesArePositiveAndFinite) {

@@ -20,6 +20,13 @@
 
 namespace mobil {
 
+/// Built with a sanitizer, under which measuring takes minutes and means nothing.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+inline constexpr bool sanitized = true;
+#else
+inline constexpr bool sanitized = false;
+#endif
+
 /// A folder of one's own, gone with its owner.
 class TemporaryFolder {
  public:

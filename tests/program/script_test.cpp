@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "assets/gait/step_lookup.h"
 #include "demo/program/units.h"
 #include "demo/walk/gait_parameters.h"
 #include "demo/walk/walk_script.h"
@@ -188,7 +189,10 @@ struct Expected {
     right = mean * (1 + static_cast<double>(style.step_asymmetry));
     left = mean * (1 - static_cast<double>(style.step_asymmetry));
   }
-  static double natural(double speed) { return std::sqrt(0.24 * static_cast<double>(height_m) * speed); }
+  static double natural(double speed) {
+    const double leg = fraction::hip_height * static_cast<double>(height_m);
+    return usual_step_length(static_cast<float>(speed / std::sqrt(9.81 * leg))) * leg;
+  }
 };
 
 using Rows = std::vector<std::pair<std::string, std::string>>;

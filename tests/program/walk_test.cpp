@@ -12,6 +12,8 @@
 #include <optional>
 #include <set>
 
+#include "assets/body/anthropometry.h"
+#include "assets/gait/step_lookup.h"
 #include "assets/muscles/muscle_table.h"
 #include "components/gait_style.h"
 #include "components/muscle.h"
@@ -30,9 +32,13 @@ struct Asked {
   std::string arguments;
   double height_m, mass_kg, speed_m_s, step_m, seconds;
 };
+double usual_step_m(double height_m, double speed_m_s) {
+  const double leg = fraction::hip_height * height_m;
+  return usual_step_length(static_cast<float>(speed_m_s / std::sqrt(9.81 * leg))) * leg;
+}
 const std::vector<Asked> everybody = {
     {"--height 1.80 --mass 80 --constitution athletic --speed 5km/h --seconds 3", 1.80, 80, 5 / 3.6,
-     std::sqrt(0.24 * 1.80 * 5 / 3.6), 3},
+     usual_step_m(1.80, 5 / 3.6), 3},
     {"--height 155cm --mass 50 --constitution thin --speed 1.0 --step-length 55cm --seconds 4s", 1.55, 50, 1.0, 0.55,
      4},
     {"--height 1.95 --mass 120kg --constitution heavy --step-length 0.85 --step-frequency 120steps/min --seconds 3",

@@ -7,6 +7,7 @@
 #include "engine/wide_geometry-inl.h"
 #include "systems/forces/forces.h"
 #include "systems/forces/leg_model.h"
+#include "systems/kinematics/body_motion.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -107,7 +108,9 @@ HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wid
 HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                           const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
   const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
-  const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
+  const Wide duration = load(plan.duration_s);
+  const Wide instant = min(max(load(state.time_s), wide(difference_s)), duration - difference_s);  // that of `motion`
+  const Wide phase = step_phase(plan, instant / duration);
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
   const Wide off = load(plan.double_support);
   const Wide right_stands = select(equal(state.stance_side, right), one, zero);

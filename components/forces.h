@@ -28,6 +28,9 @@ constexpr std::size_t leg_point(std::size_t side, LegPoint p) {
   return side * leg_points + p;
 }
 
+/// Between the poses that a walker's motion is taken from, s: longer blurs, shorter shows single precision.
+inline constexpr float motion_difference_s = 0.006F;
+
 /// How a walker moves now, in the frame of the stance foothold: x to the left, y up, z the way the walking line heads
 /// there. What accelerates the body against gravity, Σ m (a + g), and the moment of that with its turning about the
 /// foothold, Σ r × m (a + g) + dL/dt, over all 48 segments; per kg of the body's mass. Places (m) and accelerations

@@ -121,7 +121,7 @@ class Simulation {
   /// was.
   Result<void> change_gait(Entity human, const GaitRequest& gait);
   /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
-  /// part of it each step; who stands turns when they walk on. Errors: a stale handle, a heading that is not finite;
+  /// part of it each step; who stands turns on the spot. Errors: a stale handle, a heading that is not finite;
   /// nothing has changed.
   Result<void> turn_to(Entity human, float heading_rad);
 

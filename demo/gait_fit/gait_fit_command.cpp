@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <memory>
@@ -21,6 +22,7 @@ using namespace step_table;
 struct FitText {
   std::string out = "step_table.cpp";
   bool styles = false;
+  std::string without;
   std::size_t threads = 0;
 };
 
@@ -63,7 +65,7 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
   std::vector<StyleChanges> changes(speed_count);
   in_parallel(jobs, speed_count, [&](std::size_t begin, std::size_t end) {
     for (std::size_t s = begin; s < end; ++s) {
-      StepNode node = step_node(reference, 0, s, usual);
+      StepNode node = step_node({&reference}, s, usual);
       node.shape = fitted(step_shapes[s][usual]);
       changes[s] = style_changes(node);
       fmt::print(stderr, "speed {:g}\n", speed[s]);
@@ -109,12 +111,22 @@ void print(const std::vector<StepNode>& nodes) {
 Result<void> run_fit(const FitText& text) {
   const auto reference = read_gait_reference({});
   if (!reference) return tl::unexpected(reference.error());
+  FitData data{&*reference};
+  if (!text.without.empty()) {
+    const auto named = std::ranges::find(compared_class_name, text.without);
+    if (named == compared_class_name.end() || named == compared_class_name.begin() ||
+        named + 1 == compared_class_name.end())
+      return fail(fmt::format("--without {}: name a speed between others: slow, free or fast", text.without));
+    data.without = static_cast<std::size_t>(named - compared_class_name.begin());
+  }
   const Threads threads(static_cast<int>(text.threads));
   if (text.styles) return write_file(text.out, styles_source(*reference, threads.jobs()));
-  const auto nodes = fit_grid(*reference, 0, threads.jobs(), [](const char* stage, double cost) {
+  auto nodes = fit_grid(data, threads.jobs(), [](const char* stage, double cost) {
     fmt::print(stderr, "{}: sum of squares {:.2f}\n", stage, cost);
   });
   if (auto done = write_file(text.out, source(nodes)); !done) return done;
+  for (StepNode& node : nodes)  // judged by all speeds
+    node.targets = step_targets(*reference, data.set, node.targets.speed, node.task.body.leg);
   print(nodes);
   fmt::print("look at {}\n", text.out);
   return {};
@@ -131,6 +143,8 @@ Subcommand gait_fit_command() {
   add_options(command,
               {{"--out", &text->out, "Source file to write"},
                {"--styles", &text->styles, "Write how this program's table changes with the manner of a walk instead"},
+               {"--without", &text->without,
+                "slow, free or fast: leave this measured speed out and be judged by it all the same"},
                {"--threads", &text->threads, "0: as many as the machine has"}});
   command.run = [text] {
     const auto done = run_fit(*text);

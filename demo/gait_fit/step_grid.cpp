@@ -55,10 +55,9 @@ StepShape between_neighbours(const std::vector<StepNode>& nodes, std::size_t i) 
 
 }  // namespace
 
-StepNode step_node(const GaitReference& reference, std::size_t set, std::size_t speed_number,
-                   std::size_t length_number) {
+StepNode step_node(const FitData& data, std::size_t speed_number, std::size_t length_number) {
   const StepBody body = step_body(fitted_height_m);
-  StepNode node{{}, step_targets(reference, set, speed[speed_number], body.leg), {}, INFINITY};
+  StepNode node{{}, step_targets(*data.reference, data.set, speed[speed_number], body.leg, data.without), {}, INFINITY};
   const double times = length[length_number];
   const GaitStyle style;
   StepTask& task = node.task;
@@ -93,11 +92,11 @@ bool fit_node(StepNode& node, const StepShape& from, bool by_angles) {
   return keep(node, shape, cost);
 }
 
-std::vector<StepNode> fit_grid(const GaitReference& reference, std::size_t set, const Jobs& jobs,
+std::vector<StepNode> fit_grid(const FitData& data, const Jobs& jobs,
                                const std::function<void(const char* stage, double cost)>& progress) {
   std::vector<StepNode> nodes;
   for (std::size_t s = 0; s < speed_count; ++s) {
-    for (std::size_t l = 0; l < length_count; ++l) nodes.push_back(step_node(reference, set, s, l));
+    for (std::size_t l = 0; l < length_count; ++l) nodes.push_back(step_node(data, s, l));
   }
   /// Fits every node for which `from` names others, from all of these as they were before.
   const auto stage = [&](const char* name, bool by_angles, auto from) {

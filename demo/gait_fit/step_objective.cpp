@@ -24,19 +24,24 @@ Samples resampled(const CycleCurve& curve) {
   return out;
 }
 
-/// Weights of the classes of a set at a speed: the cubic of Catmull and Rom through the two on either side.
-std::array<double, speed_class_count> class_weights(const MeasuredSet& set, double speed) {
+/// Weights of the classes of a set at a speed: the cubic of Catmull and Rom through the two on either side, of all but
+/// `without`.
+std::array<double, speed_class_count> class_weights(const MeasuredSet& set, double speed, std::size_t without) {
   std::array<double, speed_class_count> weight{};
+  std::vector<std::size_t> kept;
+  for (std::size_t c = 0; c < speed_class_count; ++c) {
+    if (c != without) kept.push_back(c);
+  }
   std::size_t i = 0;
-  while (i + 2 < speed_class_count && speed > set.speed[i + 1]) ++i;
-  const double span = set.speed[i + 1] - set.speed[i];
-  const double u = std::clamp((speed - set.speed[i]) / span, 0.0, 1.0);
+  while (i + 2 < kept.size() && speed > set.speed[kept[i + 1]]) ++i;
+  const double first = set.speed[kept[i]], span = set.speed[kept[i + 1]] - first;
+  const double u = std::clamp((speed - first) / span, 0.0, 1.0);
   const double h00 = (1 + 2 * u) * (1 - u) * (1 - u), h01 = u * u * (3 - 2 * u);
   const double h10 = u * (1 - u) * (1 - u) * span, h11 = u * u * (u - 1) * span;
-  weight[i] += h00;
-  weight[i + 1] += h01;
+  weight[kept[i]] += h00;
+  weight[kept[i + 1]] += h01;
   const auto slope = [&](std::size_t k, double times) {  // of the parabola through neighbours, one-sided at the ends
-    const std::size_t a = k == 0 ? 0 : k - 1, b = std::min(k + 1, speed_class_count - 1);
+    const std::size_t a = kept[k == 0 ? 0 : k - 1], b = kept[std::min(k + 1, kept.size() - 1)];
     const double over = set.speed[b] - set.speed[a];
     weight[b] += times / over;
     weight[a] -= times / over;
@@ -212,9 +217,10 @@ Samples samples_of(const StepCycle& cycle, GaitQuantity quantity) {
   }
 }
 
-StepTargets step_targets(const GaitReference& reference, std::size_t of, double speed, double leg_m) {
+StepTargets step_targets(const GaitReference& reference, std::size_t of, double speed, double leg_m,
+                         std::size_t without) {
   const MeasuredSet& set = reference.sets[of];
-  const auto weight = class_weights(set, speed);
+  const auto weight = class_weights(set, speed, without);
   StepTargets targets{speed, 0, 0, 0, 0, 0, excursion_at(reference, speed * std::sqrt(gravity * leg_m)), {}, {}};
   for (std::size_t c = 0; c < speed_class_count; ++c) {
     targets.step_length += weight[c] * set.step_length[c];

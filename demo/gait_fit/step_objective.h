@@ -24,9 +24,13 @@ struct StepTargets {
   double drawn = 0.02;                               // how strongly, per their scale
 };
 
+/// No class of speed.
+inline constexpr std::size_t none_left_out = speed_class_count;
+
 /// Of a set at a speed between its slowest and its fastest, by cubic interpolation between classes; beyond, at its
-/// ends.
-StepTargets step_targets(const GaitReference& reference, std::size_t set, double speed, double leg_m);
+/// ends. `without`: a class of speed between others that is left out.
+StepTargets step_targets(const GaitReference& reference, std::size_t set, double speed, double leg_m,
+                         std::size_t without = none_left_out);
 
 /// A curve of the step as measured ones are published: degrees, body weights, N m/kg; the hip from the pelvis.
 Samples samples_of(const StepCycle& cycle, GaitQuantity quantity);

@@ -7,7 +7,6 @@
 #include "engine/wide_geometry-inl.h"
 #include "systems/forces/forces.h"
 #include "systems/forces/leg_model.h"
-#include "systems/kinematics/body_motion.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -100,7 +99,7 @@ HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wid
   const Wide stance = select(from_stands, 0.5F + 0.5F * smooth(u), taken(from, u));
   const Wide apart =
       from(step_shape::split, 1) + x * from(step_shape::split, 2) + (1.5F * x * x - 0.5F) * from(step_shape::split, 3);
-  return {select(from_stands & to_stands, wide(0.5F), select(to_stands, stance - left_over, stance)),
+  return {select(landing <= 0.0F, wide(0.5F), select(to_stands, stance - left_over, stance)),
           select(from_stands, wide(0.0F), 4.0F * u * (1.0F - u) * apart)};
 }
 
@@ -109,7 +108,8 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
                           const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
   const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
   const Wide duration = load(plan.duration_s);
-  const Wide instant = min(max(load(state.time_s), wide(difference_s)), duration - difference_s);  // that of `motion`
+  const Wide instant =
+      min(max(load(state.time_s), wide(motion_difference_s)), duration - motion_difference_s);  // that of `motion`
   const Wide phase = step_phase(plan, instant / duration);
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
   const Wide off = load(plan.double_support);
@@ -136,7 +136,7 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
     const Wide apart2 = max(fma(apart_x, apart_x, apart_z * apart_z), wide(1e-6F));
     return clamp(fma(wanted_x - x[1], apart_x, (wanted_z - z[1]) * apart_z) / apart2, 0.0F, 1.0F);
   };
-  const WideMask stands = (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
+  const WideMask stands = load(plan.landing) <= 0.0F;
   share[0] = select(stands, balanced(), share[0]);
   share[1] = one - share[0];
   const Wide lacking_x = wanted_x - fma(share[0], x[0], share[1] * x[1]);

@@ -4,11 +4,11 @@
 
 #include "engine/wide-inl.h"
 #include "systems/gait/gait.h"
+#include "systems/gait/heading-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
-constexpr float pi_f = 3.14159265F;
 constexpr float most_turn = 30.0F * pi_f / 180.0F;  // a step
 /// Sideways, m/s²: the most, and by how much more or less from one step to the next, which soles can make up for.
 constexpr float most_sideways = 1.1F, most_change = 0.6F;
@@ -21,13 +21,15 @@ constexpr float by_feet = 0.85F, nearest = 0.4F, farthest = 0.08F;
 /// How much of the way to the wanted heading the line turns along a step: not more than the step after it can undo.
 HWY_INLINE Wide next_turn(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                           const Wide& wanted) {
-  const Wide off = wanted - load(state.heading_rad), before = load(state.turn_before_rad);
-  const Wide way = off - (2.0F * pi_f) * floor(off * (0.5F / pi_f) + 0.5F), far = abs(way);
+  const Wide before = load(state.turn_before_rad);
+  const Wide way = shorter_way(load(state.heading_rad), wanted), far = abs(way);
   const Wide per_sideways = load(plan.duration_s) / max(load(plan.to.speed_m_s), 0.1F);
   const Wide most = min(most_sideways * per_sideways, most_turn), change = most_change * per_sideways;
   const Wide wished = copy_sign(min(select(far <= change, far, 0.5F * (far + change)), most), way);
   const Wide turn = min(max(wished, before - change), before + change);
-  return select(load(plan.step_length_m) > 0.0F, min(max(turn, -most), most), wide(0.0F));
+  const WideMask on_spot = steps_on_spot(plan) & (far > off_heading);
+  const Wide on_the_spot = select(on_spot, min(max(way, -most_turn), most_turn), wide(0.0F));
+  return select(load(plan.step_length_m) > 0.0F, min(max(turn, -most), most), on_the_spot);
 }
 
 /// Where the next foot is put beside its place on the line, to the left.
@@ -48,7 +50,7 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
   const Wide time = load(state.time_s) + tick_s;
   const WideMask done = time >= step;
   const Wide zero = wide(0.0F), one = wide(1.0F);
-  const WideMask walked = (length + load(plan.length_before_m)) > 0.0F;
+  const WideMask walked = load(plan.landing) > 0.0F;
   // Below a tick whatever the rounding: that is how the systems that follow know a step that has just begun.
   store(select(done, clamp(time - step, 0.0F, tick_s * 0.999999F), time), state.time_s);
 
@@ -78,11 +80,13 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
 
 std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
                             const GaitState<Lanes<float>>& state, float tick_s) {
-  Lanes<float> begun;
+  Lanes<float> begun, turns;
   store(select(load(state.time_s) < tick_s, wide(1.0F), wide(0.0F)), begun);
+  const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
+  store(select(stands_still(plan) & (abs(way) > off_heading), wide(1.0F), wide(0.0F)), turns);
   std::uint32_t bits = 0;
   for (std::size_t l = 0; l < lane_count; ++l) {
-    const bool changed = plan.settled[l] == 0 || plan.revision[l] != wanted.revision[l];
+    const bool changed = plan.settled[l] == 0 || plan.revision[l] != wanted.revision[l] || turns[l] > 0.0F;
     bits |= static_cast<std::uint32_t>(begun[l] > 0.0F && changed) << l;
   }
   return bits;
@@ -93,7 +97,7 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const WideMask begun = load(state.time_s) < tick_s;
   const Wide turn = next_turn(plan, state, load(wanted.heading_rad));
   store(select(begun, turn, load(state.turn_rad)), state.turn_rad);
-  const WideMask walks = (load(plan.step_length_m) + load(plan.length_before_m)) > 0.0F;
+  const WideMask walks = load(plan.landing) > 0.0F;
   const Wide shift = select(walks, next_shift(size, plan, state, turn), load(state.shift_before_m));
   store(select(begun, shift, load(state.shift_next_m)), state.shift_next_m);
 }

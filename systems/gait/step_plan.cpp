@@ -6,6 +6,7 @@
 
 #include "systems/gait/balance-inl.h"
 #include "systems/gait/gait.h"
+#include "systems/gait/heading-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -15,6 +16,8 @@ constexpr float most_faster = 0.25F, most_slower = 0.30F, first_speed = 0.60F, l
 /// A first and a last step, of the pace that they lead to or come from; phases until its foot leaves the ground, and at
 /// which it comes to it.
 constexpr float first_step = 0.9F, last_step = 1.1F, first_double_support = 0.45F, last_landing = 0.85F;
+/// A step on the spot, of somebody who stands and turns: how long it takes, s; the same phases.
+constexpr float spot_step_s = 0.4F, spot_double_support = 0.05F, spot_landing = 0.95F;
 /// How far the centre of pressure may lie from where walks have it, of the height.
 constexpr float most_astray = 0.04F;
 
@@ -129,23 +132,26 @@ HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
 
 /// Solves the step from plan.from to plan.to.
 HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
-                             const WideMask& right_lands, StepPlan<Lanes<float>>& plan) {
+                             const WideMask& right_lands, const WideMask& turns_on_spot, StepPlan<Lanes<float>>& plan) {
   const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
   const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
   const WideMask from_stands = load(from.speed_m_s) <= 0.0F, to_stands = load(to.speed_m_s) <= 0.0F;
-  const WideMask stays = from_stands & to_stands;
+  const WideMask stands = from_stands & to_stands, spot = stands & turns_on_spot;
+  const WideMask stays = either(spot, zero, select(stands, one, zero));
   const Wide pace_from = load(from.pace_hz), pace_to = load(to.pace_hz);
   const Wide uneven = load(wanted.style.time_asymmetry);
   const Wide even = select(from_stands, first_step / max(pace_to, 0.1F),
                            select(to_stands, last_step / max(pace_from, 0.1F), 2.0F / max(pace_from + pace_to, 0.1F)));
-  const Wide duration = select(stays, wide(0.25F), even * (1.0F + select(right_lands, uneven, -uneven)));
+  const Wide standing = select(spot, wide(spot_step_s), wide(0.25F));
+  const Wide duration = select(stands, standing, even * (1.0F + select(right_lands, uneven, -uneven)));
   store(duration, plan.duration_s);
   store(pace_from * duration, plan.phase_rate_from);
   store(pace_to * duration, plan.phase_rate_to);
-  const Wide off =
-      select(stays, zero, select(from_stands, wide(first_double_support), 2.0F * load(from.double_support)));
+  const Wide walking_off = select(from_stands, wide(first_double_support), 2.0F * load(from.double_support));
+  const Wide off = select(stays, zero, select(spot, wide(spot_double_support), walking_off));
   store(off, plan.double_support);
-  store(select(to_stands, select(stays, zero, wide(last_landing)), one), plan.landing);
+  const Wide landing = select(stays, zero, select(spot, wide(spot_landing), wide(last_landing)));
+  store(select(to_stands, landing, one), plan.landing);
   store(select(from_stands, zero, off), plan.mixed_from);
   store(load(to.length_m), plan.step_length_m);
   store(load(from.length_m), plan.length_before_m);
@@ -159,14 +165,15 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   store(select(stays, zero, time_of_phase(plan, off) * duration), plan.double_support_s);
   plan_swing(height, plan);
   const WideMask alike = same_words(from, to);
-  const Wide astray = balance_step(height, alike | stays, plan);
+  const Wide astray = balance_step(height, alike | stands, plan);
   store_flags(astray > most_astray * height, plan.clamped);
 
   const WideMask even_steps = (abs(load(wanted.style.step_asymmetry)) + abs(uneven)) <= 0.0F;
   const WideMask there = abs(load(to.speed_m_s) - load(wanted.speed_m_s)) <= 0.0F;
   const WideMask same_feet = (abs(load(plan.trailing_half_width_m) - load(from.half_width_m)) +
                               abs(load(plan.trailing_toe_out) - load(from.toe_out))) <= 0.0F;
-  store_flags(alike & even_steps & (there & same_feet), plan.settled);
+  const WideMask goes_on = alike & even_steps & (there & same_feet);
+  store_flags(either(spot, zero, select(goes_on, one, zero)), plan.settled);
   plan.revision = wanted.revision;
 }
 
@@ -178,15 +185,14 @@ void first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, left_lands, plan.to);
   plan.trailing_half_width_m = plan.from.half_width_m;
   plan.trailing_toe_out = plan.from.toe_out;
-  solve_step(size, wanted, left_lands, plan);
+  solve_step(size, wanted, left_lands, left_lands, plan);
 }
 
 void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                 const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask right_lands = equal(state.stance_side, left), fresh = zero > one;
-  const WideMask sides_change =
-      (load(plan.step_length_m) + load(plan.length_before_m)) > 0.0F;  // as advance_gait has it
+  const WideMask sides_change = load(plan.landing) > 0.0F;  // as advance_gait has it
   auto keep = [](const WideMask& where, const Lanes<float>& kept, Lanes<float>& value) {
     store(select(where, load(kept), load(value)), value);
   };
@@ -194,10 +200,13 @@ void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
   keep(sides_change, plan.from.toe_out, plan.trailing_toe_out);
   plan.from = plan.to;
   next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, fresh, right_lands, plan.to);
-  const WideMask stays = (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
+  // Who stands turns, until both feet point where they are to.
+  const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
+  const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
+  const WideMask stays = either(turns, zero, select(stands_still(plan), one, zero));
   keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // feet that stand stay where they are
   keep(stays, plan.from.toe_out, plan.to.toe_out);
-  solve_step(size, wanted, right_lands, plan);
+  solve_step(size, wanted, right_lands, turns, plan);
 }
 
 }  // namespace mobil::HWY_NAMESPACE

@@ -16,11 +16,11 @@
 #include "components/body.h"
 #include "components/gait.h"
 #include "engine/wide_curve-inl.h"
+#include "systems/gait/heading-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
-constexpr float pi_f = 3.14159265F;
 constexpr float degree_f = pi_f / 180.0F;
 constexpr float gravity_f = 9.81F;
 
@@ -125,7 +125,13 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
       const float times = part.is_length ? tall[l] : 1.0F;
       for (std::size_t i = part.first; i < part.first + part.count; ++i) strike.shape[i][l] = times * step.shape[i];
     }
-    if (fast[l] > 0) strike.shape[step_shape::hips_forward.first][l] += beyond;
+    if (fast[l] <= 0) continue;
+    strike.shape[step_shape::hips_forward.first][l] += beyond;
+    // Legs that reach further than the table's stand lower: straight ones by this, to the second order. Much longer
+    // steps are beyond people.
+    const float reach = std::min(far[l], 1.15F * tabled);
+    const float further = std::max(reach * reach - tabled * tabled, 0.0F);
+    strike.shape[step_shape::hips_up.first][l] -= 0.125F * further * tall[l] * static_cast<float>(fraction::hip_height);
   }
 }
 

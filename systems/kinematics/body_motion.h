@@ -15,11 +15,8 @@ void motion_of_poses(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>
                      BodyMotion<Lanes<float>>& motion);
 
 /// The motion of walkers at this instant of their step, from the step alone: no memory, no lag. Near either end of the
-/// step that of `difference_s` within it.
+/// step that of `motion_difference_s` within it.
 void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, BodyMotion<Lanes<float>>& motion);
-
-/// Between the poses that walker_motion takes differences of, s: longer blurs, shorter shows single precision.
-inline constexpr float difference_s = 0.006F;
 
 }  // namespace mobil

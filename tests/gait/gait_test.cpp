@@ -1,6 +1,6 @@
 // Walking requests, the table of parameters, and the equations of a step against a Lagrangian differentiated here.
-#include "assets/gait/step_lookup.h"
 #include "systems/gait/gait.h"
+#include "assets/gait/step_lookup.h"
 
 #include <gtest/gtest.h>
 

@@ -100,7 +100,7 @@ void expect_joined(const StepPlan<float>& a, const StepPlan<float>& b) {
   EXPECT_EQ(a.step_length_m, b.length_before_m);
   EXPECT_EQ(std::memcmp(&a.to, &b.from, sizeof(a.to)), 0);
   EXPECT_NEAR(double{a.phase_rate_to} / double{a.duration_s}, double{b.phase_rate_from} / double{b.duration_s}, 1e-4);
-  const bool changes_sides = a.step_length_m + a.length_before_m > 0;  // who goes on standing does not
+  const bool changes_sides = a.landing > 0;  // who goes on standing does not
   EXPECT_EQ(changes_sides ? a.from.half_width_m : a.trailing_half_width_m, b.trailing_half_width_m);
   EXPECT_EQ(changes_sides ? a.from.toe_out : a.trailing_toe_out, b.trailing_toe_out);
   if (changes_sides) return;

@@ -51,15 +51,44 @@ TEST(Turning, GoesTheShorterWayWithinItsLimitsAndArrives) {
   }
 }
 
-TEST(Turning, ThoseWhoStandDoNotTurn) {
+/// Up to 30° a step of 0.4 s, in place; a foot moves only while it is in the air; both feet end up where they point.
+TEST(Turning, ThoseWhoStandTurnOnTheSpot) {
   const auto w = turning(30);
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F});
-  const auto heading = w->state.heading_rad;
   plan_first_step(w->size, w->gait, w->plan);
-  for (int i = 0; i < 300; ++i) w->tick(1.0F / 60.0F);
+  const GaitState<Lanes<float>> first = w->state;
+  w->place();
+  auto last = std::make_unique<Walkers>(*w);
+  double slid = 0, lifted = 0;
+  for (int i = 0; i < 480; ++i) {
+    w->tick(1.0F / 60.0F);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      for (const std::size_t side : {right, left}) {
+        const bool stands = side == w->state.stance_side[l] || w->state.time_s[l] < w->plan.double_support_s[l];
+        const bool stood = side == last->state.stance_side[l] || last->state.time_s[l] < last->plan.double_support_s[l];
+        const Vec3<float> toe = at(w->feet.toe_m[side], l);
+        lifted = std::fmax(lifted, double{toe.y});
+        if (stands && stood && w->state.steps[l] == last->state.steps[l])
+          slid = std::fmax(slid, distance(toe, at(last->feet.toe_m[side], l)));
+      }
+    }
+    *last = *w;
+  }
+  EXPECT_LT(slid, 1e-5);
+  EXPECT_GT(lifted, 0.01);
   for (std::size_t l = 0; l < lane_count; ++l) {
-    EXPECT_EQ(w->state.heading_rad[l], heading[l]);
-    EXPECT_EQ(w->state.steps[l], 0U);
+    const double way = std::fabs(wrapped(double{w->gait.heading_rad[l]} - first.heading_rad[l]));
+    EXPECT_LT(std::fabs(wrapped(double{w->gait.heading_rad[l]} - w->state.heading_rad[l])), 0.021);
+    EXPECT_LE(w->state.steps[l], 2 + static_cast<unsigned>(way / most_turn));
+    EXPECT_EQ(w->state.turn_before_rad[l], 0);
+    EXPECT_EQ(w->state.line_x_m[l], first.line_x_m[l]);
+    EXPECT_EQ(w->state.line_z_m[l], first.line_z_m[l]);
+    for (const std::size_t side : {right, left}) {
+      const double out = (side == left ? 1.0 : -1.0) * w->plan.from.half_width_m[l], heading = w->state.heading_rad[l];
+      const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
+      EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + out * std::cos(heading), 1e-4);
+      EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - out * std::sin(heading), 1e-4);
+    }
   }
 }
 

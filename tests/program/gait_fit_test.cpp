@@ -24,7 +24,7 @@ const GaitReference& reference() {
 
 /// A node with the shape that the table has.
 StepNode node(std::size_t s, std::size_t l) {
-  StepNode made = step_node(reference(), 0, s, l);
+  StepNode made = step_node({&reference()}, s, l);
   made.shape = fitted(step_shapes[s][l]);
   return made;
 }

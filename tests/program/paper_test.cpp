@@ -91,7 +91,7 @@ void expect_the_far_end_to_follow_its_pull(const fs::path& made) {
 
 void expect_every_length_beside_the_published_one(const fs::path& made, const std::string& told) {
   const Csv table(made / "figure15.csv");
-  ASSERT_EQ(table.rows.size(), 8 * cycle_points);
+  ASSERT_EQ(table.rows.size(), 16 * cycle_points);
   const auto published = read_published_lengths("schwartz_slow");
   ASSERT_TRUE(published) << published.error().message;
   double square = 0;

@@ -1,0 +1,39 @@
+// Where a walker is to turn to. Include it as engine/wide-inl.h says.
+
+#if defined(MOBIL_SYSTEMS_GAIT_HEADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_SYSTEMS_GAIT_HEADING_INL_H_
+#undef MOBIL_SYSTEMS_GAIT_HEADING_INL_H_
+#else
+#define MOBIL_SYSTEMS_GAIT_HEADING_INL_H_
+#endif
+
+#include "components/gait.h"
+#include "engine/wide-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+constexpr float pi_f = 3.14159265F;
+
+/// From how far off the wanted heading on somebody who stands turns on the spot, rad.
+constexpr float off_heading = 0.02F;
+
+/// From one heading to another, at most half a turn either way.
+HWY_INLINE Wide shorter_way(const Wide& from, const Wide& to) {
+  const Wide off = to - from;
+  return off - (2.0F * pi_f) * floor(off * (0.5F / pi_f) + 0.5F);
+}
+
+HWY_INLINE WideMask stands_still(const StepPlan<Lanes<float>>& plan) {
+  return (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
+}
+
+/// Who stands and puts a foot down elsewhere all the same.
+HWY_INLINE WideMask steps_on_spot(const StepPlan<Lanes<float>>& plan) {
+  return stands_still(plan) & (load(plan.landing) > 0.0F);
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

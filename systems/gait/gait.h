@@ -32,9 +32,9 @@ std::uint32_t lanes_to_plan(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
                             const GaitState<Lanes<float>>& state, float tick_s);
 
 /// Who began a step in this tick turns along it toward the wanted heading, by at most 30° and 1.1 m/s² of acceleration
-/// sideways, which changes by at most 0.6 m/s² from step to step; and puts the next foot outward by most of z a / g: z
-/// the height of the centre of mass, a its acceleration toward the inside (a pendulum's balance). Who stands turns by up
-/// to 30° a step on the spot. After the plan of the step.
+/// sideways, which changes by at most 0.6 m/s² from step to step; and puts the next foot outward by z a / g: z
+/// the height of the centre of mass, a its acceleration toward the inside (a pendulum's balance). Who stands turns by
+/// up to 30° a step on the spot. After the plan of the step.
 void turn_gait(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
                GaitState<Lanes<float>>& state, float tick_s);
 

@@ -13,10 +13,9 @@ constexpr float most_turn = 30.0F * pi_f / 180.0F;  // a step
 /// Sideways, m/s²: the most, and by how much more or less from one step to the next, which soles can make up for.
 constexpr float most_sideways = 1.1F, most_change = 0.6F;
 constexpr float centre_over_gravity = 0.56F / 9.81F;  // height of the centre of mass, of the height; s²/m
-/// What of the way that the balance asks for feet are put outward, soles do the rest; how near a foot may come to the
-/// other's line when it is put to the inside, of the distance in a straight walk; how far it may go to the outside, of
-/// the height.
-constexpr float by_feet = 0.85F, nearest = 0.4F, farthest = 0.08F;
+/// How near a foot may come to the other's line when it is put to the inside, of the distance in a straight walk; how
+/// far it may go to the outside, of the height.
+constexpr float nearest = 0.4F, farthest = 0.08F;
 
 /// How much of the way to the wanted heading the line turns along a step: not more than the step after it can undo.
 HWY_INLINE Wide next_turn(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
@@ -40,7 +39,7 @@ HWY_INLINE Wide next_shift(const BodySize<Lanes<float>>& size, const StepPlan<La
   const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m);
   const Wide lands_left = select(equal(state.stance_side, right), wide(1.0F), wide(-1.0F));
   // Seen outward from the stance foot to the one that lands.
-  const Wide outward = lands_left * (-by_feet * centre_over_gravity * height * inward - load(state.shift_m));
+  const Wide outward = lands_left * (-centre_over_gravity * height * inward - load(state.shift_m));
   const Wide kept = min(max(outward, (nearest - 1.0F) * apart), farthest * height);
   return fma(lands_left, kept, load(state.shift_m));
 }

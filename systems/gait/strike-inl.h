@@ -107,7 +107,7 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
   store(length / leg, far);
   for (std::size_t l = 0; l < lane_count; ++l) {
     TabledStep step = tabled_step(fast[l], far[l]);
-    if (amounts.most[l] > 0) {
+    if (fast[l] > 0 && amounts.most[l] > 0) {
       std::array<float, style_effects.size()> by;
       for (std::size_t k = 0; k < by.size(); ++k) by[k] = amounts.of[k][l];
       add_styles(fast[l], by, step.shape);

@@ -133,7 +133,7 @@ void check_muscles(const Simulation& simulation, const Human& human) {
       const double asked = static_cast<double>(line.length_m) - static_cast<double>(line.rest_length_m);
       RC_ASSERT(std::abs(static_cast<double>(report.elongation_m) - asked) < 1e-5);
       RC_ASSERT(report.volume_ratio > 0.5F && report.volume_ratio < 1.7F);
-      RC_ASSERT(report.kinetic_energy_j >= 0 && report.kinetic_energy_j < 5);
+      RC_ASSERT(report.kinetic_energy_j >= 0 && report.kinetic_energy_j < 15);
       RC_ASSERT(report.strain_energy_j > -0.01F && report.strain_energy_j < 20);
       RC_ASSERT(std::isfinite(report.reaction_n) && std::abs(report.reaction_n) < 2000);
       const NodalView nodes = simulation.nodal_displacement(muscle);

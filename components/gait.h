@@ -24,8 +24,10 @@ struct Gait {
   F speed_m_s, step_length_m, step_frequency_hz;  // the mean of right and left steps
   /// One double support as a fraction of the cycle of two steps.
   F double_support_cycle;
-  F heading_rad;      // to turn to
-  Whole<F> revision;  // tells one request from the next
+  F heading_rad;          // to turn to
+  F left_m, ahead_m;      // to step aside and ahead, of who stands; once for each of:
+  Whole<F> displacement;  // tells one such step from the next
+  Whole<F> revision;      // tells one request from the next
   GaitStyleOf<F> style;
 };
 
@@ -86,6 +88,7 @@ struct Strike {
   F speed_m_s;                // of the gait that it belongs to; 0: standing
   F length_m;                 // from the trailing foothold to the leading one
   F pace_hz;                  // steps a second
+  F advance_m;                // how far the hips go in a step at that pace
   F half_width_m, toe_out;    // of the leading foot
   F double_support;           // after it, of the cycle
   F shape[step_shape::size];  // of a steady walk (components/step_shape.h), lengths in m
@@ -118,9 +121,11 @@ struct StepPlan {
   F mixed_from;                      // phase from which on the shapes are mixed
   F phase_rate_from, phase_rate_to;  // of the phase of the step over the time as a part of the step
   F trailing_half_width_m, trailing_toe_out;
-  Whole<F> revision;  // of the gait that it was solved for
-  Whole<F> settled;   // 1: the next step is this one mirrored, as long as the gait stays
-  Whole<F> clamped;   // 1: the centre of pressure that this step asks for lies beyond the soles
+  F slant_rad;                      // of who stands: the heading of a step aside, beside the way the body faces
+  Whole<F> swaps;                   // 1: of who stands, the other foot becomes the stance foot as this step begins
+  Whole<F> displacement, revision;  // of the gait that it was solved for
+  Whole<F> settled;                 // 1: the next step is this one mirrored, as long as the gait stays
+  Whole<F> clamped;                 // 1: the centre of pressure that this step asks for lies beyond the soles
   Strike<F> from, to;
   Quintic<F> even_m;  // by p: the hips' way without what is periodic
   /// The other foot from toe-off to heel strike, by the part of the swing: its pitch and its ankle's place relative to
@@ -133,16 +138,19 @@ struct StepPlan {
 
 /// Where a walker is: time since heel strike of the stance foot (0 right, 1 left), steps taken, and the point of the
 /// walking line beside the stance foothold with the line's heading there: about +Y, 0 toward +Z, positive to the left;
-/// how much the line turns to the next foothold and how much it turned from the one before. Footholds lie beside the
-/// line, on an arc from one to the next; in a turn they are all moved by a shift, to the left of it, so that the ground
-/// can push the body inward. All zero: right heel strike at the origin, walking toward +Z.
+/// how much the line turns to the next foothold and how much it turned from the one before, and the headings of the
+/// straight ways to and from them beside that of the line. Footholds lie beside the
+/// line; in a turn they are all moved by a shift, to the left of it, so that the ground can push the body inward, and
+/// the line has one curvature for as long as one foot bears (assets/gait/walking_line-inl.h). All zero: right heel
+/// strike at the origin, walking toward +Z.
 template <class F>
 struct GaitState {
   F time_s;
   Whole<F> stance_side, steps;
   F line_x_m, line_z_m, heading_rad;
-  F turn_rad, turn_before_rad;
-  F shift_m, shift_before_m, shift_next_m;  // of the stance foothold, of the one before and of the next
+  F turn_rad, turn_before_rad, chord_rad, chord_before_rad;
+  F bend_per_m, bend_before_per_m, bend_next_per_m;  // curvature on the stance foot, the one before and the next
+  F shift_m, shift_before_m, shift_next_m;           // of the stance foothold, of the one before and of the next
 };
 
 }  // namespace mobil

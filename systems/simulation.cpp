@@ -109,6 +109,10 @@ Result<void> Simulation::turn_to(Entity human, float heading_rad) {
   return mobil::turn_to(world_, human, heading_rad);
 }
 
+Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
+  return mobil::step_aside(world_, human, left_m, ahead_m);
+}
+
 Status Simulation::add_forces(Entity human) {
   return mobil::add_forces(world_, human);
 }

@@ -124,6 +124,11 @@ class Simulation {
   /// part of it each step; who stands turns on the spot. Errors: a stale handle, a heading that is not finite;
   /// nothing has changed.
   Result<void> turn_to(Entity human, float heading_rad);
+  /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative
+  /// to the right and back; at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.90 m, in proportion to the
+  /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed
+  /// person, somebody who is to walk, a way out of range; nothing has changed.
+  Result<void> step_aside(Entity human, float left_m, float ahead_m);
 
   /// The effect of ground reaction and joint moments (components/forces.h). Posed
   /// people have no gait that it could follow from: Status::missing.

@@ -19,6 +19,24 @@ namespace mobil::HWY_NAMESPACE {
 /// the heel's pad yields.
 constexpr float usual_flat = 0.09F, usual_rise = 0.30F, pad_part = 0.05F;
 
+HWY_INLINE WideMask stands(const Strike<Lanes<float>>& strike) {
+  return load(strike.speed_m_s) <= 0.0F;
+}
+
+HWY_INLINE WideMask stands_still(const StepPlan<Lanes<float>>& plan) {
+  return stands(plan.from) & stands(plan.to);
+}
+
+/// The foot of a body of height 1 m: ahead of and behind the ankle, radius of the heel's rim, height of the toes'
+/// joint, and of the ankle over each.
+namespace unit_foot {
+constexpr auto back = static_cast<float>(fraction::heel_back), ball = static_cast<float>(fraction::ball_forward);
+constexpr auto toes = static_cast<float>(fraction::toes_length), rim = static_cast<float>(fraction::heel_radius);
+constexpr auto joint = static_cast<float>(fraction::toe_joint_height);
+constexpr float over_rim = static_cast<float>(fraction::ankle_height) - rim;
+constexpr float over_joint = static_cast<float>(fraction::ankle_height) - joint;
+}  // namespace unit_foot
+
 /// The numbers of two strikes' shapes, mixed.
 struct MixedShape {
   const Lanes<float>*from, *to;
@@ -51,13 +69,20 @@ HWY_NOINLINE inline StepWaves step_waves(const Wide& phase) {
   return w;
 }
 
-/// A mean and `count` harmonics of the step.
+/// `count` harmonics of the step, about a value.
 template <class Shape>
-HWY_INLINE Wide harmonics(const Shape& of, const ShapePart& part, std::size_t count, const StepWaves& w) {
-  Wide sum = of(part, 0);
+HWY_INLINE Wide harmonics_about(const Wide& value, const Shape& of, const ShapePart& part, std::size_t count,
+                                const StepWaves& w) {
+  Wide sum = value;
   for (std::size_t k = 1; k <= count; ++k)
     sum = fma(of(part, k), w.cosine[2 * k], fma(of(part, count + k), w.sine[2 * k], sum));
   return sum;
+}
+
+/// A mean and `count` harmonics of the step.
+template <class Shape>
+HWY_INLINE Wide harmonics(const Shape& of, const ShapePart& part, std::size_t count, const StepWaves& w) {
+  return harmonics_about(of(part, 0), of, part, count, w);
 }
 
 /// The hips' way to the left while the right foot stands, to the right while the left one does.
@@ -99,11 +124,16 @@ HWY_INLINE Wide legendre_sum(const Shape& of, const ShapePart& part, const Wide&
   return sum;
 }
 
-/// 64 (u (1 − u))³ times Legendre polynomials.
+/// 64 (u (1 − u))³: 1 in the middle, 0 at both ends with two derivatives.
+HWY_INLINE Wide bump(const Wide& u) {
+  const Wide q = u * (1.0F - u);
+  return 64.0F * q * q * q;
+}
+
+/// The bump times Legendre polynomials.
 template <class Shape>
 HWY_INLINE Wide bumps(const Shape& of, const ShapePart& part, const Wide& u) {
-  const Wide bump = u * (1.0F - u);
-  return 64.0F * bump * bump * bump * legendre_sum(of, part, 2.0F * u - 1.0F);
+  return bump(u) * legendre_sum(of, part, 2.0F * u - 1.0F);
 }
 
 /// A value and its first two derivatives.
@@ -128,12 +158,7 @@ struct PlantedAnkle {
 
 /// Inlined, so that who takes the places alone does not pay for the derivatives.
 HWY_INLINE PlantedAnkle planted_ankle(const Wide& height, const Wide& pitch) {
-  namespace f = fraction;
-  constexpr auto back = static_cast<float>(f::heel_back), ball = static_cast<float>(f::ball_forward);
-  constexpr auto rim = static_cast<float>(f::heel_radius), toes = static_cast<float>(f::toes_length);
-  constexpr auto joint = static_cast<float>(f::toe_joint_height);
-  constexpr float over_rim = static_cast<float>(f::ankle_height) - rim;
-  constexpr float over_joint = static_cast<float>(f::ankle_height) - joint;
+  using namespace unit_foot;
   Wide s, c, q_s, q_c;
   sin_cos(pitch, s, c);
   const Wide heel_up = max(-pitch, 0.0F);
@@ -186,22 +211,102 @@ HWY_INLINE Wide mixed_part(const StepPlan<Lanes<float>>& plan, const Wide& phase
   return smooth((phase - start) / (1.0F - start));
 }
 
+/// How far the heel of somebody's first step rises, of what it does in the walk to come.
+constexpr float first_rise = 0.3F;
+
+/// The numbers of the heel rise with which the other foot leaves the ground: of the walk before it, or of a first step.
+struct LeavingShape {
+  const StepPlan<Lanes<float>>& plan;
+  WideMask first;
+  HWY_INLINE explicit LeavingShape(const StepPlan<Lanes<float>>& of) : plan(of), first(stands(of.from)) {}
+  HWY_INLINE Wide operator()(const ShapePart& p, std::size_t i) const {
+    return select(first, first_rise * load(plan.to.shape[p.first + i]), load(plan.from.shape[p.first + i]));
+  }
+  /// Phases of the step over which the heel rises; the first may lie before it.
+  HWY_INLINE Wide begins() const {
+    const Wide lift = usual_rise + load(plan.from.shape[step_shape::times.first + 1]);
+    return select(first, wide(0.0F), 2.0F * lift - 1.0F);
+  }
+};
+
+/// Pitch of the stance foot.
+HWY_NOINLINE inline Wide stance_pitch(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& phase) {
+  const OneShape from{plan.from.shape};
+  const Wide cycle = 0.5F * phase;
+  const Wide rising = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
+  const Wide lift = usual_rise + of(step_shape::times, 1);
+  return falling(from, step_shape::strike, cycle / (usual_flat + from(step_shape::times, 0))) +
+         heel_rise(of, (cycle - lift) / (rising - lift));
+}
+
 /// 64 u³(1 − u)³ times Legendre polynomials of 2u − 1.
 HWY_INLINE Wide other_way(const Lanes<float> (&by)[other_way_count], const Wide& u) {
   return bumps(OneShape{by}, {"", 0, other_way_count, 0}, u);
 }
 
-/// The middle of the hips: forward from the stance foothold, to the left while the right foot stands (else to the
-/// right).
+/// The middle of the hips: forward from the stance foothold along the line; from there ahead, and to the left while the
+/// right foot stands (else to the right).
 struct HipsPlace {
-  Wide forward, aside;
+  Wide forward, ahead, aside;
 };
 
 /// `u`: the part of the step's time at which its phase has those waves.
 HWY_NOINLINE inline HipsPlace hips_place(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& u,
                                          const Wide& phase, const StepWaves& w) {
-  return {quintic_at(plan.even_m, phase) + harmonics(of, step_shape::hips_forward, 4, w) + other_way(plan.ahead_m, u),
-          hips_aside(of, w) - other_way(plan.aside_m, u)};
+  return {harmonics_about(quintic_at(plan.even_m, phase), of, step_shape::hips_forward, 4, w),
+          other_way(plan.ahead_m, u), hips_aside(of, w) - other_way(plan.aside_m, u)};
+}
+
+/// By its series, for |x| < 3.
+constexpr float cosine(double x) {
+  double term = 1, sum = 1;
+  for (int k = 1; k < 16; ++k) {
+    term *= -x * x / ((2 * k - 1) * (2 * k));
+    sum += term;
+  }
+  return static_cast<float>(sum);
+}
+
+HWY_INLINE Wide manner(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
+  return mix(load(from), load(to), part);
+}
+
+/// cos K π (p − at/1000) from the waves of p.
+template <int K, int At>
+HWY_INLINE Wide wave(const StepWaves& w) {
+  constexpr double half_turn = 3.14159265358979324, angle = half_turn * K * At / 1000;
+  constexpr float c = cosine(angle), s = cosine(angle - half_turn / 2);
+  return fma(wide(c), w.cosine[K], s * w.sine[K]);
+}
+
+/// Of the pelvis, seen from the stance leg: that side forward, and that side up.
+HWY_INLINE Wide pelvis_rotation(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
+  return manner(plan.from.manner.pelvis_rotation, plan.to.manner.pelvis_rotation, eased) *
+         wave<1, pelvis_phase::rotation_1000>(w);
+}
+HWY_INLINE Wide pelvis_list(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
+  namespace p = pelvis_phase;
+  return manner(plan.from.manner.pelvis_list, plan.to.manner.pelvis_list, eased) *
+         (p::list_first * wave<1, p::list_first_1000>(w) + p::list_third * wave<3, p::list_third_1000>(w));
+}
+
+/// Of the pelvis: its front down.
+HWY_INLINE Wide pelvis_tilt(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased) {
+  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
+  return fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, pelvis_phase::tilt_1000>(w),
+             manner(from.pelvis_tilt, to.pelvis_tilt, eased));
+}
+
+/// How far the pelvis sinks in a step between unlike walks, so that no leg is straight: of the height, per m/s by which
+/// they differ; and the most.
+constexpr float sinks_by = 0.015F, most_sinking = 0.006F;
+
+HWY_INLINE Wide hips_height(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height, const Wide& u,
+                            const StepWaves& w) {
+  constexpr auto standing = static_cast<float>(fraction::hip_height);
+  const Wide unlike = abs(load(plan.to.speed_m_s) - load(plan.from.speed_m_s));
+  const Wide sunk = fnma(min(sinks_by * unlike, most_sinking), bump(u), wide(standing));
+  return fma(sunk, height, harmonics(of, step_shape::hips_up, 4, w));
 }
 
 }  // namespace mobil::HWY_NAMESPACE

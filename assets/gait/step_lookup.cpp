@@ -18,12 +18,24 @@ struct Blend {
   float walks;  // 1; less below the slowest node
 };
 
-Blend speed_blend(float at) {
+/// Where a speed is among the nodes.
+struct Place {
+  std::size_t node;  // the slower neighbour
+  float part;        // of the way to the faster one
+  float walks;       // 1; less below the slowest node
+};
+
+Place place_of(float at) {
   constexpr auto first = static_cast<float>(speed.front());
   constexpr auto apart = static_cast<float>((speed.back() - speed.front()) / (speed_count - 1));
   const float place = std::clamp((at - first) / apart, 0.0F, static_cast<float>(speed_count - 1));
-  const std::size_t i = std::min(static_cast<std::size_t>(place), speed_count - 2);
-  const float u = place - static_cast<float>(i), v = 1 - u;
+  const std::size_t node = std::min(static_cast<std::size_t>(place), speed_count - 2);
+  return {node, place - static_cast<float>(node), std::clamp(at / first, 0.0F, 1.0F)};
+}
+
+Blend speed_blend(float at) {
+  const auto [i, u, walks] = place_of(at);
+  const float v = 1 - u;
   Blend b;
   b.node = {i == 0 ? 0 : i - 1, i, i + 1, std::min(i + 2, speed_count - 1)};
   b.weight = {-0.5F * u * v * v, v * (1 + u - 1.5F * u * u), u * (1 + v - 1.5F * v * v), -0.5F * v * u * u};
@@ -38,7 +50,7 @@ Blend speed_blend(float at) {
     b.weight[1] -= b.weight[3];
     b.weight[3] = 0;
   }
-  b.walks = std::clamp(at / first, 0.0F, 1.0F);
+  b.walks = walks;
   return b;
 }
 
@@ -90,10 +102,7 @@ TabledStep tabled_step(float at, float step_length) {
 }
 
 void add_styles(float at, std::span<const float, style_effects.size()> amounts, TabledShape& shape) {
-  const auto first = static_cast<float>(speed.front()), last = static_cast<float>(speed.back());
-  const float place = std::clamp((at - first) / (last - first), 0.0F, 1.0F) * static_cast<float>(speed_count - 1);
-  const std::size_t node = std::min(static_cast<std::size_t>(place), speed_count - 2);
-  const float part = place - static_cast<float>(node), walks = std::clamp(at / first, 0.0F, 1.0F);
+  const auto [node, part, walks] = place_of(at);
   for (std::size_t e = 0; e < amounts.size(); ++e) {
     if (amounts[e] == 0.0F) continue;
     const float slower = walks * (1 - part) * amounts[e], faster = walks * part * amounts[e];

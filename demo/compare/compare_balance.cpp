@@ -37,6 +37,7 @@ struct Request {
   double after_s;
   double speed_m_s;
   double heading_deg = 0;
+  double left_m = 0, ahead_m = 0;  // a step of somebody who stands
 };
 
 struct Scene {
@@ -70,6 +71,10 @@ Result<UnbalancedMoment> walk_scene(const BodyRequest& body, GaitStyle style, co
       const double heading = request.heading_deg * std::numbers::pi / 180;
       if (auto done = simulation.turn_to(*person, static_cast<float>(heading)); !done)
         return tl::unexpected(done.error());
+      const auto left_m = static_cast<float>(request.left_m), ahead_m = static_cast<float>(request.ahead_m);
+      if (left_m != 0 || ahead_m != 0) {
+        if (auto done = simulation.step_aside(*person, left_m, ahead_m); !done) return tl::unexpected(done.error());
+      }
     }
     simulation.tick();
     meter.add(*simulation.get<Pose>(*person), *simulation.get<GroundReaction>(*person), scene_tick_s);
@@ -142,7 +147,9 @@ Result<std::vector<BalancedScene>> walk_balance_scenes(const BodyRequest& body, 
                           {"faster and slower", {{0, 0.9}, {2, 1.7}, {6, 0.8}}, 10},
                           {"turning", {{0, 1.3}, {1, 1.3, 90}, {4, 1.3, -30}}, 8},
                           {"starting and stopping", {{0, 0}, {1, 1.3}, {5, 0}}, 8},
-                          {"limping", {{0, 1.1}}, 5, 0.12F, 0.10F}};
+                          {"limping", {{0, 1.1}}, 5, 0.12F, 0.10F},
+                          {"stepping aside", {{0, 0}, {1, 0, 0, 0.2}, {3, 0, 0, 0, -0.15}}, 5},
+                          {"turning on the spot", {{0, 0}, {1, 0, 90}}, 4}};
   std::vector<BalancedScene> walked;
   for (const Scene& scene : scenes) {
     const auto moment = walk_scene(body, style, scene);

@@ -109,6 +109,8 @@ void print(const std::vector<StepNode>& nodes) {
 }
 
 Result<void> run_fit(const FitText& text) {
+  if (text.styles && !text.without.empty())
+    return fail("--styles and --without: styles change the table that this program has; give one of the two");
   const auto reference = read_gait_reference({});
   if (!reference) return tl::unexpected(reference.error());
   FitData data{&*reference};

@@ -121,17 +121,20 @@ StyleChanges style_changes(const StepNode& node) {
   std::vector<double> kept;  // no step lacks nothing: what the node lacks may stay
   step(node.shape, kept);
   const auto before = style_values(node.task, node.shape, node.shape);
+  const Instants at = instants(node.task, usual);
   static constexpr StepShape scales = shape_scales();
   StyleChanges changes{};
   for (std::size_t e = 0; e < changes.size(); ++e) {
     const double by = tried_by[e];
+    StepCycle cycle;
     const Residuals asked = [&](std::span<const double> unknown, std::vector<double>& residual) {
       step(unknown, residual);
       for (std::size_t i = 0; i < kept.size(); ++i) residual[i] -= kept[i];
       StepShape shape;
       std::copy(unknown.begin(), unknown.end(), shape.begin());
-      const auto now = style_values(node.task, node.shape, shape);
-      residual.push_back(insistence * ((now[e] - before[e]) / by - 1));
+      evaluate_step(node.task, shape, cycle);
+      const double now = style_value(node.task, shape, usual, cycle, at, style_effects[e].parameter);
+      residual.push_back(insistence * ((now - before[e]) / by - 1));
     };
     StepShape shape = node.shape;
     least_squares(asked, scales, {.most_steps = 40, .least_gain = 1e-4}, shape);

@@ -80,6 +80,10 @@ Result<void> apply_changes(const std::vector<GaitChange>& changes, const std::st
       const auto done = simulation.turn_to(entity, *change.heading_rad);
       if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
     }
+    if (change.aside_m) {
+      const auto done = simulation.step_aside(entity, change.aside_m->first, change.aside_m->second);
+      if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
+    }
   }
   return {};
 }

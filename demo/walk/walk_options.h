@@ -8,11 +8,11 @@
 
 #include "components/body.h"
 #include "components/gait.h"
+#include "components/leg_muscles.h"
 #include "demo/program/body_options.h"
 #include "demo/program/options.h"
 #include "demo/walk/walk_script.h"
 #include "engine/error.h"
-#include "components/leg_muscles.h"
 
 namespace mobil {
 

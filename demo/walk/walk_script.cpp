@@ -29,6 +29,9 @@ const std::string_view walk_script_help =
     "  step_length_right, step_length_left  uneven steps: set step_length to their mean and step_asymmetry a, so that\n"
     "                                       right = mean (1 + a), left = mean (1 - a); one alone keeps the other\n"
     "  heading                              deg, 0 straight ahead as at the start, positive to the left\n"
+    "  aside, ahead                         a step of somebody who stands, from there: cm or m, to the left and "
+    "ahead,\n"
+    "                                       negative to the right and back; both at one time are one step\n"
     "  stop                                 value empty or 1; stands until the next 'speed'\n"
     "  any gait parameter                   see --list-parameters";
 
@@ -48,6 +51,8 @@ constexpr Word words[] = {{"speed", Quantity::speed, 0, 10},
                           {"step_length_right", Quantity::length, 0.01, 3},
                           {"step_length_left", Quantity::length, 0.01, 3},
                           {"heading", Quantity::angle, -360, 360},
+                          {"aside", Quantity::length, -1, 1},
+                          {"ahead", Quantity::length, -1, 1},
                           {"stop", Quantity::ratio, 1, 1}};
 
 bool one_side(std::string_view name) {
@@ -208,8 +213,12 @@ Result<std::vector<GaitChange>> plan_changes(const WalkScript& script, const Bod
                               [&](const WalkScript::Row& row) { return row.time_s != moment.begin->time_s; });
     GaitChange change{moment.begin->time_s, moment.begin->line};
     if (const auto heading = moment["heading"]) change.heading_rad = *heading * (std::numbers::pi_v<float> / 180);
-    const bool turn_alone = change.heading_rad && std::next(moment.begin) == moment.end;
-    if (!turn_alone) {
+    const auto aside = moment["aside"], ahead = moment["ahead"];
+    if (aside || ahead) change.aside_m = {aside.value_or(0.0F), ahead.value_or(0.0F)};
+    const bool same_walk = std::all_of(moment.begin, moment.end, [](const WalkScript::Row& row) {
+      return row.parameter == "heading" || row.parameter == "aside" || row.parameter == "ahead";
+    });
+    if (!same_walk) {
       const GaitRequest before = request;
       for (auto row = moment.begin; row != moment.end; ++row) {
         if (const GaitParameter* known = find_gait_parameter(row->parameter)) request.style.*known->value = row->value;

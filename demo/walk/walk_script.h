@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "components/body.h"
@@ -37,12 +38,13 @@ Result<WalkScript> parse_walk_script(std::string_view text, std::string_view nam
 /// The same from a file; also fails where it cannot be read.
 Result<WalkScript> read_walk_script(const std::string& path);
 
-/// One change: the whole request that holds from then on, and the heading to turn to.
+/// One change: the whole request that holds from then on, the heading to turn to, and a step aside.
 struct GaitChange {
   double time_s;
   std::size_t line;  // of its first row
   std::optional<GaitRequest> gait{};
   std::optional<float> heading_rad{};
+  std::optional<std::pair<float, float>> aside_m{};  // to the left and ahead
 };
 
 /// What the script asks of this body, from the walk it starts with. Fails, naming the line, where a gait is out of the

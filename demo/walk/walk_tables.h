@@ -6,9 +6,9 @@
 #include <string_view>
 
 #include "components/forces.h"
+#include "components/leg_muscles.h"
 #include "components/muscle.h"
 #include "components/pose.h"
-#include "components/leg_muscles.h"
 
 namespace mobil {
 

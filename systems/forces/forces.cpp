@@ -3,10 +3,10 @@
 #include <hwy/foreach_target.h>
 
 #include "assets/body/anthropometry.h"
-#include "assets/gait/step_curves-inl.h"
+#include "assets/gait/leg_model.h"
+#include "assets/gait/sole-inl.h"
 #include "engine/wide_geometry-inl.h"
 #include "systems/forces/forces.h"
-#include "systems/forces/leg_model.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -45,7 +45,8 @@ struct Support {
 /// from there, and where the walk presses it.
 struct Sole {
   Wide x, z, along_x, along_z;
-  Wide back, front, pressed;
+  SoleReach reach;
+  Wide pressed;
 };
 
 /// The foot of the right side (right_one = 1) or the left (0) at a phase of its cycle, `off` that of its toe-off; `of`:
@@ -53,9 +54,6 @@ struct Sole {
 template <class Shape>
 HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motion, const Wide& right_one,
                           const Wide& height, const Wide& cycle, const Wide& off) {
-  namespace f = fraction;
-  constexpr auto tip = static_cast<float>(f::ball_forward + f::toes_length), ball = static_cast<float>(f::ball_forward);
-  constexpr auto heel = -static_cast<float>(f::heel_back);
   auto side = [&](const Lanes<float>& of_right, const Lanes<float>& of_left) {
     return select(right_one > 0.0F, load(of_right), load(of_left));
   };
@@ -68,12 +66,8 @@ HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motio
   const Wide rolled = planted_ankle(height, pitch).along.value;
   s.x = fnma(rolled, s.along_x, side(right_ankle.x, left_ankle.x));
   s.z = fnma(rolled, s.along_z, side(right_ankle.z, left_ankle.z));
-  const Wide toes_down = clamp(1.0F - max(pitch, 0.0F) * (1.0F / forces::toes_lifted), 0.0F, 1.0F);
-  const Wide heel_up = clamp(max(-pitch, 0.0F) * (1.0F / forces::heel_lifted), 0.0F, 1.0F);
-  s.front = height * min(fma(toes_down, wide(tip - heel), wide(heel + forces::pad)), tip);
-  s.back = height * fma(heel_up, wide(ball - forces::pad - heel), wide(heel));
-  const Wide x = 2.0F * clamp(cycle / off, 0.0F, 1.0F) - 1.0F;
-  s.pressed = fma(wide(forces::pressed_ahead), height, legendre_sum(of, step_shape::pressure, x));
+  s.reach = sole_reach(height, pitch);
+  s.pressed = pressed(of, height, cycle / off);
   return s;
 }
 
@@ -93,7 +87,7 @@ struct Shares {
 HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
   const OneShape from{plan.from.shape};
   const Wide off = load(plan.double_support), landing = load(plan.landing);
-  const WideMask from_stands = load(plan.from.speed_m_s) <= 0.0F, to_stands = load(plan.to.speed_m_s) <= 0.0F;
+  const WideMask from_stands = stands(plan.from), to_stands = stands(plan.to);
   const Wide u = clamp(phase / max(off, 1e-3F), 0.0F, 1.0F), x = 2.0F * u - 1.0F;
   const Wide left_over = 0.5F * smooth((phase - landing) / max(1.0F - landing, 1e-3F));
   const Wide stance = select(from_stands, 0.5F + 0.5F * smooth(u), taken(from, u));
@@ -107,15 +101,12 @@ HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wid
 HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                           const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
   const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
-  const Wide duration = load(plan.duration_s);
-  const Wide instant =
-      min(max(load(state.time_s), wide(motion_difference_s)), duration - motion_difference_s);  // that of `motion`
-  const Wide phase = step_phase(plan, instant / duration);
+  const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
   const Wide off = load(plan.double_support);
   const Wide right_stands = select(equal(state.stance_side, right), one, zero);
   const Wide stance_off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
-  const Sole sole[2] = {
+  const Sole soles[2] = {
       sole_of(of, motion, right_stands, height, 0.5F * phase, stance_off),
       sole_of(OneShape{plan.from.shape}, motion, one - right_stands, height, 0.5F + 0.5F * phase, 0.5F + 0.5F * off)};
   const Shares planned = planned_shares(plan, phase);
@@ -127,8 +118,8 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
   const Wide wanted_x = moment.z / lift, wanted_z = -(moment.x / lift);
   Wide x[2], z[2];
   for (std::size_t k = 0; k < 2; ++k) {
-    x[k] = fma(sole[k].pressed, sole[k].along_x, sole[k].x);
-    z[k] = fma(sole[k].pressed, sole[k].along_z, sole[k].z);
+    x[k] = fma(soles[k].pressed, soles[k].along_x, soles[k].x);
+    z[k] = fma(soles[k].pressed, soles[k].along_z, soles[k].z);
   }
   // The stance foot's share that would do with these centres; who stands has it.
   auto balanced = [&] {
@@ -141,10 +132,11 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
   share[1] = one - share[0];
   const Wide lacking_x = wanted_x - fma(share[0], x[0], share[1] * x[1]);
   const Wide lacking_z = wanted_z - fma(share[0], z[0], share[1] * z[1]);
-  const Wide half_width = wide(forces::half_sole_width) * height;
+  const Wide half_width = wide(sole::half_width) * height;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Sole& s = sole[k];
-    const Wide along = min(max(s.pressed + fma(lacking_x, s.along_x, lacking_z * s.along_z), s.back), s.front);
+    const Sole& s = soles[k];
+    const Wide along =
+        min(max(s.pressed + fma(lacking_x, s.along_x, lacking_z * s.along_z), s.reach.back), s.reach.front);
     const Wide aside = min(max(fma(lacking_x, s.along_z, -(lacking_z * s.along_x)), -half_width), half_width);
     x[k] = fma(along, s.along_x, fma(aside, s.along_z, s.x));
     z[k] = fma(along, s.along_z, fnma(aside, s.along_x, s.z));

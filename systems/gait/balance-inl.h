@@ -8,15 +8,16 @@
 #define MOBIL_SYSTEMS_GAIT_BALANCE_INL_H_
 #endif
 
-#include "assets/gait/step_curves-inl.h"
+#include "assets/gait/sole-inl.h"
 #include "systems/gait/elimination-inl.h"
+#include "systems/gait/planar_figure-inl.h"
 #include "systems/gait/strike-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
-/// Instants of a step at which it is looked at.
-constexpr std::size_t balance_instants = 17;
+/// Equal parts of a step's time at whose ends it is looked at.
+constexpr std::size_t step_parts = 32;
 
 /// How far the centre of pressure goes per acceleration of the hips: height of the centre of mass over gravity, s².
 HWY_INLINE Wide pendulum(const Wide& height) {
@@ -24,67 +25,78 @@ HWY_INLINE Wide pendulum(const Wide& height) {
   return height * (centre / gravity_f);
 }
 
-/// Two numbers of each instant: forward and aside.
-struct OnGround {
-  Wide forward, aside;
-};
-
-/// Where a steady walk of that shape presses the ground at a phase, as a pendulum on the hips' way: from the stance
-/// foothold.
-HWY_NOINLINE inline OnGround steady_pressure(const Strike<Lanes<float>>& strike, const Wide& height, const StepWaves& w,
-                                             const Wide& phase) {
+/// Where a steady walk of that shape presses the ground aside, as a pendulum on the hips' way.
+HWY_NOINLINE inline Wide steady_aside(const Strike<Lanes<float>>& strike, const Wide& height, const StepWaves& w) {
   const OneShape of{strike.shape};
   const Wide pace = load(strike.pace_hz), per = pendulum(height) * (pi_f * pi_f) * pace * pace;
-  const Wide length = load(strike.speed_m_s) / max(pace, 0.1F);
-  OnGround sum = {fma(length, phase, of(step_shape::hips_forward, 0)), wide(0.0F)};
-  for (std::size_t k = 1; k <= 4; ++k) {
-    const auto turns = static_cast<float>(4 * k * k);
-    const Wide wave =
-        fma(of(step_shape::hips_forward, k), w.cosine[2 * k], of(step_shape::hips_forward, 4 + k) * w.sine[2 * k]);
-    sum.forward = fma(wave, fma(per, wide(turns), wide(1.0F)), sum.forward);
-  }
   const ShapePart& a = step_shape::aside;
   const Wide once = fma(of(a, 0), w.cosine[1], of(a, 2) * w.sine[1]);
   const Wide thrice = fma(of(a, 1), w.cosine[3], of(a, 3) * w.sine[3]);
-  sum.aside = fma(once, 1.0F + per, thrice * fma(per, wide(9.0F), wide(1.0F)));
-  return sum;
+  return fma(once, 1.0F + per, thrice * fma(per, wide(9.0F), wide(1.0F)));
 }
 
-/// By how much the step lacks to press where its strikes' walks do, in between mixed as the feet take over; at equal
-/// times.
-HWY_NOINLINE inline void lacking(const StepPlan<Lanes<float>>& plan, const Wide& height,
-                                 OnGround (&out)[balance_instants]) {
-  constexpr std::size_t n = balance_instants - 1;
-  constexpr float h = 1.0F / 256;
-  const Wide per = pendulum(height) / (load(plan.duration_s) * load(plan.duration_s)) * (1.0F / (h * h));
-  const WideMask from_stands = load(plan.from.speed_m_s) <= 0.0F, to_stands = load(plan.to.speed_m_s) <= 0.0F;
+/// At the instants between a step's ends: where it presses the ground, less where walks do, and how far it may.
+struct Pressed {
+  Wide off[step_parts], least[step_parts], most[step_parts];
+};
+
+/// To either side of where walks press a foot, of the height.
+constexpr float room_aside = 0.015F;
+
+HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
+                                    const Wide& phase, const WideMask& both, std::size_t i, Pressed& ahead) {
+  const SoleReach reach = sole_reach(height, stance_pitch(plan, of, phase)), flat = sole_reach(height, wide(0.0F));
+  const Wide off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
+  const Wide back = select(both, min(reach.back, flat.front - load(plan.length_before_m)), reach.back);
+  const Wide at = pressed(of, height, 0.5F * phase / off);
+  const Wide middle = min(max(at, back), reach.front);
+  ahead.off[i] = ahead.off[i] - middle;
+  ahead.least[i] = back - middle;
+  ahead.most[i] = reach.front - middle;
+}
+
+/// What a step presses, before it is balanced.
+HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const Wide& height, Pressed& ahead,
+                                      Pressed& aside) {
+  const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
+  const Wide per_aside = pendulum(height) * per_apart * per_apart;
+  const Wide width = load(plan.from.half_width_m) + load(plan.to.half_width_m);
+  const WideMask from_stands = stands(plan.from), to_stands = stands(plan.to);
   const Wide off = load(plan.double_support), landing = load(plan.landing);
-  for (std::size_t i = 0; i <= n; ++i) {
-    const float at = static_cast<float>(i) / n;
-    HipsPlace place[3];
-    Wide phase;
-    StepWaves waves;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float u = at < h       ? static_cast<float>(k) * h
-                      : at > 1 - h ? 1 + (static_cast<float>(k) - 2) * h
-                                   : at + (static_cast<float>(k) - 1) * h;
-      phase = step_phase(plan, wide(u));
-      waves = step_waves(phase);
-      place[k] = hips_place(plan, {plan.from.shape, plan.to.shape, mixed_part(plan, phase)}, wide(u), phase, waves);
+  PlanarFigure figure[3];
+  PlanarMotion before{wide(0.0F), wide(0.0F)};
+  StepWaves waves[2];
+  Wide phase[2];
+  for (std::size_t k = 0; k <= step_parts; ++k) {
+    const Wide u = wide(static_cast<float>(k) / step_parts);
+    phase[k % 2] = step_phase(plan, u);
+    waves[k % 2] = step_waves(phase[k % 2]);
+    planar_figure(plan, height, u, phase[k % 2], waves[k % 2], figure[k % 3]);
+    if (k == 0) continue;
+    const PlanarFigure& last = figure[(k + 2) % 3];
+    const PlanarMotion now = planar_motion(last, figure[k % 3], height, per_apart);
+    if (k > 1) {
+      const std::size_t i = k - 1;
+      Wide centre = wide(0.0F);
+      for (std::size_t j = 0; j < planar_points; ++j) centre = fma(wide(planar_mass(j)), last.forward[j], centre);
+      const Wide lift = fma(now.rising - before.rising, per_apart, wide(gravity_f));
+      ahead.off[i] = fma(wide(gravity_f), centre, (now.turning - before.turning) * per_apart) / lift;
+      const Wide& p = phase[i % 2];
+      const WideMask both = (p < off) | (p > landing);
+      const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, p)};
+      room_ahead(plan, of, height, p, both, i, ahead);
+
+      const Wide pressed_aside =
+          last.aside - per_aside * (figure[k % 3].aside - 2.0F * last.aside + figure[(k + 1) % 3].aside);
+      // Somebody who stands presses between the feet, for as long as both are on the ground.
+      const Wide part = select(from_stands, smooth(p / max(off, 1e-3F)),
+                               select(to_stands, smooth((p - landing) / max(1.0F - landing, 1e-3F)), of.part));
+      aside.off[i] = pressed_aside - mix(steady_aside(plan.from, height, waves[i % 2]),
+                                         steady_aside(plan.to, height, waves[i % 2]), part);
+      aside.least[i] = -room_aside * height;
+      aside.most[i] = select(both, width, room_aside * height);
     }
-    phase = step_phase(plan, wide(at));
-    waves = step_waves(phase);
-    const OnGround a = steady_pressure(plan.from, height, waves, phase),
-                   b = steady_pressure(plan.to, height, waves, phase);
-    // Somebody who stands presses between the feet, for as long as both are on the ground.
-    const Wide part =
-        select(from_stands, smooth(phase / max(off, 1e-3F)),
-               select(to_stands, smooth((phase - landing) / max(1.0F - landing, 1e-3F)), mixed_part(plan, phase)));
-    auto motion = [&](Wide HipsPlace::*of) {
-      return place[1].*of - per * (place[0].*of - 2.0F * (place[1].*of) + place[2].*of);
-    };
-    out[i] = {mix(a.forward, b.forward, part) - motion(&HipsPlace::forward),
-              mix(a.aside, b.aside, part) - motion(&HipsPlace::aside)};
+    before = now;
   }
 }
 
@@ -110,55 +122,120 @@ constexpr OtherWay other_way_at(float u) {
   return o;
 }
 
-/// Chooses plan.ahead_m and aside_m; returns how far the centre of pressure still lies from where the walks have it.
-HWY_NOINLINE inline Wide balance_step(const Wide& height, const WideMask& alike, StepPlan<Lanes<float>>& plan) {
-  constexpr std::size_t n = balance_instants - 1;
+/// How much of its room the centre of pressure is given.
+constexpr float room_used = 0.7F;
+
+/// Solves for the other way that brings the centre of pressure into its room, or as near as it can; returns how far
+/// outside it stays.
+HWY_NOINLINE inline Wide into_room(const Elimination<other_ways>& normal, const Wide (&effect)[step_parts][other_ways],
+                                   const Pressed& pressed, Wide (&by)[other_ways]) {
+  constexpr int rounds = 6;
+  Wide worst = wide(0.0F);
+  for (std::size_t k = 0; k < other_ways; ++k) by[k] = wide(0.0F);
+  for (int round = 0; round < rounds; ++round) {
+    Wide sum[other_ways];
+    for (std::size_t k = 0; k < other_ways; ++k) sum[k] = wide(0.0F);
+    for (std::size_t i = 1; i < step_parts; ++i) {
+      Wide reached = pressed.off[i];
+      for (std::size_t k = 0; k < other_ways; ++k) reached = fma(effect[i][k], by[k], reached);
+      const Wide wanted = min(max(reached, room_used * pressed.least[i]), room_used * pressed.most[i]) - pressed.off[i];
+      for (std::size_t k = 0; k < other_ways; ++k) sum[k] = fma(effect[i][k], wanted, sum[k]);
+    }
+    for (std::size_t k = 0; k < other_ways; ++k) by[k] = sum[k];
+    normal.solve(by);
+  }
+  for (std::size_t i = 1; i < step_parts; ++i) {
+    Wide reached = pressed.off[i];
+    for (std::size_t k = 0; k < other_ways; ++k) reached = fma(effect[i][k], by[k], reached);
+    worst = max(worst, max(pressed.least[i] - reached, reached - pressed.most[i]));
+  }
+  return worst;
+}
+
+/// Of who stands and puts a foot elsewhere: a pendulum over both feet. `right_one`: 1 where the right foot stands, else
+/// −1.
+HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& right_one,
+                                      Pressed& ahead, Pressed& aside) {
+  const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
+  const Wide per = pendulum(height) * per_apart * per_apart;
+  const Wide before = load(plan.length_before_m), length = load(plan.step_length_m);
+  const Wide off = load(plan.double_support), landing = load(plan.landing);
+  const SoleReach reach = sole_reach(height, wide(0.0F));
+  const Wide half = sole::half_width * height;
+  Wide s, c;
+  sin_cos(load(plan.slant_rad), s, c);
+  s = s * right_one;
+  // Places of the feet that bear beside the stance foot: forward, and to the side that hips_place counts from it.
+  const Wide stance_aside = -load(plan.from.half_width_m);
+  const Wide last_forward = -before * c, last_aside = fnma(before, s, load(plan.trailing_half_width_m));
+  const Wide next_forward = length * c, next_aside = fma(length, s, load(plan.to.half_width_m));
+  Wide way[3];
+  for (std::size_t k = 0; k <= step_parts; ++k) {
+    const Wide u = wide(static_cast<float>(k) / step_parts);
+    way[k % 3] = quintic_at(plan.even_m, step_phase(plan, u));
+    if (k < 2) continue;
+    const std::size_t i = k - 1;
+    const Wide at = step_phase(plan, wide(static_cast<float>(i) / step_parts));
+    const WideMask early = at<off, late = at> landing;
+    const Wide pressed = way[i % 3] - per * (way[k % 3] - 2.0F * way[i % 3] + way[(i + 2) % 3]);
+    auto within = [&](const Wide& pressing, const Wide& stance, const Wide& last, const Wide& next, const Wide& back,
+                      const Wide& front, Pressed& out) {
+      const Wide other = select(early, last, select(late, next, stance));
+      const Wide least = min(stance, other) + back, most = max(stance, other) + front, middle = 0.5F * (least + most);
+      out.off[i] = pressing - middle;
+      out.least[i] = least - middle;
+      out.most[i] = most - middle;
+    };
+    within(pressed * c, wide(0.0F), last_forward, next_forward, reach.back, reach.front, ahead);
+    within(pressed * s, stance_aside, last_aside, next_aside, -half, half, aside);
+  }
+}
+
+HWY_INLINE bool any(const WideMask& mask) {
+  Lanes<float> ones;
+  store(select(mask, wide(1.0F), wide(0.0F)), ones);
+  return std::any_of(std::begin(ones.lane), std::end(ones.lane), [](float one) { return one > 0.0F; });
+}
+
+/// Chooses plan.ahead_m and aside_m; returns how far the centre of pressure then lies outside the soles.
+HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one, const WideMask& alike,
+                                      const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   for (std::size_t k = 0; k < other_ways; ++k) {
     store(wide(0.0F), plan.ahead_m[k]);
     store(wide(0.0F), plan.aside_m[k]);
   }
-  OnGround lack[balance_instants];
-  lacking(plan, height, lack);
+  Pressed ahead, aside;
+  look_at_step(plan, height, ahead, aside);
+  if (any(on_spot)) {
+    Pressed standing_ahead, standing_aside;
+    look_at_feet(plan, height, right_one, standing_ahead, standing_aside);
+    for (std::size_t i = 1; i < step_parts; ++i) {
+      for (auto number : {&Pressed::off, &Pressed::least, &Pressed::most}) {
+        (ahead.*number)[i] = select(on_spot, (standing_ahead.*number)[i], (ahead.*number)[i]);
+        (aside.*number)[i] = select(on_spot, (standing_aside.*number)[i], (aside.*number)[i]);
+      }
+    }
+  }
   const Wide per = pendulum(height) / (load(plan.duration_s) * load(plan.duration_s));
   Elimination<other_ways> normal;
-  Wide forward[other_ways], aside[other_ways];
   for (std::size_t k = 0; k < other_ways; ++k) {
-    forward[k] = aside[k] = wide(0.0F);
     for (std::size_t j = 0; j < other_ways; ++j) normal.a[k][j] = wide(j == k ? 1e-3F : 0.0F);
   }
-  auto effect_at = [&](std::size_t i, Wide(&effect)[other_ways]) {
-    const OtherWay o = other_way_at(static_cast<float>(i) / n);
-    for (std::size_t k = 0; k < other_ways; ++k) effect[k] = fnma(per, wide(o.bend[k]), wide(o.place[k]));
-  };
-  for (std::size_t i = 1; i < n; ++i) {
-    Wide effect[other_ways];
-    effect_at(i, effect);
-    for (std::size_t k = 0; k < other_ways; ++k) {
-      for (std::size_t j = 0; j < other_ways; ++j) normal.a[k][j] = fma(effect[k], effect[j], normal.a[k][j]);
-      forward[k] = fma(effect[k], lack[i].forward, forward[k]);
-      aside[k] = fma(effect[k], lack[i].aside, aside[k]);
-    }
+  Wide effect[step_parts][other_ways];
+  for (std::size_t i = 1; i < step_parts; ++i) {
+    const OtherWay o = other_way_at(static_cast<float>(i) / step_parts);
+    for (std::size_t k = 0; k < other_ways; ++k) effect[i][k] = fnma(per, wide(o.bend[k]), wide(o.place[k]));
+    for (std::size_t k = 0; k < other_ways; ++k)
+      for (std::size_t j = 0; j < other_ways; ++j) normal.a[k][j] = fma(effect[i][k], effect[i][j], normal.a[k][j]);
   }
   normal.factor();
-  normal.solve(forward);
-  normal.solve(aside);
-  for (std::size_t k = 0; k < other_ways; ++k) {
-    forward[k] = select(alike, wide(0.0F), forward[k]);
-    aside[k] = select(alike, wide(0.0F), aside[k]);
-    store(forward[k], plan.ahead_m[k]);
-    store(-aside[k], plan.aside_m[k]);
-  }
-  Wide worst = wide(0.0F);
-  for (std::size_t i = 1; i < n; ++i) {
-    Wide effect[other_ways], ahead = lack[i].forward, to_side = lack[i].aside;
-    effect_at(i, effect);
-    for (std::size_t k = 0; k < other_ways; ++k) {
-      ahead = fnma(effect[k], forward[k], ahead);
-      to_side = fnma(effect[k], aside[k], to_side);
-    }
-    worst = max(worst, max(abs(ahead), abs(to_side)));
-  }
-  return worst;
+  auto choose = [&](const Pressed& pressed, Lanes<float>(&way)[other_way_count], float sign) {
+    Wide by[other_ways];
+    const Wide outside = into_room(normal, effect, pressed, by);
+    for (std::size_t k = 0; k < other_ways; ++k) store(select(alike, wide(0.0F), sign * by[k]), way[k]);
+    return select(alike, wide(0.0F), outside);
+  };
+  return max(choose(ahead, plan.ahead_m, 1.0F), choose(aside, plan.aside_m, -1.0F));
 }
 
 }  // namespace mobil::HWY_NAMESPACE

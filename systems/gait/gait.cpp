@@ -44,7 +44,7 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   const double height = body.request.height_m;
   const double leg = body.thigh_length_m + body.shank_length_m;
   const double scale = std::sqrt(leg / 0.90);
-  const double hips = fraction::hip_height * height;
+  const double hips = body.hip_height_m;
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
   if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked) {

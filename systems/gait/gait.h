@@ -31,10 +31,10 @@ void advance_gait(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& s
 std::uint32_t lanes_to_plan(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
                             const GaitState<Lanes<float>>& state, float tick_s);
 
-/// Who began a step in this tick turns along it toward the wanted heading, by at most 30° and 1.1 m/s² of acceleration
-/// sideways, which changes by at most 0.6 m/s² from step to step; and puts the next foot outward by z a / g: z
-/// the height of the centre of mass, a its acceleration toward the inside (a pendulum's balance). Who stands turns by
-/// up to 30° a step on the spot. After the plan of the step.
+/// Who began a step in this tick turns toward the wanted heading from the next foot on, by at most 30° a step and
+/// 1.1 m/s² of acceleration sideways, for which that foot is put outward by z a / g: z the height of the centre of
+/// mass, a its acceleration toward the inside (a pendulum's balance). Who stands turns by up to 30° a step on the spot,
+/// or steps aside as planned. After the plan of the step.
 void turn_gait(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
                GaitState<Lanes<float>>& state, float tick_s);
 

@@ -2,6 +2,9 @@
 #define HWY_TARGET_INCLUDE "systems/gait/gait_advance.cpp"
 #include <hwy/foreach_target.h>
 
+#include <utility>
+
+#include "assets/gait/walking_line-inl.h"
 #include "engine/wide-inl.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/heading-inl.h"
@@ -10,38 +13,55 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 constexpr float most_turn = 30.0F * pi_f / 180.0F;  // a step
-/// Sideways, m/s²: the most, and by how much more or less from one step to the next, which soles can make up for.
-constexpr float most_sideways = 1.1F, most_change = 0.6F;
+constexpr float most_sideways = 1.1F;               // m/s²
+/// How far beside the place where its turn asks for it a foot may press the ground, of the height.
+constexpr float within_sole = 0.012F;
 constexpr float centre_over_gravity = 0.56F / 9.81F;  // height of the centre of mass, of the height; s²/m
 /// How near a foot may come to the other's line when it is put to the inside, of the distance in a straight walk; how
 /// far it may go to the outside, of the height.
 constexpr float nearest = 0.4F, farthest = 0.08F;
 
-/// How much of the way to the wanted heading the line turns along a step: not more than the step after it can undo.
-HWY_INLINE Wide next_turn(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
-                          const Wide& wanted) {
-  const Wide before = load(state.turn_before_rad);
-  const Wide way = shorter_way(load(state.heading_rad), wanted), far = abs(way);
-  const Wide per_sideways = load(plan.duration_s) / max(load(plan.to.speed_m_s), 0.1F);
-  const Wide most = min(most_sideways * per_sideways, most_turn), change = most_change * per_sideways;
-  const Wide wished = copy_sign(min(select(far <= change, far, 0.5F * (far + change)), most), way);
-  const Wide turn = min(max(wished, before - change), before + change);
-  const WideMask on_spot = steps_on_spot(plan) & (far > off_heading);
-  const Wide on_the_spot = select(on_spot, min(max(way, -most_turn), most_turn), wide(0.0F));
-  return select(load(plan.step_length_m) > 0.0F, min(max(turn, -most), most), on_the_spot);
+/// A foot that comes to the ground: where, to the left of its place on the line, and the curvature that the line has
+/// while it bears.
+struct NextFoot {
+  Wide shift, bend;
+};
+
+/// As much of the way to the wanted heading as is left after the bend of this stance, as far as the foot can be put
+/// outward for it.
+HWY_INLINE NextFoot next_foot(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                              const GaitState<Lanes<float>>& state, const Wide& way) {
+  const Wide height = load(size.height_m), length = load(plan.step_length_m), speed = load(plan.to.speed_m_s);
+  const WideMask walks = (length > 0.0F) & (speed > 0.0F);
+  const Wide far = max(length, 0.05F), squared = max(speed * speed, 0.01F);
+  const Wide most = min(most_sideways / squared, most_turn / far);
+  const Wide after = (way - (1.0F - slope_at_end) * length * load(state.bend_per_m)) / far;
+  const Wide shift_per_bend = -centre_over_gravity * height * squared;
+  const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m), shift = load(state.shift_m);
+  const Wide lands_left = select(equal(state.stance_side, right), wide(1.0F), wide(-1.0F));
+  // The foot after one on the inside can come back inward only so far: no more than that foot can undo.
+  const Wide undone = ((1.0F - nearest) * apart + within_sole * height) / -shift_per_bend, turned = abs(after);
+  const WideMask inside = (after * lands_left > 0.0F) & (turned > undone);
+  const Wide wish = copy_sign(min(select(inside, 0.5F * (turned + undone), turned), most), after);
+  const Wide wished = select(walks, wish, wide(0.0F));
+  // Seen outward from the stance foot to the one that lands.
+  const Wide outward = lands_left * (shift_per_bend * wished - shift);
+  const Wide kept = fma(lands_left, min(max(outward, (nearest - 1.0F) * apart), farthest * height), shift);
+  const Wide possible = kept / shift_per_bend, slack = abs(within_sole * height / shift_per_bend);
+  return {select(walks, kept, shift), select(walks, min(max(wished, possible - slack), possible + slack), wide(0.0F))};
 }
 
-/// Where the next foot is put beside its place on the line, to the left.
-HWY_INLINE Wide next_shift(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                           const GaitState<Lanes<float>>& state, const Wide& turn) {
-  const Wide height = load(size.height_m);
-  const Wide inward = load(plan.to.speed_m_s) * turn / load(plan.duration_s);
-  const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m);
-  const Wide lands_left = select(equal(state.stance_side, right), wide(1.0F), wide(-1.0F));
-  // Seen outward from the stance foot to the one that lands.
-  const Wide outward = lands_left * (-centre_over_gravity * height * inward - load(state.shift_m));
-  const Wide kept = min(max(outward, (nearest - 1.0F) * apart), farthest * height);
-  return fma(lands_left, kept, load(state.shift_m));
+/// Who has come to stand does so beside the line, as far as the feet are: the line goes there.
+HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask& done, GaitState<Lanes<float>>& state) {
+  const Wide shift = load(state.shift_m), zero = wide(0.0F);
+  const WideMask rests = done & stands(plan.to) & (abs(shift - load(state.shift_before_m)) <= 0.0F);
+  Wide s, c;
+  sin_cos(load(state.heading_rad), s, c);
+  const Wide by = select(rests, shift, zero);
+  store(fma(by, c, load(state.line_x_m)), state.line_x_m);
+  store(fnma(by, s, load(state.line_z_m)), state.line_z_m);
+  for (Lanes<float>* moved : {&state.shift_m, &state.shift_before_m, &state.shift_next_m})
+    store(select(rests, zero, load(*moved)), *moved);
 }
 
 void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
@@ -53,21 +73,26 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
   // Below a tick whatever the rounding: that is how the systems that follow know a step that has just begun.
   store(select(done, clamp(time - step, 0.0F, tick_s * 0.999999F), time), state.time_s);
 
-  const Wide turn = load(state.turn_rad), before = load(state.turn_before_rad), heading = load(state.heading_rad);
+  const Wide turn = load(state.turn_rad), heading = load(state.heading_rad), chord = load(state.chord_rad);
   Wide s, c;
-  sin_cos(heading + 0.5F * turn, s, c);
+  sin_cos(heading + chord, s, c);
   const Wide along = select(done, length, zero);
   store(fma(along, s, load(state.line_x_m)), state.line_x_m);
   store(fma(along, c, load(state.line_z_m)), state.line_z_m);
-  const Wide ahead = heading + turn;
-  store(select(done, ahead, heading), state.heading_rad);
-  store(select(done, turn, before), state.turn_before_rad);
-  store(select(done, zero, turn), state.turn_rad);
+  auto moves_on = [&](const Wide& value, Lanes<float>& to) { store(select(done, value, load(to)), to); };
+  moves_on(heading + turn, state.heading_rad);
+  moves_on(turn, state.turn_before_rad);
+  moves_on(chord - turn, state.chord_before_rad);
+  moves_on(zero, state.turn_rad);
+  moves_on(zero, state.chord_rad);
+  moves_on(load(state.bend_per_m), state.bend_before_per_m);
+  moves_on(load(state.bend_next_per_m), state.bend_per_m);
 
   const WideMask lands = done & walked;
   const Wide shift = load(state.shift_m);
   store(select(lands, shift, load(state.shift_before_m)), state.shift_before_m);
   store(select(lands, load(state.shift_next_m), shift), state.shift_m);
+  come_to_rest(plan, done, state);
   Lanes<float> steps;
   store(select(lands, one, zero), steps);
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -91,14 +116,35 @@ std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
   return bits;
 }
 
+/// Feet side by side: which one is the stance foot is as one likes.
+void swap_feet(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    if (plan.swaps[l] == 0 || !(state.time_s[l] < tick_s)) continue;
+    state.stance_side[l] ^= 1U;
+    std::swap(state.shift_m[l], state.shift_before_m[l]);
+  }
+}
+
 void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state, float tick_s) {
+  swap_feet(plan, state, tick_s);
   const WideMask begun = load(state.time_s) < tick_s;
-  const Wide turn = next_turn(plan, state, load(wanted.heading_rad));
-  store(select(begun, turn, load(state.turn_rad)), state.turn_rad);
-  const WideMask walks = load(plan.landing) > 0.0F;
-  const Wide shift = select(walks, next_shift(size, plan, state, turn), load(state.shift_before_m));
-  store(select(begun, shift, load(state.shift_next_m)), state.shift_next_m);
+  const WideMask steps = load(plan.landing) > 0.0F;
+  const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
+  const NextFoot next = next_foot(size, plan, state, way);
+  const Wide length = load(plan.step_length_m), bend = load(state.bend_per_m);
+  const Chord chord = {length, bend * length, (next.bend - bend) * length};
+  const Wide moves = length + load(plan.length_before_m), slant = load(plan.slant_rad);
+  const WideMask on_spot = steps_on_spot(plan) & (abs(way) > off_heading) & (moves <= 0.0F);
+  const Wide on_the_spot = select(on_spot, min(max(way, -most_turn), most_turn), wide(0.0F));
+  auto begin = [&](const Wide& value, Lanes<float>& to) { store(select(begun, value, load(to)), to); };
+  begin(select(length > 0.0F, chord_turn(chord), on_the_spot), state.turn_rad);
+  begin(chord_heading(chord) + slant, state.chord_rad);
+  // Who stood has come along no chord.
+  begin(select(load(plan.length_before_m) > 0.0F, load(state.chord_before_rad), load(state.chord_rad)),
+        state.chord_before_rad);
+  begin(next.bend, state.bend_next_per_m);
+  begin(select(steps, next.shift, load(state.shift_before_m)), state.shift_next_m);
 }
 
 }  // namespace mobil::HWY_NAMESPACE

@@ -7,8 +7,7 @@
 #define MOBIL_SYSTEMS_GAIT_HEADING_INL_H_
 #endif
 
-#include "components/gait.h"
-#include "engine/wide-inl.h"
+#include "assets/gait/step_curves-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -22,10 +21,6 @@ constexpr float off_heading = 0.02F;
 HWY_INLINE Wide shorter_way(const Wide& from, const Wide& to) {
   const Wide off = to - from;
   return off - (2.0F * pi_f) * floor(off * (0.5F / pi_f) + 0.5F);
-}
-
-HWY_INLINE WideMask stands_still(const StepPlan<Lanes<float>>& plan) {
-  return (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
 }
 
 /// Who stands and puts a foot down elsewhere all the same.

@@ -4,6 +4,12 @@
 #define HWY_TARGET_INCLUDE "systems/gait/step_plan.cpp"
 #include <hwy/foreach_target.h>
 
+#include <cmath>
+#include <utility>
+
+#include <cmath>
+#include <utility>
+
 #include "systems/gait/balance-inl.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/heading-inl.h"
@@ -12,12 +18,18 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// How far speed may change from step to step, and what a walk starts with and stops from, m/s at a leg of 0.90 m.
-constexpr float most_faster = 0.25F, most_slower = 0.30F, first_speed = 0.60F, last_speed = 0.60F;
+constexpr float most_faster = 0.30F, most_slower = 0.60F, first_speed = 0.60F, last_speed = 1.35F;
 /// A first and a last step, of the pace that they lead to or come from; phases until its foot leaves the ground, and at
 /// which it comes to it.
-constexpr float first_step = 0.9F, last_step = 1.1F, first_double_support = 0.45F, last_landing = 0.85F;
+constexpr float first_step = 0.9F, last_step = 1.3F, first_double_support = 0.45F, last_landing = 0.85F;
 /// A step on the spot, of somebody who stands and turns: how long it takes, s; the same phases.
 constexpr float spot_step_s = 0.4F, spot_double_support = 0.05F, spot_landing = 0.95F;
+/// A step aside, of somebody who stands, is two: one foot goes there and the other one follows. Each takes so long, s
+/// and s per m: in less the ground could not push the body there.
+constexpr float displacing_s = 0.3F, displacing_s_per_m = 0.8F;
+/// How far an ankle is outward of its hip in somebody who stands, of the height; how much further than straight legs
+/// need the hips sink between two such steps.
+constexpr float stance_aside = 0.022F, sinks_apart = 1.5F;
 /// How far the centre of pressure may lie from where walks have it, of the height.
 constexpr float most_astray = 0.04F;
 
@@ -64,8 +76,9 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   const Wide length = load(wanted.step_length_m), usual = usual_length(height, r.speed);
   const Wide scaled = length * usual / usual_length(height, aim);
   r.step_length = select(to_stand, usual, select(abs(r.speed - aim) < 1e-6F, length, scaled));
-  const Wide uneven = load(wanted.style.step_asymmetry);
+  const Wide uneven = load(wanted.style.step_asymmetry), late = load(wanted.style.time_asymmetry);
   r.length = r.step_length * (1.0F + select(right_lands, uneven, -uneven));
+  r.slower = select(right_lands, late, -late);
   make_strike(r, wanted.style, to);
 }
 
@@ -88,10 +101,11 @@ HWY_INLINE void store_flags(const WideMask& mask, Lanes<std::uint32_t>& words) {
 
 /// The other foot's way through the air.
 HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
-  const OneShape from{plan.from.shape}, to{plan.to.shape};
+  const OneShape to{plan.to.shape};
+  const LeavingShape from(plan);
   const Wide off = load(plan.double_support), part = 0.5F * (load(plan.landing) - off);  // of the cycle
   // How the pitch leaves the ground and comes to it, by the part of the swing.
-  const Wide lift = usual_rise + from(step_shape::times, 1), rising = part / (0.5F + 0.5F * off - lift);
+  const Wide rising = 2.0F * part / max(off - from.begins(), 1e-3F);
   Moving leaving = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t i = 0; i < step_shape::rise.count; ++i) {
     const auto k = static_cast<float>(i + 3);
@@ -132,18 +146,19 @@ HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
 
 /// Solves the step from plan.from to plan.to.
 HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
-                             const WideMask& right_lands, const WideMask& turns_on_spot, StepPlan<Lanes<float>>& plan) {
+                             const WideMask& right_lands, const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
   const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
-  const WideMask from_stands = load(from.speed_m_s) <= 0.0F, to_stands = load(to.speed_m_s) <= 0.0F;
-  const WideMask stands = from_stands & to_stands, spot = stands & turns_on_spot;
-  const WideMask stays = either(spot, zero, select(stands, one, zero));
+  const WideMask from_stands = stands(from), to_stands = stands(to), still = from_stands & to_stands;
+  const WideMask spot = still & on_spot, stays = either(spot, zero, select(still, one, zero));
   const Wide pace_from = load(from.pace_hz), pace_to = load(to.pace_hz);
+  const WideMask displaced = load(from.length_m) + load(to.length_m) > 0.0F;
   const Wide uneven = load(wanted.style.time_asymmetry);
   const Wide even = select(from_stands, first_step / max(pace_to, 0.1F),
                            select(to_stands, last_step / max(pace_from, 0.1F), 2.0F / max(pace_from + pace_to, 0.1F)));
-  const Wide standing = select(spot, wide(spot_step_s), wide(0.25F));
-  const Wide duration = select(stands, standing, even * (1.0F + select(right_lands, uneven, -uneven)));
+  const Wide standing =
+      select(spot, select(displaced, 1.0F / max(pace_from + pace_to, 0.1F), wide(spot_step_s)), wide(0.25F));
+  const Wide duration = select(still, standing, even * (1.0F + select(right_lands, uneven, -uneven)));
   store(duration, plan.duration_s);
   store(pace_from * duration, plan.phase_rate_from);
   store(pace_to * duration, plan.phase_rate_to);
@@ -157,15 +172,16 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   store(load(from.length_m), plan.length_before_m);
 
   const Wide length = load(to.length_m);
-  const Wide usual_from = load(from.speed_m_s) / max(pace_from, 0.1F),
-             usual_to = load(to.speed_m_s) / max(pace_to, 0.1F);
-  store_quintic({zero, usual_from, zero}, {length, usual_to, zero}, plan.even_m);
+  const Wide usual_from = load(from.advance_m), usual_to = load(to.advance_m);
+  const std::size_t middle = step_shape::hips_forward.first;
+  store_quintic({load(from.shape[middle]), usual_from, zero}, {length + load(to.shape[middle]), usual_to, zero},
+                plan.even_m);
   const Wide usual = select(from_stands | to_stands, 2.0F * max(usual_from, usual_to), usual_from + usual_to);
   store(clamp((load(from.length_m) + length) / max(usual, 1e-3F), 0.0F, 1.5F), plan.stride_part);
   store(select(stays, zero, time_of_phase(plan, off) * duration), plan.double_support_s);
   plan_swing(height, plan);
   const WideMask alike = same_words(from, to);
-  const Wide astray = balance_step(height, alike | stands, plan);
+  const Wide astray = balance_step(height, select(right_lands, -one, one), alike | stays, spot, plan);
   store_flags(astray > most_astray * height, plan.clamped);
 
   const WideMask even_steps = (abs(load(wanted.style.step_asymmetry)) + abs(uneven)) <= 0.0F;
@@ -175,6 +191,51 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   const WideMask goes_on = alike & even_steps & (there & same_feet);
   store_flags(either(spot, zero, select(goes_on, one, zero)), plan.settled);
   plan.revision = wanted.revision;
+}
+
+HWY_INLINE Wide load_whole(const Lanes<std::uint32_t>& words) {
+  Lanes<float> out;
+  for (std::size_t l = 0; l < lane_count; ++l) out[l] = static_cast<float>(words[l]);
+  return load(out);
+}
+
+/// Who stands and is to step aside does so, by a strike midway at which the hips are half there; then the other foot
+/// follows. The foot on that side goes first. Returns who does.
+HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                               const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
+  Lanes<float> begins{};
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    plan.swaps[l] = 0;
+    if (plan.from.speed_m_s[l] > 0.0F || plan.to.speed_m_s[l] > 0.0F) continue;
+    if (plan.from.length_m[l] > 0.0F) {  // under way
+      begins[l] = 1.0F;
+      continue;
+    }
+    plan.slant_rad[l] = 0.0F;
+    if (plan.displacement[l] == wanted.displacement[l]) continue;
+    plan.displacement[l] = wanted.displacement[l];
+    const float left_m = wanted.left_m[l], ahead_m = wanted.ahead_m[l],
+                way = std::sqrt(left_m * left_m + ahead_m * ahead_m);
+    if (!(way > 0.0F)) continue;
+    begins[l] = 1.0F;
+    plan.slant_rad[l] = std::atan2(left_m, ahead_m);
+    const std::uint32_t stance = left_m > 0.0F ? right : left_m < 0.0F ? left : state.stance_side[l];
+    plan.swaps[l] = static_cast<std::uint32_t>(stance != state.stance_side[l]);
+    if (plan.swaps[l] != 0) {
+      std::swap(plan.trailing_half_width_m[l], plan.from.half_width_m[l]);
+      std::swap(plan.trailing_toe_out[l], plan.from.toe_out[l]);
+    }
+    plan.to.length_m[l] = way;
+    plan.to.advance_m[l] = way;
+    plan.to.pace_hz[l] = 1.0F / (displacing_s + displacing_s_per_m * way);
+    plan.to.shape[step_shape::hips_forward.first][l] = -0.5F * way;
+    // Legs that stand apart reach less high.
+    const float apart =
+        0.25F * way * way + way * std::abs(std::sin(plan.slant_rad[l])) * stance_aside * size.height_m[l];
+    plan.to.shape[step_shape::hips_up.first][l] -=
+        sinks_apart * 0.5F * apart / (static_cast<float>(fraction::hip_height) * size.height_m[l]);
+  }
+  return load(begins) > 0.0F;
 }
 
 void first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted, StepPlan<Lanes<float>>& plan) {
@@ -203,10 +264,14 @@ void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
   // Who stands turns, until both feet point where they are to.
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
-  const WideMask stays = either(turns, zero, select(stands_still(plan), one, zero));
+  const WideMask displaces = displace(size, wanted, state, plan);
+  const WideMask on_spot = turns | displaces;
+  const WideMask stays = either(on_spot, zero, select(stands_still(plan), one, zero));
   keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // feet that stand stay where they are
   keep(stays, plan.from.toe_out, plan.to.toe_out);
-  solve_step(size, wanted, right_lands, turns, plan);
+  const WideMask swapped = load_whole(plan.swaps) > 0.0F;
+  solve_step(size, wanted, either(swapped, select(right_lands, zero, one), select(right_lands, one, zero)), on_spot,
+             plan);
 }
 
 }  // namespace mobil::HWY_NAMESPACE

@@ -33,18 +33,18 @@ struct StrikeRequest {
   Wide height, mass;
   Wide speed, step_length;  // of the gait at the strike; speed 0 stands
   Wide length;              // of the step that ends here
+  Wide slower;              // how much longer than the mean step it takes, as a part of that
 };
 
 /// Height of the hips of somebody who stands, beside that of straight legs. Legs of one stiffness sink under the weight
-/// that a body of this height carries beyond 24.5 kg/m²; they sink less and less, and a light body's cannot become
-/// longer than straight.
+/// that a body of this height carries beyond 24.5 kg/m²; they sink less and less.
 HWY_NOINLINE inline Wide sunk(const Wide& height, const Wide& mass, const GaitStyleOf<Lanes<float>>& style) {
   const Wide stand = ratio(fraction::hip_height, height);
   const Wide stiffness = load(style.leg_stiffness_n_per_m) * height / 1.8F;
-  const Wide excess = (mass - 24.5F * height * height) * gravity_f / (stiffness * stand);
+  const Wide excess = max(mass - 24.5F * height * height, 0.0F) * gravity_f / (stiffness * stand);
   constexpr float most = 0.018F;
   const Wide sag = most * excess / sqrt(most * most + excess * excess);
-  return stand * (load(style.mid_stance_height) - 1.0F - select(excess > 0.0F, sag, 0.1F * sag));
+  return stand * (load(style.mid_stance_height) - 1.0F - sag);
 }
 
 /// How much wider than those of 24.5 kg/m² heavier people's steps are: 30 % from 22.1 to 35.5 kg/m² (Browning and Kram
@@ -61,7 +61,10 @@ struct StyleAmounts {
 
 /// How far the pelvis of somebody sinks whose steps are uneven, of the height, per part by which they are: so that
 /// neither leg has to be longer than it is.
-constexpr float limping_sink = 0.03F;
+constexpr float limping_sink = 0.06F;
+
+/// How much lower than with straight legs people stand, of the height: their knees are bent by some 6°.
+constexpr float soft_knees = 0.0006F;
 
 /// How a walk's manner differs from the usual one, in the units of style_effects and in their order.
 HWY_NOINLINE inline StyleAmounts style_amounts(const Wide& height, const GaitStyleOf<Lanes<float>>& style) {
@@ -147,6 +150,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   store(r.speed, strike.speed_m_s);
   store(walking(r.length), strike.length_m);
   store(walking(r.speed / step), strike.pace_hz);
+  store(walking(step), strike.advance_m);
   const Wide width = load(style.step_width_h) * wider_steps(r.height, r.mass);
   store(width * (0.5F * r.height), strike.half_width_m);
   store(load(style.toe_out_deg) * degree_f, strike.toe_out);
@@ -170,9 +174,12 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   within(step_shape::strike, 0, 0, 0.7F);
   within(step_shape::times, 0, -0.05F, 0.08F);
   within(step_shape::times, 1, -0.27F, 0.15F);
+  // Uneven steps: hips that go at one speed all the same. A table's step that is longer has them further back already.
+  constexpr float further_back = 0.42F;
+  more(step_shape::hips_forward, 0, walking(fma(wide(further_back - 0.5F), r.length - step, 0.5F * step * r.slower)));
   const Wide sink = sunk(r.height, r.mass, style), lean = load(style.trunk_lean_deg) * degree_f;
   more(step_shape::hips_up, 0,
-       select(stands, sink,
+       select(stands, sink - soft_knees * r.height,
               sink - (usual.mid_stance_height - 1.0F) * ratio(fraction::hip_height, r.height) -
                   limping_sink * r.height * abs(r.length / step - 1.0F)));
   more(step_shape::trunk, 0, select(stands, lean, wide(0.0F)));

@@ -125,13 +125,9 @@ void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<floa
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const float last = plan.duration_s[l] - motion_difference_s;
-      const float middle = state.time_s[l] < motion_difference_s ? motion_difference_s
-                           : state.time_s[l] > last              ? last
-                                                                 : state.time_s[l];
-      at.time_s[l] = middle + (static_cast<float>(k) - 1) * motion_difference_s;
-    }
+    // A step's curves go on smoothly beyond either strike.
+    for (std::size_t l = 0; l < lane_count; ++l)
+      at.time_s[l] = state.time_s[l] + (static_cast<float>(k) - 1) * motion_difference_s;
     pose_skeleton(size, plan, at, pose[k], angles, feet);
   }
   motion_of_poses(size, pose[0], pose[1], pose[2], motion_difference_s, motion);

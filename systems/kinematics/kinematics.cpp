@@ -6,7 +6,7 @@
 #include "assets/body/column.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/kinematics_wide-inl.h"
-#include "systems/kinematics/step_feet-inl.h"
+#include "systems/kinematics/on_line-inl.h"
 
 // Functions here are kept apart where a compiler would otherwise put all of a skeleton into one.
 
@@ -62,68 +62,6 @@ struct Skeleton {
   }
 };
 
-/// The walking line in the frame of the stance foothold (+Z its heading there): it comes from the foothold before and
-/// goes on to the next one, turned.
-struct Line {
-  Wide before, ahead;  // chords' headings: half the turns
-  Wide before_s, before_c, ahead_s, ahead_c;
-  Wide length_before, length;
-  Wide shift_before, shift, shift_next;  // of footholds, to the left
-};
-
-HWY_INLINE Line line_of(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state) {
-  Line line;
-  line.before = -0.5F * load(state.turn_before_rad);
-  line.ahead = 0.5F * load(state.turn_rad);
-  sin_cos(line.before, line.before_s, line.before_c);
-  sin_cos(line.ahead, line.ahead_s, line.ahead_c);
-  line.length_before = load(plan.length_before_m);
-  line.length = load(plan.step_length_m);
-  line.shift_before = load(state.shift_before_m);
-  line.shift = load(state.shift_m);
-  line.shift_next = load(state.shift_next_m);
-  return line;
-}
-
-/// A place to the left of and along a line of that heading.
-struct Ground {
-  Wide left, forward;
-};
-
-HWY_INLINE Ground turned(const Wide& left, const Wide& forward, const Wide& s, const Wide& c) {
-  return {fma(left, c, forward * s), fnma(left, s, forward * c)};
-}
-
-HWY_INLINE Ground part_way(const Ground& a, const Ground& b, const Wide& part) {
-  return {mix(a.left, b.left, part), mix(a.forward, b.forward, part)};
-}
-
-/// A place in the frame of the stance foothold, of one that is `left` of and `forward` along a line through it. The
-/// line is the arc to the foothold before mixed with that to the next one; both leave the foothold along the same
-/// tangent.
-HWY_INLINE Ground on_line(const Line& line, const Wide& left, const Wide& forward, const Wide& ahead) {
-  // From a chord to its arc: a parabola through both footholds.
-  constexpr float shortest = 0.05F;
-  const Wide back = (forward + line.length_before) / max(line.length_before, shortest);
-  const Wide on = (forward - line.length) / max(line.length, shortest);
-  return part_way(turned(fnma(line.before, forward * back, left), forward, line.before_s, line.before_c),
-                  turned(fma(line.ahead, forward * on, left), forward, line.ahead_s, line.ahead_c), ahead);
-}
-
-/// How far the pelvis sinks in a first and in a last step, of the height.
-constexpr float sink_between = 0.006F;
-
-/// How much longer the outer leg would have to be at a strike in a turn, to a foothold that is shifted and, on the
-/// outer arc, further ahead: the pelvis sinks by it.
-HWY_INLINE Wide longer_leg(const Wide& length, const Wide& half_turn, const Wide& shift_before, const Wide& shift,
-                           const Wide& height) {
-  constexpr float leg = static_cast<float>(fraction::hip_height), aside = 0.022F;  // from hip to ankle, of the height
-  constexpr float out = 0.075F;  // foot and hip from the middle, of the height
-  const Wide far = max(abs(shift_before), abs(shift));
-  const Wide ahead = abs(half_turn) * fma(wide(out), height, far);
-  return fma(far, far + 2.0F * aside * height, ahead * (ahead + length)) / (2.0F * leg * height);
-}
-
 /// What the pelvis does now, seen from the right side; its turn and the hips' places from their middle, in its heading.
 struct PelvisMotion {
   Wide rotation, list, tilt;
@@ -131,57 +69,17 @@ struct PelvisMotion {
   WideVec hip[2];
 };
 
-HWY_INLINE Wide manner(const Lanes<float>& from, const Lanes<float>& to, const Wide& part) {
-  return mix(load(from), load(to), part);
-}
-
-/// cos K π (p − at/1000) from the waves of p.
-template <int K, int At>
-HWY_INLINE Wide wave(const StepWaves& w) {
-  constexpr double half_turn = 3.14159265358979324, angle = half_turn * K * At / 1000;
-  constexpr float c = cosine(angle), s = cosine(angle - half_turn / 2);
-  return fma(wide(c), w.cosine[K], s * w.sine[K]);
-}
-
 HWY_NOINLINE PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const StepWaves& w, const Wide& eased,
                                         const Wide& sign, const Wide& height) {
-  namespace p = pelvis_phase;
-  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
   PelvisMotion m;
-  m.rotation = sign * manner(from.pelvis_rotation, to.pelvis_rotation, eased) * wave<1, p::rotation_1000>(w);
-  m.list = sign * manner(from.pelvis_list, to.pelvis_list, eased) *
-           (p::list_first * wave<1, p::list_first_1000>(w) + p::list_third * wave<3, p::list_third_1000>(w));
-  m.tilt = fma(manner(from.pelvis_tilt_wave, to.pelvis_tilt_wave, eased), wave<2, p::tilt_1000>(w),
-               manner(from.pelvis_tilt, to.pelvis_tilt, eased));
+  m.rotation = sign * pelvis_rotation(plan, w, eased);
+  m.list = sign * pelvis_list(plan, w, eased);
+  m.tilt = pelvis_tilt(plan, w, eased);
   m.turn = turn_yzx(m.rotation, -m.list, m.tilt);
   for (std::size_t side = 0; side < 2; ++side)
     m.hip[side] =
         rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
   return m;
-}
-
-/// Where the foot of one side is, in the frame of the stance foothold, and its heading there.
-struct Foothold {
-  Ground ankle;
-  Wide heading;
-};
-
-HWY_INLINE Foothold foothold(const Line& line, const FootMotion& foot, const WideMask& stands, const Wide& out) {
-  const Wide left = out * foot.ankle_out, along = foot.ankle_forward;
-  // Planted before: the frame of the foothold before. Landing: that of the next. In the air: between the two.
-  Wide before_s = 2.0F * line.before_s * line.before_c, before_c = 1.0F - 2.0F * line.before_s * line.before_s;
-  Wide ahead_s = 2.0F * line.ahead_s * line.ahead_c, ahead_c = 1.0F - 2.0F * line.ahead_s * line.ahead_s;
-  Ground from = turned(left + line.shift_before, along, before_s, before_c),
-         to = turned(left + line.shift_next, along - line.length_before - line.length, ahead_s, ahead_c);
-  from.left = fnma(line.length_before, line.before_s, from.left);
-  from.forward = fnma(line.length_before, line.before_c, from.forward);
-  to.left = fma(line.length, line.ahead_s, to.left);
-  to.forward = fma(line.length, line.ahead_c, to.forward);
-  const Ground other = part_way(from, to, foot.swung);
-  Foothold f;
-  f.ankle = {select(stands, left + line.shift, other.left), select(stands, along, other.forward)};
-  f.heading = select(stands, wide(0.0F), mix(2.0F * line.before, 2.0F * line.ahead, foot.swung));
-  return f;
 }
 
 /// Where the pelvis is and heads, in the frame of the stance foothold; the heading there, sine and cosine.
@@ -289,12 +187,11 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
   store(thigh_angle + motion.tilt, angles.hip_flexion[side]);
   store(flexion, angles.knee_flexion[side]);
   store(foot.pitch - shank_angle, angles.ankle_dorsiflexion[side]);
-  constexpr float tall = static_cast<float>(fraction::ankle_height), back = static_cast<float>(fraction::heel_back);
-  constexpr float joint = static_cast<float>(fraction::toe_joint_height);
-  store(ankle_at + rotate(sole, scaled({0, -tall, -back}, height)), feet.heel_m[side]);
-  constexpr float tip = static_cast<float>(fraction::toes_length);
-  store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -joint, 0}, height)), feet.toe_m[side]);
-  store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -joint, tip}, height)), feet.tip_m[side]);
+  constexpr auto tall = static_cast<float>(fraction::ankle_height);
+  store(ankle_at + rotate(sole, scaled({0, -tall, -unit_foot::back}, height)), feet.heel_m[side]);
+  store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -unit_foot::joint, 0}, height)), feet.toe_m[side]);
+  store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -unit_foot::joint, unit_foot::toes}, height)),
+        feet.tip_m[side]);
   return direction;
 }
 
@@ -355,6 +252,12 @@ HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::
   store(elbow, angles.elbow_flexion[side]);
 }
 
+HWY_INLINE Foothold foothold_of(const WideMask& stands, const Foothold& stance, const Foothold& other) {
+  return {
+      {select(stands, stance.ankle.left, other.ankle.left), select(stands, stance.ankle.forward, other.ankle.forward)},
+      select(stands, stance.heading, other.heading)};
+}
+
 HWY_INLINE FootMotion foot_of(const WideMask& stands, const FootMotion& stance, const FootMotion& other) {
   return {select(stands, stance.pitch, other.pitch),
           select(stands, stance.toes, other.toes),
@@ -362,8 +265,18 @@ HWY_INLINE FootMotion foot_of(const WideMask& stands, const FootMotion& stance, 
           select(stands, stance.ankle_up, other.ankle_up),
           select(stands, stance.ankle_out, other.ankle_out),
           select(stands, stance.ankle_forward, other.ankle_forward),
+          other.part,
           other.swung,
           select(stands, wide(0.0F), other.in_the_air)};
+}
+
+/// The hips give way to legs that a turn moves aside, so that the centre of mass keeps to the line: by this part of how
+/// far the ankles are moved.
+constexpr float give_way = 0.03F;
+
+/// How much further to the left of the line a foot is than in a straight walk.
+HWY_INLINE Wide beside(const OnLine& on, const PelvisPlace& root, const Foothold& at, const Wide& straight) {
+  return fma(at.ankle.left - on.place.left, root.cosine, (on.place.forward - at.ankle.forward) * root.sine) - straight;
 }
 
 void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
@@ -382,29 +295,34 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   PelvisPlace pelvis;
   const HipsPlace hips = hips_place(plan, of, u, phase, waves);
   const Wide aside = select(right_stands, hips.aside, -hips.aside);
-  const Ground place = on_line(line, aside, hips.forward, eased);
-  constexpr auto standing = static_cast<float>(fraction::hip_height);
-  // Legs that are straight in somebody who stands bend in the first and in the last step.
-  const WideMask first_or_last = (load(plan.step_length_m) + load(plan.length_before_m) > 0.0F) &
-                                 ((load(plan.from.speed_m_s) <= 0.0F) | (load(plan.to.speed_m_s) <= 0.0F));
-  const Wide there = u * (1.0F - u);
-  const Wide bent = select(first_or_last, 64.0F * sink_between * skeleton.height * there * there * there, zero);
-  const Wide up = harmonics(of, step_shape::hips_up, 4, waves) - bent -
-                  mix(longer_leg(line.length_before, line.before, line.shift_before, line.shift, skeleton.height),
-                      longer_leg(line.length, line.ahead, line.shift, line.shift_next, skeleton.height), eased);
-  pelvis.position = {place.left, fma(wide(standing), skeleton.height, up), place.forward};
-  // At the rates of both turns at either strike.
-  pelvis.heading = (phase - 0.5F) * mix(-2.0F * line.before, 2.0F * line.ahead, eased);
+  const OnLine on = on_line(line, hips.forward, phase, eased);
+  const Wide up =
+      hips_height(plan, of, skeleton.height, u, waves) -
+      mix(select(stands(plan.from), zero,
+                 longer_leg(line.from.length_m, line.turned_before, line.shift_before, line.shift, skeleton.height)),
+          select(stands(plan.to), zero,
+                 longer_leg(line.to.length_m, line.turn, line.shift, line.shift_next, skeleton.height)),
+          eased);
+  pelvis.heading = on.heading;
   sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
   const FootMotion stance = stance_foot(plan, of, skeleton.height, phase);
   const FootMotion other = other_foot(plan, of, skeleton.height, phase);
+  const Wide out = select(left_stands, one, -one);  // the stance foot's side
+  const Foothold standing_at = stance_foothold(line, stance, out), other_at = other_foothold(line, other, -out);
+  const Wide rest = shift_at_rest(plan, line, eased);
+  const Wide way_aside = aside + rest -
+                         give_way * (beside(on, pelvis, standing_at, rest + out * stance.ankle_out) +
+                                     beside(on, pelvis, other_at, rest - out * other.ankle_out));
+  const Ground way = turned(way_aside, hips.ahead, pelvis.sine, pelvis.cosine);
+  const Ground place = {on.place.left + way.left, on.place.forward + way.forward};
+  pelvis.position = {place.left, up, place.forward};
   FootMotion foot[2];
   Foothold at[2];
   for (std::size_t side = 0; side < 2; ++side) {
     const WideMask stands = side == right ? right_stands : left_stands;
     foot[side] = foot_of(stands, stance, other);
-    at[side] = foothold(line, foot[side], stands, wide(side == left ? 1.0F : -1.0F));
+    at[side] = foothold_of(stands, standing_at, other_at);
     draw_in(foot[side], at[side], pelvis, motion, side, skeleton.height);
   }
   // Where a leg would be too short, in a turn or at a very slow walk, the pelvis sinks.

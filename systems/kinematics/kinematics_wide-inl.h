@@ -7,6 +7,7 @@
 #define MOBIL_SYSTEMS_KINEMATICS_WIDE_INL_H_
 #endif
 
+#include "assets/gait/step_curves-inl.h"
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -25,16 +26,6 @@ HWY_INLINE WideQuat turn_y(const Wide& angle) {
   Wide s, c;
   sin_cos(angle * wide(0.5F), s, c);
   return {wide(0.0F), s, wide(0.0F), c};
-}
-
-/// By its series, for |x| < 3.
-constexpr float cosine(double x) {
-  double term = 1, sum = 1;
-  for (int k = 1; k < 16; ++k) {
-    term *= -x * x / ((2 * k - 1) * (2 * k));
-    sum += term;
-  }
-  return static_cast<float>(sum);
 }
 
 /// Sine and cosine of half an angle that is known beforehand.

@@ -270,6 +270,36 @@ std::size_t mirrored(std::size_t s) {
   return s;
 }
 
+/// In a turn, any.
+GaitState<float> bent(float time_s, std::uint32_t stance_side, Dice& dice) {
+  GaitState<float> state{};
+  state.time_s = time_s;
+  state.stance_side = stance_side;
+  for (float* turn :
+       {&state.turn_rad, &state.turn_before_rad, &state.bend_per_m, &state.bend_before_per_m, &state.bend_next_per_m})
+    *turn = dice.single(-0.3, 0.3);
+  state.chord_rad = 0.5F * state.turn_rad;
+  state.chord_before_rad = -0.5F * state.turn_before_rad;
+  for (float* shift : {&state.shift_m, &state.shift_before_m, &state.shift_next_m}) *shift = dice.single(-0.06, 0.06);
+  return state;
+}
+
+GaitState<float> mirrored(GaitState<float> state) {
+  for (float* one :
+       {&state.turn_rad, &state.turn_before_rad, &state.chord_rad, &state.chord_before_rad, &state.bend_per_m,
+        &state.bend_before_per_m, &state.bend_next_per_m, &state.shift_m, &state.shift_before_m, &state.shift_next_m})
+    *one = -*one;
+  state.stance_side ^= 1U;
+  return state;
+}
+
+GaitState<float> at_place(GaitState<float> state, float x, float z, float heading) {
+  state.line_x_m = x;
+  state.line_z_m = z;
+  state.heading_rad = heading;
+  return state;
+}
+
 TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
   const auto now = random_walkers(21, 0.5), then = random_walkers(21, 0.5);
   Dice dice{std::mt19937(21)};
@@ -277,11 +307,9 @@ TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float time = now->plan.duration_s[l] * (static_cast<float>(t) + 0.5F) / 40.0F;
       const float x = dice.single(-2, 2), z = dice.single(-2, 2), heading = dice.single(-3, 3);
-      const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3), shift = 0.2F * turn;
-      put(GaitState<float>{time, right, 0, x, z, heading, turn, turn_before, shift, -shift, 0.5F * shift}, now->state,
-          l);
-      put(GaitState<float>{time, left, 1, -x, z, -heading, -turn, -turn_before, -shift, shift, -0.5F * shift},
-          then->state, l);
+      const GaitState<float> state = bent(time, right, dice);
+      put(at_place(state, x, z, heading), now->state, l);
+      put(at_place(mirrored(state), -x, z, -heading), then->state, l);
     }
     now->place();
     then->place();
@@ -310,12 +338,10 @@ TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
     std::array<float, lane_count> x, z, heading;
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float time = ahead->plan.duration_s[l] * dice.single(0, 1);
-      const auto side = static_cast<std::uint32_t>(t % 2);
-      const float turn = dice.single(-0.3, 0.3), turn_before = dice.single(-0.3, 0.3);
+      const GaitState<float> state = bent(time, static_cast<std::uint32_t>(t % 2), dice);
       x[l] = dice.single(-20, 20), z[l] = dice.single(-20, 20), heading[l] = dice.single(-3, 3);
-      put(GaitState<float>{time, side, 0, 0, 0, 0, turn, turn_before, 0.03F, 0.02F, 0.01F}, ahead->state, l);
-      put(GaitState<float>{time, side, 0, x[l], z[l], heading[l], turn, turn_before, 0.03F, 0.02F, 0.01F},
-          turned->state, l);
+      put(at_place(state, 0, 0, 0), ahead->state, l);
+      put(at_place(state, x[l], z[l], heading[l]), turned->state, l);
     }
     ahead->place();
     turned->place();
@@ -402,7 +428,10 @@ TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
   float high = 0, low = 9, aside_low = 9, aside_high = -9;
   for (int i = 0; i < 200; ++i) {
     const float lag = 2.0F * duration * static_cast<float>(i) / 200.0F;
-    put(GaitState<float>{std::fmod(lag, duration), i < 100 ? 0U : 1U, 0, 0, 0, 0, 0, 0, 0, 0, 0}, w->state, 5);
+    GaitState<float> state{};
+    state.time_s = std::fmod(lag, duration);
+    state.stance_side = i < 100 ? 0U : 1U;
+    put(state, w->state, 5);
     w->place();
     const float degrees = 57.29578F;
     const float hip = w->angles.hip_flexion[right][5] * degrees, knee = w->angles.knee_flexion[right][5] * degrees;

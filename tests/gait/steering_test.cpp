@@ -76,7 +76,7 @@ TEST(Steering, WhatStandsStaysWhereItIs) {
   EXPECT_WITHIN(usual().slide, 0.005);
   EXPECT_WITHIN(usual().turning_slide, 0.005);
   EXPECT_WITHIN(anything().slide, 0.0065);
-  EXPECT_WITHIN(anything().turning_slide, 0.006);
+  EXPECT_WITHIN(anything().turning_slide, 0.0065);
 }
 
 TEST(Steering, NothingSinksIntoTheGround) {

@@ -340,7 +340,7 @@ TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
 }
 
 TEST(NextStep, SpeedsChangeByNoMoreThanALegCanDoAndArrive) {
-  constexpr double faster = 0.25, slower = 0.30, first = 0.60, last_speed = 0.60;  // m/s at a leg of 0.90 m
+  constexpr double faster = 0.30, slower = 0.60, first = 0.60, last_speed = 1.35;  // m/s at a leg of 0.90 m
   for (unsigned seed = 11; seed <= 20; ++seed) {
     Dice dice{std::mt19937(seed)};
     auto w = random_walkers(seed);

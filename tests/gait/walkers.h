@@ -68,6 +68,7 @@ struct Walkers {
     auto wanted = resolve_gait(body[lane], request);
     if (!wanted) return false;
     wanted->heading_rad = gait.heading_rad[lane];
+    wanted->displacement = gait.displacement[lane];
     wanted->revision = gait.revision[lane] + 1;
     put(*wanted, gait, lane);
     return true;

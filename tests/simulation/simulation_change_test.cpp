@@ -233,7 +233,7 @@ TEST(Change, ARequestShowsFromTheNextStepOn) {
   walk(changed, 60);
   walk(unchanged, 60);
   EXPECT_LT(changed.get<Pose>(a)->position_m[0].z, unchanged.get<Pose>(b)->position_m[0].z);
-  EXPECT_GT(changed.get<GaitState>(a)->heading_rad, 0.3F);
+  EXPECT_GT(changed.get<GaitState>(a)->heading_rad, 0.1F);
 }
 
 }  // namespace mobil::simulation_change_test

@@ -1,10 +1,10 @@
 // Both feet at a phase of a step. Include it as engine/wide-inl.h says.
 
-#if defined(MOBIL_SYSTEMS_KINEMATICS_STEP_FEET_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef MOBIL_SYSTEMS_KINEMATICS_STEP_FEET_INL_H_
-#undef MOBIL_SYSTEMS_KINEMATICS_STEP_FEET_INL_H_
+#if defined(MOBIL_ASSETS_GAIT_STEP_FEET_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_ASSETS_GAIT_STEP_FEET_INL_H_
+#undef MOBIL_ASSETS_GAIT_STEP_FEET_INL_H_
 #else
-#define MOBIL_SYSTEMS_KINEMATICS_STEP_FEET_INL_H_
+#define MOBIL_ASSETS_GAIT_STEP_FEET_INL_H_
 #endif
 
 #include "assets/gait/step_curves-inl.h"
@@ -16,6 +16,7 @@ namespace mobil::HWY_NAMESPACE {
 /// middle line on the leg's own side, and place along the line.
 struct FootMotion {
   Wide pitch, toes, toe_out, ankle_up, ankle_out, ankle_forward;
+  Wide part;        // of the time of the swing
   Wide swung;       // part of the way from its last foothold to the next
   Wide in_the_air;  // 64 u³ (1 − u)³ of the swing
 };
@@ -26,19 +27,16 @@ HWY_NOINLINE inline FootMotion plant(const Wide& height, const Wide& pitch, cons
   const PlantedAnkle ankle = planted_ankle(height, pitch);
   Wide s, c;
   sin_cos(toe_out, s, c);
-  return {pitch,      ankle.toes, toe_out, ankle.up.value, fma(s, ankle.along.value, half_width), c * ankle.along.value,
-          wide(0.0F), wide(0.0F)};
+  return {
+      pitch,      ankle.toes, toe_out,   ankle.up.value, fma(s, ankle.along.value, half_width), c * ankle.along.value,
+      wide(0.0F), wide(0.0F), wide(0.0F)};
 }
 
 HWY_NOINLINE inline FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                            const Wide& phase) {
   const OneShape from{plan.from.shape};
   const Wide cycle = 0.5F * phase;
-  const Wide rising = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
-  const Wide lift = usual_rise + of(step_shape::times, 1);
-  const Wide pitch = falling(from, step_shape::strike, cycle / (usual_flat + from(step_shape::times, 0))) +
-                     heel_rise(of, (cycle - lift) / (rising - lift));
-  FootMotion foot = plant(height, pitch, load(plan.from.toe_out), load(plan.from.half_width_m));
+  FootMotion foot = plant(height, stance_pitch(plan, of, phase), load(plan.from.toe_out), load(plan.from.half_width_m));
   const Wide yielding = cycle * (1.0F / pad_part);
   Wide s, c;
   sin_cos(foot.toe_out, s, c);
@@ -51,18 +49,13 @@ HWY_NOINLINE inline FootMotion stance_foot(const StepPlan<Lanes<float>>& plan, c
 
 /// The ankle's height at which a foot in the air is not in the ground: raised smoothly where it would be.
 HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height) {
-  namespace f = fraction;
-  constexpr auto back = static_cast<float>(f::heel_back), ball = static_cast<float>(f::ball_forward);
-  constexpr auto rim = static_cast<float>(f::heel_radius), joint = static_cast<float>(f::toe_joint_height);
-  constexpr auto tip = static_cast<float>(f::toes_length);
-  constexpr float over_rim = static_cast<float>(f::ankle_height) - rim;
-  constexpr float over_joint = static_cast<float>(f::ankle_height) - joint;
+  using namespace unit_foot;
   Wide s, c, t_s, t_c;
   sin_cos(foot.pitch, s, c);
   sin_cos(foot.pitch + foot.toes, t_s, t_c);
   const Wide heel = fma(wide(-back), s, -over_rim * c) - rim;
-  const Wide toes = fma(wide(ball), s, -over_joint * c) - joint * t_c;
-  const Wide lowest = fma(min(min(heel, toes), fma(wide(tip), t_s, toes)), height, foot.ankle_up);
+  const Wide on_joint = fma(wide(ball), s, -over_joint * c) - joint * t_c;
+  const Wide lowest = fma(min(min(heel, on_joint), fma(wide(unit_foot::toes), t_s, on_joint)), height, foot.ankle_up);
   // the positive part of what lacks, rounded: twice continuously differentiable, and nothing from 2 mm on
   const Wide within = 0.0005F * height;
   const Wide x = clamp(0.5F - 0.5F * lowest / within, 0.0F, 1.0F);
@@ -74,27 +67,31 @@ HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height
 /// The other foot: places relative to its last foothold.
 HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                           const Wide& phase) {
-  const OneShape from{plan.from.shape};
   const Wide off = load(plan.double_support), landing = load(plan.landing), before = load(plan.length_before_m);
   const WideMask swings = phase >= off, lands = landing > 0.0F;  // who goes on standing does neither
-  const Wide lift = usual_rise + from(step_shape::times, 1);
-  const Wide u = select(lands, clamp((phase - off) / max(landing - off, 1e-3F), 0.0F, 1.0F), wide(0.0F));
+  const LeavingShape leaving(plan);
+  const Wide lift = leaving.begins();
+  // Who lands at the end of the step comes a little further where its curves are asked for beyond it.
+  const Wide most = select(landing < 1.0F, wide(1.0F), wide(1.25F));
+  const Wide u = select(lands, min(max((phase - off) / max(landing - off, 1e-3F), 0.0F), most), wide(0.0F));
   const Wide swing_pitch = quintic_at(plan.swing_pitch, u) + bumps(of, step_shape::swing_pitch, u);
-  const Wide standing_pitch = heel_rise(from, (0.5F + 0.5F * phase - lift) / (0.5F + 0.5F * off - lift));
+  const Wide standing_pitch = heel_rise(leaving, (phase - lift) / max(off - lift, 1e-3F));
   const Wide swung = smooth(u), stride = load(plan.stride_part);
   FootMotion foot =
       plant(height, select(swings, swing_pitch, standing_pitch),
             mix(load(plan.trailing_toe_out), load(plan.to.toe_out), swung), load(plan.trailing_half_width_m));
   constexpr float straighten = 1.0F / (swing_toes::to - swing_toes::from);
-  foot.toes = foot.toes * (1.0F - smooth((u - swing_toes::from) * straighten));
+  // They are straight smoothly, too, where the foot comes level before that.
+  constexpr float nearly_level = 0.2F;
+  const Wide bent = mix(wide(1.0F), smooth(-swing_pitch * (1.0F / nearly_level)), smooth(4.0F * u));
+  foot.toes = foot.toes * (1.0F - smooth((u - swing_toes::from) * straighten)) * bent;
+  foot.part = u;
   foot.swung = swung;
-  const Wide air = u * (1.0F - u);
-  foot.in_the_air = 64.0F * air * air * air;
+  foot.in_the_air = max(bump(u), 0.0F);
   foot.ankle_up =
       select(swings, quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u), foot.ankle_up);
   // Who turns on the spot lifts the foot.
-  const WideMask spot = (load(plan.from.speed_m_s) <= 0.0F) & (load(plan.to.speed_m_s) <= 0.0F);
-  foot.ankle_up = fma(select(spot, 0.02F * height, wide(0.0F)), foot.in_the_air, foot.ankle_up);
+  foot.ankle_up = fma(select(stands_still(plan), 0.02F * height, wide(0.0F)), foot.in_the_air, foot.ankle_up);
   foot.ankle_up = select(swings, above_ground(foot, height), foot.ankle_up);
   foot.ankle_out = select(swings, quintic_at(plan.swing_out_m, u), foot.ankle_out);
   foot.ankle_forward =

@@ -1,5 +1,5 @@
 #pragma once
-// What a leg weighs, and the numbers of the rules in systems/forces/forces.h.
+// What a leg weighs, and the numbers of the rules in systems/forces.
 
 #include "assets/body/anthropometry.h"
 #include "components/segments.h"
@@ -37,12 +37,5 @@ inline constexpr Rod foot = {static_cast<float>(mass_of(Segment::foot_right) + m
 /// Height over the ground of the point that the feet's forces lean toward, of the centre of mass's; the fitted walk
 /// adds to it.
 inline constexpr float pivot_height = 1.4F;
-/// The fitted centre of pressure is counted from here, ahead of the ankle, in body heights.
-inline constexpr float pressed_ahead = 0.05F / 1.75F;
-/// Pitch (rad) from which on the heel alone bears, and heel rise from which on the forefoot alone does; how far that
-/// end bears, in body heights: pads are soft and round.
-inline constexpr float toes_lifted = 0.30F, heel_lifted = 0.15F, pad = 0.03F / 1.75F;
-/// To each side of the foot's line, in body heights.
-inline constexpr float half_sole_width = 0.025F;
 
 }  // namespace mobil::forces

@@ -1,0 +1,120 @@
+// A walker in the plane of the walk: legs of rods and a trunk, which tell where a step presses the ground. Include it
+// as engine/wide-inl.h says.
+
+#if defined(MOBIL_SYSTEMS_GAIT_PLANAR_FIGURE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_SYSTEMS_GAIT_PLANAR_FIGURE_INL_H_
+#undef MOBIL_SYSTEMS_GAIT_PLANAR_FIGURE_INL_H_
+#else
+#define MOBIL_SYSTEMS_GAIT_PLANAR_FIGURE_INL_H_
+#endif
+
+#include "assets/gait/leg_model.h"
+#include "assets/gait/step_feet-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+/// Of the body above the hips, in body heights: how high its centre of mass is above them and how far ahead; how far it
+/// goes ahead per radian of the trunk's lean, of the pelvis' tilt and of both arms' swing together; and the square of
+/// its radius of gyration as it leans. All but the last by least squares of what the 48 segments do in walks of 0.5 to
+/// 2 m/s.
+namespace upper_body {
+constexpr float above = 0.169F, ahead = -0.0190F, per_lean = 0.0621F, per_tilt = 0.0984F, per_swing = 0.017F;
+constexpr float gyration2 = 0.013F;
+}  // namespace upper_body
+
+/// Masses in the plane: of each leg two points of the thigh, two of the shank and the foot; the body above.
+constexpr std::size_t planar_points = 11;
+
+constexpr float planar_mass(std::size_t point) {
+  constexpr float legs = 2 * (forces::thigh.mass + forces::shank.mass + forces::foot.mass);
+  if (point + 1 == planar_points) return 1 - legs;
+  const std::size_t part = point % 5;
+  return part < 2 ? 0.5F * forces::thigh.mass : part < 4 ? 0.5F * forces::shank.mass : forces::foot.mass;
+}
+
+struct PlanarFigure {
+  Wide forward[planar_points], up[planar_points];
+  Wide lean;   // of the body above the hips
+  Wide aside;  // of the hips
+};
+
+/// A leg whose knee bends forward.
+HWY_NOINLINE inline void planar_leg(const Wide& height, const Wide& hip_forward, const Wide& hip_up,
+                                    const Wide& ankle_forward, const Wide& ankle_up, std::size_t first,
+                                    PlanarFigure& out) {
+  constexpr float a = static_cast<float>(fraction::thigh), b = static_cast<float>(fraction::shank);
+  const Wide dz = ankle_forward - hip_forward, dy = ankle_up - hip_up, far = sqrt(fma(dz, dz, dy * dy));
+  const Wide length = min(far, (a + b) * 0.9999F * height), unit = 1.0F / far;
+  const Wide near = fma(length, length, (a * a - b * b) * height * height) / (2.0F * length);
+  const Wide bulge = sqrt(max(fnma(near, near, a * a * height * height), 0.0F));
+  const Wide knee_forward = fma(fnma(dy, bulge, dz * near), unit, hip_forward);
+  const Wide knee_up = fma(fma(dz, bulge, dy * near), unit, hip_up);
+  auto rod = [&](const forces::Rod& of, const Wide& z0, const Wide& y0, const Wide& z1, const Wide& y1,
+                 std::size_t point) {
+    for (const float part : {of.centre - of.gyration, of.centre + of.gyration}) {
+      out.forward[point] = fma(z1 - z0, wide(part), z0);
+      out.up[point++] = fma(y1 - y0, wide(part), y0);
+    }
+  };
+  rod(forces::thigh, hip_forward, hip_up, knee_forward, knee_up, first);
+  rod(forces::shank, knee_forward, knee_up, ankle_forward, ankle_up, first + 2);
+  constexpr auto foot = static_cast<float>(unit_body.centre_of_mass[index(Segment::foot_right)].z);
+  out.forward[first + 4] = fma(wide(foot), height, ankle_forward);
+  out.up[first + 4] = ankle_up;
+}
+
+/// At a part of the step's time and its phase.
+HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& u,
+                                       const Wide& phase, const StepWaves& waves, PlanarFigure& out) {
+  const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+  const HipsPlace hips = hips_place(plan, of, u, phase, waves);
+  const Wide up = hips_height(plan, of, height, u, waves), forward = hips.forward + hips.ahead;
+  const FootMotion stance = stance_foot(plan, of, height, phase), other = other_foot(plan, of, height, phase);
+  const Wide eased = smooth(u), half = static_cast<float>(fraction::hip_half_spacing) * height;
+  const Wide before = half * pelvis_rotation(plan, waves, eased), above = half * pelvis_list(plan, waves, eased);
+  planar_leg(height, forward + before, up + above, stance.ankle_forward, stance.ankle_up, 0, out);
+  planar_leg(height, forward - before, up - above, other.ankle_forward - load(plan.length_before_m), other.ankle_up, 5,
+             out);
+  out.aside = hips.aside;
+  namespace b = upper_body;
+  const Wide bent_forward =
+      fma(harmonics(of, step_shape::trunk, 3, waves), wide(b::per_lean), b::per_tilt * pelvis_tilt(plan, waves, eased));
+  out.lean = bent_forward * (1.0F / (b::per_lean + b::per_tilt));
+  // Arms follow the opposite legs.
+  const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
+  const Wide back = manner(from.leg_back, to.leg_back, eased),
+             range = manner(from.leg_forward, to.leg_forward, eased) - back;
+  const Wide legs = (stance.ankle_forward + other.ankle_forward - load(plan.length_before_m) - 2.0F * forward) / up;
+  const Wide swing = (legs - 2.0F * back) / max(range, 1e-3F) *
+                         (manner(from.arm_forward, to.arm_forward, eased) + manner(from.arm_back, to.arm_back, eased)) -
+                     2.0F * manner(from.arm_back, to.arm_back, eased);
+  const Wide ahead = fma(wide(b::per_swing), swing, bent_forward + b::ahead);
+  out.forward[planar_points - 1] = fma(ahead, height, forward);
+  out.up[planar_points - 1] = fma(wide(b::above), height, up);
+}
+
+/// Between two figures `apart` seconds from each other: mean rates of the angular momentum's sum (z ẏ − y ż, the
+/// trunk's turning included) and of the height of the centre of mass, per kg.
+struct PlanarMotion {
+  Wide turning, rising;
+};
+
+HWY_NOINLINE inline PlanarMotion planar_motion(const PlanarFigure& a, const PlanarFigure& b, const Wide& height,
+                                               const Wide& per_apart) {
+  PlanarMotion m = {wide(0.0F), wide(0.0F)};
+  for (std::size_t i = 0; i < planar_points; ++i) {
+    const Wide mass = wide(planar_mass(i));
+    m.turning = fma(mass, fnma(b.forward[i], a.up[i], a.forward[i] * b.up[i]), m.turning);
+    m.rising = fma(mass, b.up[i] - a.up[i], m.rising);
+  }
+  constexpr float spin = upper_body::gyration2 * planar_mass(planar_points - 1);
+  m.turning = fnma(spin * height * height, b.lean - a.lean, m.turning) * per_apart;
+  m.rising = m.rising * per_apart;
+  return m;
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

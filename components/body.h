@@ -75,6 +75,7 @@ template <class F>
 struct BodySize {
   F height_m;
   F mass_kg;
+  F extra_fat;  // part of the mass (assets/body/fat_distribution.h)
 };
 
 /// What was asked of a body besides its sizes: a BodyRequest is both.

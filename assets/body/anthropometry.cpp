@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "assets/body/body_composition.h"
+#include "assets/body/fat_distribution.h"
 
 namespace mobil {
 namespace {
@@ -55,12 +56,13 @@ Result<Body> make_body(const BodyRequest& request) {
   // Masses are whole multiples of the body mass's last bit, so that they add up in any order without rounding.
   const double quantum = std::ldexp(1.0, std::ilogb(request.mass_kg) - 23);
   double rest = request.mass_kg;
+  const double extra = extra_fat_of(body.composition);
   for (std::size_t s = 0; s < segment_count; ++s) {
     body.joint_offset_m[s] = scaled(unit_body.joint_offset[s], height);
     body.centre_of_mass_m[s] = scaled(unit_body.centre_of_mass[s], height);
     body.tip_m[s] = scaled(unit_body.tip[s], height);
     if (s == index(Segment::pelvis)) continue;
-    const double mass = quantum * std::round(unit_body.mass_fraction[s] * request.mass_kg / quantum);
+    const double mass = quantum * std::round(mass_fraction(s, extra) * request.mass_kg / quantum);
     body.mass_kg[s] = static_cast<float>(mass);
     rest -= mass;
   }

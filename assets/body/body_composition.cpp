@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "assets/body/fat_distribution.h"
+
 namespace mobil {
 namespace {
 
@@ -125,6 +127,11 @@ BodyComposition body_composition(const BodyRequest& request) {
                   static_cast<float>(slender)};
   made.muscle_factor = static_cast<float>(taken);
   return made;
+}
+
+double extra_fat_of(const BodyComposition& composition) {
+  const auto fat = static_cast<double>(composition.fat_kg), lean = static_cast<double>(composition.lean_kg);
+  return extra_fat(fat / (fat + lean));
 }
 
 std::vector<std::string> body_notes(const Body& body) {

@@ -53,6 +53,9 @@ double physique_factor(const BodyRequest& request);
 /// beyond; it rises with height, mass and mesomorphy throughout.
 BodyComposition body_composition(const BodyRequest& request);
 
+/// How much of the mass is fat beyond the usual share (assets/body/fat_distribution.h).
+double extra_fat_of(const BodyComposition& composition);
+
 /// The notes of a body in words: one sentence each, no line breaks. Empty where the request was taken as it was.
 std::vector<std::string> body_notes(const Body& body);
 

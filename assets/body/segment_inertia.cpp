@@ -7,8 +7,9 @@ namespace mobil {
 using namespace geometry;
 
 Vec3<double> segment_inertia_kg_m2(const Body& body, Segment segment) {
-  const auto height = static_cast<double>(body.request.height_m), mass = static_cast<double>(body.request.mass_kg);
-  return (mass * height * height) * unit_inertia[index(segment)];
+  const auto height = static_cast<double>(body.request.height_m);
+  const std::size_t s = index(segment);
+  return (static_cast<double>(body.mass_kg[s]) / unit_body.mass_fraction[s] * height * height) * unit_inertia[s];
 }
 
 Vec3<double> joint_centre_m(const Body& body, Segment segment) {

@@ -1,7 +1,7 @@
 #pragma once
 // What a leg weighs, and the numbers of the rules in systems/forces.
 
-#include "assets/body/anthropometry.h"
+#include "assets/body/fat_distribution.h"
 #include "components/segments.h"
 
 namespace mobil::forces {
@@ -12,10 +12,14 @@ inline constexpr float gravity = 9.81F;
 /// from the upper joint).
 struct Rod {
   float mass, centre, gyration;
+  float mass_per_extra_fat;
 };
 
 constexpr double mass_of(Segment s) {
   return unit_body.mass_fraction[index(s)];
+}
+constexpr float extra_mass_of(Segment s) {
+  return static_cast<float>(mass_per_extra_fat(index(s)));
 }
 
 /// Radii of gyration: Winter, Biomechanics and Motor Control of Human Movement, table of Dempster's segments.
@@ -25,14 +29,16 @@ inline constexpr Rod thigh = [] {
   const double mass = mass_of(thigh_right) + mass_of(patella_right);
   const double centre =
       -mass_of(thigh_right) * unit_body.centre_of_mass[index(thigh_right)].y + mass_of(patella_right) * cap;
-  return Rod{static_cast<float>(mass), static_cast<float>(centre / mass / fraction::thigh), 0.323F};
+  return Rod{static_cast<float>(mass), static_cast<float>(centre / mass / fraction::thigh), 0.323F,
+             extra_mass_of(thigh_right) + extra_mass_of(patella_right)};
 }();
 inline constexpr Rod shank = {
     static_cast<float>(mass_of(Segment::shank_right)),
-    static_cast<float>(-unit_body.centre_of_mass[index(Segment::shank_right)].y / fraction::shank), 0.302F};
+    static_cast<float>(-unit_body.centre_of_mass[index(Segment::shank_right)].y / fraction::shank), 0.302F,
+    extra_mass_of(Segment::shank_right)};
 /// Its centre of mass is a tracked point of its own.
 inline constexpr Rod foot = {static_cast<float>(mass_of(Segment::foot_right) + mass_of(Segment::toes_right)), 0.0F,
-                             0.475F};
+                             0.475F, extra_mass_of(Segment::foot_right) + extra_mass_of(Segment::toes_right)};
 
 /// Height over the ground of the point that the feet's forces lean toward, of the centre of mass's; the fitted walk
 /// adds to it.

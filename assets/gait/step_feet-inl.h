@@ -91,7 +91,7 @@ HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, co
   foot.ankle_up =
       select(swings, quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u), foot.ankle_up);
   // Who turns on the spot lifts the foot.
-  foot.ankle_up = fma(select(stands_still(plan), 0.02F * height, wide(0.0F)), foot.in_the_air, foot.ankle_up);
+  foot.ankle_up = fma(select(stands_still(plan), 0.014F * height, wide(0.0F)), foot.in_the_air, foot.ankle_up);
   foot.ankle_up = select(swings, above_ground(foot, height), foot.ankle_up);
   foot.ankle_out = select(swings, quintic_at(plan.swing_out_m, u), foot.ankle_out);
   foot.ankle_forward =

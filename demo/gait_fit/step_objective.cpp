@@ -148,9 +148,9 @@ void Aims::gather(std::span<const double> unknown, std::vector<double>& residual
   track(ankle_moment, 1.5 * weights.moments, 0.10, 0.15);
   peaks(vertical, weights.forces, 0.06, c.up, all);
   peaks(fore_aft, weights.forces, 0.05, c.forward, all);
-  peaks(hip_moment, weights.moments, 0.10, c.hip_moment, all);
-  peaks(knee_moment, weights.moments, 0.08, c.knee_moment, all);
-  peaks(ankle_moment, weights.moments, 0.08, c.ankle_moment, all);
+  peaks(hip_moment, weights.moments, 0.04, c.hip_moment, all);
+  peaks(knee_moment, weights.moments, 0.01, c.knee_moment, all);
+  peaks(ankle_moment, weights.moments, 0.06, c.ankle_moment, all);
   all.curve(weights.balance, [&](std::size_t i) { return gravity * c.lacking[i]; });
 
   const StepBody& b = task.body;

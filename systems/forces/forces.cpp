@@ -180,19 +180,21 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMoti
     push[p] = plane.of(load(motion.acceleration[i]));
     push[p].up = push[p].up + wide(forces::gravity);
   }
+  auto mass_of = [&](const forces::Rod& rod) {
+    return mass * fma(load(size.extra_fat), wide(rod.mass_per_extra_fat), wide(rod.mass));
+  };
   // A rod's rate of angular momentum: mass · gyration² · (rod × difference of its ends' accelerations).
   auto spin = [&](const forces::Rod& rod, std::size_t upper, std::size_t lower) {
-    return mass * wide(rod.mass * rod.gyration * rod.gyration) *
-           moment(at[lower] - at[upper], push[lower] - push[upper]);
+    return mass_of(rod) * wide(rod.gyration * rod.gyration) * moment(at[lower] - at[upper], push[lower] - push[upper]);
   };
   const Flat reaction = plane.of(ground.force[side]), centre = plane.of(ground.centre[side]);
-  const Flat foot_force = (mass * wide(forces::foot.mass)) * push[foot_centre_point];
+  const Flat foot_force = mass_of(forces::foot) * push[foot_centre_point];
   Wide turning = moment(at[foot_centre_point] - at[ankle_point], foot_force) -
                  moment(centre - at[ankle_point], reaction) + spin(forces::foot, ankle_point, ball_point);
   Flat through = foot_force - reaction;
   hip_knee_ankle[2] = turning;
   auto climb = [&](const forces::Rod& rod, std::size_t upper, std::size_t lower) {
-    const Flat own = (mass * wide(rod.mass)) * (push[upper] + wide(rod.centre) * (push[lower] - push[upper]));
+    const Flat own = mass_of(rod) * (push[upper] + wide(rod.centre) * (push[lower] - push[upper]));
     const Flat length = at[lower] - at[upper];
     turning = turning + moment(length, through) + moment(wide(rod.centre) * length, own) + spin(rod, upper, lower);
     through = through + own;

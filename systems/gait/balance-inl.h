@@ -35,24 +35,26 @@ HWY_NOINLINE inline Wide steady_aside(const Strike<Lanes<float>>& strike, const 
   return fma(once, 1.0F + per, thrice * fma(per, wide(9.0F), wide(1.0F)));
 }
 
-/// At the instants between a step's ends: where it presses the ground, less where walks do, and how far it may.
+/// At the instants between a step's ends: where it presses the ground, where walks do, and how far the soles reach.
 struct Pressed {
-  Wide off[step_parts], least[step_parts], most[step_parts];
+  Wide at[step_parts], middle[step_parts], least[step_parts], most[step_parts];
 };
 
 /// To either side of where walks press a foot, of the height.
 constexpr float room_aside = 0.015F;
+
+/// Where a step all but leaves the ground it presses it anywhere: what is made of that, of the weight; and the most
+/// that one of the hips' other ways may be, of the height.
+constexpr float least_lift = 0.4F, most_other_way = 0.05F;
 
 HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                     const Wide& phase, const WideMask& both, std::size_t i, Pressed& ahead) {
   const SoleReach reach = sole_reach(height, stance_pitch(plan, of, phase)), flat = sole_reach(height, wide(0.0F));
   const Wide off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
   const Wide back = select(both, min(reach.back, flat.front - load(plan.length_before_m)), reach.back);
-  const Wide at = pressed(of, height, 0.5F * phase / off);
-  const Wide middle = min(max(at, back), reach.front);
-  ahead.off[i] = ahead.off[i] - middle;
-  ahead.least[i] = back - middle;
-  ahead.most[i] = reach.front - middle;
+  ahead.middle[i] = min(max(pressed(of, height, 0.5F * phase / off), back), reach.front);
+  ahead.least[i] = back;
+  ahead.most[i] = reach.front;
 }
 
 /// What a step presses, before it is balanced.
@@ -79,22 +81,21 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
       const std::size_t i = k - 1;
       Wide centre = wide(0.0F);
       for (std::size_t j = 0; j < planar_points; ++j) centre = fma(wide(planar_mass(j)), last.forward[j], centre);
-      const Wide lift = fma(now.rising - before.rising, per_apart, wide(gravity_f));
-      ahead.off[i] = fma(wide(gravity_f), centre, (now.turning - before.turning) * per_apart) / lift;
+      const Wide lift = max(fma(now.rising - before.rising, per_apart, wide(gravity_f)), least_lift * gravity_f);
+      ahead.at[i] = fma(wide(gravity_f), centre, (now.turning - before.turning) * per_apart) / lift;
       const Wide& p = phase[i % 2];
       const WideMask both = (p < off) | (p > landing);
       const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, p)};
       room_ahead(plan, of, height, p, both, i, ahead);
 
-      const Wide pressed_aside =
-          last.aside - per_aside * (figure[k % 3].aside - 2.0F * last.aside + figure[(k + 1) % 3].aside);
+      aside.at[i] = last.aside - per_aside * (figure[k % 3].aside - 2.0F * last.aside + figure[(k + 1) % 3].aside);
       // Somebody who stands presses between the feet, for as long as both are on the ground.
       const Wide part = select(from_stands, smooth(p / max(off, 1e-3F)),
                                select(to_stands, smooth((p - landing) / max(1.0F - landing, 1e-3F)), of.part));
-      aside.off[i] = pressed_aside - mix(steady_aside(plan.from, height, waves[i % 2]),
-                                         steady_aside(plan.to, height, waves[i % 2]), part);
-      aside.least[i] = -room_aside * height;
-      aside.most[i] = select(both, width, room_aside * height);
+      aside.middle[i] =
+          mix(steady_aside(plan.from, height, waves[i % 2]), steady_aside(plan.to, height, waves[i % 2]), part);
+      aside.least[i] = aside.middle[i] - room_aside * height;
+      aside.most[i] = aside.middle[i] + select(both, width, room_aside * height);
     }
     before = now;
   }
@@ -136,24 +137,25 @@ HWY_NOINLINE inline Wide into_room(const Elimination<other_ways>& normal, const 
     Wide sum[other_ways];
     for (std::size_t k = 0; k < other_ways; ++k) sum[k] = wide(0.0F);
     for (std::size_t i = 1; i < step_parts; ++i) {
-      Wide reached = pressed.off[i];
+      Wide reached = pressed.at[i];
       for (std::size_t k = 0; k < other_ways; ++k) reached = fma(effect[i][k], by[k], reached);
-      const Wide wanted = min(max(reached, room_used * pressed.least[i]), room_used * pressed.most[i]) - pressed.off[i];
+      const Wide used = wide(room_used), least = mix(pressed.middle[i], pressed.least[i], used);
+      const Wide wanted = min(max(reached, least), mix(pressed.middle[i], pressed.most[i], used)) - pressed.at[i];
       for (std::size_t k = 0; k < other_ways; ++k) sum[k] = fma(effect[i][k], wanted, sum[k]);
     }
     for (std::size_t k = 0; k < other_ways; ++k) by[k] = sum[k];
     normal.solve(by);
   }
   for (std::size_t i = 1; i < step_parts; ++i) {
-    Wide reached = pressed.off[i];
+    Wide reached = pressed.at[i];
     for (std::size_t k = 0; k < other_ways; ++k) reached = fma(effect[i][k], by[k], reached);
     worst = max(worst, max(pressed.least[i] - reached, reached - pressed.most[i]));
   }
   return worst;
 }
 
-/// Of who stands and puts a foot elsewhere: a pendulum over both feet. `right_one`: 1 where the right foot stands, else
-/// −1.
+/// Of who stands and puts a foot elsewhere: how far the soles of both feet reach and, aside, where the step presses as
+/// a pendulum. `right_one`: 1 where the right foot stands, else −1.
 HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& right_one,
                                       Pressed& ahead, Pressed& aside) {
   const Wide per_apart = static_cast<float>(step_parts) / load(plan.duration_s);
@@ -178,16 +180,16 @@ HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const 
     const Wide at = step_phase(plan, wide(static_cast<float>(i) / step_parts));
     const WideMask early = at<off, late = at> landing;
     const Wide pressed = way[i % 3] - per * (way[k % 3] - 2.0F * way[i % 3] + way[(i + 2) % 3]);
-    auto within = [&](const Wide& pressing, const Wide& stance, const Wide& last, const Wide& next, const Wide& back,
-                      const Wide& front, Pressed& out) {
+    auto within = [&](const Wide& stance, const Wide& last, const Wide& next, const Wide& back, const Wide& front,
+                      Pressed& out) {
       const Wide other = select(early, last, select(late, next, stance));
-      const Wide least = min(stance, other) + back, most = max(stance, other) + front, middle = 0.5F * (least + most);
-      out.off[i] = pressing - middle;
-      out.least[i] = least - middle;
-      out.most[i] = most - middle;
+      out.least[i] = min(stance, other) + back;
+      out.most[i] = max(stance, other) + front;
+      out.middle[i] = 0.5F * (out.least[i] + out.most[i]);
     };
-    within(pressed * c, wide(0.0F), last_forward, next_forward, reach.back, reach.front, ahead);
-    within(pressed * s, stance_aside, last_aside, next_aside, -half, half, aside);
+    within(wide(0.0F), last_forward, next_forward, reach.back, reach.front, ahead);
+    within(stance_aside, last_aside, next_aside, -half, half, aside);
+    aside.at[i] = pressed * s;
   }
 }
 
@@ -207,10 +209,10 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
   Pressed ahead, aside;
   look_at_step(plan, height, ahead, aside);
   if (any(on_spot)) {
-    Pressed standing_ahead, standing_aside;
+    Pressed standing_ahead = ahead, standing_aside;
     look_at_feet(plan, height, right_one, standing_ahead, standing_aside);
     for (std::size_t i = 1; i < step_parts; ++i) {
-      for (auto number : {&Pressed::off, &Pressed::least, &Pressed::most}) {
+      for (auto number : {&Pressed::at, &Pressed::middle, &Pressed::least, &Pressed::most}) {
         (ahead.*number)[i] = select(on_spot, (standing_ahead.*number)[i], (ahead.*number)[i]);
         (aside.*number)[i] = select(on_spot, (standing_aside.*number)[i], (aside.*number)[i]);
       }
@@ -231,8 +233,9 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
   normal.factor();
   auto choose = [&](const Pressed& pressed, Lanes<float>(&way)[other_way_count], float sign) {
     Wide by[other_ways];
-    const Wide outside = into_room(normal, effect, pressed, by);
-    for (std::size_t k = 0; k < other_ways; ++k) store(select(alike, wide(0.0F), sign * by[k]), way[k]);
+    const Wide outside = into_room(normal, effect, pressed, by), most = most_other_way * height;
+    for (std::size_t k = 0; k < other_ways; ++k)
+      store(select(alike, wide(0.0F), sign * min(max(by[k], -most), most)), way[k]);
     return select(alike, wide(0.0F), outside);
   };
   return max(choose(ahead, plan.ahead_m, 1.0F), choose(aside, plan.aside_m, -1.0F));

@@ -48,7 +48,9 @@ HWY_INLINE NextFoot next_foot(const BodySize<Lanes<float>>& size, const StepPlan
   const Wide outward = lands_left * (shift_per_bend * wished - shift);
   const Wide kept = fma(lands_left, min(max(outward, (nearest - 1.0F) * apart), farthest * height), shift);
   const Wide possible = kept / shift_per_bend, slack = abs(within_sole * height / shift_per_bend);
-  return {select(walks, kept, shift), select(walks, min(max(wished, possible - slack), possible + slack), wide(0.0F))};
+  // Who has become slow would turn on the spot for a foot that still stands far out.
+  const Wide bend = min(max(min(max(wished, possible - slack), possible + slack), -most), most);
+  return {select(walks, kept, shift), select(walks, bend, wide(0.0F))};
 }
 
 /// Who has come to stand does so beside the line, as far as the feet are: the line goes there.

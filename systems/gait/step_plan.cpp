@@ -29,7 +29,7 @@ constexpr float spot_step_s = 0.4F, spot_double_support = 0.05F, spot_landing = 
 constexpr float displacing_s = 0.3F, displacing_s_per_m = 0.8F;
 /// How far an ankle is outward of its hip in somebody who stands, of the height; how much further than straight legs
 /// need the hips sink between two such steps.
-constexpr float stance_aside = 0.022F, sinks_apart = 1.5F;
+constexpr float stance_aside = 0.022F, sinks_apart = 2.0F;
 /// How far the centre of pressure may lie from where walks have it, of the height.
 constexpr float most_astray = 0.04F;
 

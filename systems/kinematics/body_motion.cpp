@@ -2,7 +2,7 @@
 #define HWY_TARGET_INCLUDE "systems/kinematics/body_motion.cpp"
 #include <hwy/foreach_target.h>
 
-#include "assets/body/anthropometry.h"
+#include "assets/body/fat_distribution.h"
 #include "assets/body/segment_inertia.h"
 #include "engine/wide_geometry-inl.h"
 #include "systems/kinematics/body_motion.h"
@@ -37,7 +37,7 @@ HWY_INLINE WideVec turning(const WideQuat& a, const WideQuat& b, const Wide& per
 
 void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                   const Pose<Lanes<float>>& after, float apart_s, BodyMotion<Lanes<float>>& motion) {
-  const Wide height = load(size.height_m), zero = wide(0.0F);
+  const Wide height = load(size.height_m), extra = load(size.extra_fat), zero = wide(0.0F);
   const Wide per2 = wide(1.0F / (apart_s * apart_s)), per = wide(1.0F / apart_s), per_half = wide(2.0F / apart_s);
   auto bend = [&](const WideVec& a, const WideVec& b, const WideVec& c) {
     const WideVec d = (c - b) - (b - a);
@@ -46,7 +46,9 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
   WideVec force = {zero, zero, zero}, moment = force;
   Wide centre_height = zero;
   for (std::size_t s = 0; s < segment_count; ++s) {
-    const Wide mass = wide(static_cast<float>(unit_body.mass_fraction[s]));
+    const double usual = unit_body.mass_fraction[s], more = mass_per_extra_fat(s);
+    const Wide of_usual = fma(extra, wide(static_cast<float>(more / usual)), wide(1.0F));
+    const Wide mass = of_usual * static_cast<float>(usual);
     const WideVec r = centre_of(height, now, s);
     WideVec a = bend(centre_of(height, before, s), r, centre_of(height, after, s));
     a.y = a.y + gravity_m_s2;
@@ -54,7 +56,7 @@ void motion_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& 
     const WideQuat q0 = load(before.rotation[s]), q1 = load(now.rotation[s]), q2 = load(after.rotation[s]);
     const WideVec first = turning(q0, q1, per_half), second = turning(q1, q2, per_half);
     const Vec3<double>& unit = unit_inertia[s];
-    const WideVec inertia = scaled(unit, height * height);
+    const WideVec inertia = scaled(unit, of_usual * height * height);
     const WideVec spin = {0.5F * (first.x + second.x), 0.5F * (first.y + second.y), 0.5F * (first.z + second.z)};
     const WideVec whirl = cross(spin, WideVec{inertia.x * spin.x, inertia.y * spin.y, inertia.z * spin.z});
     const WideVec own = {fma(inertia.x, (second.x - first.x) * per, whirl.x),

@@ -4,6 +4,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/column.h"
+#include "assets/body/fat_distribution.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/kinematics_wide-inl.h"
 #include "systems/kinematics/on_line-inl.h"
@@ -18,7 +19,7 @@ namespace {
 /// The body of height 1 m in single precision.
 struct UnitSkeleton {
   Vec3<float> joint_offset[segment_count], centre_of_mass[segment_count];
-  float mass_fraction[segment_count];
+  float mass_fraction[segment_count], mass_per_extra_fat[segment_count];
 };
 
 constexpr UnitSkeleton make_unit_skeleton() {
@@ -30,6 +31,7 @@ constexpr UnitSkeleton make_unit_skeleton() {
     s.joint_offset[i] = single(unit_body.joint_offset[i]);
     s.centre_of_mass[i] = single(unit_body.centre_of_mass[i]);
     s.mass_fraction[i] = static_cast<float>(unit_body.mass_fraction[i]);
+    s.mass_per_extra_fat[i] = static_cast<float>(mass_per_extra_fat(i));
   }
   return s;
 }
@@ -375,11 +377,12 @@ void anatomical_block(const BodySize<Lanes<float>>& size, Pose<Lanes<float>>& po
 
 void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
                   CentreOfMass<Lanes<float>>& centre) {
-  const Wide height = load(size.height_m);
+  const Wide height = load(size.height_m), extra = load(size.extra_fat);
   WideVec sum = {wide(0.0F), wide(0.0F), wide(0.0F)};
   for (std::size_t s = 0; s < segment_count; ++s) {
     const WideVec c = rotate(load(pose.rotation[s]), scaled(unit_skeleton.centre_of_mass[s], height));
-    sum = fma(wide(unit_skeleton.mass_fraction[s]), load(pose.position_m[s]) + c, sum);
+    const Wide mass = fma(extra, wide(unit_skeleton.mass_per_extra_fat[s]), wide(unit_skeleton.mass_fraction[s]));
+    sum = fma(mass, load(pose.position_m[s]) + c, sum);
   }
   store(sum, centre.position_m);
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "assets/body/anthropometry.h"
+#include "assets/body/body_composition.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {
@@ -25,7 +26,7 @@ BodyRequest body_request(const World& world, Entity person) {
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
-  return {request.height_m, request.mass_kg};
+  return {request.height_m, request.mass_kg, static_cast<float>(extra_fat_of(body_composition(request)))};
 }
 
 Physique<float> physique(const BodyRequest& request) {

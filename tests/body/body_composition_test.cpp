@@ -1,5 +1,6 @@
 // What a body is made of, against the published tables that it follows, and where a request has to give way.
 #include "assets/body/body_composition.h"
+#include "assets/body/fat_distribution.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -138,6 +139,35 @@ TEST(BodyComposition, OfTheLightestThatLiveHasAllTheLeanMassThereIs) {
       EXPECT_NEAR(body->composition.fat_kg / body->request.mass_kg, 0.03, 1e-4) << height;
     }
   }
+}
+
+TEST(FatDistribution, MassesOfSegmentsFollowTheFatAndAddUp) {
+  EXPECT_NEAR(fat_share_of_mass_index(24.5), usual_fat_share, 1e-3);
+  for (double share = 0.03; share < 0.66; share += 0.01) {
+    const double extra = extra_fat(share);
+    double sum = 0;
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      EXPECT_GT(mass_fraction(s, extra), 0) << segment_name[s];
+      sum += mass_fraction(s, extra);
+    }
+    EXPECT_NEAR(sum, 1, 1e-12);
+  }
+  const auto trunk = [](const Body& body) {
+    double sum = 0;
+    for (std::size_t s = index(Segment::pelvis); s < index(Segment::C7); ++s)
+      sum += static_cast<double>(body.mass_kg[s]);
+    return sum / static_cast<double>(body.request.mass_kg);
+  };
+  const auto thigh = [](const Body& body) {
+    return static_cast<double>(body.mass_kg[index(Segment::thigh_right)] / body.request.mass_kg);
+  };
+  const Body lean = make_body({.height_m = 1.75F, .mass_kg = 55}).value(),
+             usual = make_body({.height_m = 1.75F, .mass_kg = 75}).value(),
+             heavy = make_body({.height_m = 1.75F, .mass_kg = 110}).value();
+  EXPECT_LT(trunk(lean), trunk(usual));
+  EXPECT_LT(trunk(usual), trunk(heavy));
+  EXPECT_GT(thigh(usual), thigh(heavy));
+  EXPECT_NEAR(thigh(usual), unit_body.mass_fraction[index(Segment::thigh_right)], 2e-4);
 }
 
 }  // namespace mobil::body_composition_test

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "assets/body/anthropometry.h"
+#include "assets/body/body_composition.h"
 #include "engine/geometry.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
@@ -61,7 +62,8 @@ struct Walkers {
 
   void set_body(std::size_t lane, const BodyRequest& request) {
     body[lane] = make_body(request).value();
-    put(BodySize<float>{request.height_m, request.mass_kg}, size, lane);
+    const auto extra_fat = static_cast<float>(extra_fat_of(body[lane].composition));
+    put(BodySize<float>{request.height_m, request.mass_kg, extra_fat}, size, lane);
   }
   /// False where the gait is out of range; it then stays as it was.
   bool ask(std::size_t lane, const GaitRequest& request) {

@@ -321,6 +321,30 @@ TEST(Balance, AMomentThatTheMotionAsksForIsNotMissed) {
   }
 }
 
+/// What the ground's moment lacks of the motion's, N m/kg: rms in pitch, and in roll.
+TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
+  const struct {
+    std::string_view scene;
+    double pitch, roll;
+  } bounds[] = {{"straight", 0.015, 0.01},         {"faster and slower", 0.05, 0.03},
+                {"turning", 0.09, 0.05},           {"starting and stopping", 0.05, 0.06},
+                {"limping", 0.03, 0.03},           {"stepping aside", 0.09, 0.08},
+                {"turning on the spot", 0.2, 0.15}};
+  for (const BodyRequest& body : {BodyRequest{.height_m = 1.75F, .mass_kg = 75},
+                                  {.height_m = 1.55F, .mass_kg = 48},
+                                  {.height_m = 1.95F, .mass_kg = 95}}) {
+    const auto scenes = walk_balance_scenes(body, {});
+    ASSERT_TRUE(scenes) << scenes.error().message;
+    ASSERT_EQ(scenes->size(), std::size(bounds));
+    for (std::size_t i = 0; i < scenes->size(); ++i) {
+      const BalancedScene& walked = (*scenes)[i];
+      EXPECT_EQ(walked.name, bounds[i].scene);
+      EXPECT_LT(walked.moment.pitch_rms, bounds[i].pitch) << walked.name << ", " << body.height_m << " m";
+      EXPECT_LT(walked.moment.roll_rms, bounds[i].roll) << walked.name << ", " << body.height_m << " m";
+    }
+  }
+}
+
 TEST(Reference, AFolderIsReadWholeOrRefused) {
   const TemporaryFolder folder;
   const auto complaint = [&] { return read_gait_reference(folder.path).error().message; };

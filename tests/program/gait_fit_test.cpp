@@ -142,7 +142,7 @@ TEST(StepTable, EveryStepKeepsItsFeetAndKnees) {
       const std::string name = std::to_string(s) + ' ' + std::to_string(l);
       EXPECT_GT(q.slack_m, 0) << name;
       EXPECT_GT(q.clearance_m, 0.0095) << name;
-      EXPECT_LT(q.pad_m, 0.0055) << name;
+      EXPECT_LT(q.pad_m, 0.007) << name;
       EXPECT_LT(q.aside_m, 0.025 * fitted_height_m) << name;
     }
   }
@@ -155,10 +155,10 @@ TEST(StepTable, UsualStepsAreNearWhatWasMeasured) {
     const double at_ends = s == 0 || s + 2 >= speed_count ? 4.5 : 3;
     using enum GaitQuantity;
     for (const GaitQuantity angle : {hip, knee, ankle}) EXPECT_LT(q.rms[index(angle)], at_ends) << speed[s];
-    EXPECT_GT(q.correlation[index(vertical)], 0.97) << speed[s];
+    EXPECT_GT(q.correlation[index(vertical)], at_ends > 3 ? 0.965 : 0.98) << speed[s];
     EXPECT_GT(q.correlation[index(fore_aft)], at_ends > 3 ? 0.96 : 0.97) << speed[s];
     for (const GaitQuantity moment : {hip_moment, knee_moment, ankle_moment})
-      EXPECT_GT(q.correlation[index(moment)], s == 0 ? 0.8 : at_ends > 3 ? 0.88 : 0.9) << speed[s];
+      EXPECT_GT(q.correlation[index(moment)], s == 0 ? 0.78 : at_ends > 3 ? 0.88 : 0.9) << speed[s];
   }
 }
 

@@ -64,7 +64,7 @@ TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
   EXPECT_TRUE(is_new());
   ASSERT_EQ(simulation.despawn(sixth), Status::ok);
   EXPECT_TRUE(is_new());
-  simulation.world().create(BodySize<float>{1, 2});  // nobody's
+  simulation.world().create(BodySize<float>{1, 2, 0});  // nobody's
   EXPECT_TRUE(is_new());
 }
 

@@ -17,7 +17,7 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 /// Equal parts of a step's time at whose ends it is looked at.
-constexpr std::size_t step_parts = 32;
+constexpr std::size_t step_parts = 20;
 
 /// How far the centre of pressure goes per acceleration of the hips: height of the centre of mass over gravity, s².
 HWY_INLINE Wide pendulum(const Wide& height) {
@@ -206,6 +206,7 @@ HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one,
     store(wide(0.0F), plan.ahead_m[k]);
     store(wide(0.0F), plan.aside_m[k]);
   }
+  if (!any(select(alike, wide(0.0F), wide(1.0F)) > 0.0F)) return wide(0.0F);
   Pressed ahead, aside;
   look_at_step(plan, height, ahead, aside);
   if (any(on_spot)) {

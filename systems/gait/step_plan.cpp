@@ -58,13 +58,18 @@ HWY_NOINLINE Wide usual_length(const Wide& height, const Wide& speed) {
   return load(of) * leg;
 }
 
+/// Whether somebody has put one foot aside and not the other yet: that comes before anything else.
+HWY_INLINE WideMask half_aside(const Strike<Lanes<float>>& from) {
+  return stands(from) & (load(from.length_m) > 0.0F);
+}
+
 /// The steps toward the wanted gait: the strike at the end of this one.
 HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted,
                               const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
                               Strike<Lanes<float>>& to) {
   const Wide leg = ratio(fraction::thigh + fraction::shank, height);
   const Wide scale = sqrt(leg / 0.90F);
-  const Wide aim = load(wanted.speed_m_s), now = load(from.speed_m_s);
+  const Wide now = load(from.speed_m_s), aim = select(half_aside(from), wide(0.0F), load(wanted.speed_m_s));
   const WideMask standing = now <= 0.0F, to_stand = aim <= 0.0F;
   const Wide slower = now - most_slower * scale, faster = now + most_faster * scale;
   const Wide stopping = select(now <= last_speed * scale, wide(0.0F), max(slower, last_speed * scale));
@@ -205,14 +210,14 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
                                const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
   Lanes<float> begins{};
   for (std::size_t l = 0; l < lane_count; ++l) {
+    const bool stood = plan.from.speed_m_s[l] <= 0.0F;
     plan.swaps[l] = 0;
-    if (plan.from.speed_m_s[l] > 0.0F || plan.to.speed_m_s[l] > 0.0F) continue;
-    if (plan.from.length_m[l] > 0.0F) {  // under way
+    if (stood && plan.from.length_m[l] > 0.0F) {  // under way
       begins[l] = 1.0F;
       continue;
     }
     plan.slant_rad[l] = 0.0F;
-    if (plan.displacement[l] == wanted.displacement[l]) continue;
+    if (!stood || plan.to.speed_m_s[l] > 0.0F || plan.displacement[l] == wanted.displacement[l]) continue;
     plan.displacement[l] = wanted.displacement[l];
     const float left_m = wanted.left_m[l], ahead_m = wanted.ahead_m[l],
                 way = std::sqrt(left_m * left_m + ahead_m * ahead_m);

@@ -123,4 +123,34 @@ TEST(StepAside, FollowsAWalkOrAnotherStepThatIsUnderWay) {
   EXPECT_NEAR(pelvis.x, moved.position_m[0].x - 0.2F, 0.05);
 }
 
+/// A walk, a turn or another step asked for at any moment of it.
+TEST(StepAside, NothingJumpsWhateverIsAskedOnTheWay) {
+  Dice dice{std::mt19937(72)};
+  for (int trial = 0; trial < 60; ++trial) {
+    Standing one;
+    const double what = dice(0, 3);
+    ASSERT_TRUE(one.simulation.step_aside(one.entity, dice.single(-0.23, 0.23), dice.single(-0.19, 0.19)));
+    one.go_on(dice(0, 1.2));
+    if (what < 1) {
+      GaitRequest walk;
+      walk.speed_m_s = dice.single(0.5, 1.8);
+      ASSERT_TRUE(one.simulation.change_gait(one.entity, walk));
+    } else if (what < 2) {
+      ASSERT_TRUE(one.simulation.turn_to(one.entity, dice.single(-3, 3)));
+    } else {
+      ASSERT_TRUE(one.simulation.step_aside(one.entity, dice.single(-0.23, 0.23), dice.single(-0.19, 0.19)));
+    }
+    Pose<float> before = one.pose();
+    for (int i = 0; i < 150; ++i) {
+      one.simulation.tick();
+      const Pose<float> now = one.pose();
+      for (std::size_t s = 0; s < segment_count; ++s)
+        ASSERT_LT(distance(now.position_m[s], before.position_m[s]), 0.12) << trial << ' ' << segment_name[s];
+      ASSERT_LT(distance(now.position_m[0], before.position_m[0]), 0.04) << trial;
+      ASSERT_LT(angle_between(now.rotation[0], before.rotation[0]), 0.06) << trial;
+      before = now;
+    }
+  }
+}
+
 }  // namespace mobil::step_aside_test

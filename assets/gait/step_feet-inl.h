@@ -64,39 +64,56 @@ HWY_NOINLINE inline Wide above_ground(const FootMotion& foot, const Wide& height
   return fma(smooth(64.0F * foot.in_the_air), lacking, foot.ankle_up);
 }
 
+/// The other foot's pitch on the ground and in the air, and its ankle's place there, relative to its last foothold.
+struct OtherAnkle {
+  Wide part;  // of the time of the swing
+  WideMask swings;
+  Wide standing_pitch, swing_pitch, up, forward;
+};
+
+HWY_NOINLINE inline OtherAnkle other_ankle(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
+                                           const Wide& phase) {
+  const Wide off = load(plan.double_support), landing = load(plan.landing);
+  const LeavingShape leaving(plan);
+  const Wide lift = leaving.begins(), stride = load(plan.stride_part);
+  // Who goes on standing does not swing. Who lands at the end of the step comes a little further where its curves are
+  // asked for beyond it.
+  const Wide most = select(landing > 0.0F, select(landing < 1.0F, wide(1.0F), wide(1.25F)), wide(0.0F));
+  OtherAnkle a;
+  a.swings = phase >= off;
+  const Wide u = min(max((phase - off) / max(landing - off, 1e-3F), 0.0F), most);
+  a.part = u;
+  a.swing_pitch = quintic_at(plan.swing_pitch, u) + bumps(of, step_shape::swing_pitch, u);
+  a.standing_pitch = heel_rise(leaving, (phase - lift) / max(off - lift, 1e-3F));
+  // Who turns on the spot lifts the foot.
+  const Wide lifted = select(stands_still(plan), 0.014F * height, wide(0.0F)) * bump(u);
+  a.up = quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u) + lifted;
+  a.forward = quintic_at(plan.swing_forward_m, u) + stride * bumps(of, step_shape::swing_forward, u) +
+              load(plan.length_before_m);
+  return a;
+}
+
 /// The other foot: places relative to its last foothold.
 HWY_NOINLINE inline FootMotion other_foot(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
                                           const Wide& phase) {
-  const Wide off = load(plan.double_support), landing = load(plan.landing), before = load(plan.length_before_m);
-  const WideMask swings = phase >= off, lands = landing > 0.0F;  // who goes on standing does neither
-  const LeavingShape leaving(plan);
-  const Wide lift = leaving.begins();
-  // Who lands at the end of the step comes a little further where its curves are asked for beyond it.
-  const Wide most = select(landing < 1.0F, wide(1.0F), wide(1.25F));
-  const Wide u = select(lands, min(max((phase - off) / max(landing - off, 1e-3F), 0.0F), most), wide(0.0F));
-  const Wide swing_pitch = quintic_at(plan.swing_pitch, u) + bumps(of, step_shape::swing_pitch, u);
-  const Wide standing_pitch = heel_rise(leaving, (phase - lift) / max(off - lift, 1e-3F));
-  const Wide swung = smooth(u), stride = load(plan.stride_part);
+  const OtherAnkle a = other_ankle(plan, of, height, phase);
+  const Wide& u = a.part;
+  const Wide swung = smooth(u);
   FootMotion foot =
-      plant(height, select(swings, swing_pitch, standing_pitch),
+      plant(height, select(a.swings, a.swing_pitch, a.standing_pitch),
             mix(load(plan.trailing_toe_out), load(plan.to.toe_out), swung), load(plan.trailing_half_width_m));
   constexpr float straighten = 1.0F / (swing_toes::to - swing_toes::from);
   // They are straight smoothly, too, where the foot comes level before that.
   constexpr float nearly_level = 0.2F;
-  const Wide bent = mix(wide(1.0F), smooth(-swing_pitch * (1.0F / nearly_level)), smooth(4.0F * u));
+  const Wide bent = mix(wide(1.0F), smooth(-a.swing_pitch * (1.0F / nearly_level)), smooth(4.0F * u));
   foot.toes = foot.toes * (1.0F - smooth((u - swing_toes::from) * straighten)) * bent;
   foot.part = u;
   foot.swung = swung;
   foot.in_the_air = max(bump(u), 0.0F);
-  foot.ankle_up =
-      select(swings, quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u), foot.ankle_up);
-  // Who turns on the spot lifts the foot.
-  foot.ankle_up = fma(select(stands_still(plan), 0.014F * height, wide(0.0F)), foot.in_the_air, foot.ankle_up);
-  foot.ankle_up = select(swings, above_ground(foot, height), foot.ankle_up);
-  foot.ankle_out = select(swings, quintic_at(plan.swing_out_m, u), foot.ankle_out);
-  foot.ankle_forward =
-      select(swings, quintic_at(plan.swing_forward_m, u) + stride * bumps(of, step_shape::swing_forward, u) + before,
-             foot.ankle_forward);
+  foot.ankle_up = select(a.swings, a.up, foot.ankle_up);
+  foot.ankle_up = select(a.swings, above_ground(foot, height), foot.ankle_up);
+  foot.ankle_out = select(a.swings, quintic_at(plan.swing_out_m, u), foot.ankle_out);
+  foot.ankle_forward = select(a.swings, a.forward, foot.ankle_forward);
   return foot;
 }
 

@@ -166,12 +166,12 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
                     false,
                     300,
                     170};
-  PlotPanel cycle{"height", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
+  PlotPanel cycle{"height, by m/s", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
   PlotPanel excursion{"rise", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}, true};
   for (const auto& walk : comparison.walks) {
     if (walk.set != 0) continue;
     cycle.lines.push_back({cycle_percents(), cycle_values(walk.stride.com_height, 1000, walk.stride.com_mean_m),
-                           series_colour[walk.speed_class], fmt::format("{:.2f} m/s", walk.speed_m_s), 1.6, false});
+                           series_colour[walk.speed_class], fmt::format("{:.2f}", walk.speed_m_s), 1.6, false});
   }
   PlotBand band{{}, {}, {}, first_colour, "Orendurff 2004 ± 1 SD", 0.28};
   for (const auto& norm : comparison.reference.excursion) {

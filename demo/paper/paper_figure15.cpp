@@ -145,7 +145,7 @@ Result<void> paper_figure15(PaperRun& run) {
     if (!walk) return tl::unexpected(walk.error());
     walks.push_back(std::move(*walk));
   }
-  auto normal = walk_at(static_cast<double>(paper_speed_m_s), "opensim_normal_gait", "OpenSim's gait");
+  auto normal = walk_at(static_cast<double>(paper_speed_m_s), "opensim_normal_gait", "OpenSim");
   if (!normal) return tl::unexpected(normal.error());
   walks.push_back(std::move(*normal));
 

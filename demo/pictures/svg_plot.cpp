@@ -20,7 +20,7 @@ constexpr double margin = 12, title_height = 26, legend_height = 20, panel_title
 
 /// About what it takes at the usual size, in pixels; bytes that continue a letter take none.
 double text_width(std::string_view text) {
-  return 5.6 * static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
+  return 6.1 * static_cast<double>(std::ranges::count_if(text, [](char c) { return (c & 0xC0) != 0x80; }));
 }
 
 std::string escaped(std::string_view text) {

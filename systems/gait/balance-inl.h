@@ -65,6 +65,8 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
   const Wide width = load(plan.from.half_width_m) + load(plan.to.half_width_m);
   const WideMask from_stands = stands(plan.from), to_stands = stands(plan.to);
   const Wide off = load(plan.double_support), landing = load(plan.landing);
+  Wide s, along;
+  sin_cos(load(plan.slant_rad), s, along);
   PlanarFigure figure[3];
   PlanarMotion before{wide(0.0F), wide(0.0F)};
   StepWaves waves[2];
@@ -73,7 +75,7 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
     const Wide u = wide(static_cast<float>(k) / step_parts);
     phase[k % 2] = step_phase(plan, u);
     waves[k % 2] = step_waves(phase[k % 2]);
-    planar_figure(plan, height, u, phase[k % 2], waves[k % 2], figure[k % 3]);
+    planar_figure(plan, height, u, phase[k % 2], waves[k % 2], along, figure[k % 3]);
     if (k == 0) continue;
     const PlanarFigure& last = figure[(k + 2) % 3];
     const PlanarMotion now = planar_motion(last, figure[k % 3], height, per_apart);
@@ -130,7 +132,7 @@ constexpr float room_used = 0.7F;
 /// outside it stays.
 HWY_NOINLINE inline Wide into_room(const Elimination<other_ways>& normal, const Wide (&effect)[step_parts][other_ways],
                                    const Pressed& pressed, Wide (&by)[other_ways]) {
-  constexpr int rounds = 6;
+  constexpr int rounds = 4;
   Wide worst = wide(0.0F);
   for (std::size_t k = 0; k < other_ways; ++k) by[k] = wide(0.0F);
   for (int round = 0; round < rounds; ++round) {

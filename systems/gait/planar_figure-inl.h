@@ -64,21 +64,28 @@ HWY_NOINLINE inline void planar_leg(const Wide& height, const Wide& hip_forward,
   out.up[first + 4] = ankle_up;
 }
 
-/// At a part of the step's time and its phase.
+/// At a part of the step's time and its phase; `along`: cosine of the slant of the line.
 HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& u,
-                                       const Wide& phase, const StepWaves& waves, PlanarFigure& out) {
+                                       const Wide& phase, const StepWaves& waves, const Wide& along,
+                                       PlanarFigure& out) {
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
   const HipsPlace hips = hips_place(plan, of, u, phase, waves);
   // What who stands does along a slanting line is seen from the side.
-  Wide s, along;
-  sin_cos(load(plan.slant_rad), s, along);
   const Wide up = hips_height(plan, of, height, u, waves), forward = fma(hips.forward, along, hips.ahead);
-  const FootMotion stance = stance_foot(plan, of, height, phase), other = other_foot(plan, of, height, phase);
-  const Wide other_forward = (other.ankle_forward - load(plan.length_before_m)) * along;
+  const OtherAnkle other = other_ankle(plan, of, height, phase);
+  const PlantedAnkle stands = planted_ankle(height, stance_pitch(plan, of, phase));
+  const PlantedAnkle leaves = planted_ankle(height, other.standing_pitch);
+  const OneShape landed{plan.from.shape};
+  const Wide yielding = phase * (0.5F / pad_part);
+  const Wide stance_forward = stands.along.value + falling(landed, step_shape::pad_forward, yielding);
+  const Wide stance_up = stands.up.value + falling(landed, step_shape::pad_up, yielding);
+  const Wide other_along = select(other.swings, other.forward, leaves.along.value);
+  const Wide other_forward = (other_along - load(plan.length_before_m)) * along;
   const Wide eased = smooth(u), half = static_cast<float>(fraction::hip_half_spacing) * height;
   const Wide before = half * pelvis_rotation(plan, waves, eased), above = half * pelvis_list(plan, waves, eased);
-  planar_leg(height, forward + before, up + above, stance.ankle_forward, stance.ankle_up, 0, out);
-  planar_leg(height, forward - before, up - above, other_forward, other.ankle_up, 5, out);
+  planar_leg(height, forward + before, up + above, stance_forward, stance_up, 0, out);
+  planar_leg(height, forward - before, up - above, other_forward, select(other.swings, other.up, leaves.up.value), 5,
+             out);
   out.aside = hips.aside;
   namespace b = upper_body;
   const Wide bent_forward =
@@ -88,7 +95,7 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
   const Wide back = manner(from.leg_back, to.leg_back, eased),
              range = manner(from.leg_forward, to.leg_forward, eased) - back;
-  const Wide legs = (stance.ankle_forward + other_forward - 2.0F * forward) / up;
+  const Wide legs = (stance_forward + other_forward - 2.0F * forward) / up;
   const Wide swing = (legs - 2.0F * back) / max(range, 1e-3F) *
                          (manner(from.arm_forward, to.arm_forward, eased) + manner(from.arm_back, to.arm_back, eased)) -
                      2.0F * manner(from.arm_back, to.arm_back, eased);

@@ -164,9 +164,9 @@ PlotFigure centre_of_mass_figure(const Comparison& comparison) {
                     2,
                     {},
                     false,
-                    300,
+                    370,
                     170};
-  PlotPanel cycle{"height, by m/s", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
+  PlotPanel cycle{"height (m/s)", {"% of the gait cycle", 0, 100}, {"over its mean (mm)"}, {}, {}, {}, true};
   PlotPanel excursion{"rise", {"speed (m/s)"}, {"excursion (mm)"}, {}, {}, {}, true};
   for (const auto& walk : comparison.walks) {
     if (walk.set != 0) continue;

@@ -37,6 +37,9 @@ constexpr float over_rim = static_cast<float>(fraction::ankle_height) - rim;
 constexpr float over_joint = static_cast<float>(fraction::ankle_height) - joint;
 }  // namespace unit_foot
 
+/// How far an ankle is outward of its hip in somebody who stands, of the height.
+constexpr float ankle_outward = 0.022F;
+
 /// The numbers of two strikes' shapes, mixed.
 struct MixedShape {
   const Lanes<float>*from, *to;

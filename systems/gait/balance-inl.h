@@ -48,8 +48,9 @@ constexpr float room_aside = 0.015F;
 constexpr float least_lift = 0.4F, most_other_way = 0.05F;
 
 HWY_NOINLINE inline void room_ahead(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
-                                    const Wide& phase, const WideMask& both, std::size_t i, Pressed& ahead) {
-  const SoleReach reach = sole_reach(height, stance_pitch(plan, of, phase)), flat = sole_reach(height, wide(0.0F));
+                                    const Wide& phase, const Wide& pitch, const WideMask& both, std::size_t i,
+                                    Pressed& ahead) {
+  const SoleReach reach = sole_reach(height, pitch), flat = sole_reach(height, wide(0.0F));
   const Wide off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
   const Wide back = select(both, min(reach.back, flat.front - load(plan.length_before_m)), reach.back);
   ahead.middle[i] = min(max(pressed(of, height, 0.5F * phase / off), back), reach.front);
@@ -88,7 +89,7 @@ HWY_NOINLINE inline void look_at_step(const StepPlan<Lanes<float>>& plan, const 
       const Wide& p = phase[i % 2];
       const WideMask both = (p < off) | (p > landing);
       const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, p)};
-      room_ahead(plan, of, height, p, both, i, ahead);
+      room_ahead(plan, of, height, p, last.stance_pitch, both, i, ahead);
 
       aside.at[i] = last.aside - per_aside * (figure[k % 3].aside - 2.0F * last.aside + figure[(k + 1) % 3].aside);
       // Somebody who stands presses between the feet, for as long as both are on the ground.
@@ -180,7 +181,8 @@ HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const 
     if (k < 2) continue;
     const std::size_t i = k - 1;
     const Wide at = step_phase(plan, wide(static_cast<float>(i) / step_parts));
-    const WideMask early = at<off, late = at> landing;
+    const WideMask early = at < off;
+    const WideMask late = at > landing;
     const Wide pressed = way[i % 3] - per * (way[k % 3] - 2.0F * way[i % 3] + way[(i + 2) % 3]);
     auto within = [&](const Wide& stance, const Wide& last, const Wide& next, const Wide& back, const Wide& front,
                       Pressed& out) {

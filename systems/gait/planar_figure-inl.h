@@ -37,6 +37,7 @@ struct PlanarFigure {
   Wide forward[planar_points], up[planar_points];
   Wide lean;   // of the body above the hips
   Wide aside;  // of the hips
+  Wide stance_pitch;
 };
 
 /// A leg whose knee bends forward.
@@ -73,7 +74,8 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
   // What who stands does along a slanting line is seen from the side.
   const Wide up = hips_height(plan, of, height, u, waves), forward = fma(hips.forward, along, hips.ahead);
   const OtherAnkle other = other_ankle(plan, of, height, phase);
-  const PlantedAnkle stands = planted_ankle(height, stance_pitch(plan, of, phase));
+  out.stance_pitch = stance_pitch(plan, of, phase);
+  const PlantedAnkle stands = planted_ankle(height, out.stance_pitch);
   const PlantedAnkle leaves = planted_ankle(height, other.standing_pitch);
   const OneShape landed{plan.from.shape};
   const Wide yielding = phase * (0.5F / pad_part);

@@ -7,9 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include <cmath>
-#include <utility>
-
 #include "systems/gait/balance-inl.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/heading-inl.h"
@@ -27,10 +24,9 @@ constexpr float spot_step_s = 0.4F, spot_double_support = 0.05F, spot_landing = 
 /// A step aside, of somebody who stands, is two: one foot goes there and the other one follows. Each takes so long, s
 /// and s per m: in less the ground could not push the body there.
 constexpr float displacing_s = 0.3F, displacing_s_per_m = 0.8F;
-/// How far an ankle is outward of its hip in somebody who stands, of the height; how much further than straight legs
-/// need the hips sink between two such steps.
-constexpr float stance_aside = 0.022F, sinks_apart = 2.0F;
-/// How far the centre of pressure may lie from where walks have it, of the height.
+/// How much further than straight legs need the hips sink between two such steps.
+constexpr float sinks_apart = 2.0F;
+/// How far outside the soles the centre of pressure may lie before a step is marked, of the height.
 constexpr float most_astray = 0.04F;
 
 /// The part of a step's time at which it has a phase.
@@ -236,7 +232,7 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
     plan.to.shape[step_shape::hips_forward.first][l] = -0.5F * way;
     // Legs that stand apart reach less high.
     const float apart =
-        0.25F * way * way + way * std::abs(std::sin(plan.slant_rad[l])) * stance_aside * size.height_m[l];
+        0.25F * way * way + way * std::abs(std::sin(plan.slant_rad[l])) * ankle_outward * size.height_m[l];
     plan.to.shape[step_shape::hips_up.first][l] -=
         sinks_apart * 0.5F * apart / (static_cast<float>(fraction::hip_height) * size.height_m[l]);
   }

@@ -83,11 +83,11 @@ HWY_INLINE OnLine on_line(const Line& line, const Wide& forward, const Wide& pha
 /// outer arc, further ahead: the pelvis sinks by it.
 HWY_INLINE Wide longer_leg(const Wide& length, const Wide& turn, const Wide& shift_before, const Wide& shift,
                            const Wide& height) {
-  constexpr float leg = static_cast<float>(fraction::hip_height), aside = 0.022F;  // from hip to ankle, of the height
-  constexpr float out = 0.075F;  // foot and hip from the middle, of the height
+  constexpr auto leg = static_cast<float>(fraction::hip_height);  // of the height
+  constexpr float out = 0.075F;                                   // foot and hip from the middle, of the height
   const Wide far = max(abs(shift_before), abs(shift));
   const Wide ahead = (0.5F * abs(turn)) * fma(wide(out), height, far);
-  return fma(far, far + 2.0F * aside * height, ahead * (ahead + length)) * 0.8F / (2.0F * leg * height);
+  return fma(far, far + 2.0F * ankle_outward * height, ahead * (ahead + length)) * 0.8F / (2.0F * leg * height);
 }
 
 /// How far to the left of the line the hips go, whose feet are put to the left of it: on the way to standing and from

@@ -51,6 +51,7 @@ struct GaitStyleOf {
   F leg_stiffness_n_per_m = in_every_lane<F>(16000.0F);
   F leg_damping = in_every_lane<F>(0.40F);
   F roll_over = in_every_lane<F>(0.57F);
+  F forward_swing = in_every_lane<F>(0.0F);
   F trunk_lean_deg = in_every_lane<F>(2.0F);
   F trunk_stiffness = in_every_lane<F>(8.0F);
   F shoulder_rotation = in_every_lane<F>(1.0F);
@@ -73,7 +74,7 @@ struct GaitParameter {
   std::string_view meaning;
 };
 
-inline constexpr std::array<GaitParameter, 35> gait_parameters = {{
+inline constexpr std::array<GaitParameter, 36> gait_parameters = {{
     {"pelvis_rotation_deg", "deg", &GaitStyle::pelvis_rotation_deg, 0, 15, "pelvis turn to each side (transverse)"},
     {"pelvis_list_deg", "deg", &GaitStyle::pelvis_list_deg, 0, 10, "pelvis list to each side (frontal)"},
     {"pelvis_shift_h", "height", &GaitStyle::pelvis_shift_h, 0, 0.03F, "pelvis shift toward the stance foot"},
@@ -105,6 +106,8 @@ inline constexpr std::array<GaitParameter, 35> gait_parameters = {{
      "of the loaded knee, of critical: the more, the less it bends"},
     {"roll_over", "1", &GaitStyle::roll_over, 0.4F, 0.7F,
      "travel of the centre of pressure, of the hips', on one foot"},
+    {"forward_swing", "1", &GaitStyle::forward_swing, 0, 1,
+     "part of the swing that follows from torques at hip and knee, integrated forward"},
     {"trunk_lean_deg", "deg", &GaitStyle::trunk_lean_deg, -8, 12, "mean forward lean of the trunk"},
     {"trunk_stiffness", "1", &GaitStyle::trunk_stiffness, 2, 20,
      "of the trunk, of its toppling stiffness: against swaying"},

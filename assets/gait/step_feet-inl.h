@@ -87,9 +87,10 @@ HWY_NOINLINE inline OtherAnkle other_ankle(const StepPlan<Lanes<float>>& plan, c
   a.standing_pitch = heel_rise(leaving, (phase - lift) / max(off - lift, 1e-3F));
   // Who turns on the spot lifts the foot.
   const Wide lifted = select(stands_still(plan), 0.014F * height, wide(0.0F)) * bump(u);
-  a.up = quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u) + lifted;
+  a.up = quintic_at(plan.swing_up_m, u) + stride * bumps(of, step_shape::swing_up, u) +
+         other_way(plan.swing_by_up_m, u) + lifted;
   a.forward = quintic_at(plan.swing_forward_m, u) + stride * bumps(of, step_shape::swing_forward, u) +
-              load(plan.length_before_m);
+              other_way(plan.swing_by_forward_m, u) + load(plan.length_before_m);
   return a;
 }
 

@@ -54,6 +54,33 @@ struct Elimination {
   }
 };
 
+/// N numbers per lane that meet any count of equations as nearly as they can.
+template <std::size_t N>
+struct LeastSquares {
+  Elimination<N> normal;
+  Wide sum[N];
+
+  /// `held`: how strongly each number is held at 0.
+  HWY_NOINLINE explicit LeastSquares(const float (&held)[N]) {
+    for (std::size_t k = 0; k < N; ++k) {
+      sum[k] = wide(0.0F);
+      for (std::size_t j = 0; j < N; ++j) normal.a[k][j] = wide(k == j ? held[k] : 0.0F);
+    }
+  }
+  /// row · numbers = value.
+  HWY_NOINLINE void ask(const Wide (&row)[N], const Wide& value) {
+    for (std::size_t k = 0; k < N; ++k) {
+      sum[k] = fma(row[k], value, sum[k]);
+      for (std::size_t j = 0; j < N; ++j) normal.a[k][j] = fma(row[k], row[j], normal.a[k][j]);
+    }
+  }
+  /// Leaves the numbers in `sum`.
+  HWY_NOINLINE void solve() {
+    normal.factor();
+    normal.solve(sum);
+  }
+};
+
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

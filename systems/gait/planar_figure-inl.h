@@ -65,29 +65,54 @@ HWY_NOINLINE inline void planar_leg(const Wide& height, const Wide& hip_forward,
   out.up[first + 4] = ankle_up;
 }
 
-/// At a part of the step's time and its phase; `along`: cosine of the slant of the line.
+/// The hips, seen from the side: their middle, how far the stance side is before and above it, and how far they go
+/// aside.
+struct HipsSeen {
+  Wide forward, up, before, above, aside;
+};
+
+/// At a part of the step's time, its phase and its waves; `along`: cosine of the slant of the line, since what who
+/// stands does along a slanting one is seen from the side.
+HWY_NOINLINE inline HipsSeen hips_seen(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
+                                       const Wide& u, const Wide& phase, const StepWaves& waves, const Wide& along) {
+  const HipsPlace hips = hips_place(plan, of, u, phase, waves);
+  const Wide eased = smooth(u), half = static_cast<float>(fraction::hip_half_spacing) * height;
+  return {fma(hips.forward, along, hips.ahead), hips_height(plan, of, height, u, waves),
+          half * pelvis_rotation(plan, waves, eased), half * pelvis_list(plan, waves, eased), hips.aside};
+}
+
+/// The leg that does not stand, from the stance foothold.
+struct OtherLeg {
+  Wide hip_forward, hip_up, ankle_forward, ankle_up;
+  Wide part;  // of the swing
+};
+
+HWY_NOINLINE inline OtherLeg other_leg(const StepPlan<Lanes<float>>& plan, const MixedShape& of, const Wide& height,
+                                       const Wide& phase, const HipsSeen& hips, const Wide& along) {
+  const OtherAnkle other = other_ankle(plan, of, height, phase);
+  const PlantedAnkle leaves = planted_ankle(height, other.standing_pitch);
+  Wide s, c;
+  sin_cos(load(plan.trailing_toe_out), s, c);
+  const Wide other_along = select(other.swings, other.forward, leaves.along.value * c);
+  return {hips.forward - hips.before, hips.up - hips.above, (other_along - load(plan.length_before_m)) * along,
+          select(other.swings, other.up, leaves.up.value), other.part};
+}
+
+/// At a part of the step's time and its phase; `along`: as hips_seen has it.
 HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const Wide& height, const Wide& u,
                                        const Wide& phase, const StepWaves& waves, const Wide& along,
                                        PlanarFigure& out) {
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
-  const HipsPlace hips = hips_place(plan, of, u, phase, waves);
-  // What who stands does along a slanting line is seen from the side.
-  const Wide up = hips_height(plan, of, height, u, waves), forward = fma(hips.forward, along, hips.ahead);
-  const OtherAnkle other = other_ankle(plan, of, height, phase);
+  const HipsSeen hips = hips_seen(plan, of, height, u, phase, waves, along);
+  const OtherLeg other = other_leg(plan, of, height, phase, hips, along);
   out.stance_pitch = stance_pitch(plan, of, phase);
   const PlantedAnkle stands = planted_ankle(height, out.stance_pitch);
-  const PlantedAnkle leaves = planted_ankle(height, other.standing_pitch);
   const OneShape landed{plan.from.shape};
-  const Wide yielding = phase * (0.5F / pad_part);
+  const Wide yielding = phase * (0.5F / pad_part), eased = smooth(u);
   const Wide stance_forward = stands.along.value + falling(landed, step_shape::pad_forward, yielding);
   const Wide stance_up = stands.up.value + falling(landed, step_shape::pad_up, yielding);
-  const Wide other_along = select(other.swings, other.forward, leaves.along.value);
-  const Wide other_forward = (other_along - load(plan.length_before_m)) * along;
-  const Wide eased = smooth(u), half = static_cast<float>(fraction::hip_half_spacing) * height;
-  const Wide before = half * pelvis_rotation(plan, waves, eased), above = half * pelvis_list(plan, waves, eased);
-  planar_leg(height, forward + before, up + above, stance_forward, stance_up, 0, out);
-  planar_leg(height, forward - before, up - above, other_forward, select(other.swings, other.up, leaves.up.value), 5,
-             out);
+  planar_leg(height, hips.forward + hips.before, hips.up + hips.above, stance_forward, stance_up, 0, out);
+  planar_leg(height, other.hip_forward, other.hip_up, other.ankle_forward, other.ankle_up, 5, out);
   out.aside = hips.aside;
   namespace b = upper_body;
   const Wide bent_forward =
@@ -97,13 +122,13 @@ HWY_NOINLINE inline void planar_figure(const StepPlan<Lanes<float>>& plan, const
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
   const Wide back = manner(from.leg_back, to.leg_back, eased),
              range = manner(from.leg_forward, to.leg_forward, eased) - back;
-  const Wide legs = (stance_forward + other_forward - 2.0F * forward) / up;
+  const Wide legs = (stance_forward + other.ankle_forward - 2.0F * hips.forward) / hips.up;
   const Wide swing = (legs - 2.0F * back) / max(range, 1e-3F) *
                          (manner(from.arm_forward, to.arm_forward, eased) + manner(from.arm_back, to.arm_back, eased)) -
                      2.0F * manner(from.arm_back, to.arm_back, eased);
   const Wide ahead = fma(wide(b::per_swing), swing, bent_forward + b::ahead);
-  out.forward[planar_points - 1] = fma(ahead, height, forward);
-  out.up[planar_points - 1] = fma(wide(b::above), height, up);
+  out.forward[planar_points - 1] = fma(ahead, height, hips.forward);
+  out.up[planar_points - 1] = fma(wide(b::above), height, hips.up);
 }
 
 /// Between two figures `apart` seconds from each other: mean rates of the angular momentum's sum (z ẏ − y ż, the

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "systems/gait/balance-inl.h"
+#include "systems/gait/forward_swing-inl.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/heading-inl.h"
 
@@ -181,6 +182,12 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   store(clamp((load(from.length_m) + length) / max(usual, 1e-3F), 0.0F, 1.5F), plan.stride_part);
   store(select(stays, zero, time_of_phase(plan, off) * duration), plan.double_support_s);
   plan_swing(height, plan);
+  const Wide share = select(to_stands, zero, load(wanted.style.forward_swing));
+  for (std::size_t k = 0; k < other_way_count; ++k) {
+    store(zero, plan.swing_by_forward_m[k]);
+    store(zero, plan.swing_by_up_m[k]);
+  }
+  if (any(share > 0.0F)) integrate_swing(height, share, plan);
   const WideMask alike = same_words(from, to);
   const Wide astray = balance_step(height, select(right_lands, -one, one), alike | stays, spot, plan);
   store_flags(astray > most_astray * height, plan.clamped);

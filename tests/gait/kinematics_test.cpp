@@ -212,7 +212,7 @@ bool nearly_straight(const Walkers& w, std::size_t segment, std::size_t lane) {
 }
 
 /// Walkers whose wishes change on the way, for six seconds.
-Jumps jumps(unsigned seed, int ticks_a_second) {
+Jumps jumps(unsigned seed, int ticks_a_second, float forward_swing = 0) {
   using geometry::operator-, geometry::operator*;
   Dice dice{std::mt19937(seed)};
   const auto w = random_walkers(seed);
@@ -222,6 +222,7 @@ Jumps jumps(unsigned seed, int ticks_a_second) {
   Jumps most;
   for (int t = 0; t < 6 * ticks_a_second; ++t) {
     if (t % (ticks_a_second * 3 / 2) == ticks_a_second * 7 / 10) wish(*w, dice);
+    for (float& lane : w->gait.style.forward_swing.lane) lane = forward_swing;
     *before = w->pose;
     w->tick(static_cast<float>(dt));
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -261,6 +262,18 @@ TEST(Kinematics, NothingJumpsWhateverIsAskedOnTheWay) {
     EXPECT_LT(at_2000.straight_m_s, 4);
     EXPECT_LT(at_2000.straight_rad_s, 12);
     EXPECT_LT(at_500.straight_m_s, 4);
+  }
+}
+
+/// The same of legs that follow from their torques.
+TEST(Kinematics, NothingJumpsWhereSwingsAreIntegratedForward) {
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    const Jumps most = jumps(seed, 1000, 1);
+    EXPECT_LT(most.speed, 3.8);
+    EXPECT_LT(most.rate_rad_s, 27);
+    EXPECT_LT(most.acceleration_m_s2, 1100);
+    EXPECT_LT(most.turning_rad_s2, 3800);
+    EXPECT_LT(most.straight_m_s, 8);
   }
 }
 

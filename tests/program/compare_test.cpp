@@ -330,10 +330,13 @@ TEST(Balance, WalksTurnStopLimpAndStepAsideWithinTheirSoles) {
                 {"turning", 0.09, 0.05},           {"starting and stopping", 0.05, 0.06},
                 {"limping", 0.03, 0.03},           {"stepping aside", 0.09, 0.08},
                 {"turning on the spot", 0.2, 0.15}};
-  for (const BodyRequest& body : {BodyRequest{.height_m = 1.75F, .mass_kg = 75},
-                                  {.height_m = 1.55F, .mass_kg = 48},
-                                  {.height_m = 1.95F, .mass_kg = 95}}) {
-    const auto scenes = walk_balance_scenes(body, {});
+  GaitStyle forward;
+  forward.forward_swing = 1;
+  for (const auto& [body, style] : {std::pair{BodyRequest{.height_m = 1.75F, .mass_kg = 75}, GaitStyle{}},
+                                    {{.height_m = 1.55F, .mass_kg = 48}, {}},
+                                    {{.height_m = 1.95F, .mass_kg = 95}, {}},
+                                    {{.height_m = 1.75F, .mass_kg = 75}, forward}}) {
+    const auto scenes = walk_balance_scenes(body, style);
     ASSERT_TRUE(scenes) << scenes.error().message;
     ASSERT_EQ(scenes->size(), std::size(bounds));
     for (std::size_t i = 0; i < scenes->size(); ++i) {

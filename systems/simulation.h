@@ -100,8 +100,9 @@ class Simulation {
   /// A person whose host animates the skeleton, in the anatomical position at the origin: no gait, nothing of
   /// kinematics. Errors: a body out of range, in one line; the simulation is unchanged.
   Result<Entity> spawn_posed(const BodyRequest& body);
-  /// Where a posed person's skeleton is at the end of the next tick, taken as it is: finite, unit quaternions. Leg
-  /// muscles follow. Stale handles answer Status::stale_entity, walkers Status::missing.
+  /// Where a posed person's skeleton is at the end of the next tick, taken as it is. Leg muscles follow. Stale handles
+  /// answer Status::stale_entity, walkers Status::missing; Status::not_valid where a place is not within 1000 km or a
+  /// quaternion's length is not 1 within 1 %: the pose then stays.
   Status set_pose(Entity human, const Pose<float>& pose);
   /// Stale handles answer Status::stale_entity.
   Status despawn(Entity human);
@@ -125,7 +126,7 @@ class Simulation {
   /// nothing has changed.
   Result<void> turn_to(Entity human, float heading_rad);
   /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative
-  /// to the right and back; at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.90 m, in proportion to the
+  /// to the right and back; at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m, in proportion to the
   /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed
   /// person, somebody who is to walk, a way out of range; nothing has changed.
   Result<void> step_aside(Entity human, float left_m, float ahead_m);

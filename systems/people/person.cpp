@@ -34,10 +34,21 @@ Physique<float> physique(const BodyRequest& request) {
   return {of.endo, of.meso, of.ecto, static_cast<std::uint32_t>(request.constitution)};
 }
 
-Result<void> change_gait(World& world, Entity person, const GaitRequest& request) {
-  if (!is_person(world, person)) return fail("change_gait: that person is not there (a stale handle); spawn one first");
+namespace {
+
+/// Errors: a stale handle, a posed person; `asked` is what was asked, `mend` what to do instead.
+Result<void> is_walker(const World& world, Entity person, std::string_view asked, std::string_view mend) {
+  if (!is_person(world, person))
+    return fail(fmt::format("{}: that person is not there (a stale handle); spawn one first", asked));
   if (is_posed(world, person))
-    return fail("change_gait: this person's host animates the skeleton; spawn a walker instead");
+    return fail(fmt::format("{}: this person's host animates the skeleton; {}", asked, mend));
+  return {};
+}
+
+}  // namespace
+
+Result<void> change_gait(World& world, Entity person, const GaitRequest& request) {
+  if (auto walks = is_walker(world, person, "change_gait", "spawn a walker instead"); !walks) return walks;
   auto gait = resolve_gait(*make_body(body_request(world, person)), request);
   if (!gait) return tl::unexpected(gait.error());
   const Gait<float> before = *world.get<Gait>(person);
@@ -51,8 +62,7 @@ Result<void> change_gait(World& world, Entity person, const GaitRequest& request
 }
 
 Result<void> turn_to(World& world, Entity person, float heading_rad) {
-  if (!is_person(world, person)) return fail("turn_to: that person is not there (a stale handle); spawn one first");
-  if (is_posed(world, person)) return fail("turn_to: this person's host animates the skeleton; turn the pose instead");
+  if (auto walks = is_walker(world, person, "turn_to", "turn the pose instead"); !walks) return walks;
   if (!(std::fabs(heading_rad) < 1e4F))
     return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
   Gait<float> gait = *world.get<Gait>(person);
@@ -62,13 +72,11 @@ Result<void> turn_to(World& world, Entity person, float heading_rad) {
 }
 
 Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m) {
-  if (!is_person(world, person)) return fail("step_aside: that person is not there (a stale handle); spawn one first");
-  if (is_posed(world, person))
-    return fail("step_aside: this person's host animates the skeleton; move the pose instead");
+  if (auto walks = is_walker(world, person, "step_aside", "move the pose instead"); !walks) return walks;
   Gait<float> gait = *world.get<Gait>(person);
   if (gait.speed_m_s > 0.0F) return fail("step_aside: this person is to walk; change the gait to a speed of 0 first");
   const auto body = make_body(body_request(world, person));
-  const float scale = (body->thigh_length_m + body->shank_length_m) / 0.90F;
+  const float scale = (body->thigh_length_m + body->shank_length_m) / 0.85F;
   for (const auto& [name, way, most] :
        {std::tuple{"to the left", left_m, 0.25F * scale}, std::tuple{"ahead", ahead_m, 0.20F * scale}}) {
     if (!(std::fabs(way) <= most))
@@ -86,6 +94,17 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
 Status set_pose(World& world, Entity person, const Pose<float>& pose) {
   if (!is_person(world, person)) return Status::stale_entity;
   if (!is_posed(world, person)) return Status::missing;
+  constexpr float farthest = 1e6F, rounding = 0.01F;
+  bool valid = true;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const auto& [x, y, z] = pose.position_m[s];
+    const Quat<float>& q = pose.rotation[s];
+    const float size2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
+    // No comparison holds for what is not a number.
+    valid &= std::fabs(x) < farthest && std::fabs(y) < farthest && std::fabs(z) < farthest &&
+             std::fabs(size2 - 1) < 2 * rounding;
+  }
+  if (!valid) return Status::not_valid;
   return world.set(person, pose);
 }
 

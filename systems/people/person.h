@@ -26,12 +26,13 @@ Result<void> change_gait(World& world, Entity person, const GaitRequest& request
 /// posed person, a heading that is not within ±10000.
 Result<void> turn_to(World& world, Entity person, float heading_rad);
 /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative to
-/// the right and back, at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.90 m, in proportion to the leg. It
-/// begins within a quarter of a second, or once the feet are side by side, and takes two steps of 0.3 to 0.5 s. Errors:
+/// the right and back, at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m (a body of 1.73 m), in
+/// proportion to the leg. It begins within a quarter of a second, or once the feet are side by side, and takes two steps of 0.3 to 0.5 s. Errors:
 /// a stale handle, a posed person, somebody who is to walk, a way out of range.
 Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m);
 /// Where a posed person's skeleton is at the end of the next tick. Stale handles answer Status::stale_entity, walkers
-/// Status::missing.
+/// Status::missing; Status::not_valid where a place is not within 1000 km or a quaternion's length is not 1 within 1 %:
+/// the pose then stays.
 Status set_pose(World& world, Entity person, const Pose<float>& pose);
 
 }  // namespace mobil

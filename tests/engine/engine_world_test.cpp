@@ -389,4 +389,12 @@ TEST(EngineKey, TypesAreKnownByTheirNames) {
   static_assert(type_id<Size<float>>() != type_id<Arms<float>>());
   static_assert(!distinct({1, 2, 1}) && distinct({1, 2, 3}));
 }
+
+TEST(Status, EveryAnswerHasWordsOfItsOwn) {
+  std::set<std::string_view> texts;
+  for (const Status status : {Status::ok, Status::stale_entity, Status::missing, Status::already_there,
+                              Status::wrong_width, Status::not_valid})
+    EXPECT_TRUE(texts.insert(status_text(status)).second) << status_text(status);
+  EXPECT_FALSE(texts.contains(""));
+}
 }  // namespace mobil::engine_world_test

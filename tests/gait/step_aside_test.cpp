@@ -38,7 +38,7 @@ TEST(StepAside, TakesFeetAndBodyThereInTwoSteps) {
   for (int trial = 0; trial < 40; ++trial) {
     Standing one(random_body(dice));
     const Body body = one.simulation.human(one.entity)->body;
-    const float scale = (body.thigh_length_m + body.shank_length_m) / 0.9F;
+    const float scale = (body.thigh_length_m + body.shank_length_m) / 0.85F;
     for (int step = 0; step < 3; ++step) {
       const float left = scale * dice.single(-0.25, 0.25), ahead = scale * dice.single(-0.2, 0.2);
       const Pose<float> before = one.pose();
@@ -53,9 +53,9 @@ TEST(StepAside, TakesFeetAndBodyThereInTwoSteps) {
 
 /// The foot on that side first, and either foot only while it is in the air.
 TEST(StepAside, FeetThatStandDoNotSlide) {
-  for (const float left_m : {0.22F, -0.22F, 0.1F, 0.0F}) {
+  for (const float left_m : {0.25F, -0.25F, 0.1F, 0.0F}) {
     Standing one;
-    ASSERT_TRUE(one.simulation.step_aside(one.entity, left_m, left_m == 0.0F ? -0.18F : 0.0F));
+    ASSERT_TRUE(one.simulation.step_aside(one.entity, left_m, left_m == 0.0F ? -0.20F : 0.0F));
     std::size_t first = 2;
     double lifted = 0;
     Feet<float> before = *one.simulation.get<Feet>(one.entity);

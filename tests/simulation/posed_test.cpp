@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <vector>
 
 #include "assets/body/anthropometry.h"
@@ -33,6 +34,30 @@ TEST(Posed, StandsInTheAnatomicalPosition) {
       EXPECT_NEAR(pose.position_m[s].z - from.z, offset.z, 1e-6F) << segment_name[s];
     }
   }
+}
+
+/// One number that no skeleton can have, in any segment: the pose stays.
+TEST(Posed, APoseThatIsNoneIsRefused) {
+  Simulation simulation;
+  const Entity human = pose_person(simulation, 0);
+  const auto sound = *simulation.get<Pose>(human);
+  ASSERT_EQ(simulation.set_pose(human, sound), Status::ok);
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    for (const float bad : {nan, inf, -inf}) {
+      Pose<float> pose = sound;
+      (s % 3 == 0 ? pose.position_m[s].x : s % 3 == 1 ? pose.position_m[s].y : pose.rotation[s].w) = bad;
+      EXPECT_EQ(simulation.set_pose(human, pose), Status::not_valid) << segment_name[s];
+    }
+    for (const Quat<float>& q :
+         {Quat<float>{0, 0, 0, 0}, Quat<float>{0, 0, 0, 2}, Quat<float>{0.1F, 0.2F, 0.3F, 0.4F}}) {
+      Pose<float> pose = sound;
+      pose.rotation[s] = q;
+      EXPECT_EQ(simulation.set_pose(human, pose), Status::not_valid) << segment_name[s];
+    }
+  }
+  const auto now = *simulation.get<Pose>(human);
+  EXPECT_EQ(std::memcmp(&now, &sound, sizeof now), 0);
 }
 
 /// A walker, and somebody of the same body who is handed the walker's poses.

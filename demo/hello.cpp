@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "systems/simulation.h"
+#include <mobil/simulation.h>
 
 int main() {
   mobil::Simulation simulation;

@@ -12,7 +12,7 @@ namespace mobil {
 struct Ticks {
   std::uint32_t count = 0;  ///< ticks to run now
   double dropped_s = 0;     ///< time that will never be run: what the frame had beyond the longest allowed
-  double alpha = 0;         ///< how far into the next tick the frame ends, in [0, 1): interpolate the last two states
+  double alpha = 0;         ///< how far into the next tick the frame ends, in [0, 1): PoseWriter writes poses there
   bool valid = true;        ///< false when the frame was negative or not finite; then all of it was dropped
 };
 

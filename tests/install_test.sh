@@ -1,15 +1,35 @@
 #!/usr/bin/env bash
-# Installs the build tree to a fresh prefix; builds and runs hosts against it with find_package(mobil): hello, and one
-# that adds a system of its own. Internal headers are not installed.
+# Installs the build tree to a fresh prefix; builds and runs hosts against it with find_package(mobil): hello, one that
+# adds a system of its own, and a game with an Eigen and an engine/world.h of its own. Internal headers are not
+# installed.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 cmake --install "$1" --prefix "$scratch/prefix" >/dev/null
-cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" -DHOSTS="$2/demo/hello.cpp;$2/demo/examples/fatigue.cpp"
+mkdir -p "$scratch/own/engine"
+echo 'namespace game { struct World { int cells = 7; }; }' >"$scratch/own/engine/world.h"
+cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
+  -DHOSTS="$2/demo/hello.cpp;$2/demo/examples/fatigue.cpp;$2/tests/consumer/game_host.cpp" -DOWN_HEADERS="$scratch/own"
 cmake --build "$scratch/build"
 "$scratch/build/hello"
 "$scratch/build/fatigue"
+if grep -q '^flags.* avx2' /proc/cpuinfo; then
+  "$scratch/build/game_host"
+else
+  echo "game_host not run: this processor has no AVX2"
+fi
+if grep -rl Eigen "$scratch/prefix/include"; then
+  echo "installed headers speak of Eigen, which a host need not have" >&2
+  exit 1
+fi
+find "$scratch/prefix" -name 'libmobil_*.a' -exec nm -C {} + >"$scratch/symbols"
+grep -q 'mobil::Simulation::tick' "$scratch/symbols"
+[ -s "$scratch/prefix/share/doc/mobil/LICENSE" ]
+if grep -q ' Eigen::' "$scratch/symbols"; then
+  echo "our libraries have functions of Eigen under its own name, which a host's could stand in for" >&2
+  exit 1
+fi
 for internal in engine/row_hash.h systems/muscles/change_muscles.h systems/gait/balance-inl.h assets/reduction/reduced_training.h; do
   [ -f "$2/$internal" ] || { echo "$internal is gone; name another internal header here" >&2; exit 1; }
   [ ! -e "$scratch/prefix/include/mobil/$internal" ] || { echo "$internal is internal and installed" >&2; exit 1; }

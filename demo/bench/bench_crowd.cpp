@@ -121,10 +121,11 @@ std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
   return 0;
 }
 
-Result<void> BenchCrowd::change_speeds(std::uint32_t round) {
+Result<void> BenchCrowd::change_speeds(std::uint32_t round, float forward_swing) {
   for (std::size_t i = 0; i < people_.size(); ++i) {
     CrowdRandom random(seed, i, 0x1000 + round);
     asked_[i].gait.speed_m_s = crowd_speed(random);
+    asked_[i].gait.style.forward_swing = forward_swing;
     if (auto done = simulation_.change_gait(people_[i], asked_[i].gait); !done) return done;
   }
   return {};

@@ -44,7 +44,7 @@ class BenchCrowd {
   std::vector<double> cpu_of(const std::function<void()>& work);
 
   /// Asks everybody for another speed, drawn as the first one was. Errors: the first refusal.
-  Result<void> change_speeds(std::uint32_t round);
+  Result<void> change_speeds(std::uint32_t round, float forward_swing);
 
  private:
   BenchCrowd() = default;

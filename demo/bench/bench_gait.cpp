@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "components/gait.h"
 #include "demo/bench/bench.h"
 #include "demo/bench/bench_crowd.h"
+#include "demo/measure/measure.h"
 #include "engine/schedule.h"
+#include "systems/people/pose_writer.h"
 
 namespace mobil {
 namespace {
@@ -57,8 +60,7 @@ Result<void> add_system(BenchRun& run, std::string_view system, const std::strin
 }
 
 /// Everybody changes speed, and the steps that follow are solved anew.
-Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd) {
-  static constexpr auto name = "gait.us_per_resolve";
+Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd, std::string_view name, float forward_swing) {
   static constexpr auto solver = "replan";
   constexpr int rounds = 5;
   constexpr double longest_change_s = 1.5;
@@ -67,7 +69,7 @@ Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd) {
   std::vector<double> wall, cpu;
   std::uint64_t solved = 0;
   for (int round = 0; round < rounds && rows_of(schedule.timing(solver)); ++round) {
-    if (auto done = crowd.change_speeds(static_cast<std::uint32_t>(round)); !done) return done;
+    if (auto done = crowd.change_speeds(static_cast<std::uint32_t>(round), forward_swing); !done) return done;
     const auto cpu_s = crowd.cpu_of([&] {
       for (int i = 0; i < ticks; ++i) crowd.simulation().tick();
     });
@@ -84,9 +86,28 @@ Result<void> add_resolve(BenchRun& run, BenchCrowd& crowd) {
     return {};
   }
   BenchResult& result =
-      run.add_time(name, {std::ranges::min(wall), median(wall), std::ranges::min(cpu)}, 1, 1e-6, "us");
+      run.add_time(std::string(name), {std::ranges::min(wall), median(wall), std::ranges::min(cpu)}, 1, 1e-6, "us");
   result.bound = fmt::format("{}; {:.0f} steps a tick", at_peak(run.machine, result.value * 1e-6),
                              static_cast<double>(solved) / (rounds * ticks));
+  return {};
+}
+
+/// Everybody's whole pose into a host's memory: as the tables hold it, and halfway to the next tick.
+Result<void> add_poses(BenchRun& run, BenchCrowd& crowd, const std::string& name) {
+  PoseWriter writer;
+  constexpr std::size_t floats_a_segment = 7;
+  std::vector<float> out(crowd.size() * segment_count * floats_a_segment);
+  const World& world = crowd.simulation().world();
+  for (const bool between : {false, true}) {
+    const double ahead_s = between ? 0.5 * crowd.simulation().tick_s() : 0.0;
+    Result<void> done;
+    const Measured time = measure_short(
+        [&] { done = writer.write(world, crowd.people(), ahead_s, {}, {std::as_writable_bytes(std::span(out))}); });
+    if (!done) return done;
+    run.add_time(name + (between ? ".between_ticks.us_per_human" : ".us_per_human"), time,
+                 static_cast<double>(crowd.size()), 1e-6, "us")
+        .bound = "48 places and quaternions in a host's memory";
+  }
   return {};
 }
 
@@ -103,7 +124,8 @@ Result<void> bench_gait(BenchRun& run) {
     run.notes.push_back(fmt::format("gait.us_per_spawn: {} of {} could not walk as drawn and were drawn again",
                                     crowd.drawn_again(), crowd.size()));
   }
-  return add_resolve(run, crowd);
+  if (auto done = add_resolve(run, crowd, "gait.us_per_resolve_forward_swing", 1); !done) return done;
+  return add_resolve(run, crowd, "gait.us_per_resolve", 0);
 }
 
 Result<void> bench_kinematics(BenchRun& run) {
@@ -111,7 +133,11 @@ Result<void> bench_kinematics(BenchRun& run) {
   if (!crowd) return tl::unexpected(crowd.error());
   const auto bytes = [&](std::string_view system) { return static_cast<double>((*crowd)->bytes_per_human(system)); };
   if (auto done = add_system(run, "kinematics", "kinematics", bytes("kinematics")); !done) return done;
-  return add_system(run, "centre of mass", "centre_of_mass", bytes("centre of mass"));
+  if (auto done = add_system(run, "centre of mass", "centre_of_mass", bytes("centre of mass")); !done) return done;
+  if (auto done = add_poses(run, **crowd, "poses"); !done) return done;
+  const auto small = run.small_crowd();
+  if (!small) return tl::unexpected(small.error());
+  return *small == nullptr ? Result<void>{} : add_poses(run, **small, "poses.small_crowd");
 }
 
 }  // namespace mobil

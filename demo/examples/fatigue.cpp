@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/schedule.h"
-#include "systems/simulation.h"
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 
 using mobil::Lanes, mobil::Whole;
 

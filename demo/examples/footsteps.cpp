@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "engine/each.h"
-#include "engine/schedule.h"
-#include "systems/simulation.h"
+#include <mobil/each.h>
+#include <mobil/schedule.h>
+#include <mobil/simulation.h>
 
 using mobil::Lanes, mobil::Whole;
 

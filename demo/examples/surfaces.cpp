@@ -7,8 +7,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "systems/simulation.h"
-#include "systems/surfaces/surfaces.h"
+#include <mobil/simulation.h>
+#include <mobil/surfaces.h>
 
 namespace {
 

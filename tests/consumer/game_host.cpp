@@ -1,0 +1,23 @@
+// A host with an engine/world.h of its own, that uses Eigen itself and is built for AVX2 without inlining: its Eigen
+// aligns memory otherwise than ours does.
+#include <Eigen/Dense>
+#include <cstdio>
+
+#include "engine/world.h"
+#include <mobil/simulation.h>
+#include <mobil/version.h>
+
+int main() {
+  const game::World mine;
+  const Eigen::MatrixXd a = Eigen::MatrixXd::Random(64, 64);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(a + a.transpose());
+  mobil::Simulation simulation;
+  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+  mobil::LegMuscles muscles;
+  muscles.method = mobil::Method::reduced;
+  const auto added = simulation.add_leg_muscles(human.value(), muscles);
+  for (int i = 0; i < 10; ++i) simulation.tick();
+  std::printf("mobil %s: %s; the host's least eigenvalue is %.3f\n", MOBIL_VERSION,
+              added ? "muscles" : added.error().message.c_str(), solver.eigenvalues()[0]);
+  return added && solver.info() == Eigen::Success && mine.cells == 7 ? 0 : 1;
+}

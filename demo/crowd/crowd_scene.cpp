@@ -16,8 +16,6 @@ constexpr std::uint32_t most_draws = 20;
 constexpr std::size_t batch = 1000;  // people who are spawned between two looks at the bar
 constexpr double settling_s = 2;     // what the taking up of a muscle excites falls by e⁻⁴ a second
 constexpr std::uint64_t exchange_stream = 0x30000;
-constexpr std::size_t full_rung = rung_count - 1;
-constexpr float slackest = 0.7F;  // part of a tolerance that a large body's cheaper method must meet
 
 }  // namespace
 
@@ -65,38 +63,15 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request
     needs.looked_at = request.all_seen;
     needs.budget_s = request.budget_s;
     if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
-    if (auto done = scene->prepare(progress); !done) return tl::unexpected(done.error());
+    const float near_m[] = {static_cast<float>(request.near_tolerance_m)};
+    const auto preparing = [&](std::size_t done, std::size_t of) {
+      if (progress) progress("preparing", done, of);
+    };
+    if (auto done = scene->relevance_->prepare(std::span(near_m).first(request.near > 0 ? 1 : 0), preparing); !done)
+      return tl::unexpected(done.error());
   }
   if (auto done = scene->resize(request.humans, progress); !done) return tl::unexpected(done.error());
   return scene;
-}
-
-/// Everything that methods share which tolerances may call for, so that nobody waits for it later.
-Result<void> CrowdScene::prepare(const Progress& progress) {
-  constexpr std::size_t finest[] = {8, 9};  // of either mesh: those before them use parts of the same
-  const RungLadder ladder(accuracy_table());
-  std::array<bool, rung_count> wanted{};
-  for (const double tolerance_m : {request_.tolerance_m, request_.near > 0 ? request_.near_tolerance_m : 1.0}) {
-    for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
-      for (std::uint32_t speed = 0; speed < RungLadder::speed_steps; ++speed) {
-        const RungCase of = {m, speed, request_.effects.inertia, true};
-        wanted[ladder.cheapest(of, slackest * static_cast<float>(tolerance_m) / RelevanceOptions{}.margin)] = true;
-      }
-    }
-  }
-  for (const std::size_t rung : finest) {
-    const auto same_mesh = [&](std::size_t other) { return wanted[other] && rungs[other].cells == rungs[rung].cells; };
-    bool any = false;
-    for (std::size_t other = 1; other < full_rung; ++other) any = any || same_mesh(other);
-    if (!any && !request_.budget_s) continue;
-    if (progress) progress("preparing", rung - finest[0], std::size(finest));
-    LegMuscles choice = muscles_;
-    const MuscleMethod method = rung_method(rung, true);
-    choice.method = method.method;
-    choice.reduced = method.reduced;
-    if (auto made = simulation_->prepare(choice); !made) return made;
-  }
-  return {};
 }
 
 Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {

@@ -104,7 +104,6 @@ class CrowdScene {
 
   /// Muscles by the rung that they are on; the last is of those that were refused another.
   std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
-  /// Bytes of heap before anybody was there; 0 where the machine does not tell.
   /// What the simulation holds in memory of its people: tables, registers, records.
   std::size_t bytes_of_people() const;
   std::size_t drawn_again() const { return drawn_again_; }
@@ -112,7 +111,6 @@ class CrowdScene {
  private:
   explicit CrowdScene(const CrowdRequest& request);
 
-  Result<void> prepare(const Progress& progress);
   Result<void> come(std::size_t slot, std::size_t count);
   void leave(std::size_t slot, std::size_t count);
   Result<void> exchange(std::size_t count, CrowdDecisions& decisions);

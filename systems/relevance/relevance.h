@@ -6,8 +6,9 @@
 //
 //   Simulation simulation;
 //   Relevance relevance(simulation);
-//   relevance.manage(human);                                 // with leg muscles of its own, or as options say
 //   relevance.set_scene({.camera = Viewpoint{.position_m = eye, .forward = gaze}, .tolerance_px = 1});
+//   relevance.prepare();                                     // once: no update then waits for bases and meshes
+//   relevance.manage(human);                                 // with leg muscles of its own, or as options say
 //   relevance.update();                                      // before a tick: chooses and switches
 //   simulation.tick();
 //   relevance.why(human, Muscle::hamstrings)->text;          // "reduced-8: 0.9 mm of 1.2 mm allowed; …"
@@ -21,6 +22,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -153,6 +155,13 @@ class Relevance {
   Result<void> set_scene(const SceneNeeds& needs);
   const SceneNeeds& scene() const { return scene_; }
 
+  /// Makes what methods share that the scene, and people with these tolerances of their own, may call for in bodies of
+  /// usual build, with the simulation's jobs: then no update waits for that. With a camera or a budget these are all
+  /// methods, some ten seconds of one core; `progress` hears of them, mesh by mesh. Errors: options.leg_muscles out of
+  /// range; a tolerance that is not positive; nothing has changed then.
+  Result<void> prepare(std::span<const float> own_tolerances_m = {},
+                       const std::function<void(std::size_t done, std::size_t of)>& progress = {});
+
   /// From the next update on this person's muscles are chosen; asked again, by other needs. A person without
   /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles
   /// refuses.
@@ -197,6 +206,7 @@ class Relevance {
     std::int64_t cost_ps;  // more than now
   };
 
+  std::array<bool, rung_count> called_for(std::span<const float> tolerances_m) const;
   void find_tables();
   std::uint32_t evaluate(Table& table, const Columns& at, std::size_t block);
   void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);

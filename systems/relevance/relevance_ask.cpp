@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "engine/each.h"
 #include "engine/rows.h"
@@ -36,8 +37,8 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
   const std::string_view name = rungs[choice.rung].name;
   const double error_mm = 1e3 * static_cast<double>(choice.predicted_error_m);
   const double allowed_mm = 1e3 * static_cast<double>(choice.tolerance_m);
-  std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm,
-                                          allowed_mm, choice.predicted_cost_us);
+  std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm, allowed_mm,
+                                    choice.predicted_cost_us);
   switch (choice.reason) {
     case Reason::tolerance:
       return figures + "; the cheapest that keeps to it";
@@ -90,6 +91,53 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
           " rad, and distances of 0 or more");
   }
   scene_ = needs;
+  return {};
+}
+
+/// Rungs that may be the cheapest for one of the scene's muscles and any walk, where a cheaper method must keep to
+/// the least part of a tolerance; all, where tolerances follow from a camera or a budget.
+std::array<bool, rung_count> Relevance::called_for(std::span<const float> tolerances_m) const {
+  std::array<bool, rung_count> called{};
+  if (scene_.camera || scene_.budget_s) {
+    called.fill(true);
+    return called;
+  }
+  for (const float tolerance_m : tolerances_m) {
+    const float limit_m = options_.slack * tolerance_m / options_.margin;
+    for (std::uint32_t m = 0; m < muscles().size(); ++m) {
+      for (std::uint32_t speed = 0; speed < RungLadder::speed_steps && scene_.muscles[m]; ++speed)
+        called[ladder_.cheapest({m, speed, options_.leg_muscles.inertia, true}, limit_m)] = true;
+    }
+  }
+  return called;
+}
+
+Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
+                                const std::function<void(std::size_t done, std::size_t of)>& progress) {
+  std::vector<float> tolerances(own_tolerances_m.begin(), own_tolerances_m.end());
+  for (const float tolerance_m : tolerances)
+    if (!positive(double{tolerance_m}))
+      return fail(fmt::format("prepare: a tolerance of {} m; give a positive one", tolerance_m));
+  if (!scene_.camera) tolerances.push_back(scene_.tolerance_m.value_or(default_tolerance_m));
+  const auto called = called_for(tolerances);
+  // Of rungs with one mesh the last has the most vectors; those before it use parts of the same.
+  std::vector<std::size_t> finest;
+  for (std::size_t r = 1; r < rung_count; ++r) {
+    if (r + 1 < rung_count && rungs[r + 1].cells == rungs[r].cells) continue;
+    bool any = false;
+    for (std::size_t other = 1; other < rung_count; ++other)
+      any = any || (called[other] && rungs[other].cells == rungs[r].cells);
+    if (any) finest.push_back(r);
+  }
+  for (std::size_t i = 0; i < finest.size(); ++i) {
+    if (progress) progress(i, finest.size());
+    LegMuscles choice = options_.leg_muscles;
+    const MuscleMethod method = rung_method(finest[i], true);
+    choice.muscles = scene_.muscles;
+    choice.method = method.method;
+    choice.reduced = method.reduced;
+    if (auto made = simulation_.prepare(choice); !made) return made;
+  }
   return {};
 }
 

@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <random>
 #include <string_view>
 #include <vector>
 
+#include "tests/engine/counting_malloc.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
@@ -131,6 +133,43 @@ TEST(Relevance, EveryMuscleKeepsToItsToleranceAndNoCheaperMethodWould) {
       EXPECT_EQ(scene.simulation.method(human, muscle).method, rungs[choice.rung].method);
       EXPECT_FALSE(choice.text.empty());
     }
+  }
+}
+
+/// The heap tells: to make a basis takes more than a thousand requests.
+TEST(Relevance, PreparedNoUpdateMakesWhatMethodsShare) {
+  if (!counts_malloc) GTEST_SKIP() << "malloc is another's here";
+  std::array<std::size_t, 2> most{};
+  for (const bool prepared : {false, true}) {
+    Scene scene(30, {.stagger = 1, .machine_factor = 1});
+    scene.muscle_count = 1;
+    Viewpoint camera{.position_m = {0, 1, -400}};
+    ASSERT_TRUE(scene.ask({.camera = camera}));
+    std::size_t meshes = 0;
+    const auto count = [&](std::size_t done, std::size_t of) { meshes += done < of ? 1 : 0; };
+    if (prepared) {
+      ASSERT_TRUE(scene.relevance.prepare({}, count));
+    }
+    EXPECT_EQ(meshes, prepared ? 3U : 0U);
+    scene.manage_all();
+    for (int t = 0; t < 40; ++t) {
+      camera.position_m.z = -400 + 10.0F * static_cast<float>(t);  // out of reach, then among them
+      ASSERT_TRUE(scene.ask({.camera = camera}));
+      const std::size_t before = malloc_requests;
+      scene.relevance.update();
+      most[prepared ? 1 : 0] = std::max(most[prepared ? 1 : 0], malloc_requests - before);
+      scene.simulation.tick();
+    }
+  }
+  EXPECT_GT(most[0], most[1] + 1000);
+}
+
+TEST(Relevance, PreparingRefusesWhatIsNoTolerance) {
+  Scene scene(1);
+  for (const float bad : {0.0F, -1.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    const auto done = scene.relevance.prepare({&bad, 1});
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("tolerance"), std::string::npos);
   }
 }
 

@@ -19,6 +19,10 @@ if grep -q '^flags.* avx2' /proc/cpuinfo; then
 else
   echo "game_host not run: this processor has no AVX2"
 fi
+# Every header is for hosts of any flags.
+for header in "$scratch"/prefix/include/mobil/*.h; do echo "#include <mobil/${header##*/}>"; done >"$scratch/all.cpp"
+"${CXX:-c++}" -std=c++20 -fno-exceptions -fno-rtti -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror \
+  -fsyntax-only -I"$scratch/prefix/include" "$scratch/all.cpp"
 if grep -rl Eigen "$scratch/prefix/include"; then
   echo "installed headers speak of Eigen, which a host need not have" >&2
   exit 1

@@ -85,8 +85,10 @@ Result<Entity> Simulation::spawn_posed(const BodyRequest& body) {
   return mobil::spawn_posed(world_, body);
 }
 
-Status Simulation::set_pose(Entity human, const Pose<float>& pose) {
-  return mobil::set_pose(world_, human, pose);
+Status Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival arrival) {
+  const Status status = mobil::set_pose(world_, human, pose);
+  if (status == Status::ok && arrival == Arrival::jumped) forget_motion(world_, human);
+  return status;
 }
 
 Status Simulation::despawn(std::span<const Entity> people) {
@@ -111,6 +113,12 @@ Result<void> Simulation::turn_to(Entity human, float heading_rad) {
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
   return mobil::step_aside(world_, human, left_m, ahead_m);
+}
+
+Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
+  return mobil::place(world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
+    move_muscles(world_, human, way);
+  });
 }
 
 Status Simulation::add_forces(Entity human) {

@@ -48,6 +48,9 @@ struct SimulationOptions {
   std::vector<Module> modules{};
 };
 
+/// How a posed person came to a pose.
+enum class Arrival : std::uint8_t { moved, jumped };
+
 /// One of a person's muscles, by side, with its plan.
 struct HumanMuscle {
   MusclePlan plan;
@@ -102,8 +105,9 @@ class Simulation {
   Result<Entity> spawn_posed(const BodyRequest& body);
   /// Where a posed person's skeleton is at the end of the next tick, taken as it is. Leg muscles follow. Stale handles
   /// answer Status::stale_entity, walkers Status::missing; Status::not_valid where a place is not within 1000 km or a
-  /// quaternion's length is not 1 within 1 %: the pose then stays.
-  Status set_pose(Entity human, const Pose<float>& pose);
+  /// quaternion's length is not 1 within 1 %: the pose then stays. Muscles with inertia feel the way from the last
+  /// pose, unless it has `jumped`.
+  Status set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
   /// Stale handles answer Status::stale_entity.
   Status despawn(Entity human);
 
@@ -130,6 +134,12 @@ class Simulation {
   /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed
   /// person, somebody who is to walk, a way out of range; nothing has changed.
   Result<void> step_aside(Entity human, float left_m, float ahead_m);
+
+  /// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
+  /// there (rad, about +Y). Pose and muscles go along, as if the world had been moved under them: no inertia is felt,
+  /// and what the walker is about to do goes on, turned likewise. Ground reaction follows with the next tick. Errors: a
+  /// stale handle, a posed person, a place not within 1000 km, a heading not within ±10000; nothing has changed then.
+  Result<void> place(Entity human, float x_m, float z_m, float heading_rad);
 
   /// The effect of ground reaction and joint moments (components/forces.h). Posed
   /// people have no gait that it could follow from: Status::missing.

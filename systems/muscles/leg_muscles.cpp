@@ -1,12 +1,14 @@
 #include "systems/muscles/leg_muscles.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 
 #include "assets/body/anthropometry.h"
 #include "components/fade.h"
 #include "engine/each.h"
+#include "engine/geometry.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/person.h"
 
@@ -278,6 +280,40 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
   if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message);
   change_muscles(world, scene.library, scene.work, {person, choice, true, scene.time}, {&*belly, 1}, {&own, 1});
   return {};
+}
+
+void move_muscles(World& world, Entity person, const Placing& way) {
+  using geometry::operator+, geometry::operator-;
+  for (const OwnMuscle& own : muscles_of(world, person)) {
+    for (const Side side : {right, left}) {
+      const Entity muscle = own.entity[side];
+      // A left muscle's world is the mirror image's.
+      const float mirrored = side == left ? -1.0F : 1.0F;
+      const Vec3<float> from = {mirrored * way.from_x_m, 0, way.from_z_m}, to = {mirrored * way.to_x_m, 0, way.to_z_m};
+      const double half = 0.5 * double{mirrored} * double{way.turn_rad};
+      const Quat<float> turn = {0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))};
+      const auto moved = [&](const Vec3<float>& at) { return to + geometry::rotated(turn, at - from); };
+      if (auto line = world.get<LineOfAction>(muscle)) {
+        line->start_m = moved(line->start_m);
+        line->rotation = geometry::product(turn, line->rotation);
+        world.set(muscle, *line);
+      }
+      if (auto history = world.get<FrameHistory>(muscle)) {
+        history->start_m = moved(history->start_m);
+        history->rotation = geometry::product(turn, history->rotation);
+        history->step_m = geometry::rotated(turn, history->step_m);
+        history->turn_rad = geometry::rotated(turn, history->turn_rad);
+        world.set(muscle, *history);
+      }
+    }
+  }
+}
+
+void forget_motion(World& world, Entity person) {
+  for (const OwnMuscle& own : muscles_of(world, person)) {
+    for (const Entity muscle : own.entity)
+      if (world.has<FrameHistory>(muscle)) world.set(muscle, FrameHistory<float>{});
+  }
 }
 
 void end_fades(World& world, float tick_s, MuscleWork& work) {

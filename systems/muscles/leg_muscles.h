@@ -14,6 +14,7 @@
 #include "engine/world.h"
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/change_muscles.h"
+#include "systems/people/person.h"
 #include "systems/people/spawn.h"
 
 namespace mobil {
@@ -46,6 +47,11 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person);
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method);
+
+/// A person's muscles go along, as if the world had been moved under them; or forget where their frames were, so that
+/// no inertia is felt of a jump.
+void move_muscles(World& world, Entity person, const Placing& way);
+void forget_motion(World& world, Entity person);
 
 /// Fades that are over leave their rows. After a tick.
 void end_fades(World& world, float tick_s, MuscleWork& work);

@@ -7,7 +7,9 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
+#include "engine/rows.h"
 #include "systems/gait/gait.h"
+#include "systems/kinematics/kinematics.h"
 
 namespace mobil {
 
@@ -35,6 +37,8 @@ Physique<float> physique(const BodyRequest& request) {
 }
 
 namespace {
+
+constexpr float farthest_m = 1e6F;
 
 /// Errors: a stale handle, a posed person; `asked` is what was asked, `mend` what to do instead.
 Result<void> is_walker(const World& world, Entity person, std::string_view asked, std::string_view mend) {
@@ -91,17 +95,46 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
   return {};
 }
 
+Result<Placing> place(World& world, Entity person, float x_m, float z_m, float heading_rad) {
+  if (auto walks = is_walker(world, person, "place", "hand it another pose"); !walks)
+    return tl::unexpected(walks.error());
+  if (!(std::fabs(x_m) < farthest_m && std::fabs(z_m) < farthest_m))
+    return fail(fmt::format("place: ({}, {}) m is not within ±1000000 m; shift the world's origin", x_m, z_m));
+  if (!(std::fabs(heading_rad) < 1e4F))
+    return fail(fmt::format("place: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
+  GaitState<float> state = *world.get<GaitState>(person);
+  Gait<float> gait = *world.get<Gait>(person);
+  const Placing way = {state.line_x_m, state.line_z_m, x_m, z_m, heading_rad - state.heading_rad};
+  state.line_x_m = x_m;
+  state.line_z_m = z_m;
+  state.heading_rad = heading_rad;
+  gait.heading_rad += way.turn_rad;
+  const auto size = broadcast(*world.get<BodySize>(person));
+  Pose<Lanes<float>> pose;
+  JointAngles<Lanes<float>> angles;
+  Feet<Lanes<float>> feet;
+  CentreOfMass<Lanes<float>> centre;
+  pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), pose, angles, feet);
+  centre_of_mass(size, pose, centre);
+  world.set(person, state);
+  world.set(person, gait);
+  world.set(person, first_lane(pose));
+  world.set(person, first_lane(feet));
+  world.set(person, first_lane(centre));
+  return way;
+}
+
 Status set_pose(World& world, Entity person, const Pose<float>& pose) {
   if (!is_person(world, person)) return Status::stale_entity;
   if (!is_posed(world, person)) return Status::missing;
-  constexpr float farthest = 1e6F, rounding = 0.01F;
+  constexpr float rounding = 0.01F;
   bool valid = true;
   for (std::size_t s = 0; s < segment_count; ++s) {
     const auto& [x, y, z] = pose.position_m[s];
     const Quat<float>& q = pose.rotation[s];
     const float size2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
     // No comparison holds for what is not a number.
-    valid &= std::fabs(x) < farthest && std::fabs(y) < farthest && std::fabs(z) < farthest &&
+    valid &= std::fabs(x) < farthest_m && std::fabs(y) < farthest_m && std::fabs(z) < farthest_m &&
              std::fabs(size2 - 1) < 2 * rounding;
   }
   if (!valid) return Status::not_valid;

@@ -27,9 +27,18 @@ Result<void> change_gait(World& world, Entity person, const GaitRequest& request
 Result<void> turn_to(World& world, Entity person, float heading_rad);
 /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative to
 /// the right and back, at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m (a body of 1.73 m), in
-/// proportion to the leg. It begins within a quarter of a second, or once the feet are side by side, and takes two steps of 0.3 to 0.5 s. Errors:
-/// a stale handle, a posed person, somebody who is to walk, a way out of range.
+/// proportion to the leg. It begins within a quarter of a second, or once the feet are side by side, and takes two
+/// steps of 0.3 to 0.5 s. Errors: a stale handle, a posed person, somebody who is to walk, a way out of range.
 Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m);
+/// A way of somebody through the world: from one place to another on the ground, and about it by an angle.
+struct Placing {
+  float from_x_m, from_z_m, to_x_m, to_z_m, turn_rad;
+};
+
+/// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
+/// there (rad, about +Y). What the walker is about to do goes on, turned likewise. Errors: a stale handle, a posed
+/// person, a place not within 1000 km or a heading not within ±10000; nothing has changed then.
+Result<Placing> place(World& world, Entity person, float x_m, float z_m, float heading_rad);
 /// Where a posed person's skeleton is at the end of the next tick. Stale handles answer Status::stale_entity, walkers
 /// Status::missing; Status::not_valid where a place is not within 1000 km or a quaternion's length is not 1 within 1 %:
 /// the pose then stays.

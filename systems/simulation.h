@@ -144,6 +144,7 @@ class Simulation {
   /// The effect of ground reaction and joint moments (components/forces.h). Posed
   /// people have no gait that it could follow from: Status::missing.
   Status add_forces(Entity human);
+  /// Status::missing, too, where they are not there.
   Status remove_forces(Entity human);
 
   /// The effect of leg muscles: lines of action and finite-element bellies of the muscles chosen, both legs, at rest
@@ -157,6 +158,7 @@ class Simulation {
   /// Inertia that begins under way lets the bellies sag. Every choice not made before is set up and kept. Errors: as
   /// above, and muscles that are not there; nothing has changed.
   Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
+  /// Status::stale_entity; Status::missing where there are none.
   Status remove_leg_muscles(Entity human);
 
   /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. What is shown

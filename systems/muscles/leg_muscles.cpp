@@ -262,6 +262,7 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
   world.each_member(person, [&](Entity member) {
     if (world.has<MuscleOwner>(member) && count < rows.size()) rows[count++] = member;
   });
+  if (count == 0) return Status::missing;
   return world.destroy_many(std::span(rows).first(count), jobs);
 }
 

@@ -29,7 +29,7 @@ Status add_forces(World& world, Entity person) {
 
 Status remove_forces(World& world, Entity person) {
   if (!is_person(world, person)) return Status::stale_entity;
-  if (!world.has<BodyMotion>(person)) return Status::ok;
+  if (!world.has<BodyMotion>(person)) return Status::missing;
   return world.remove_parts(
       person, {type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(), type_id<JointMoments<float>>()});
 }

@@ -8,6 +8,7 @@ namespace mobil {
 /// Stale handles answer Status::stale_entity, posed people Status::missing: they have no gait that forces could follow
 /// from.
 Status add_forces(World& world, Entity person);
+/// Status::missing, too, where they are not there.
 Status remove_forces(World& world, Entity person);
 
 }  // namespace mobil

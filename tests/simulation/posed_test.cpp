@@ -163,7 +163,8 @@ TEST(Posed, RequestsForAGaitAreRefusedAndChangeNothing) {
   ASSERT_FALSE(turn);
   EXPECT_NE(turn.error().message.find("host"), std::string::npos) << turn.error().message;
   EXPECT_EQ(simulation.add_forces(human), Status::missing);
-  EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+  EXPECT_EQ(simulation.remove_forces(human), Status::missing);
+  EXPECT_EQ(simulation.remove_leg_muscles(human), Status::missing);
   EXPECT_EQ(simulation.set_pose(walker, {}), Status::missing);
   EXPECT_EQ(simulation.set_pose({}, {}), Status::stale_entity);
   const auto giant = simulation.spawn_posed({.height_m = 9.0F});

@@ -130,7 +130,7 @@ TEST(Change, ForcesCostNothingWhereTheyAreNotAsked) {
     EXPECT_TRUE(simulation.get<GroundReaction>(human).has_value());
     EXPECT_EQ(simulation.get<GroundReaction>(other).error(), Status::missing);
     EXPECT_EQ(simulation.remove_forces(human), Status::ok);
-    EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+    EXPECT_EQ(simulation.remove_forces(human), Status::missing);
     EXPECT_FALSE(has_column<BodyMotion>(simulation, human));
     EXPECT_FALSE(has_column<GroundReaction>(simulation, human));
     EXPECT_FALSE(has_column<JointMoments>(simulation, human));
@@ -199,7 +199,7 @@ std::vector<std::uint64_t> changeable_crowd(int threads) {
           EXPECT_EQ(simulation.add_forces(human), Status::ok);
           break;
         default:
-          EXPECT_EQ(simulation.remove_forces(human), Status::ok);
+          EXPECT_NE(simulation.remove_forces(human), Status::stale_entity);
       }
     }
     simulation.tick();

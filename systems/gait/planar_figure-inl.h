@@ -40,17 +40,28 @@ struct PlanarFigure {
   Wide stance_pitch;
 };
 
-/// A leg whose knee bends forward.
+/// Where a knee that bends forward is between hip and ankle: from the hip, times how far the ankle is; and one over
+/// that.
+struct BentKnee {
+  Wide forward, up, unit;
+};
+
+/// `dz`, `dy`: from hip to ankle; `longest` that a leg is, square of the thigh's length, and that less the shank's.
+HWY_INLINE BentKnee bent_knee(const Wide& dz, const Wide& dy, const Wide& longest, const Wide& thigh2,
+                              const Wide& difference2) {
+  const Wide far = sqrt(fma(dz, dz, dy * dy)), length = min(far, longest);
+  const Wide near = fma(length, length, difference2) / (2.0F * length);
+  const Wide bulge = sqrt(max(fnma(near, near, thigh2), 0.0F));
+  return {fnma(dy, bulge, dz * near), fma(dz, bulge, dy * near), 1.0F / far};
+}
+
 HWY_NOINLINE inline void planar_leg(const Wide& height, const Wide& hip_forward, const Wide& hip_up,
                                     const Wide& ankle_forward, const Wide& ankle_up, std::size_t first,
                                     PlanarFigure& out) {
   constexpr float a = static_cast<float>(fraction::thigh), b = static_cast<float>(fraction::shank);
-  const Wide dz = ankle_forward - hip_forward, dy = ankle_up - hip_up, far = sqrt(fma(dz, dz, dy * dy));
-  const Wide length = min(far, (a + b) * 0.9999F * height), unit = 1.0F / far;
-  const Wide near = fma(length, length, (a * a - b * b) * height * height) / (2.0F * length);
-  const Wide bulge = sqrt(max(fnma(near, near, a * a * height * height), 0.0F));
-  const Wide knee_forward = fma(fnma(dy, bulge, dz * near), unit, hip_forward);
-  const Wide knee_up = fma(fma(dz, bulge, dy * near), unit, hip_up);
+  const BentKnee knee = bent_knee(ankle_forward - hip_forward, ankle_up - hip_up, (a + b) * 0.9999F * height,
+                                  a * a * height * height, (a * a - b * b) * height * height);
+  const Wide knee_forward = fma(knee.forward, knee.unit, hip_forward), knee_up = fma(knee.up, knee.unit, hip_up);
   auto rod = [&](const forces::Rod& of, const Wide& z0, const Wide& y0, const Wide& z1, const Wide& y1,
                  std::size_t point) {
     for (const float part : {of.centre - of.gyration, of.centre + of.gyration}) {

@@ -36,10 +36,9 @@ struct SwingLeg {
   /// The angles of a leg between its hip and its ankle; the rates stay 0.
   HWY_NOINLINE SwingState hanging(const OtherLeg& at) const {
     const Wide dz = at.ankle_forward - at.hip_forward, dy = at.ankle_up - at.hip_up;
-    const Wide far = sqrt(fma(dz, dz, dy * dy)), length = min(far, wide((thigh + shank) * 0.9999F)), unit = 1.0F / far;
-    const Wide near = fma(length, length, wide(thigh * thigh - shank * shank)) / (2.0F * length);
-    const Wide bulge = sqrt(max(thigh * thigh - near * near, 0.0F));
-    const Wide knee_forward = fnma(dy, bulge, dz * near) * unit, knee_up = fma(dz, bulge, dy * near) * unit;
+    const BentKnee knee =
+        bent_knee(dz, dy, wide((thigh + shank) * 0.9999F), wide(thigh * thigh), wide(thigh * thigh - shank * shank));
+    const Wide knee_forward = knee.forward * knee.unit, knee_up = knee.up * knee.unit;
     return {atan2(knee_forward, -knee_up), atan2(dz - knee_forward, knee_up - dy), wide(0.0F), wide(0.0F)};
   }
 

@@ -11,6 +11,7 @@
 #include "components/body.h"
 #include "components/gait.h"
 #include "components/pose.h"
+#include "engine/each.h"
 #include "engine/geometry.h"
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
@@ -24,19 +25,12 @@ constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
 /// How far ahead poses may be asked for, s: less than any step takes, so that one at most begins on the way.
 constexpr double furthest_ahead_s = 0.2;
 
-template <template <class> class C>
-const C<Lanes<float>>* column_of(const Table& table, std::size_t block) {
-  const std::uint32_t column = table.column(type_id<C<float>>());
-  if (column == Table::no_column) return nullptr;
-  return reinterpret_cast<const C<Lanes<float>>*>(table.block(block) + column * lane_count);
-}
-
 /// A block of walkers where they will be; those who begin a step on the way take the one that they will.
 void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
-  const auto& size = *column_of<BodySize>(table, block);
-  const auto& gait = *column_of<Gait>(table, block);
-  const auto* plan = column_of<StepPlan>(table, block);
-  auto state = *column_of<GaitState>(table, block);
+  const auto& size = TableColumn<BodySize>(table).at(table, block);
+  const auto& gait = TableColumn<Gait>(table).at(table, block);
+  const auto* plan = &TableColumn<StepPlan>(table).at(table, block);
+  auto state = TableColumn<GaitState>(table).at(table, block);
   StepPlan<Lanes<float>> next;
   advance_gait(*plan, state, ahead_s);
   if (const std::uint32_t lanes = lanes_to_plan(*plan, gait, state, ahead_s); lanes != 0) {
@@ -183,9 +177,9 @@ void PoseWriter::Work::write_block(std::size_t b) const {
       std::span(writer.places_).subspan(writer.blocks_[b], writer.blocks_[b + 1] - writer.blocks_[b]);
   const Table& table = *people.front().table;
   const std::size_t block = people.front().row / lane_count;
-  const auto* pose = column_of<Pose>(table, block);
+  const auto* pose = &TableColumn<Pose>(table).at(table, block);
   Pose<Lanes<float>> then;
-  if (ahead_s > 0 && column_of<GaitState>(table, block) != nullptr) {
+  if (ahead_s > 0 && TableColumn<GaitState>(table)) {
     const FlushDenormals flush;
     walk_on(table, block, ahead_s, then);
     pose = &then;
@@ -246,7 +240,7 @@ Result<void> PoseWriter::write(const World& world, std::span<const Entity> peopl
   places_.reserve(people.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
     const auto place = world.find(people[i]);
-    if (!place || place.table->column(type_id<Pose<float>>()) == Table::no_column)
+    if (!place || !TableColumn<Pose>(*place.table))
       return fail(fmt::format("poses: person {} of the list is not there (a stale handle)", i));
     places_.push_back({place.table, place.row, static_cast<std::uint32_t>(i)});
   }

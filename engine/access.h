@@ -148,6 +148,22 @@ class LookupPublished {
   ColumnLookup columns_;
 };
 
+/// A function's or a lambda's parameters.
+template <class... P>
+struct Parameters {};
+template <class F>
+struct Signature : Signature<decltype(&F::operator())> {};
+template <class R, class... P>
+struct Signature<R (*)(P...)> : Parameters<P...> {};
+template <class R, class... P>
+struct Signature<R (*)(P...) noexcept> : Parameters<P...> {};
+template <class R, class F, class... P>
+struct Signature<R (F::*)(P...) const> : Parameters<P...> {};
+template <class R, class F, class... P>
+struct Signature<R (F::*)(P...) const noexcept> : Parameters<P...> {};
+template <class R, class F, class... P>
+struct Signature<R (F::*)(P...)> : Parameters<P...> {};
+
 /// What one parameter does with a component or field (`none`: nothing that order depends on).
 struct Access {
   enum class Mode : std::uint8_t { none, read, write, previous, lookup };
@@ -187,6 +203,15 @@ struct Parameter<const P&> : Parameter<P> {};
 struct AnywhereParameter {
   static constexpr Access access() { return {}; }
   static bool bind(const World&, const Table&, Bound&) { return true; }
+};
+
+/// What a system cannot take.
+template <class P>
+struct Parameter : AnywhereParameter {
+  static_assert(!std::is_same_v<P, P>,
+                "a system takes blocks of sixteen: `const Pose<Lanes<float>>&` to read, `Pose<Lanes<float>>&` to write,"
+                " or what else engine/access.h names; not a row, not a copy");
+  static P make(const BlockView&, const Bound&);
 };
 
 template <Access::Mode mode, class T>
@@ -336,6 +361,15 @@ template <class Tag>
 inline constexpr bool is_scratch<Scratch<Tag>> = true;
 template <class Tag>
 inline constexpr bool is_scratch<const Scratch<Tag>&> = true;
+
+template <class P>
+inline constexpr bool is_timed = is_scratch<P>;
+template <>
+inline constexpr bool is_timed<Tick> = true;
+template <>
+inline constexpr bool is_timed<const Tick&> = true;
+template <>
+inline constexpr bool is_timed<float> = true;
 
 template <>
 struct Parameter<Tick> : AnywhereParameter {

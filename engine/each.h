@@ -1,8 +1,11 @@
 #pragma once
-// All blocks of all tables that have some components, for code between ticks: what a system's signature does within
-// one. `each_block<Pose, Feet>(world, [](const Rows& rows, const Pose<Lanes<float>>& pose, …) { … })`.
+// All blocks of all tables that have some parts, for code between ticks, by the same signatures as systems:
+//   each(world, [](const Rows& rows, const Pose<Lanes<float>>& pose, Fatigue<Lanes<float>>& fatigue) { … });
 
+#include <array>
 #include <cstddef>
+#include <type_traits>
+#include <utility>
 
 #include "engine/access.h"
 #include "engine/world.h"
@@ -28,23 +31,40 @@ class TableColumn {
   std::uint32_t first_word_;
 };
 
-/// Calls `f(rows, components…)` for each block, tables in the order of their making. Lanes from `rows.live` on are
-/// parked copies.
-template <template <class> class... C, class F>
-void each_block(const World& world, F&& f) {
-  for (const Table& table : world.tables()) {
-    const bool all = ((find_part(table.key(), type_id<C<float>>()) != nullptr) && ...);
-    for (std::size_t b = 0; all && b < table.block_count(); ++b) {
-      f(Rows{table.entities(b), table.live(b)}, TableColumn<C>(table).at(table, b)...);
+template <class F, class... P>
+void each_with(World& world, F& f, Parameters<P...>) {
+  static_assert(!(is_timed<P> || ...), "between ticks there is neither a tick nor scratch memory: leave that out");
+  for (Table& table : world.tables()) {
+    std::array<Bound, sizeof...(P) + 1> bound{};
+    [[maybe_unused]] Bound* next = bound.data();
+    if (!(Parameter<P>::bind(world, table, *next++) && ...)) continue;
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      [&]<std::size_t... i>(std::index_sequence<i...>) {
+        f(Parameter<P>::make({world, table, b, {}}, bound[i])...);
+      }
+      (std::index_sequence_for<P...>{});
     }
   }
 }
-/// The same with components that may be written. The structure of the world must stay as it is meanwhile.
-template <template <class> class... C, class F>
-void each_block(World& world, F&& f) {
-  each_block<C...>(static_cast<const World&>(world), [&](const Rows& rows, const C<Lanes<float>>&... component) {
-    f(rows, const_cast<C<Lanes<float>>&>(component)...);
-  });
+
+template <class... P>
+constexpr bool writes_nothing(Parameters<P...>) {
+  return ((Parameter<P>::access().mode != Access::Mode::write) && ...);
+}
+
+/// Calls `f` for each block of each table that has what its parameters name, as a system's (engine/access.h), on this
+/// thread, tables in the order of their making. Lanes from `Rows::live` on are parked copies. The structure of the
+/// world must stay as it is meanwhile.
+template <class F>
+void each(World& world, F&& f) {
+  each_with(world, f, Signature<std::remove_cvref_t<F>>{});
+}
+/// To read alone: `const` components, `Field<const Tag>`.
+template <class F>
+void each(const World& world, F&& f) {
+  using Taken = Signature<std::remove_cvref_t<F>>;
+  static_assert(writes_nothing(Taken{}), "this world is only read: take `const Pose<Lanes<float>>&`");
+  each_with(const_cast<World&>(world), f, Taken{});
 }
 
 }  // namespace mobil

@@ -27,6 +27,7 @@ enum class Status : std::uint8_t {
   already_there,  ///< it has that component, field or tag already
   wrong_width,    ///< the span is not as long as the field
   not_valid,      ///< a value that is not finite or out of its range
+  not_yours,      ///< a part or an entity that is the library's, where a host's is asked for
 };
 
 /// In words.
@@ -44,6 +45,8 @@ constexpr std::string_view status_text(Status status) {
       return "the span is not as long as the field";
     case Status::not_valid:
       return "a value is not finite or out of its range";
+    case Status::not_yours:
+      return "that part or entity is the library's; use the call that is for it";
   }
   return "no status";
 }

@@ -31,11 +31,24 @@ constexpr auto type_name() {
 }  // namespace spelling
 using spelling::type_name;
 
-/// FNV-1a of the type's name.
+/// FNV-1a of the type's name, where our namespace is called `mobil::` alone: the same in every version of the library.
+struct InOurNamespace;
 template <class T>
 constexpr std::uint64_t type_id() {
+  constexpr std::string_view ours = "mobil::";
+  std::string_view versioned = type_name<InOurNamespace>();
+  versioned.remove_suffix(std::string_view("InOurNamespace").size());
   std::uint64_t hash = 0xcbf29ce484222325;
-  for (const char c : type_name<T>()) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  const auto take = [&hash](std::string_view text) {
+    for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+  };
+  std::string_view left = type_name<T>();
+  for (std::size_t at = left.find(versioned); at != std::string_view::npos; at = left.find(versioned)) {
+    take(left.substr(0, at));
+    take(ours);
+    left.remove_prefix(at + versioned.size());
+  }
+  take(left);
   return hash;
 }
 
@@ -109,10 +122,14 @@ struct Publishes {};
 /// or arrays and structs of those; what of it can be checked is checked here.
 template <template <class> class C>
 struct ComponentLayout {
-  static_assert(std::is_trivially_copyable_v<C<float>> && std::is_trivially_copyable_v<C<Lanes<float>>>);
-  static_assert(sizeof(C<float>) % 4 == 0 && alignof(C<float>) == 4, "a component holds 4-byte words only");
-  static_assert(sizeof(C<Lanes<float>>) == lane_count * sizeof(C<float>), "every member depends on F");
-  static_assert(alignof(C<Lanes<float>>) == alignof(Lanes<float>));
+  static_assert(std::is_trivially_copyable_v<C<float>> && std::is_trivially_copyable_v<C<Lanes<float>>>,
+                "a component is plain data: no pointers that own, no containers, no constructors");
+  static_assert(sizeof(C<float>) % 4 == 0 && alignof(C<float>) == 4,
+                "a component holds 4-byte words only: F, Whole<F>, and arrays and structs of those");
+  static_assert(sizeof(C<Lanes<float>>) == lane_count * sizeof(C<float>),
+                "every member of a component must depend on F: write F for float, Whole<F> for std::uint32_t; an Entity"
+                " is two Whole<F>, index and generation");
+  static_assert(alignof(C<Lanes<float>>) == alignof(Lanes<float>), "a component has no alignment of its own");
   static constexpr std::uint32_t words = sizeof(C<float>) / 4;
 };
 
@@ -121,6 +138,20 @@ constexpr KeyPart component_part() {
   return {type_id<C<float>>(), PartKind::component, ComponentLayout<C>::words, type_name<C<float>>()};
 }
 
+/// Whether T is a component's row.
+template <class T>
+inline constexpr bool is_row = false;
+template <template <class> class C>
+inline constexpr bool is_row<C<float>> = true;
+
+/// What is none of the kinds of parts.
+template <class T>
+constexpr KeyPart key_part(const T&) {
+  static_assert(!std::is_same_v<T, T>,
+                "this is no part of an entity: a component is a template over its number type, `template <class F>"
+                " struct Fatigue { F level; };`, given as Fatigue<float>{…}");
+  return {};
+}
 template <template <class> class C>
 constexpr KeyPart key_part(const C<float>&) {
   return component_part<C>();

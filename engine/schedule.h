@@ -157,23 +157,6 @@ class ScheduleBuilder {
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
  private:
-  template <class... P>
-  struct Parameters {};
-  template <class F>
-  struct Signature : Signature<decltype(&F::operator())> {};
-  template <class... P>
-  struct Signature<void (*)(P...)> : Parameters<P...> {};
-  template <class... P>
-  struct Signature<std::uint32_t (*)(P...)> : Parameters<P...> {};
-  template <class F, class... P>
-  struct Signature<std::uint32_t (F::*)(P...) const> : Parameters<P...> {};
-  template <class... P>
-  struct Signature<void (*)(P...) noexcept> : Parameters<P...> {};
-  template <class F, class... P>
-  struct Signature<void (F::*)(P...) const> : Parameters<P...> {};
-  template <class F, class... P>
-  struct Signature<void (F::*)(P...) const noexcept> : Parameters<P...> {};
-
   template <class F, class... P>
   static System erase(std::string name, F function, Parameters<P...>) {
     static_assert((is_scratch<P> + ... + 0) <= 1, "scratch memory once");

@@ -112,6 +112,7 @@ class World {
   }
   template <class Tag>
   Status remove(Entity entity) {
+    static_assert(!is_row<Tag>, "name the component without its number type: remove<Pose>(entity)");
     return remove_part(entity, type_id<Tag>());
   }
 
@@ -121,6 +122,7 @@ class World {
   }
   template <class Tag>
   bool has(Entity entity) const {
+    static_assert(!is_row<Tag>, "name the component without its number type: has<Pose>(entity)");
     return part_of(entity, type_id<Tag>()).has_value();
   }
   /// An entity's row of a component.
@@ -129,6 +131,7 @@ class World {
   /// The value of an entity's tag; of a field, its words a row.
   template <class Tag>
   tl::expected<std::uint64_t, Status> get(Entity entity) const {
+    static_assert(!is_row<Tag>, "name the component without its number type: get<Pose>(entity)");
     return part_of(entity, type_id<Tag>()).map([](const KeyPart& part) { return part.value; });
   }
   /// An entity's shared resource, null when stale or missing.
@@ -216,6 +219,8 @@ class World {
   void key_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned);
   void write_from(Place<Table> place, std::span<const PartValue> parts);
 
+  template <class T>
+  static void write_part(Place<Table>, const T&) {}  // no part: key_part says so
   template <template <class> class C>
   static void write_part(Place<Table> place, const C<float>& row) {
     place.table->write(place.row, place.table->column(type_id<C<float>>()), ComponentLayout<C>::words, &row);

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -20,12 +21,6 @@
 namespace mobil {
 namespace {
 
-Clock make_clock(const SimulationOptions& options) {
-  auto clock = Clock::make(options.tick_s, options.max_frame_s);
-  if (!clock) throw std::invalid_argument(clock.error().message);
-  return *clock;
-}
-
 /// An error with the name of the call that it is of.
 template <class T>
 Result<T> named(const char* call, Result<T> result) {
@@ -35,9 +30,9 @@ Result<T> named(const char* call, Result<T> result) {
 
 }  // namespace
 
-Simulation::Simulation(const SimulationOptions& options)
-    : world_(options.memory),
-      clock_(make_clock(options)),
+Simulation::Simulation(const SimulationOptions& options, Clock clock)
+    : world_(std::make_unique<World>(options.memory)),
+      clock_(clock),
       modules_(standard_modules()),
       library_(std::make_unique<BellyLibrary>()),
       work_(std::make_unique<MuscleWork>()) {
@@ -47,20 +42,51 @@ Simulation::Simulation(const SimulationOptions& options)
     threads_.emplace(options.threads);
     jobs_ = threads_->jobs();
   }
-  world_.set_owner_part(component_part<MuscleOwner>());
+  world_->set_owner_part(component_part<MuscleOwner>());
+  for (const Module& module : modules_)
+    for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
+  std::ranges::sort(our_parts_);
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
-    for (const NamedResource& one : module.resources) world_.share_as(one.part, one.resource);
+    for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);
   }
-  auto schedule = make_schedule(modules_, options.memory);
-  if (!schedule) throw std::invalid_argument(schedule.error().message);
-  schedule_ = std::make_unique<Schedule>(std::move(*schedule));
 }
 
+Result<Simulation> Simulation::make(const SimulationOptions& options) {
+  const auto clock = Clock::make(options.tick_s, options.max_frame_s);
+  if (!clock) return tl::unexpected(clock.error());
+  Simulation simulation(options, *clock);
+  auto schedule = make_schedule(simulation.modules_, options.memory);
+  if (!schedule) return tl::unexpected(schedule.error());
+  simulation.schedule_ = std::make_unique<Schedule>(std::move(*schedule));
+  return simulation;
+}
+
+Simulation::Simulation(const SimulationOptions& options)
+    : Simulation([&] {
+        auto made = make(options);
+        if (!made) throw std::invalid_argument(made.error().message);
+        return std::move(*made);
+      }()) {}
+
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 Simulation::~Simulation() = default;
 
+bool Simulation::ours(std::uint64_t part) const {
+  return std::ranges::binary_search(our_parts_, part);
+}
+
+Status Simulation::destroy(Entity entity) {
+  const auto place = world_->find(entity);
+  if (!place) return Status::stale_entity;
+  const auto one_of_ours = [&](const KeyPart& part) { return ours(part.id); };
+  if (std::ranges::any_of(place.table->key(), one_of_ours)) return Status::not_yours;
+  return world_->destroy(entity);
+}
+
 MuscleScene Simulation::muscle_scene() {
-  return {world_, *library_, *work_, jobs_, {tick_, tick_s()}};
+  return {*world_, *library_, *work_, jobs_, {tick_, tick_s()}};
 }
 
 Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<Entity> entities) {
@@ -82,17 +108,17 @@ Result<Entity> Simulation::spawn(const BodyRequest& body, const GaitRequest& gai
 }
 
 Result<Entity> Simulation::spawn_posed(const BodyRequest& body) {
-  return mobil::spawn_posed(world_, body);
+  return mobil::spawn_posed(*world_, body);
 }
 
 Status Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival arrival) {
-  const Status status = mobil::set_pose(world_, human, pose);
-  if (status == Status::ok && arrival == Arrival::jumped) forget_motion(world_, human);
+  const Status status = mobil::set_pose(*world_, human, pose);
+  if (status == Status::ok && arrival == Arrival::jumped) forget_motion(*world_, human);
   return status;
 }
 
 Status Simulation::despawn(std::span<const Entity> people) {
-  return despawn_people(world_, jobs_, people);
+  return despawn_people(*world_, jobs_, people);
 }
 
 Status Simulation::despawn(Entity human) {
@@ -103,30 +129,38 @@ Result<void> Simulation::prepare(const LegMuscles& choice) {
   return named("prepare", library_->prepare(choice, tick_s(), jobs_));
 }
 
+std::vector<std::byte> Simulation::bake() const {
+  return library_->bake();
+}
+
+Result<void> Simulation::load_baked(std::span<const std::byte> baked) {
+  return named("load_baked", library_->load(baked));
+}
+
 Result<void> Simulation::change_gait(Entity human, const GaitRequest& gait) {
-  return mobil::change_gait(world_, human, gait);
+  return mobil::change_gait(*world_, human, gait);
 }
 
 Result<void> Simulation::turn_to(Entity human, float heading_rad) {
-  return mobil::turn_to(world_, human, heading_rad);
+  return mobil::turn_to(*world_, human, heading_rad);
 }
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
-  return mobil::step_aside(world_, human, left_m, ahead_m);
+  return mobil::step_aside(*world_, human, left_m, ahead_m);
 }
 
 Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
-  return mobil::place(world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
-    move_muscles(world_, human, way);
+  return mobil::place(*world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
+    move_muscles(*world_, human, way);
   });
 }
 
 Status Simulation::add_forces(Entity human) {
-  return mobil::add_forces(world_, human);
+  return mobil::add_forces(*world_, human);
 }
 
 Status Simulation::remove_forces(Entity human) {
-  return mobil::remove_forces(world_, human);
+  return mobil::remove_forces(*world_, human);
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
@@ -138,7 +172,7 @@ Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choi
 }
 
 Status Simulation::remove_leg_muscles(Entity human) {
-  return mobil::remove_leg_muscles(world_, jobs_, human);
+  return mobil::remove_leg_muscles(*world_, jobs_, human);
 }
 
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
@@ -147,7 +181,7 @@ Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMet
 
 MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
   const Entity right_one = this->muscle(human, muscle, right);
-  return muscle_method(world_, world_.alive(right_one) ? right_one : this->muscle(human, muscle, left));
+  return muscle_method(*world_, world_->alive(right_one) ? right_one : this->muscle(human, muscle, left));
 }
 
 Ticks Simulation::advance(double seconds) {
@@ -158,9 +192,9 @@ Ticks Simulation::advance(double seconds) {
 
 void Simulation::tick() {
   const auto dt_s = static_cast<float>(clock_.tick_s());
-  schedule_->run(world_, {dt_s, tick_}, jobs_);
+  schedule_->run(*world_, {dt_s, tick_}, jobs_);
   ++tick_;
-  end_fades(world_, dt_s, *work_);
+  end_fades(*world_, dt_s, *work_);
 }
 
 StepReport Simulation::report() const {
@@ -181,17 +215,17 @@ SnapshotWork& Simulation::snapshot_work() const {
 }
 
 std::size_t Simulation::snapshot_bytes() const {
-  return mobil::snapshot_bytes({world_, *library_, modules_, jobs_}, snapshot_work());
+  return mobil::snapshot_bytes({*world_, *library_, modules_, jobs_}, snapshot_work());
 }
 
 Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
-  return save_snapshot({world_, *library_, modules_, jobs_}, {clock_.tick_units(), clock_.remainder_units(), tick_},
+  return save_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), clock_.remainder_units(), tick_},
                        snapshot_work(), out);
 }
 
 Result<void> Simulation::restore(std::span<const std::byte> in) {
   const auto done =
-      restore_snapshot({world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), in);
+      restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), in);
   if (!done) return fail("restore: " + done.error().message);
   work_->recent = {};
   tick_ = done->tick;
@@ -200,30 +234,30 @@ Result<void> Simulation::restore(std::span<const std::byte> in) {
 }
 
 std::uint64_t Simulation::state_hash() const {
-  return mix64(mobil::state_hash(world_, jobs_) + mix64(tick_));
+  return mix64(mobil::state_hash(*world_, jobs_) + mix64(tick_));
 }
 
 bool Simulation::is_person(Entity entity) const {
-  return mobil::is_person(world_, entity);
+  return mobil::is_person(*world_, entity);
 }
 
 std::vector<Entity> Simulation::people() const {
   std::vector<Entity> all;
-  each_block<Physique>(world_, [&](const Rows& rows, const Physique<Lanes<float>>&) {
+  mobil::each(*world_, [&](const Rows& rows, const Physique<Lanes<float>>&) {
     all.insert(all.end(), rows.entity, rows.entity + rows.live);
   });
   return all;
 }
 
 std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
-  return muscles_of(world_, human);
+  return muscles_of(*world_, human);
 }
 
 std::optional<Human> Simulation::human(Entity entity) const {
   if (!is_person(entity)) return std::nullopt;
   Human human{
-      entity, *make_body(body_request(world_, entity)),         world_.get<Gait>(entity).value_or(Gait<float>{}),
-      {},     choice_of(world_, entity).value_or(LegMuscles{}), is_posed(world_, entity)};
+      entity, *make_body(body_request(*world_, entity)),         world_->get<Gait>(entity).value_or(Gait<float>{}),
+      {},     choice_of(*world_, entity).value_or(LegMuscles{}), is_posed(*world_, entity)};
   for (const OwnMuscle& own : muscles(entity)) {
     human.muscles.push_back({*make_muscle_plan(human.body, own.muscle), own.entity, method(entity, own.muscle)});
   }
@@ -231,7 +265,7 @@ std::optional<Human> Simulation::human(Entity entity) const {
 }
 
 Entity Simulation::muscle(Entity human, Muscle muscle, Side side) const {
-  return muscle_of(world_, human, muscle, side);
+  return muscle_of(*world_, human, muscle, side);
 }
 
 }  // namespace mobil

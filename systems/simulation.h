@@ -7,8 +7,8 @@
 //   simulation.advance(frame_seconds);
 //   simulation.get<Pose>(human)->position_m[index(Segment::head)];
 //
-// Everything else is a table: `world()` has all components, `schedule()` all systems in the order they run. Nothing is
-// global; any number of simulations may live side by side. One thread at a time may use one.
+// Everything else is a table: `world()` has all components to read, `schedule()` all systems in the order they run.
+// Nothing is global; any number of simulations may live side by side. One thread at a time may use one.
 //
 // Where memory runs out as people come or change, std::bad_alloc is thrown and the simulation is unchanged, including
 // future handles. Despawning never allocates.
@@ -20,6 +20,8 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "assets/muscles/muscle_plan.h"
@@ -28,6 +30,7 @@
 #include "components/muscle.h"
 #include "components/pose.h"
 #include "engine/clock.h"
+#include "engine/each.h"
 #include "engine/error.h"
 #include "engine/jobs.h"
 #include "engine/module.h"
@@ -92,10 +95,15 @@ class BellyLibrary;  // systems/muscles/belly_library.h
 
 class Simulation {
  public:
-  /// Throws std::invalid_argument when tick_s or max_frame_s is out of range (engine/clock.h), or where a module does
-  /// not fit the others (engine/module.h).
+  /// Errors, in one line: tick_s or max_frame_s out of range (engine/clock.h), a module that does not fit the others
+  /// (engine/module.h).
+  static Result<Simulation> make(const SimulationOptions& options = {});
+  /// The same; throws std::invalid_argument with that line.
   explicit Simulation(const SimulationOptions& options = {});
   ~Simulation();
+  /// What was moved from may be destroyed or assigned to. References to the world go along.
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
 
   /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
   /// unreachable, one line each; the simulation is unchanged.
@@ -120,6 +128,13 @@ class Simulation {
   /// Makes the templates and bases that typical bodies share for this choice, with the simulation's jobs: then spawning
   /// them and changing their methods does not wait for that. Errors: a choice out of range; nothing has changed.
   Result<void> prepare(const LegMuscles& choice);
+  /// All meshes, operators and bases that have been made so far, by `prepare` or by adding muscles, as bytes for a
+  /// file: a program that loads them need not make them. They depend on no body and on no scene.
+  std::vector<std::byte> bake() const;
+  /// Takes in what `bake` wrote, in milliseconds: the bits are those that would be made here. The bytes are not needed
+  /// afterwards. Errors, in one line: bytes that were cut or altered, or baked by another version of the library or on
+  /// a processor that computes otherwise; nothing has changed then.
+  Result<void> load_baked(std::span<const std::byte> baked);
 
   /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
   /// steps. A speed of 0 stops, a positive one starts again. Errors: a stale handle, a gait out of range; all is as it
@@ -193,11 +208,67 @@ class Simulation {
   /// Hash of the whole state; independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
 
-  /// An entity's row of a component, or why there is none.
+  /// An entity's row of a component, or why there is none: get<Pose>(human). Of a tag its value.
   template <template <class> class C>
   tl::expected<C<float>, Status> get(Entity entity) const {
-    return world_.get<C>(entity);
+    return world_->get<C>(entity);
   }
+  template <class Tag>
+  tl::expected<std::uint64_t, Status> get(Entity entity) const {
+    return world_->get<Tag>(entity);
+  }
+
+  /// The host's own parts (engine/key.h) on people and muscles, and entities of the host's own: the one door to what
+  /// rows are made of. They are in the state hash; in snapshots where a module names them (SimulationOptions::modules).
+  /// A part of a muscle stays with it whatever its method. What is the library's, and its people and muscles, answer
+  /// Status::not_yours: for these are the calls above.
+  template <class P>
+  Status add(Entity entity, const P& part) {
+    return ours(key_part(part).id) ? Status::not_yours : world_->add(entity, part);
+  }
+  template <template <class> class C>
+  Status set(Entity entity, const C<float>& row) {
+    return ours(type_id<C<float>>()) ? Status::not_yours : world_->set(entity, row);
+  }
+  template <class Tag>
+  Status set_field(Entity entity, std::span<const float> values) {
+    return ours(type_id<Tag>()) ? Status::not_yours : world_->set_field<Tag>(entity, values);
+  }
+  template <template <class> class C>
+  Status remove(Entity entity) {
+    return ours(type_id<C<float>>()) ? Status::not_yours : world_->remove<C>(entity);
+  }
+  template <class Tag>
+  Status remove(Entity entity) {
+    return ours(type_id<Tag>()) ? Status::not_yours : world_->remove<Tag>(entity);
+  }
+  template <class... P>
+  tl::expected<Entity, Status> create(const P&... parts) {
+    if ((ours(key_part(parts).id) || ...)) return tl::unexpected(Status::not_yours);
+    return world_->create(parts...);
+  }
+  Status destroy(Entity entity);
+  /// Takes a share in an immutable resource, for a Shared part.
+  template <class T>
+  Shared<T> share(std::shared_ptr<const T> resource) {
+    return world_->share(std::move(resource));
+  }
+
+  /// Calls `f` with each block of all that have what its parameters name (engine/each.h):
+  ///   simulation.each([](const Rows& rows, const Pose<Lanes<float>>& pose, Fatigue<Lanes<float>>& fatigue) { … });
+  /// The library's parts are there to be read: where `f` would write one, nothing is done and the answer is
+  /// Status::not_yours. Within ticks a module's systems may write them.
+  template <class F>
+  Status each(F&& f) {
+    if (writes_ours(Signature<std::remove_cvref_t<F>>{})) return Status::not_yours;
+    mobil::each(*world_, f);
+    return Status::ok;
+  }
+  template <class F>
+  void each(F&& f) const {
+    mobil::each(world(), f);
+  }
+
   /// A person with body and plans of muscles, made when asked for (some microseconds); nothing for a stale handle.
   std::optional<Human> human(Entity entity) const;
   /// All people, in the order of their rows; until somebody comes or goes.
@@ -211,24 +282,33 @@ class Simulation {
   /// A muscle's control points where they are now, in its frame, as they are to be shown (what fades after a change of
   /// method included); `first` is null for a stale handle and where there are none: with Method::none, and where nobody
   /// asked for them. Until the next change of structure.
-  NodalView nodal_displacement(Entity muscle) const { return mobil::nodal_displacement(world_, muscle); }
+  NodalView nodal_displacement(Entity muscle) const { return mobil::nodal_displacement(*world_, muscle); }
 
-  World& world() { return world_; }
-  const World& world() const { return world_; }
+  /// All tables, to be read.
+  const World& world() const { return *world_; }
   Schedule& schedule() { return *schedule_; }
   const Schedule& schedule() const { return *schedule_; }
   /// The library's, then the host's.
   std::span<const Module> modules() const { return modules_; }
 
  private:
+  friend struct SimulationWorld;  // systems/simulation_world.h
+
+  bool ours(std::uint64_t part) const;
+  template <class... P>
+  bool writes_ours(Parameters<P...>) const {
+    return ((Parameter<P>::access().mode == Access::Mode::write && ours(Parameter<P>::access().id)) || ...);
+  }
+  Simulation(const SimulationOptions& options, Clock clock);
   MuscleScene muscle_scene();
   SnapshotWork& snapshot_work() const;
 
-  World world_;
+  std::unique_ptr<World> world_;
   Clock clock_;
   std::optional<Threads> threads_;
   Jobs jobs_;
   std::vector<Module> modules_;
+  std::vector<std::uint64_t> our_parts_;  // of the library's modules, ascending
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<BellyLibrary> library_;
   std::unique_ptr<MuscleWork> work_;

@@ -72,7 +72,7 @@ const std::map<std::string, std::vector<std::string>> order = {
     {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder}},  // the modules, the front door
     {"demo",
      {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "compare", "gait_fit", "paper",
-      "crowd", "bench", "effects", "frontier", "stress"}},
+      "bake", "crowd", "bench", "effects", "frontier", "stress"}},
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.
@@ -82,6 +82,9 @@ const std::set<std::string> kernels = {"gait", "kinematics", "forces", "lines", 
 /// line goes with it: a line that no include needs fails as well.
 const std::map<std::pair<std::string, std::string>, std::string> not_yet = {
     {{"systems/relevance/relevance.h", "systems/simulation.h"}, "works on Simulation from outside"},
+    {{"systems/relevance/relevance.cpp", "systems/simulation_world.h"}, "writes what it decides on people's rows"},
+    {{"systems/relevance/relevance_ask.cpp", "systems/simulation_world.h"}, "writes what it decides on people's rows"},
+    {{"systems/relevance/relevance_budget.cpp", "systems/simulation_world.h"}, "writes what it decides on people's rows"},
     {{"systems/snapshot/snapshot_file.h", "systems/simulation.h"}, "works on Simulation from outside"},
 };
 
@@ -160,6 +163,7 @@ const std::map<std::string, std::string> no_header_yet = {
     {"systems/deformation/reduced_report.cpp", "reduced.h"},
     {"systems/gait/gait_advance.cpp", "gait.h"},
     {"systems/gait/step_plan.cpp", "gait.h"},
+    {"systems/muscles/belly_library_baked.cpp", "belly_library.h"},
     {"systems/muscles/belly_library_bases.cpp", "belly_library.h"},
     {"systems/muscles/belly_library_prepare.cpp", "belly_library.h"},
     {"systems/relevance/relevance_ask.cpp", "relevance.h"},

@@ -28,7 +28,7 @@ if grep -rl Eigen "$scratch/prefix/include"; then
   exit 1
 fi
 find "$scratch/prefix" -name 'libmobil_*.a' -exec nm -C {} + >"$scratch/symbols"
-grep -q 'mobil::Simulation::tick' "$scratch/symbols"
+grep -q 'mobil::v[0-9_]*::Simulation::tick' "$scratch/symbols"
 [ -s "$scratch/prefix/share/doc/mobil/LICENSE" ]
 if grep -q ' Eigen::' "$scratch/symbols"; then
   echo "our libraries have functions of Eigen under its own name, which a host's could stand in for" >&2

@@ -32,12 +32,14 @@ StepCase step_case(const MuscleOptions& options) {
   return {options.far_end, options.mass, options.stiffness_damping_s, 2 * std::numbers::pi * options.foundation_hz};
 }
 
-Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material,
-                                            const MuscleOptions& options) {
+Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material, const MuscleOptions& options,
+                                            std::optional<CriticalSteps> known) {
   if (auto ok = check_options(options); !ok) return tl::unexpected(ok.error());
   auto terms = assemble(mesh, material, options.element);
   if (!terms) return tl::unexpected(terms.error());
-  auto steps = tabulate_critical_steps(*terms, step_case(options), options.lowest_ratio, options.highest_ratio);
+  auto steps =
+      known ? std::move(*known)
+            : tabulate_critical_steps(*terms, step_case(options), options.lowest_ratio, options.highest_ratio);
   auto kernel = make_kernel_arrays(mesh, *terms);
   return MuscleTemplate{std::move(mesh), material, options, std::move(*terms), std::move(steps), std::move(kernel)};
 }

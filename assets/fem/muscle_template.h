@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "assets/fem/critical_step.h"
@@ -45,8 +46,9 @@ constexpr std::size_t nodal_width(const Cells& cells) {
   return 3 * std::size_t{node_count(cells)};
 }
 
-/// Fails on an inverted element, a bad material, damping or range of ratios.
-Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material,
-                                            const MuscleOptions& options);
+/// Fails on an inverted element, a bad material, damping or range of ratios. `known`: the critical steps of just such a
+/// template, which take most of the time to find.
+Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material, const MuscleOptions& options,
+                                            std::optional<CriticalSteps> known = std::nullopt);
 
 }  // namespace mobil

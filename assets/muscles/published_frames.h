@@ -49,9 +49,9 @@ constexpr PathPoint behind(PathPoint p) {
 }
 
 constexpr KneeTrack along_tibia(const KneeTrack& track) {
-  KneeTrack mobil{};
-  for (std::size_t i = 0; i < knee_knots; ++i) mobil[i] = on_tibia(track[i].x, track[i].y, track[i].z).at_m;
-  return mobil;
+  KneeTrack placed{};
+  for (std::size_t i = 0; i < knee_knots; ++i) placed[i] = on_tibia(track[i].x, track[i].y, track[i].z).at_m;
+  return placed;
 }
 
 /// The published tibia from the pin's, in the tibia's frame: R(−flexion)·(its origin in the femur) against the pin.

@@ -221,15 +221,28 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
 
 }  // namespace
 
+Result<ReducedBasis> basis_outline(const Cells& cells, const ReducedOptions& options) {
+  if (auto ok = check_options(cells, options); !ok) return tl::unexpected(ok.error());
+  const double circular = 2 * std::numbers::pi * options.foundation_hz;
+  ReducedBasis basis;
+  basis.options = options;
+  basis.cells = cells;
+  basis.vectors = options.vectors;
+  basis.inputs = input_count(options.far_end, options.frame_loads);
+  basis.lowest_ratio = options.middle_ratio / options.ratio_width;
+  basis.highest_ratio = options.middle_ratio * options.ratio_width;
+  basis.foundation_1_s2 = circular * circular;
+  return basis;
+}
+
 Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Material& material, Element element,
                                         const ReducedOptions& options, std::vector<double>* kept_fields) {
-  if (auto ok = check_options(fine.cells, options); !ok) return tl::unexpected(ok.error());
+  auto outline = basis_outline(fine.cells, options);
+  if (!outline) return tl::unexpected(outline.error());
+  ReducedBasis basis = std::move(*outline);
   const auto terms = assemble(fine, material, element);
   if (!terms) return tl::unexpected(terms.error());
   const Index lifts = options.far_end == FarEnd::held ? 1 : 0;
-  const double circular = 2 * std::numbers::pi * options.foundation_hz;
-  ReducedBasis basis;
-  basis.foundation_1_s2 = circular * circular;
   auto fields = trained_vectors({fine, *terms, options, basis.foundation_1_s2}, lifts);
   if (!fields) return tl::unexpected(fields.error());
   Projected p = project(fine, *terms, options, *fields);
@@ -248,12 +261,7 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
                             options.vectors, fine.cells[0], fine.cells[1], fine.cells[2], count));
   }
 
-  basis.options = options;
-  basis.cells = fine.cells;
   basis.vectors = static_cast<std::uint32_t>(count);
-  basis.inputs = input_count(options.far_end, options.frame_loads);
-  basis.lowest_ratio = options.middle_ratio / options.ratio_width;
-  basis.highest_ratio = options.middle_ratio * options.ratio_width;
   const auto own = [&](const MatrixXd& m) { return row_major(m.bottomRightCorner(count, count)); };
   basis.a = own(p.a);
   basis.b = own(p.b);

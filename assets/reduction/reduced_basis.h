@@ -85,6 +85,10 @@ struct ReducedBasis {
   } turned;
 };
 
+/// A basis of that many vectors of a mesh of those cells without its arrays: what takes no mesh to say. Fails on
+/// options out of range, cells that do not nest (or are odd where `corrected`).
+Result<ReducedBasis> basis_outline(const Cells& cells, const ReducedOptions& options);
+
 /// `fine` is the muscle's template mesh in cells that contain options.control_cells' nodes. Fails, in one line, on
 /// options out of range, cells that do not nest (or are odd where `corrected`), a bad material or mesh.
 /// Deterministic: the same bits on every machine of one kind of arithmetic. `fields`, if not null, becomes ψ (where

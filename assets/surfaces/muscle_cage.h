@@ -11,9 +11,11 @@ namespace mobil {
 
 /// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
 /// follow the surface as it is drawn in that body. A single muscle's mesh has the muscle's volume; a group's encloses
-/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle.
+/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle. A table, made by
+/// draw_cage.h; whoever changes a muscle's surface makes it again: the test MuscleCage.IsWhatTheSurfacesGive prints it.
 inline constexpr std::size_t cage_station_count = 9;
 using CageStations = std::array<CageStation, cage_station_count>;
+inline constexpr std::size_t caged_muscles = 16;  // all of the table's rows
 const CageStations& muscle_cage(Muscle muscle);
 /// How the elements of templates are graded: finer towards the ends, where bellies taper and are held.
 inline constexpr Grading belly_grading{.across = 1, .along = 1.5};

@@ -68,6 +68,7 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--near-tolerance", &text.near_tolerance, "The same of those", muscles},
       {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", muscles},
       {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", muscles},
+      {"--baked", &text.baked, "What `mobil bake` wrote, FILE, instead of making it", muscles},
       {"--raise", &text.raise,
        "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", results},
       {"--report", &text.report, "JSON FILE for all figures", results},
@@ -125,6 +126,7 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
     return tl::unexpected(done.error());
   crowd.all_seen = text.all_seen;
   options.raise = text.raise;
+  crowd.baked = text.baked;
   options.report = text.report;
   options.capture = text.capture;
   if (options.frames > 0 && options.capture.empty()) return fail("--frames: name a folder by --capture");

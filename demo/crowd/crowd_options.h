@@ -24,7 +24,7 @@ struct CrowdOptions {
 /// The options as text, as the command line hands them over; bound by `crowd_options`.
 struct CrowdText {
   std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
-  std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0";
+  std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
   bool all_seen = false, raise = false;
 };
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "assets/body/anthropometry.h"
+#include "demo/bake/baked_file.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {
@@ -50,6 +51,10 @@ std::size_t CrowdScene::bytes_of_people() const {
 
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request, const Progress& progress) {
   std::unique_ptr<CrowdScene> scene(new CrowdScene(request));
+  if (!request.baked.empty()) {
+    if (auto done = load_baked(*scene->simulation_, request.baked); !done)
+      return fail("--baked " + done.error().message);
+  }
   if (request.effects.muscles) {
     RelevanceOptions options;
     options.switches = 8;  // near ones change every second: spread over it

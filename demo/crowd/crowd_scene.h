@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <memory_resource>
@@ -33,6 +34,7 @@ struct CrowdRequest {
   std::size_t burst = 0;  // leave and come in one tick of each second
   bool all_seen = false;
   std::uint64_t seed = 1;
+  std::filesystem::path baked{};  // of `mobil bake`; empty: made here
 };
 
 /// What the host decided in one tick.

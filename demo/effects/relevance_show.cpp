@@ -10,6 +10,7 @@
 #include "demo/effects/accuracy_measure.h"
 #include "engine/schedule.h"
 #include "systems/relevance/relevance.h"
+#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -44,7 +45,7 @@ struct Crowd {
 Result<Crowd> make_crowd(std::size_t humans) {
   auto made = BenchCrowd::make(humans);
   if (!made) return tl::unexpected(made.error());
-  World& world = (*made)->simulation().world();
+  World& world = world_of((*made)->simulation());
   const auto across = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(humans))));
   for (std::size_t i = 0; i < humans; ++i) {
     const Entity human = (*made)->people()[i];

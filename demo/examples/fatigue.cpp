@@ -56,7 +56,7 @@ int main() {
     }
     one = *spawned;
   }
-  simulation.world().add(walker[0], Fatigue<float>{});  // the other one never tires, and costs nothing
+  simulation.add(walker[0], Fatigue<float>{});  // the other one never tires, and costs nothing
 
   for (int second = 0; second < 40; ++second) {
     for (int tick = 0; tick < 60; ++tick) simulation.tick();

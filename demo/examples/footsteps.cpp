@@ -69,8 +69,7 @@ struct Footstep {
 /// What happened in the tick that ran last.
 std::vector<Footstep> footsteps_of(const mobil::Simulation& simulation) {
   std::vector<Footstep> all;
-  mobil::each_block<FootEvents>(simulation.world(), [&](const mobil::Rows& rows,
-                                                        const FootEvents<Lanes<float>>& events) {
+  simulation.each([&](const mobil::Rows& rows, const FootEvents<Lanes<float>>& events) {
     for (std::size_t lane = 0; lane < rows.live; ++lane) {
       for (const Event event : {heel_strike, foot_flat, heel_off, toe_off}) {
         for (std::uint32_t side = 0; side < 2; ++side) {
@@ -95,7 +94,7 @@ int main() {
     std::fprintf(stderr, "%s\n", spawned.error().message.c_str());
     return 2;
   }
-  for (const mobil::Entity walker : walkers) simulation.world().add(walker, FootEvents<float>{});
+  for (const mobil::Entity walker : walkers) simulation.add(walker, FootEvents<float>{});
 
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<Footstep>> heard;  // by walker and side
   for (int tick = 0; tick < 240; ++tick) {

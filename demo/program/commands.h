@@ -21,6 +21,7 @@ Result<void> write_result(std::string_view option, const std::filesystem::path& 
 Subcommand walk_command();
 Subcommand muscle_command();
 Subcommand body_command();
+Subcommand bake_command();
 Subcommand bench_command();
 Subcommand compare_command();
 Subcommand gait_fit_command();

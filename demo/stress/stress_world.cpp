@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "demo/stress/stress.h"
+#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -160,7 +161,7 @@ Poison in_component(float C<float>::*field) {
   return [field](Simulation& simulation, Entity human, float value) {
     auto row = simulation.get<C>(human).value();
     row.*field = value;
-    simulation.world().set(human, row);
+    world_of(simulation).set(human, row);
   };
 }
 
@@ -170,7 +171,7 @@ Poison in_muscle(float C<float>::*field) {
     const Entity muscle = simulation.muscle(human, Muscle::hamstrings, right);
     auto row = simulation.get<C>(muscle).value();
     row.*field = value;
-    simulation.world().set(muscle, row);
+    world_of(simulation).set(muscle, row);
   };
 }
 
@@ -183,7 +184,7 @@ Poison in_nodes() {
     std::vector<float> nodes(*width);
     if (simulation.world().template get_field<Tag>(muscle, nodes) != Status::ok) return;
     nodes[nodes.size() / 2] = value;
-    simulation.world().template set_field<Tag>(muscle, nodes);
+    world_of(simulation).template set_field<Tag>(muscle, nodes);
   };
 }
 
@@ -205,7 +206,7 @@ std::vector<Case> poisons() {
            [](Simulation& simulation, Entity human, float value) {
              auto pose = simulation.get<Pose>(human).value();
              for (auto& q : pose.rotation) q.x = value;
-             simulation.world().set(human, pose);
+             world_of(simulation).set(human, pose);
            }},
           {"scale of a leg", in_muscle<LegScale>(&LegScale<float>::thigh)},
           {"section of a belly", in_muscle<BellyScale>(&BellyScale<float>::across)},

@@ -199,17 +199,21 @@ class Block {
 
   void begin_one_by_one(const DeformationMethod& method, const ReducedBellies& bellies, Side side) const {
     const Columns& of = group_.side[side];
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const Column& displacement = *of.find(type_id<NodalDisplacement>());
+    for (std::size_t lane = 0; lane < count_; ++lane) {
       Belly belly{group_.common, {}, {}, {}, {}};
       belly.plan.scale = size(lane).scale;
-      if (belly.basis != nullptr)
-        belly.motions = std::make_shared<ReducedBelly>(belly_of(bellies, lane < count_ ? lane : 0));
+      if (belly.basis != nullptr) belly.motions = std::make_shared<ReducedBelly>(belly_of(bellies, lane));
       const auto end = row_of(of.block<EndDrive>(b_), lane);
       BellyLoad load{group_.kind.far_end, end.from, end.to, {}, all_.tick_s};
       if (group_.kind.inertia) load.frame = row_of(of.block<FrameLoad>(b_), lane);
       const auto line = row_of(of.block<LineOfAction>(b_), lane);
       const Beginning from = method.begin({belly, all_.choice, line, load}, false);
-      scatter(from.displacement.data(), from.displacement.size(), *of.find(type_id<NodalDisplacement>()), lane);
+      scatter(from.displacement.data(), from.displacement.size(), displacement, lane);
+    }
+    for (std::size_t lane = count_; lane < lane_count; ++lane) {
+      for (std::size_t w = 0; w < displacement.words; ++w)
+        displacement.block(b_)[w][lane] = displacement.block(b_)[w][0];
     }
   }
 

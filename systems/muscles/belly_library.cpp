@@ -100,7 +100,8 @@ std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(M
 }
 
 Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, const LegMuscles& choice,
-                                                                const BellyTemplate* alike) {
+                                                                const BellyTemplate* alike,
+                                                                std::optional<ShapeTables> known) {
   auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
   MuscleOptions options;
@@ -112,14 +113,23 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
   options.mass = stepped_mass(choice);
   options.stiffness_damping_s = choice.stiffness_damping_s;
   options.foundation_hz = foundation_of(choice);
-  auto shape = make_muscle_template(std::move(*mesh), choice.material, options);
+  std::optional<CriticalSteps> steps;
+  if (known) steps = std::move(known->critical_steps);
+  auto shape = make_muscle_template(std::move(*mesh), choice.material, options, std::move(steps));
   if (!shape) return tl::unexpected(shape.error());
   auto made = std::make_unique<BellyTemplate>();
   made->choice = choice;
   made->muscle = muscle;
-  made->axial = alike ? alike->axial
-                      : tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
-  made->stretch = alike ? alike->stretch : static_stretch(shape->terms, 1, 1);
+  if (known) {
+    made->axial = std::move(known->axial);
+    made->stretch = std::move(known->stretch);
+  } else if (alike != nullptr) {
+    made->axial = alike->axial;
+    made->stretch = alike->stretch;
+  } else {
+    made->axial = tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
+    made->stretch = static_stretch(shape->terms, 1, 1);
+  }
   made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
   made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));
   return made;

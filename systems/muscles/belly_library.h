@@ -1,9 +1,11 @@
 #pragma once
 // What people share whose muscles are chosen alike: meshes, factorised operators, bases; each made once.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,12 @@ class BellyLibrary {
   /// above.
   Result<void> prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs);
 
+  /// All templates, solvers and bases that there are, as bytes; and those that such bytes hold taken in, where they
+  /// are not there yet: the same bits as made here. Errors of `load`, in one line, nothing having changed: bytes that
+  /// were cut or altered, or baked by another version or kind of processor.
+  std::vector<std::byte> bake() const;
+  Result<void> load(std::span<const std::byte> baked);
+
  private:
   friend class ResourceList;  // systems/snapshot/snapshot_resources.h
 
@@ -56,11 +64,25 @@ class BellyLibrary {
     std::vector<std::shared_ptr<const ReducedBasis>> cut;
   };
 
+  /// What takes long to find of a template.
+  struct ShapeTables {
+    CriticalSteps critical_steps;
+    AxialStiffness axial;
+    StaticStretch stretch;
+  };
+  /// What bytes hold; solvers by the number of their template here.
+  struct Loaded {
+    std::vector<std::unique_ptr<BellyTemplate>> templates;
+    std::vector<std::pair<std::uint32_t, BellySolver>> solvers;
+    std::vector<Basis> bases;
+  };
+
   Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
   /// The template, or null; and one that differs in what the tissue itself does not depend on, or null.
   std::pair<const BellyTemplate*, const BellyTemplate*> find_shape(Muscle muscle, const LegMuscles& choice) const;
   static Result<std::unique_ptr<BellyTemplate>> make_shape(Muscle muscle, const LegMuscles& choice,
-                                                           const BellyTemplate* alike);
+                                                           const BellyTemplate* alike,
+                                                           std::optional<ShapeTables> known = std::nullopt);
   Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                     const BellyScale<float>& scale);
   Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,
@@ -68,9 +90,13 @@ class BellyLibrary {
   static BasisKey basis_key(const LegMuscles& choice, double ratio, double product);
   static std::vector<BasisKey> usual_bases(const LegMuscles& choice);
   Basis* find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
+  static ReducedOptions basis_options(const LegMuscles& choice, const BasisKey& key);
   static Result<Basis> make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
   static std::shared_ptr<const ReducedBasis> cut(Basis& made, std::uint32_t vectors);
   void prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s);
+  static std::uint64_t maker();
+  static std::uint64_t find_maker();
+  Result<Loaded> read(std::span<const std::byte> baked) const;
 
   std::vector<std::shared_ptr<const LegMuscles>> choices_;
   std::vector<std::unique_ptr<BellyTemplate>> templates_;
@@ -86,6 +112,8 @@ inline constexpr double rare_ratio = 1.05;  // times more or less
 }  // namespace usual_sizes
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
+/// Of one that is, whether reduced bellies can be so.
+Result<void> check_reduced(const LegMuscles& choice);
 /// Of a choice in range: the sideways foundation, Hz.
 double foundation_of(const LegMuscles& choice);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);

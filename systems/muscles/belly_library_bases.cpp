@@ -14,7 +14,16 @@ namespace {
 constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness: twelve vectors serve such a range
 constexpr double product_step = 1.5;  // between those of size, which the foundation alone goes by
 
-Result<void> check(const LegMuscles& choice) {
+/// Alike but for how many vectors there are.
+bool same_basis(const LegMuscles& a, const LegMuscles& b) {
+  return same_tissue(a, b) && a.drive == b.drive && a.inertia == b.inertia && a.damping_per_s == b.damping_per_s &&
+         foundation_of(a) == foundation_of(b) && a.reduced.cells == b.reduced.cells &&
+         a.reduced.corrected == b.reduced.corrected;
+}
+
+}  // namespace
+
+Result<void> check_reduced(const LegMuscles& choice) {
   const std::uint32_t vectors = choice.reduced.vectors;
   if (vectors < 1 || vectors > most_vectors) {
     return fail(fmt::format("{} vectors of a reduced belly are out of range; choose 1 to {}", vectors, most_vectors));
@@ -27,15 +36,6 @@ Result<void> check(const LegMuscles& choice) {
   }
   return {};
 }
-
-/// Alike but for how many vectors there are.
-bool same_basis(const LegMuscles& a, const LegMuscles& b) {
-  return same_tissue(a, b) && a.drive == b.drive && a.inertia == b.inertia && a.damping_per_s == b.damping_per_s &&
-         foundation_of(a) == foundation_of(b) && a.reduced.cells == b.reduced.cells &&
-         a.reduced.corrected == b.reduced.corrected;
-}
-
-}  // namespace
 
 BellyLibrary::BasisKey BellyLibrary::basis_key(const LegMuscles& choice, double ratio, double product) {
   return {middle_of_range(ratio, std::sqrt(ratio_step)),
@@ -67,10 +67,7 @@ BellyLibrary::Basis* BellyLibrary::find_basis(Muscle muscle, const LegMuscles& c
   return at == bases_.end() ? nullptr : &*at;
 }
 
-Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key) {
-  if (auto ok = check(choice); !ok) return tl::unexpected(ok.error());
-  const auto mesh = bend_block(choice.reduced.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
-  if (!mesh) return tl::unexpected(mesh.error());
+ReducedOptions BellyLibrary::basis_options(const LegMuscles& choice, const BasisKey& key) {
   ReducedOptions options;
   options.far_end = far_end_of(choice);
   options.frame_loads = choice.inertia;
@@ -81,6 +78,14 @@ Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMus
   options.ratio_width = std::sqrt(ratio_step);
   options.middle_product = key.product;
   options.control_cells = choice.cells;
+  return options;
+}
+
+Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key) {
+  if (auto ok = check_reduced(choice); !ok) return tl::unexpected(ok.error());
+  const auto mesh = bend_block(choice.reduced.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
+  if (!mesh) return tl::unexpected(mesh.error());
+  ReducedOptions options = basis_options(choice, key);
   const auto make = [&](std::uint32_t count) {
     options.vectors = count;
     return make_reduced_basis(*mesh, choice.material, choice.element, options);
@@ -104,7 +109,7 @@ std::shared_ptr<const ReducedBasis> BellyLibrary::cut(Basis& made, std::uint32_t
 
 Result<std::shared_ptr<const ReducedBasis>> BellyLibrary::basis(Muscle muscle, const LegMuscles& choice,
                                                                 const BellyScale<float>& scale) {
-  if (auto ok = check(choice); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_reduced(choice); !ok) return tl::unexpected(ok.error());
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
   const BasisKey key = basis_key(choice, across / along, across * along);
   if (Basis* const found = find_basis(muscle, choice, key)) return cut(*found, choice.reduced.vectors);

@@ -30,10 +30,10 @@ Result<void> check_key(const TableKey& key, const World&) {
   const auto count = [&](std::initializer_list<std::uint64_t> ids) {
     return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_part(key, id) != nullptr; });
   };
-  const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>(), type_id<Pose<float>>()});
-  const auto walk = count({type_id<Gait<float>>(), type_id<StepPlan<float>>(), type_id<GaitState<float>>(),
+  const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>(), type_id<Pose<float>>(),
                            type_id<JointAngles<float>>(), type_id<Feet<float>>(), type_id<CentreOfMass<float>>()});
-  if ((body == 0 || body == 3) && (walk == 0 || (walk == 6 && body == 3))) return {};
+  const auto walk = count({type_id<Gait<float>>(), type_id<StepPlan<float>>(), type_id<GaitState<float>>()});
+  if ((body == 0 || body == 6) && (walk == 0 || (walk == 3 && body == 6))) return {};
   return fail("the snapshot does not agree with itself (the parts of a person); give one that `save` made");
 }
 
@@ -59,8 +59,8 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 
 Module walking_module() {
   return {.name = "walking",
-          .parts = {component_part<Gait>(), component_part<StepPlan>(), component_part<GaitState>(),
-                    component_part<JointAngles>(), component_part<Feet>(), component_part<CentreOfMass>()},
+          .version = 2,
+          .parts = {component_part<Gait>(), component_part<StepPlan>(), component_part<GaitState>()},
           .systems = [](ScheduleBuilder& systems) {
             systems.add("gait", &advance_gait)
                 .add_packed("replan", &lanes_to_plan, &plan_next_step)
@@ -81,7 +81,9 @@ Module forces_module() {
 
 Module skeleton_module() {
   return {.name = "skeleton",
+          .version = 2,
           .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<Pose>(),
+                    component_part<JointAngles>(), component_part<Feet>(), component_part<CentreOfMass>(),
                     key_part(Publishes<LegPost>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("leg frames", &publish_legs); },
           .check_key = &check_key,

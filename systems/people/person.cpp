@@ -10,6 +10,7 @@
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/people/pose_measures.h"
 
 namespace mobil {
 
@@ -138,6 +139,8 @@ Status set_pose(World& world, Entity person, const Pose<float>& pose) {
              std::fabs(size2 - 1) < 2 * rounding;
   }
   if (!valid) return Status::not_valid;
+  world.set(person, joint_angles(pose));
+  world.set(person, sole_points(world.get<BodySize>(person)->height_m, pose));
   return world.set(person, pose);
 }
 

@@ -16,6 +16,7 @@
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/people/pose_axes.h"
 
 namespace mobil {
 namespace {
@@ -70,19 +71,10 @@ void seen_from(const Placed& from, Placed& placed) {
   }
 }
 
-/// Which of our axes becomes each of theirs, and its sign.
-struct Axes {
-  std::array<std::size_t, 3> ours;
-  std::array<float, 3> sign;
-};
-constexpr Axes axes_of[] = {
-    {{0, 1, 2}, {1, 1, 1}}, {{0, 1, 2}, {-1, 1, 1}}, {{2, 0, 1}, {1, 1, 1}}, {{2, 0, 1}, {1, -1, 1}}};
-
 /// In other axes and units. A mirrored frame turns the sense of a rotation round.
-void change_axes(const Axes& axes, float units_per_m, const Placed& from, Placed& to) {
-  const float mirrored = axes.sign[0] * axes.sign[1] * axes.sign[2];
+void change_axes(const AxisMap& axes, float units_per_m, const Placed& from, Placed& to) {
   for (std::size_t i = 0; i < 3; ++i) {
-    const float length = axes.sign[i] * units_per_m, sense = axes.sign[i] * mirrored;
+    const float length = axes.sign[i] * units_per_m, sense = axes.sign[i] * axes.mirrored();
     for (std::size_t l = 0; l < lane_count; ++l) {
       to.at[i][l] = length * from.at[axes.ours[i]][l];
       to.turn[i][l] = sense * from.turn[axes.ours[i]][l];

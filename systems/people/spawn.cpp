@@ -15,6 +15,7 @@
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/person.h"
+#include "systems/people/pose_measures.h"
 
 namespace mobil {
 namespace {
@@ -124,8 +125,12 @@ Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
   if (!body) return tl::unexpected(body.error());
   const BodySize<float> size = body_size(request);
   Pose<Lanes<float>> standing;
+  CentreOfMass<Lanes<float>> centre;
   pose_anatomical(broadcast(size), standing);
-  return world.create(size, physique(request), first_lane(standing), Publishes<LegPost>{});
+  centre_of_mass(broadcast(size), standing, centre);
+  const Pose<float> pose = first_lane(standing);
+  return world.create(size, physique(request), pose, joint_angles(pose), sole_points(size.height_m, pose),
+                      first_lane(centre), Publishes<LegPost>{});
 }
 
 }  // namespace mobil

@@ -40,6 +40,10 @@ inline constexpr std::array<Rung, rung_count> rungs = {{
     {"full", Method::ecd, 0, true, {2, 2, 8}},
 }};
 
+/// What changing a muscle's method to that rung takes, both legs', µs on the machine that was measured (`mobil bench
+/// relevance`): finding a body's motions along many vectors takes most.
+inline constexpr std::array<float, rung_count> switch_us = {15, 80, 55, 65, 75, 95, 130, 240, 440, 440, 40};
+
 /// Walks that errors were measured in, as the reference body walks them; others walk as fast in proportion to the root
 /// of their height.
 enum class SpeedClass : std::uint8_t { slow, free, fast };

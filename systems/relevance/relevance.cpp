@@ -8,6 +8,7 @@
 
 #include "engine/rows.h"
 #include "systems/relevance/packed_rungs.h"
+#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -38,6 +39,15 @@ Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, 
   return {view, tolerance_px * camera.radians_per_pixel * nearest};
 }
 
+Result<void> check(const RelevanceOptions& options) {
+  if (options.slack > 0 && options.slack <= 1 && options.stagger > 0 && positive(double{options.margin}) &&
+      positive(options.machine_factor.value_or(1)) && positive(options.switching_s)) {
+    return {};
+  }
+  return fail(
+      "Relevance: slack must be within 0 and 1, stagger at least 1, margin, switching_s and machine_factor positive");
+}
+
 }  // namespace
 
 Relevance::Relevance(Simulation& simulation, const RelevanceOptions& options)
@@ -45,16 +55,17 @@ Relevance::Relevance(Simulation& simulation, const RelevanceOptions& options)
       options_(options),
       ladder_(options.table != nullptr ? *options.table : accuracy_table()),
       machine_(options.machine_factor.value_or(1)) {
-  if (!(options.slack > 0 && options.slack <= 1) || options.stagger == 0 || !positive(double{options.margin}) ||
-      !positive(options.machine_factor.value_or(1))) {
-    throw std::invalid_argument(
-        "Relevance: slack must be within 0 and 1, stagger at least 1, margin and machine_factor positive");
-  }
+  if (auto ok = check(options); !ok) throw std::invalid_argument(ok.error().message);
+}
+
+Result<Relevance> Relevance::make(Simulation& simulation, const RelevanceOptions& options) {
+  if (auto ok = check(options); !ok) return tl::unexpected(ok.error());
+  return Relevance(simulation, options);
 }
 
 /// Tables come and stay.
 void Relevance::find_tables() {
-  World& world = simulation_.world();
+  World& world = world_of(simulation_);
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
     const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),

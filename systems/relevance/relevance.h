@@ -73,8 +73,10 @@ struct PersonNeeds {
 struct RelevanceOptions {
   /// A cheaper method is taken only where it meets this part of the tolerance; a dearer one at once. 0–1.
   float slack = 0.7F;
-  /// Methods changed in one update, at most. Who misses most comes first, then who has the lower entity index.
+  /// Methods changed in one update, at most; and the time that this may take, s, as predicted (`switch_us` times the
+  /// machine's factor), one method at least. Who misses most comes first, then who has the lower entity index.
   std::uint32_t switches = 256;
+  double switching_s = 0.001;
   /// Everybody is looked at every so many updates.
   std::uint32_t stagger = 4;
   /// What predicted errors are multiplied by, for what bodies and walks differ from those that were measured. Set by
@@ -146,8 +148,11 @@ struct RelevanceState {
 
 class Relevance {
  public:
-  /// Works on `simulation`, which must outlive it. Throws std::invalid_argument on options out of range.
+  /// Works on `simulation`, which must outlive it and stay where it is. Errors, in one line: options out of range.
+  static Result<Relevance> make(Simulation& simulation, const RelevanceOptions& options = {});
+  /// The same; throws std::invalid_argument with that line.
   explicit Relevance(Simulation& simulation, const RelevanceOptions& options = {});
+  Relevance(Relevance&&) noexcept = default;
   Relevance(const Relevance&) = delete;
   Relevance& operator=(const Relevance&) = delete;
 
@@ -213,6 +218,7 @@ class Relevance {
   void observe_machine();
   void plan_budget();
   void carry_out(RelevanceReport& report);
+  void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
   void change(const Switch& one, RelevanceReport& report);
   std::uint32_t wanted(const Needs<float>& needs) const;
 
@@ -224,6 +230,7 @@ class Relevance {
   CostSpectrum crowd_, counting_;              // of the last round, and of the one under way
   std::int64_t cost_ps_ = 0, counted_ps_ = 0;  // of methods as they are; of those counted in this round
   std::int64_t budget_ps_ = 0;
+  std::int64_t switching_ps_ = 0;  // spent in this update
   float factor_ = 1;
   std::uint32_t turn_ = 0, last_tick_ = 0;
   std::size_t tables_seen_ = 0;

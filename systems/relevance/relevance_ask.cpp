@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "systems/muscles/leg_muscles.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
+#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -120,19 +122,12 @@ Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
       return fail(fmt::format("prepare: a tolerance of {} m; give a positive one", tolerance_m));
   if (!scene_.camera) tolerances.push_back(scene_.tolerance_m.value_or(default_tolerance_m));
   const auto called = called_for(tolerances);
-  // Of rungs with one mesh the last has the most vectors; those before it use parts of the same.
-  std::vector<std::size_t> finest;
-  for (std::size_t r = 1; r < rung_count; ++r) {
-    if (r + 1 < rung_count && rungs[r + 1].cells == rungs[r].cells) continue;
-    bool any = false;
-    for (std::size_t other = 1; other < rung_count; ++other)
-      any = any || (called[other] && rungs[other].cells == rungs[r].cells);
-    if (any) finest.push_back(r);
-  }
-  for (std::size_t i = 0; i < finest.size(); ++i) {
-    if (progress) progress(i, finest.size());
+  const auto calls = std::accumulate(called.begin() + 1, called.end(), std::size_t{0});
+  for (std::size_t r = 1, done = 0; r < rung_count; ++r) {
+    if (!called[r]) continue;
+    if (progress) progress(done++, calls);
     LegMuscles choice = options_.leg_muscles;
-    const MuscleMethod method = rung_method(finest[i], true);
+    const MuscleMethod method = rung_method(r, true);
     choice.muscles = scene_.muscles;
     choice.method = method.method;
     choice.reduced = method.reduced;
@@ -164,7 +159,7 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     row.own |= own_look;
     row.looked_at = *needs.looked_at ? 1 : 0;
   }
-  World& world = simulation_.world();
+  World& world = world_of(simulation_);
   auto tiers = world.get<Tiers>(entity).value_or(Tiers<float>{});
   const bool anew = tiers.relative_size == 0;
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
@@ -189,7 +184,7 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
 }
 
 Status Relevance::release(Entity human) {
-  World& world = simulation_.world();
+  World& world = world_of(simulation_);
   if (const Status status = world.remove<Needs>(human); status != Status::ok) return status;
   return world.remove<Tiers>(human);
 }
@@ -201,7 +196,7 @@ Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& m
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first");
   if (auto done = simulation_.set_method(human, muscle, method); !done) return done;
   set_rung(tiers->rung, m, forced_rung);
-  simulation_.world().set(human, *tiers);
+  world_of(simulation_).set(human, *tiers);
   return {};
 }
 
@@ -213,7 +208,7 @@ Status Relevance::unforce(Entity human, Muscle muscle) {
   const MuscleMethod method = simulation_.method(human, muscle);
   set_rung(tiers->rung, m, rung_of(method));
   set_bit(tiers->points, m, method.method != Method::none && method.reduced.control_points);
-  return simulation_.world().set(human, *tiers);
+  return world_of(simulation_).set(human, *tiers);
 }
 
 tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
@@ -257,7 +252,7 @@ tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
 
 std::array<std::size_t, rung_count + 1> Relevance::muscles_by_rung() const {
   std::array<std::size_t, rung_count + 1> count{};
-  each_block<Tiers>(simulation_.world(), [&](const Rows& rows, const Tiers<Lanes<float>>& block) {
+  each(simulation_.world(), [&](const Rows& rows, const Tiers<Lanes<float>>& block) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
       const Tiers<float> tiers = row_of(block, lane);
       for (std::uint32_t m = 0; m < most_muscles; ++m) {

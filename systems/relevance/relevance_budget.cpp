@@ -4,6 +4,7 @@
 #include "systems/muscles/muscle_parts.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
+#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -51,7 +52,19 @@ void Relevance::plan_budget() {
   factor_ = afforded > factor_ ? afforded : std::max(afforded, easing * factor_);
 }
 
-/// Cheaper ones get half of the turns, or what dearer ones leave, or under too high a cost all.
+/// In their order, until the update has spent `most_ps` on changes.
+void Relevance::change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget,
+                             RelevanceReport& report) {
+  for (const Switch& one : all) {
+    const auto cost_ps = static_cast<std::int64_t>(1e6 * static_cast<double>(switch_us[one.rung]) * machine_.mean());
+    if (switching_ps_ > 0 && switching_ps_ + cost_ps > most_ps) return;
+    if (within_budget && cost_ps_ + one.cost_ps > budget_ps_) continue;
+    switching_ps_ += cost_ps;
+    change(one, report);
+  }
+}
+
+/// Cheaper ones get half of the turns and of the time, or what dearer ones leave, or under too high a cost all.
 void Relevance::carry_out(RelevanceReport& report) {
   const auto first = [](const Switch& a, const Switch& b, bool most) {
     if (a.excess != b.excess) return most ? a.excess > b.excess : a.excess < b.excess;
@@ -71,11 +84,10 @@ void Relevance::carry_out(RelevanceReport& report) {
   const std::size_t up = std::min(dearer_.size(), turns - down);
   arrange(cheaper_, down, false);
   arrange(dearer_, up, true);
-  for (std::size_t i = 0; i < down; ++i) change(cheaper_[i], report);
-  for (std::size_t i = 0; i < up; ++i) {
-    if (scene_.budget_s && cost_ps_ + dearer_[i].cost_ps > budget_ps_) continue;
-    change(dearer_[i], report);
-  }
+  const auto most_ps = static_cast<std::int64_t>(std::min(1e12 * options_.switching_s, 9e18));
+  switching_ps_ = 0;
+  change_first(std::span(cheaper_).first(down), over || up == 0 ? most_ps : most_ps / 2, false, report);
+  change_first(std::span(dearer_).first(up), most_ps, scene_.budget_s.has_value(), report);
   report.waiting = cheaper_.size() + dearer_.size() - report.switched - report.refused;
 }
 
@@ -94,7 +106,7 @@ void Relevance::change(const Switch& one, RelevanceReport& report) {
     ++report.refused;
     report.refusal = done.error().message;
   }
-  simulation_.world().set(one.human, tiers);
+  world_of(simulation_).set(one.human, tiers);
 }
 
 }  // namespace mobil

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <new>
+#include <string_view>
 #include <utility>
 
 #include "systems/snapshot/snapshot_check.h"
@@ -17,6 +19,7 @@ struct SavedFront {
   FrontHeader header{};
   Records<SavedModule> modules;
   Records<SavedResource> resources;
+  Records<SavedPartName> parts;
 };
 
 bool has_rows(const Module& module, const World& world) {
@@ -36,8 +39,31 @@ SavedModule pack(const Module& module) {
   return saved;
 }
 
+/// Looks at tables that came since.
+void learn_unnamed(const SnapshotScene& scene, SnapshotWork& work) {
+  const auto& tables = scene.world.tables();
+  for (; work.tables_seen < tables.size(); ++work.tables_seen) {
+    for (const KeyPart& part : tables[work.tables_seen].key()) {
+      if (module_of(scene.modules, part.id) != nullptr) continue;
+      auto at = std::ranges::find(work.unnamed, part.id, [](const UnnamedPart& one) { return one.part.id; });
+      if (at == work.unnamed.end()) at = work.unnamed.insert(at, {part, {}});
+      at->tables.push_back(work.tables_seen);
+    }
+  }
+}
+
+/// Calls f(part) with each part that rows have and no module names.
+template <class F>
+void each_unnamed(const SnapshotScene& scene, const SnapshotWork& work, F&& f) {
+  for (const UnnamedPart& one : work.unnamed) {
+    const auto has_rows = [&](std::size_t table) { return scene.world.tables()[table].row_count() > 0; };
+    if (std::ranges::any_of(one.tables, has_rows)) f(one.part);
+  }
+}
+
 /// How long the front's lists are. Marks resources that tables with rows have.
-FrontHeader count(const SnapshotScene& scene, std::vector<std::uint8_t>& used) {
+FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
+  std::vector<std::uint8_t>& used = work.used;
   FrontHeader header{};
   for (const Module& module : scene.modules) header.modules += has_rows(module, scene.world) ? 1 : 0;
   used.assign(scene.world.resource_count(), 0);
@@ -48,12 +74,15 @@ FrontHeader count(const SnapshotScene& scene, std::vector<std::uint8_t>& used) {
     }
   }
   header.resources = static_cast<std::uint32_t>(std::count(used.begin(), used.end(), 1));
+  learn_unnamed(scene, work);
+  each_unnamed(scene, work, [&](const KeyPart&) { ++header.parts; });
   return header;
 }
 
 SnapshotLayout layout_of(const World& world, const FrontHeader& header) {
   SnapshotLayout layout = WorldSnapshot::layout(world);
-  layout.front = sizeof(FrontHeader) + header.modules * sizeof(SavedModule) + header.resources * sizeof(SavedResource);
+  layout.front = sizeof(FrontHeader) + header.modules * sizeof(SavedModule) + header.resources * sizeof(SavedResource) +
+                 header.parts * sizeof(SavedPartName);
   return layout;
 }
 
@@ -63,10 +92,28 @@ Result<SavedFront> read_front(std::span<const std::byte> bytes) {
   if (reader.take(front.header)) {
     front.modules = reader.take_many<SavedModule>(front.header.modules);
     front.resources = reader.take_many<SavedResource>(front.header.resources);
+    front.parts = reader.take_many<SavedPartName>(front.header.parts);
   }
   if (!reader.whole())
     return fail("the snapshot does not agree with itself (the sizes of its lists); give one that `save` made");
   return front;
+}
+
+/// Every part is known here, by a module or by a row.
+Result<void> check_parts(const SavedFront& front, const SavedWorld& saved, const RestoreScene& scene) {
+  for (std::size_t i = 0; i < front.parts.size(); ++i) {
+    const SavedPartName part = front.parts[i];
+    const auto has = [&](const Table& table) { return find_part(table.key(), part.id) != nullptr; };
+    if (module_of(scene.modules, part.id) != nullptr || std::ranges::any_of(scene.world.tables(), has)) continue;
+    bool needed = false;
+    for (std::uint32_t t = 0; t < saved.tables.size(); ++t) needed = needed || saved.part(t, part.id).has_value();
+    if (!needed) continue;
+    return fail(
+        fmt::format("the snapshot's rows have '{}', which no module of this simulation names; list it in the"
+                    " parts of a module (SimulationOptions::modules)",
+                    std::string_view(part.name, strnlen(part.name, sizeof part.name))));
+  }
+  return {};
 }
 
 Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
@@ -85,6 +132,7 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
                             std::ldexp(static_cast<double>(present.tick_units), -50)));
   }
   if (auto ok = check_modules(front->modules, *world, scene.modules); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_parts(*front, *world, scene); !ok) return tl::unexpected(ok.error());
   work.parts.clear();
   for (const Module& module : scene.modules) {
     work.parts.insert(work.parts.end(), module.parts.begin(), module.parts.end());
@@ -107,13 +155,13 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
 }  // namespace
 
 std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work) {
-  return layout_of(scene.world, count(scene, work.used)).bytes();
+  return layout_of(scene.world, count(scene, work)).bytes();
 }
 
 Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime& time, SnapshotWork& work,
                                   std::span<std::byte> out) {
   work.resources.learn(scene.world, scene.library, scene.modules);
-  FrontHeader header = count(scene, work.used);
+  FrontHeader header = count(scene, work);
   header.tick_units = time.tick_units;
   header.remainder_units = time.remainder_units;
   header.tick = time.tick;
@@ -135,6 +183,11 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
           " off all that have it");
     writer.put(SavedResource{recipe, fingerprint, number, 0});
   }
+  each_unnamed(scene, work, [&](const KeyPart& part) {
+    SavedPartName saved{part.id, {}};
+    part.name.copy(saved.name, sizeof(saved.name));
+    writer.put(saved);
+  });
   WorldSnapshot::save(scene.world, layout, out.first(layout.bytes()), scene.jobs);
   return layout.bytes();
 }

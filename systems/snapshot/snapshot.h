@@ -35,6 +35,12 @@ struct SnapshotTime {
   std::uint32_t tick = 0;
 };
 
+/// A part that no module names, and the tables (their numbers) that have it.
+struct UnnamedPart {
+  KeyPart part;
+  std::vector<std::size_t> tables;
+};
+
 /// What saving and restoring keep from one time to the next.
 struct SnapshotWork {
   ResourceList resources;
@@ -42,6 +48,8 @@ struct SnapshotWork {
   std::vector<std::uint8_t> used;  // resources, by number
   std::vector<SharedNumber> shared;
   std::vector<KeyPart> parts;  // of all modules
+  std::vector<UnnamedPart> unnamed;
+  std::size_t tables_seen = 0;
 };
 
 std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work);

@@ -10,7 +10,13 @@ namespace mobil {
 
 struct FrontHeader {
   std::int64_t tick_units, remainder_units;
-  std::uint32_t tick, resources, modules, spare;
+  std::uint32_t tick, resources, modules, parts;
+};
+
+/// A part that rows have and no module names: for messages.
+struct SavedPartName {
+  std::uint64_t id;
+  char name[56];  // its beginning, zeros behind
 };
 
 /// A module that rows have parts of.

@@ -385,7 +385,15 @@ TEST(EngineWorld, TheSameResourceIsTheSameTable) {
 }
 
 TEST(EngineKey, TypesAreKnownByTheirNames) {
-  EXPECT_EQ(type_name<Vec3<float>>(), "mobil::Vec3<float>");
+  EXPECT_TRUE(type_name<Vec3<float>>().starts_with("mobil::"));
+  EXPECT_TRUE(type_name<Vec3<float>>().ends_with("Vec3<float>"));
+  // The version in our namespace's name is left out: snapshots and hashes are of every version.
+  static_assert(type_id<Vec3<float>>() == [] {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (const char c : std::string_view("mobil::Vec3<float>"))
+      hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    return hash;
+  }());
   static_assert(type_id<Size<float>>() != type_id<Arms<float>>());
   static_assert(!distinct({1, 2, 1}) && distinct({1, 2, 3}));
 }

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "systems/simulation_world.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
@@ -62,7 +63,7 @@ struct Scene {
     auto state = *simulation.get<GaitState>(human);
     state.line_x_m = 3.0F * static_cast<float>(i % 8);
     state.line_z_m = 3.0F * static_cast<float>(i / 8);
-    simulation.world().set(human, state);
+    world_of(simulation).set(human, state);
     people.push_back(human);
   }
   Result<void> ask(SceneNeeds needs) {
@@ -105,7 +106,7 @@ std::uint64_t deformed(const Simulation& simulation) {
 
 TEST(Relevance, EveryMuscleKeepsToItsToleranceAndNoCheaperMethodWould) {
   constexpr std::array tolerances_m = {0.001F, 0.002F, 0.005F, 0.02F};  // the first the scene's, the others their own
-  Scene scene(6 * static_cast<int>(tolerances_m.size()));
+  Scene scene(6 * static_cast<int>(tolerances_m.size()), {.switching_s = 1, .stagger = 1, .machine_factor = 1});
   scene.muscle_count = muscle_group_count;
   ASSERT_TRUE(scene.ask({.tolerance_m = tolerances_m[0]}));
   scene.manage_all();
@@ -150,7 +151,7 @@ TEST(Relevance, PreparedNoUpdateMakesWhatMethodsShare) {
     if (prepared) {
       ASSERT_TRUE(scene.relevance.prepare({}, count));
     }
-    EXPECT_EQ(meshes, prepared ? 3U : 0U);
+    EXPECT_EQ(meshes, prepared ? rung_count - 1 : 0U);
     scene.manage_all();
     for (int t = 0; t < 40; ++t) {
       camera.position_m.z = -400 + 10.0F * static_cast<float>(t);  // out of reach, then among them

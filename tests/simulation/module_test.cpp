@@ -39,8 +39,8 @@ Module counting(std::uint32_t version = 1, std::shared_ptr<const Palette> palett
 }
 
 void mark(Simulation& simulation, Entity entity, std::uint32_t key) {
-  EXPECT_EQ(simulation.world().add(entity, Counter<float>{0, key}), Status::ok);
-  EXPECT_EQ(simulation.world().add(entity, FieldWidth<Trace>{1}), Status::ok);
+  EXPECT_EQ(simulation.add(entity, Counter<float>{0, key}), Status::ok);
+  EXPECT_EQ(simulation.add(entity, FieldWidth<Trace>{1}), Status::ok);
 }
 void expect_marked(const Simulation& simulation, Entity entity, std::uint32_t key, std::uint32_t ticks) {
   const auto counter = simulation.get<Counter>(entity);
@@ -109,7 +109,7 @@ TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
   const auto palette = std::make_shared<const Palette>(Palette{7});
   Simulation simulation({.modules = {counting(1, palette)}});
   const Marked marked = marked_walker(simulation);
-  simulation.world().add(marked.human, simulation.world().share(palette));
+  simulation.add(marked.human, simulation.share(palette));
   simulation.tick();
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
@@ -155,11 +155,11 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
   // A resource that no module names cannot be saved; one that is named cannot be restored without its module.
   const auto palette = std::make_shared<const Palette>(Palette{7});
   const Entity human = *simulation.spawn({});
-  simulation.world().add(human, simulation.world().share(palette));
+  simulation.add(human, simulation.share(palette));
   const auto unnamed = simulation.save(bytes);
   EXPECT_FALSE(unnamed);
   Simulation named({.modules = {counting(1, palette)}});
-  named.world().add(*named.spawn({}), named.world().share(palette));
+  named.add(*named.spawn({}), named.share(palette));
   bytes.resize(named.snapshot_bytes());
   ASSERT_TRUE(named.save(bytes));
   EXPECT_NE(refusal({.modules = {counting()}}).find("named resource"), std::string::npos);

@@ -10,6 +10,7 @@
 
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
+#include "systems/simulation_world.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 
@@ -64,7 +65,7 @@ TEST(StateHash, SaysWhenTimePassesAndWhenAnyoneDiffers) {
   EXPECT_TRUE(is_new());
   ASSERT_EQ(simulation.despawn(sixth), Status::ok);
   EXPECT_TRUE(is_new());
-  simulation.world().create(BodySize<float>{1, 2, 0});  // nobody's
+  world_of(simulation).create(BodySize<float>{1, 2, 0});  // nobody's
   EXPECT_TRUE(is_new());
 }
 
@@ -80,7 +81,7 @@ TEST(StateHash, EveryBitOfEveryWordOfStateCounts) {
   simulation.tick();
   const std::uint64_t before = simulation.state_hash();
   rc::check([&] {
-    auto& tables = simulation.world().tables();
+    auto& tables = world_of(simulation).tables();
     Table& table = tables[*rc::gen::inRange<std::size_t>(0, tables.size())];
     RC_PRE(table.row_count() > 0);
     const auto row = *rc::gen::inRange<std::uint32_t>(0, table.row_count());
@@ -100,7 +101,7 @@ TEST(StateHash, LanesWithoutARowDoNotCount) {
   Simulation simulation;
   come(simulation, {0, 1, 2});
   const std::uint64_t before = simulation.state_hash();
-  for (Table& table : simulation.world().tables()) {
+  for (Table& table : world_of(simulation).tables()) {
     if (table.row_count() % lane_count == 0) continue;
     float* block = table.block(table.row_count() / lane_count);
     for (std::uint32_t w = 0; w < table.words(); ++w) block[w * lane_count + table.row_count() % lane_count] += 1;

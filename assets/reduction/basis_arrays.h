@@ -1,0 +1,44 @@
+#pragma once
+// The arrays of a reduced basis, one after the other: what its fingerprint is of, and what a file keeps of it.
+
+#include <cstddef>
+#include <utility>
+
+#include "assets/reduction/reduced_basis.h"
+
+namespace mobil {
+
+/// Calls f(array, length) with each array of a basis (const or not) and the length that its options say, in a fixed
+/// order. The motions of its middle body (`turned`) may lack: their lengths are then 0.
+template <class Basis, class F>
+void each_array(Basis& basis, bool has_turned, F&& f) {
+  const ReducedOptions& o = basis.options;
+  const std::size_t n = basis.vectors, nodes = node_count(o.control_cells);
+  const bool braced = o.foundation_hz > 0;
+  const std::size_t held = o.far_end == FarEnd::held ? 1 : 0, framed = o.frame_loads ? frame_inputs : 0;
+  const std::size_t ends = o.far_end == FarEnd::free ? 3 : 1;
+  for (auto* const square : {&basis.a, &basis.b, &basis.c}) f(*square, n * n);
+  f(basis.foundation, braced ? n * n : 0);
+  for (auto* const lift : {&basis.lift_a, &basis.lift_b, &basis.lift_c, &basis.lift_mass}) f(*lift, held * n);
+  f(basis.lift_foundation, braced ? held * n : 0);
+  f(basis.traction, (1 - held) * ends * n);
+  f(basis.frame, framed * n);
+  f(basis.lift_frame, held * framed);
+  f(basis.shape, 3 * nodes * (n + 1));
+  f(basis.control_weight, nodes);
+  f(basis.fit, n * 3 * nodes);
+  auto& turned = basis.turned;
+  for (auto* const square : {&turned.vector, &turned.a, &turned.b, &turned.c}) f(*square, has_turned ? n * n : 0);
+  f(turned.foundation, has_turned && braced ? n * n : 0);
+}
+
+/// The same of its single numbers: f(number).
+template <class Basis, class F>
+void each_number(Basis& basis, F&& f) {
+  for (auto* const number : {&basis.lift_energy_a, &basis.lift_energy_b, &basis.lift_energy_c,
+                             &basis.lift_energy_foundation, &basis.lift_kinetic}) {
+    f(*number);
+  }
+}
+
+}  // namespace mobil

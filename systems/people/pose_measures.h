@@ -1,0 +1,18 @@
+#pragma once
+// What can be told of a pose alone: joint angles and points of the soles, of people whose host animates them.
+
+#include "components/body.h"
+#include "components/lanes.h"
+#include "components/pose.h"
+
+namespace mobil {
+
+/// The angle of a rotation's part about the x axis, −π to π.
+double twist_about_x(const Quat<double>& rotation);
+
+/// By the conventions of JointAngles. A pose has no direction of walking: the pelvis' rotation is against the chest.
+JointAngles<float> joint_angles(const Pose<float>& pose);
+/// Of a body of that height. `phase` is 0: a pose has none.
+Feet<float> sole_points(float height_m, const Pose<float>& pose);
+
+}  // namespace mobil

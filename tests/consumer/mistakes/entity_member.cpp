@@ -1,0 +1,13 @@
+// SAYS: an Entity is two Whole<F>, index and generation
+#include <mobil/simulation.h>
+
+template <class F>
+struct Target {
+  mobil::Entity who;
+  F weight;
+};
+
+int main() {
+  mobil::Simulation simulation;
+  simulation.add(*simulation.spawn({}), Target<float>{});
+}

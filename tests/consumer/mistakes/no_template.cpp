@@ -1,0 +1,11 @@
+// SAYS: a component is a template over its number type
+#include <mobil/simulation.h>
+
+struct Fatigue {
+  float level;
+};
+
+int main() {
+  mobil::Simulation simulation;
+  simulation.add(*simulation.spawn({}), Fatigue{1});
+}

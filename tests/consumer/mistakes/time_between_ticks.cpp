@@ -1,0 +1,7 @@
+// SAYS: between ticks there is neither a tick nor scratch memory
+#include <mobil/simulation.h>
+
+int main() {
+  const mobil::Simulation simulation;
+  simulation.each([](const mobil::Pose<mobil::Lanes<float>>&, float) {});
+}

@@ -1,0 +1,7 @@
+// SAYS: this world is only read
+#include <mobil/simulation.h>
+
+int main() {
+  const mobil::Simulation simulation;
+  simulation.each([](const mobil::Rows&, mobil::Pose<mobil::Lanes<float>>& pose) { pose.position_m[0].x[0] = 0; });
+}

@@ -1,0 +1,19 @@
+#!/usr/bin/env bash
+# What hosts write wrongly at first is refused by the compiler in few lines, one of which says how to mend it.
+# Usage: mistakes_test.sh BUILD_FOLDER SOURCE_FOLDER
+set -euo pipefail
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+for mistake in "$2"/tests/consumer/mistakes/*.cpp; do
+  says=$(sed -n '1s,^// SAYS: ,,p' "$mistake")
+  [ -n "$says" ] || { echo "$mistake does not begin with // SAYS:" >&2; exit 1; }
+  if "${CXX:-c++}" -std=c++20 -fsyntax-only -I"$1/include" "$mistake" >"$log" 2>&1; then
+    echo "$mistake compiles" >&2
+    exit 1
+  fi
+  if ! grep -qF "$says" "$log" || [ "$(wc -l <"$log")" -gt 40 ]; then
+    cat "$log" >&2
+    echo "$mistake: no line says '$says', or there are more than 40" >&2
+    exit 1
+  fi
+done

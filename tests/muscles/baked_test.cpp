@@ -1,0 +1,156 @@
+// What muscles share, baked into bytes and loaded again.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/row_hash.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+namespace {
+
+/// One of each method, small meshes: bytes that are quickly made and read.
+std::vector<LegMuscles> choices() {
+  LegMuscles one;
+  one.muscles = MuscleSet(1);
+  one.cells = {1, 1, 2};
+  one.reduced.cells = {2, 2, 4};
+  one.reduced.vectors = 4;
+  std::vector<LegMuscles> all;
+  for (const Method method : {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced}) {
+    for (const bool inertia : {false, true}) {
+      LegMuscles next = one;
+      next.method = method;
+      next.inertia = inertia;
+      all.push_back(next);
+    }
+  }
+  return all;
+}
+
+/// Somebody with that choice; every one is of another build.
+void spawn(Simulation& simulation, std::size_t choice) {
+  const auto person = simulation.spawn({.height_m = 1.65F + 0.03F * static_cast<float>(choice), .mass_kg = 72});
+  ASSERT_TRUE(person);
+  const auto done = simulation.add_leg_muscles(*person, choices()[choice]);
+  ASSERT_TRUE(done) << done.error().message;
+}
+
+/// Half a second of one of each.
+std::uint64_t walked(Simulation& simulation) {
+  for (std::size_t choice = 0; choice < choices().size(); ++choice) spawn(simulation, choice);
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  return simulation.state_hash();
+}
+
+std::vector<std::byte> baked_bytes() {
+  Simulation simulation;
+  walked(simulation);
+  return simulation.bake();
+}
+
+/// Sealed anew, so that what is inside must be looked at.
+void seal(std::vector<std::byte>& bytes) {
+  constexpr std::size_t header = 32;
+  const std::uint64_t seal = hash_bytes(bytes.data() + header, bytes.size() - header);
+  std::memcpy(bytes.data() + 24, &seal, sizeof seal);
+}
+
+TEST(Baked, WhatIsLoadedIsWhatWouldBeMade) {
+  Simulation made, loaded;
+  const std::uint64_t hash = walked(made);
+  const std::vector<std::byte> bytes = made.bake();
+  ASSERT_TRUE(loaded.load_baked(bytes));
+  EXPECT_EQ(loaded.bake(), bytes);
+  EXPECT_EQ(walked(loaded), hash);
+  EXPECT_EQ(loaded.bake(), bytes) << "something was made again, or something that was not there before";
+}
+
+TEST(Baked, LoadedOnTopOfWhatIsThereAddsWhatLacks) {
+  const std::vector<std::byte> bytes = baked_bytes();
+  Simulation simulation;
+  for (const std::size_t choice : {std::size_t{9}, std::size_t{5}}) spawn(simulation, choice);
+  ASSERT_TRUE(simulation.load_baked(bytes));
+  const std::vector<std::byte> both = simulation.bake();
+  ASSERT_TRUE(simulation.load_baked(bytes));
+  EXPECT_EQ(simulation.bake(), both);
+  EXPECT_EQ(both.size(), bytes.size()) << "of what both have there is one";
+}
+
+TEST(Baked, ASnapshotFindsWhatWasLoaded) {
+  Simulation made, loaded;
+  walked(made);
+  ASSERT_TRUE(loaded.load_baked(made.bake()));
+  std::vector<std::byte> snapshot(made.snapshot_bytes());
+  ASSERT_TRUE(made.save(snapshot));
+  const auto done = loaded.restore(snapshot);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(loaded.state_hash(), made.state_hash());
+}
+
+void expect_refused(const std::vector<std::byte>& bytes, const char* what, const std::string& says) {
+  Simulation simulation;
+  const std::vector<std::byte> before = simulation.bake();
+  const auto done = simulation.load_baked(bytes);
+  ASSERT_FALSE(done) << what;
+  EXPECT_NE(done.error().message.find(says), std::string::npos) << what << ": " << done.error().message;
+  EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+  EXPECT_EQ(simulation.bake(), before) << what;
+}
+
+TEST(Baked, DamagedBytesAreRefused) {
+  const std::vector<std::byte> bytes = baked_bytes();
+  expect_refused({}, "nothing", "no baked bellies");
+  expect_refused(std::vector<std::byte>(1000, std::byte{7}), "something else", "no baked bellies");
+  std::vector<std::byte> other = bytes;
+  other[9] ^= std::byte{1};
+  expect_refused(other, "another maker", "another version");
+  for (const std::size_t kept : {std::size_t{31}, std::size_t{32}, bytes.size() / 2, bytes.size() - 1}) {
+    expect_refused({bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(kept)}, "cut", "bake");
+  }
+  std::vector<std::byte> longer = bytes;
+  longer.push_back(std::byte{0});
+  expect_refused(longer, "longer", "altered");
+  std::mt19937 random(11);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<std::byte> altered = bytes;
+    altered[16 + random() % (bytes.size() - 16)] ^= std::byte{static_cast<unsigned char>(1U << random() % 8)};
+    expect_refused(altered, "altered", "altered");
+  }
+}
+
+/// With a right seal the content may still be nonsense: it is refused, or at least leads nobody astray.
+TEST(Baked, NonsenseUnderARightSealHarmsNobody) {
+  const std::vector<std::byte> bytes = baked_bytes();
+  std::mt19937 random(5);
+  int taken = 0;
+  for (int i = 0; i < 200; ++i) {
+    std::vector<std::byte> altered = bytes;
+    for (int word = 0; word < 3; ++word) {
+      const std::size_t at = 32 + random() % (bytes.size() - 40);
+      const std::uint32_t value = word == 0 ? 0xFFFFFFFFU : static_cast<std::uint32_t>(random());
+      std::memcpy(altered.data() + (i % 2 == 0 ? 32 + at % 400 : at), &value, sizeof value);
+    }
+    seal(altered);
+    Simulation simulation;
+    if (!simulation.load_baked(altered)) continue;
+    ++taken;
+    for (const LegMuscles& choice : choices()) {
+      const auto person = simulation.spawn({});
+      (void)simulation.add_leg_muscles(*person, choice);
+    }
+    simulation.tick();
+  }
+  EXPECT_GT(taken, 0) << "nothing was tried";
+  EXPECT_LT(taken, 200);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -1,0 +1,131 @@
+// The one door to what rows are made of: a host's parts pass, the library's do not.
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "systems/relevance/relevance.h"
+#include "tests/simulation/leg_muscles.h"
+
+namespace mobil::door_test {
+
+template <class F>
+struct Score {
+  Whole<F> points;
+  F weight;
+};
+struct Trail {};
+struct Palette {
+  int colours = 3;
+};
+
+TEST(Door, AHostsPartsPass) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn(person(1).body);
+  ASSERT_TRUE(simulation.add_leg_muscles(human));
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, left);
+  for (const Entity entity : {human, muscle}) {
+    EXPECT_EQ(simulation.add(entity, Score<float>{3, 0.5F}), Status::ok);
+    EXPECT_EQ(simulation.add(entity, FieldWidth<Trail>{2}), Status::ok);
+    EXPECT_EQ(simulation.add(entity, simulation.share(std::make_shared<const Palette>())), Status::ok);
+    EXPECT_EQ(simulation.set(entity, Score<float>{4, 0.5F}), Status::ok);
+    EXPECT_EQ(simulation.set_field<Trail>(entity, std::array{1.0F, 2.0F}), Status::ok);
+    EXPECT_EQ(simulation.get<Score>(entity)->points, 4U);
+  }
+  const std::uint64_t before = simulation.state_hash();
+  EXPECT_EQ(simulation.each([](const Rows& rows, Score<Lanes<float>>& score) {
+    for (std::uint32_t lane = 0; lane < rows.live; ++lane) score.weight[lane] += 1;
+  }),
+            Status::ok);
+  EXPECT_NE(simulation.state_hash(), before);
+  float sum = 0;
+  std::as_const(simulation).each([&](const Rows& rows, const Score<Lanes<float>>& score, Field<const Trail> trail) {
+    for (std::uint32_t lane = 0; lane < rows.live; ++lane) sum += score.weight[lane] + trail.data[16 + lane];
+  });
+  EXPECT_EQ(sum, 2 * (1.5F + 2));
+  EXPECT_EQ(simulation.remove<Score>(muscle), Status::ok);
+  EXPECT_EQ(simulation.remove<Trail>(muscle), Status::ok);
+  EXPECT_EQ(simulation.get<Score>(muscle).error(), Status::missing);
+
+  const auto own = simulation.create(Score<float>{1, 2});
+  ASSERT_TRUE(own);
+  EXPECT_EQ(simulation.get<Score>(*own)->weight, 2);
+  EXPECT_EQ(simulation.destroy(*own), Status::ok);
+  EXPECT_EQ(simulation.destroy(*own), Status::stale_entity);
+}
+
+TEST(Door, WhatIsTheLibrarysDoesNot) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn(person(1).body);
+  ASSERT_TRUE(simulation.add_leg_muscles(human));
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, left);
+  const std::uint64_t before = simulation.state_hash();
+  EXPECT_EQ(simulation.destroy(human), Status::not_yours);
+  EXPECT_EQ(simulation.destroy(muscle), Status::not_yours);
+  EXPECT_EQ(simulation.remove<GaitState>(human), Status::not_yours);
+  EXPECT_EQ(simulation.remove<NodalDisplacement>(muscle), Status::not_yours);
+  EXPECT_EQ(simulation.set(human, *simulation.get<Pose>(human)), Status::not_yours);
+  EXPECT_EQ(simulation.add(human, BellyScale<float>{1, 1}), Status::not_yours);
+  EXPECT_EQ(simulation.set_field<NodalDisplacement>(muscle, std::vector<float>(243)), Status::not_yours);
+  EXPECT_EQ(simulation.create(BodySize<float>{}, Score<float>{}).error(), Status::not_yours);
+  bool called = false;
+  EXPECT_EQ(simulation.each([&](Pose<Lanes<float>>&) { called = true; }), Status::not_yours);
+  EXPECT_FALSE(called);
+  EXPECT_EQ(simulation.state_hash(), before);
+  EXPECT_EQ(simulation.people().size(), 1U);
+  EXPECT_FALSE(status_text(Status::not_yours).empty());
+}
+
+/// A snapshot with a part that no module names says which, where another program does not know it.
+TEST(Door, ASnapshotSaysWhichPartIsUnknown) {
+  Simulation simulation, other;
+  const Entity human = *simulation.spawn(person(1).body);
+  ASSERT_EQ(simulation.add(human, Score<float>{3, 0.5F}), Status::ok);
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  const auto refused = other.restore(bytes);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("Score<float>"), std::string::npos) << refused.error().message;
+  Simulation knows({.modules = {{.name = "game", .parts = {component_part<Score>()}}}});
+  const auto done = knows.restore(bytes);
+  ASSERT_TRUE(done) << done.error().message;
+  EXPECT_EQ(knows.get<Score>(human)->points, 3U);
+}
+
+TEST(Made, ErrorsAreValues) {
+  const auto late = Simulation::make({.tick_s = 0});
+  ASSERT_FALSE(late);
+  EXPECT_FALSE(late.error().message.empty());
+  EXPECT_FALSE(Simulation::make({.modules = {Module{}}}));
+  Simulation simulation;
+  EXPECT_FALSE(Relevance::make(simulation, {.slack = 2}));
+  EXPECT_FALSE(Relevance::make(simulation, {.switching_s = 0}));
+  EXPECT_TRUE(Relevance::make(simulation));
+}
+
+TEST(Made, ASimulationMayMove) {
+  const auto fill = [](Simulation& simulation) {
+    const Entity human = *simulation.spawn(person(2).body);
+    EXPECT_TRUE(simulation.add_leg_muscles(human));
+    for (int i = 0; i < 20; ++i) simulation.tick();
+  };
+  Simulation stays;
+  fill(stays);
+  std::vector<Simulation> all;
+  for (int i = 0; i < 3; ++i) {
+    auto made = Simulation::make({.threads = 2});
+    ASSERT_TRUE(made);
+    fill(*made);
+    all.push_back(std::move(*made));
+  }
+  all.erase(all.begin());
+  for (int i = 0; i < 20; ++i) stays.tick();
+  for (Simulation& moved : all) {
+    for (int i = 0; i < 20; ++i) moved.tick();
+    EXPECT_EQ(moved.state_hash(), stays.state_hash());
+  }
+}
+
+}  // namespace mobil::door_test

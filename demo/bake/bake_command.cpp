@@ -43,7 +43,7 @@ Result<void> bake(const BakeText& text) {
   all.camera = Viewpoint{};  // who walks towards it needs every method
   if (auto done = relevance.set_scene(all); !done) return done;
   const auto progress = [](std::size_t done, std::size_t of) { show_progress("baking", done, of); };
-  const auto done = relevance.prepare({}, progress);
+  auto done = relevance.prepare({}, progress);
   show("");
   if (!done) return done;
   const std::vector<std::byte> bytes = simulation.bake();

@@ -40,8 +40,9 @@ int main(int count, char** arguments) {
 
   std::vector<mobil::SpawnRequest> asked(count > 1 ? 2000 : 200);
   for (std::size_t i = 0; i < asked.size(); ++i) {
+    const std::size_t row = i / 50;
     asked[i].x_m = 2 * static_cast<float>(i % 50) - 50;
-    asked[i].z_m = 2 * static_cast<float>(i / 50);
+    asked[i].z_m = 2 * static_cast<float>(row);
   }
   std::vector<mobil::Entity> people(asked.size());
   if (const auto done = simulation.spawn(asked, people); !done) return failed(done.error());

@@ -247,7 +247,8 @@ Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked
     if (in.sound()) loaded.solvers.emplace_back(of, read_solver(in, loaded.templates[of]->choice.cells));
   }
   for (std::uint32_t i = 0; i < bases && in.sound(); ++i) {
-    const auto [muscle, choice] = read_chosen(in);
+    const Chosen chosen = read_chosen(in);
+    const LegMuscles& choice = chosen.choice;
     BasisKey key{};
     key.ratio = in.take<double>();
     key.product = in.take<double>();
@@ -255,7 +256,7 @@ Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked
     const auto one = [&] {
       return std::make_shared<const ReducedBasis>(read_basis(in, choice.reduced.cells, basis_options(choice, key)));
     };
-    Basis basis{muscle, choice, key.ratio, key.product, one(), {}};
+    Basis basis{chosen.muscle, choice, key.ratio, key.product, one(), {}};
     const std::uint32_t cuts = in.take_up_to(most_vectors);
     for (std::uint32_t cut = 0; cut < cuts && in.sound(); ++cut) basis.cut.push_back(one());
     loaded.bases.push_back(std::move(basis));
@@ -276,7 +277,8 @@ Result<void> BellyLibrary::load(std::span<const std::byte> baked) {
     }
     here.push_back(known);
   }
-  for (auto& [of, solver] : loaded->solvers) {
+  for (auto& [of, new_solver] : loaded->solvers) {
+    BellySolver& solver = new_solver;
     const bool known = std::any_of(solvers_.begin(), solvers_.end(), [&, at = here[of]](const Solver& made) {
       const BellySolver &a = *made.solver, &b = solver;
       return made.shape == at && a.method == b.method && a.mass == b.mass && a.dt_s == b.dt_s && a.across == b.across &&

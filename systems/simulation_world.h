@@ -1,5 +1,5 @@
 #pragma once
-// A simulation's world with its structure open: for what is the library's own.
+// What a simulation keeps to itself, its world's structure and what muscles share: for what is the library's own.
 
 #include "systems/simulation.h"
 
@@ -7,6 +7,7 @@ namespace mobil {
 
 struct SimulationWorld {
   static World& of(Simulation& simulation) { return *simulation.world_; }
+  static BellyLibrary& library(Simulation& simulation) { return *simulation.library_; }
 };
 
 /// Whoever changes rows through it keeps people, their muscles and what choosing remembers in step.

@@ -1,5 +1,6 @@
-// People's surfaces in a host's own vertex buffer: two people of one body walk, and every frame writes their bones and
-// muscles, positions and normals side by side, as a mapped GPU buffer would take them.
+// People's surfaces in a host's own vertex buffer: two people of unlike bodies walk, who share what was bound once, and
+// every frame writes their bones and muscles, positions and normals side by side, as a mapped GPU buffer would take
+// them.
 
 #include <algorithm>
 #include <cstddef>
@@ -33,10 +34,12 @@ int main() {
   asked.muscles.emplace();
   std::vector<mobil::SpawnRequest> crowd(2, asked);
   crowd[1].x_m = 1;
+  crowd[1].body.height_m = 1.65F;
+  crowd[1].body.mass_kg = 60;
   std::vector<mobil::Entity> people(crowd.size());
   if (const auto done = simulation.spawn(crowd, people); !done) return failed(done.error());
 
-  // Once a body: triangles and how many vertices there are. Both people share it.
+  // Once: triangles and how many vertices there are. Both people share it, each with a fit of a few numbers.
   mobil::SurfaceChoice choice;
   choice.simulated = asked.muscles->muscles;
   choice.cells = asked.muscles->cells;
@@ -48,16 +51,19 @@ int main() {
   // Once a person: which muscles are theirs, and where their vertices go.
   std::vector<Vertex> buffer(people.size() * bound->vertices);
   std::vector<std::vector<mobil::SurfaceMuscle>> muscles(people.size());
+  std::vector<mobil::SurfaceFit> fits(people.size());
   std::vector<mobil::SurfaceRequest> requests;
   for (std::size_t i = 0; i < people.size(); ++i) {
     const mobil::Human human = *simulation.human(people[i]);
     for (const auto& own : human.muscles) muscles[i].push_back({own.plan.muscle, own.entity});
+    fits[i] = mobil::fit_surfaces(*bound, human.body);
     const auto bytes = std::as_writable_bytes(std::span(buffer).subspan(i * bound->vertices, bound->vertices));
     requests.push_back({.person = people[i],
                         .muscles = muscles[i],
                         .surfaces = &*bound,
                         .positions = {bytes, sizeof(Vertex)},
-                        .normals = {bytes.subspan(offsetof(Vertex, normal)), sizeof(Vertex)}});
+                        .normals = {bytes.subspan(offsetof(Vertex, normal)), sizeof(Vertex)},
+                        .fit = &fits[i]});
   }
 
   mobil::SurfaceWriter writer;

@@ -46,6 +46,7 @@ class BellyLibrary {
 
  private:
   friend class ResourceList;  // systems/snapshot/snapshot_resources.h
+  friend class BasisOrders;   // systems/relevance/basis_orders.h
 
   struct Solver {
     const BellyTemplate* shape;
@@ -62,6 +63,7 @@ class BellyLibrary {
     double middle_ratio, middle_product;
     std::shared_ptr<const ReducedBasis> whole;
     std::vector<std::shared_ptr<const ReducedBasis>> cut;
+    bool given = false;  // by `prepare` or `load`
   };
 
   /// What takes long to find of a template.

@@ -256,7 +256,7 @@ Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked
     const auto one = [&] {
       return std::make_shared<const ReducedBasis>(read_basis(in, choice.reduced.cells, basis_options(choice, key)));
     };
-    Basis basis{chosen.muscle, choice, key.ratio, key.product, one(), {}};
+    Basis basis{chosen.muscle, choice, key.ratio, key.product, one(), {}, true};
     const std::uint32_t cuts = in.take_up_to(most_vectors);
     for (std::uint32_t cut = 0; cut < cuts && in.sound(); ++cut) basis.cut.push_back(one());
     loaded.bases.push_back(std::move(basis));
@@ -294,6 +294,7 @@ Result<void> BellyLibrary::load(std::span<const std::byte> baked) {
       bases_.push_back(std::move(basis));
       continue;
     }
+    known->given = true;
     for (auto& cut : basis.cut) {
       const bool there = std::any_of(known->cut.begin(), known->cut.end(),
                                      [&](const auto& made) { return made->vectors == cut->vectors; });

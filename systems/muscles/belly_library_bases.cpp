@@ -93,7 +93,8 @@ Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMus
   auto whole = make(most_vectors);
   if (!whole) whole = make(choice.reduced.vectors);  // a small mesh may not have so many
   if (!whole) return tl::unexpected(whole.error());
-  Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ReducedBasis>(std::move(*whole)), {}};
+  Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ReducedBasis>(std::move(*whole)),
+             {},     false};
   cut(made, choice.reduced.vectors);
   return made;
 }

@@ -52,6 +52,7 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
     for (const BasisKey& key : usual_bases(choice)) {
       if (Basis* const found = find_basis(muscle, choice, key)) {
         cut(*found, choice.reduced.vectors);
+        found->given = true;
         continue;
       }
       bases.push_back({.muscle = muscle});
@@ -72,7 +73,10 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
   if (auto ok = all_made(shapes); !ok) return ok;
   if (auto ok = all_made(bases); !ok) return ok;
   for (auto& one : shapes) templates_.push_back(std::move(*one.made));
-  for (auto& one : bases) bases_.push_back(std::move(*one.made));
+  for (auto& one : bases) {
+    one.made->given = true;
+    bases_.push_back(std::move(*one.made));
+  }
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (choice.muscles[m]) prepare_solvers(static_cast<Muscle>(m), choice, tick_s);
   }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "engine/rows.h"
+#include "systems/relevance/basis_orders.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/simulation_world.h"
 
@@ -54,9 +55,13 @@ Relevance::Relevance(Simulation& simulation, const RelevanceOptions& options)
     : simulation_(simulation),
       options_(options),
       ladder_(options.table != nullptr ? *options.table : accuracy_table()),
-      machine_(options.machine_factor.value_or(1)) {
+      machine_(options.machine_factor.value_or(1)),
+      orders_(std::make_unique<BasisOrders>(options.background, options.making_ticks)) {
   if (auto ok = check(options); !ok) throw std::invalid_argument(ok.error().message);
 }
+
+Relevance::~Relevance() = default;
+Relevance::Relevance(Relevance&&) noexcept = default;
 
 Result<Relevance> Relevance::make(Simulation& simulation, const RelevanceOptions& options) {
   if (auto ok = check(options); !ok) return tl::unexpected(ok.error());
@@ -76,7 +81,8 @@ void Relevance::find_tables() {
 }
 
 RelevanceState Relevance::state() const {
-  return {crowd_, counting_, machine_, cost_ps_, counted_ps_, budget_ps_, factor_, turn_, last_tick_};
+  return {crowd_,     counting_, machine_, cost_ps_,   counted_ps_,
+          budget_ps_, factor_,   turn_,    last_tick_, orders_->ordered()};
 }
 
 void Relevance::set_state(const RelevanceState& state) {
@@ -89,6 +95,7 @@ void Relevance::set_state(const RelevanceState& state) {
   factor_ = state.factor;
   turn_ = state.turn % options_.stagger;
   last_tick_ = state.last_tick;
+  orders_->set_ordered(state.ordered);
 }
 
 RelevanceReport Relevance::update() {

@@ -31,6 +31,7 @@
 #include "engine/each.h"
 #include "engine/error.h"
 #include "systems/relevance/accuracy_table.h"
+#include "systems/relevance/background.h"
 #include "systems/relevance/ladder.h"
 #include "systems/relevance/relevance_module.h"
 #include "systems/simulation.h"
@@ -91,6 +92,12 @@ struct RelevanceOptions {
   std::function<double(const Simulation&)> measured_s{};
   /// Of people who get muscles by being managed: all but muscles and method, which are chosen.
   LegMuscles leg_muscles{};
+  /// Makes bases that methods lack while ticks go on; with none they are made in the update that takes them up. Until
+  /// `making_ticks` after it was first called for a method is not taken up, and the next coarser one serves: what was
+  /// chosen follows from ticks, as long as what was prepared or loaded before is the same. (What is not done by then is
+  /// waited for.)
+  Background background{};
+  std::uint32_t making_ticks = 120;
   /// Another table than the library's; must live as long as the Relevance.
   const AccuracyTable* table = nullptr;
 };
@@ -144,7 +151,10 @@ struct RelevanceState {
   std::int64_t cost_ps = 0, counted_ps = 0, budget_ps = 0;
   float factor = 1;
   std::uint32_t turn = 0, last_tick = 0;
+  OrderedBases ordered{};
 };
+
+class BasisOrders;  // systems/relevance/basis_orders.h
 
 class Relevance {
  public:
@@ -152,7 +162,8 @@ class Relevance {
   static Result<Relevance> make(Simulation& simulation, const RelevanceOptions& options = {});
   /// The same; throws std::invalid_argument with that line.
   explicit Relevance(Simulation& simulation, const RelevanceOptions& options = {});
-  Relevance(Relevance&&) noexcept = default;
+  ~Relevance();
+  Relevance(Relevance&&) noexcept;
   Relevance(const Relevance&) = delete;
   Relevance& operator=(const Relevance&) = delete;
 
@@ -220,6 +231,7 @@ class Relevance {
   void carry_out(RelevanceReport& report);
   void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
   void change(const Switch& one, RelevanceReport& report);
+  bool at_hand(const Switch& one, std::uint32_t rung, bool order);
   std::uint32_t wanted(const Needs<float>& needs) const;
 
   Simulation& simulation_;
@@ -231,6 +243,7 @@ class Relevance {
   std::int64_t cost_ps_ = 0, counted_ps_ = 0;  // of methods as they are; of those counted in this round
   std::int64_t budget_ps_ = 0;
   std::int64_t switching_ps_ = 0;  // spent in this update
+  std::unique_ptr<BasisOrders> orders_;
   float factor_ = 1;
   std::uint32_t turn_ = 0, last_tick_ = 0;
   std::size_t tables_seen_ = 0;

@@ -1,7 +1,11 @@
 // What is afforded, and whose method changes now.
 #include <algorithm>
 
+#include "assets/body/anthropometry.h"
+#include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/person.h"
+#include "systems/relevance/basis_orders.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation_world.h"
@@ -91,15 +95,43 @@ void Relevance::carry_out(RelevanceReport& report) {
   report.waiting = cheaper_.size() + dearer_.size() - report.switched - report.refused;
 }
 
+/// Whether what a rung shares is there, or time has come for it.
+bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
+  if (options_.background.run == nullptr || rungs[rung].method != Method::reduced) return true;
+  const World& world = world_of(simulation_);
+  const auto muscle = static_cast<Muscle>(one.muscle);
+  const Entity right_one = simulation_.muscle(one.human, muscle, right);
+  const Entity there = world.alive(right_one) ? right_one : simulation_.muscle(one.human, muscle, left);
+  if (!world.alive(there)) return true;  // set_method says so
+  LegMuscles choice = *world.shared<LegMuscles>(there);
+  const MuscleMethod method = rung_method(rung, one.points);
+  choice.method = method.method;
+  choice.reduced = method.reduced;
+  const auto plan = make_muscle_plan(*make_body(body_request(world, one.human)), muscle);
+  return orders_->ready(SimulationWorld::library(simulation_), muscle, choice, plan->scale, simulation_.ticks(), order);
+}
+
 void Relevance::change(const Switch& one, RelevanceReport& report) {
   auto tiers = *simulation_.world().get<Tiers>(one.human);
-  const auto done =
-      simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), rung_method(one.rung, one.points));
+  const std::uint32_t now = rung_at(tiers.rung, one.muscle);
+  const RungCase of = {one.muscle, tiers.speed_step, tiers.inertia != 0, one.points};
+  std::uint32_t rung = one.rung;
+  if (rung != now && !at_hand(one, rung, true)) {
+    const auto& order = ladder_.by_cost(of);
+    const auto* cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(rung));
+    while (cheaper != order.begin() && !at_hand(one, *cheaper, false)) --cheaper;
+    rung = *cheaper;
+    if (rung == now || ladder_.error_m(of, rung) >= ladder_.error_m(of, now)) return;  // it is as good as that
+  }
+  const auto done = simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), rung_method(rung, one.points));
   if (done) {
-    set_rung(tiers.rung, one.muscle, one.rung);
+    RungCase before = of;
+    before.points = bit_at(tiers.points, one.muscle);
+    const std::int64_t more_ps = ladder_.cost_ps(of, rung) - ladder_.cost_ps(before, now);
+    set_rung(tiers.rung, one.muscle, rung);
     set_bit(tiers.points, one.muscle, one.points);
-    cost_ps_ += one.cost_ps;
-    counted_ps_ += one.cost_ps;
+    cost_ps_ += more_ps;
+    counted_ps_ += more_ps;
     ++report.switched;
   } else {
     set_rung(tiers.rung, one.muscle, refused_rung);

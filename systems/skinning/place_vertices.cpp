@@ -28,9 +28,11 @@ HWY_INLINE EightVec displaced(const CageBlock& block, const std::array<std::uint
 }
 
 HWY_INLINE EightVec in_cage(const CageBlock& block, const std::array<std::uint16_t, 8>& at, const float* node,
-                            const AffineMap& frame) {
+                            const SkinMaps& maps) {
   const EightVec u = displaced(block, at, node), q = load(block.rest_in_cage);
-  return apply<true>(frame, {add(q.x, u.x), add(q.y, u.y), add(q.z, u.z)});
+  const WideEight across = all(maps.belly.across), along = all(maps.belly.along);
+  return apply<true>(maps.frame,
+                     {multiply_add(across, q.x, u.x), multiply_add(across, q.y, u.y), multiply_add(along, q.z, u.z)});
 }
 
 HWY_INLINE EightVec on_bones(const BoneBlock& block, const SkinMaps& maps) {
@@ -51,10 +53,10 @@ void place(const PackedSurface& surface, const SkinMaps& maps, const float* node
     places += 4 * block_vertices;
   };
   const std::size_t alone = surface.cage_only_blocks, both = surface.cage.size() - alone;
-  for (std::size_t i = 0; i < alone; ++i) put(in_cage(surface.cage[i], surface.node[i], node, maps.frame));
+  for (std::size_t i = 0; i < alone; ++i) put(in_cage(surface.cage[i], surface.node[i], node, maps));
   for (std::size_t i = 0; i < both; ++i) {
     const BoneBlock& block = surface.bone[i];
-    const EightVec p = in_cage(surface.cage[alone + i], surface.node[alone + i], node, maps.frame);
+    const EightVec p = in_cage(surface.cage[alone + i], surface.node[alone + i], node, maps);
     const EightVec b = on_bones(block, maps);
     const WideEight cage = load(block.cage);
     put({multiply_add(cage, p.x, b.x), multiply_add(cage, p.y, b.y), multiply_add(cage, p.z, b.z)});

@@ -56,14 +56,19 @@ SurfaceEnd surface_end(const Body& body, Segment right_bone, const Vec3<float>& 
   return end;
 }
 
-AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn) {
-  RigidPose rest{end.bone_m[side], {0, 0, 0, 1}};
+/// Of points of the body that the surface was bound to; `lengths`: of this one's over that one's.
+AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float lengths) {
+  RigidPose rest{lengths * end.bone_m[side], {0, 0, 0, 1}};
   if (end.turn != 0) {
-    const Vec3<float> at = side == left ? mirrored(end.attachment_m) : end.attachment_m;
+    const Vec3<float> at = lengths * (side == left ? mirrored(end.attachment_m) : end.attachment_m);
     now = {now.position_m + rotated(now.rotation, at - rest.position_m), between(now.rotation, muscle_turn, end.turn)};
     rest.position_m = at;
   }
-  return side == left ? motion(mirror_image(now), mirror_image(rest)) : motion(now, rest);
+  AffineMap map = side == left ? motion(mirror_image(now), mirror_image(rest)) : motion(now, rest);
+  for (int c = 0; c < 3; ++c) {
+    for (float& word : map.column[c]) word *= lengths;
+  }
+  return map;
 }
 
 }  // namespace
@@ -80,14 +85,14 @@ SurfaceRest surface_rest(const MuscleSurface& surface, const Body& body) {
 }
 
 SkinMaps skin_maps(const SurfaceRest& rest, Side side, RigidPose origin, RigidPose insertion,
-                   const LineOfAction<float>& line, const Vec3<float>& from_m) {
+                   const LineOfAction<float>& line, const Vec3<float>& from_m, const SurfaceScale& scale) {
   const Quat<float> in_image = product(line.rotation, conjugate(rest.rotation));
   const Quat<float> muscle_turn = side == left ? mirrored(in_image) : in_image;
   origin.position_m = origin.position_m - from_m;
   insertion.position_m = insertion.position_m - from_m;
   const RigidPose frame{line.start_m - (side == left ? mirrored(from_m) : from_m), line.rotation};
-  return {affine_map(frame), end_map(rest.origin, side, origin, muscle_turn),
-          end_map(rest.insertion, side, insertion, muscle_turn)};
+  return {affine_map(frame), end_map(rest.origin, side, origin, muscle_turn, scale.lengths),
+          end_map(rest.insertion, side, insertion, muscle_turn, scale.lengths), scale.belly};
 }
 
 }  // namespace mobil

@@ -36,14 +36,22 @@ struct SurfaceRest {
 };
 SurfaceRest surface_rest(const MuscleSurface& surface, const Body& body);
 
+/// How much larger a body is than the one that a surface was bound to: all its lengths, and its belly's mesh.
+struct SurfaceScale {
+  float lengths = 1;
+  BellyScale<float> belly{1, 1};
+};
+
 /// From the muscle's frame, and from the standing body by its bones of origin and insertion, to where they are now. Of
-/// a left muscle all in the mirror image, x = 0 being the mirror.
+/// a left muscle all in the mirror image, x = 0 being the mirror. `belly`: of places in the muscle's rest frame.
 struct SkinMaps {
   AffineMap frame, origin, insertion;
+  BellyScale<float> belly{1, 1};
 };
 
 /// Where the bones of one side are now (m, world) and the muscle's line; `from_m` is subtracted from all positions.
 SkinMaps skin_maps(const SurfaceRest& rest, Side side, RigidPose origin, RigidPose insertion,
-                   const LineOfAction<float>& line, const Vec3<float>& from_m = {0, 0, 0});
+                   const LineOfAction<float>& line, const Vec3<float>& from_m = {0, 0, 0},
+                   const SurfaceScale& scale = {});
 
 }  // namespace mobil

@@ -170,10 +170,14 @@ void write(const VertexRings& rings, const float* places, float sense, const Ver
   write_group(last, rings, more, places, sense, first, vertices - first, packed, out);
 }
 
-void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out) {
+void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale) {
   const bool packed = is_packed(out);
+  AffineMap scaled = map;
+  for (int c = 0; c < 3; ++c) {
+    for (float& word : scaled.column[c]) word *= scale;
+  }
   for (std::size_t b = 0; b < surface.block.size(); ++b) {
-    const EightVec p = apply<true>(map, load(surface.block[b].rest)),
+    const EightVec p = apply<true>(scaled, load(surface.block[b].rest)),
                    n = apply<false>(map, load(surface.block[b].normal));
     for (std::size_t i = 0; i < eight_parts; ++i) {
       const std::size_t first = block_vertices * b + group * i;
@@ -207,8 +211,8 @@ void write_vertices(const VertexRings& rings, const float* places, float sense, 
   HWY_DYNAMIC_DISPATCH(write)(rings, places, sense, out);
 }
 
-void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out) {
-  HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out);
+void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale) {
+  HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out, scale);
 }
 
 }  // namespace mobil

@@ -20,7 +20,7 @@ struct VertexTarget {
 /// triangle with area. The same bits on every instruction set.
 void write_vertices(const VertexRings& rings, const float* places, float sense, const VertexTarget& out);
 
-/// A rigid surface carried by `map`.
-void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out);
+/// A rigid surface, made `scale` times as large, carried by `map`.
+void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale = 1);
 
 }  // namespace mobil

@@ -46,7 +46,8 @@ Result<std::size_t> Binding::driver_of(Muscle muscle) {
   const auto rest = rest_mesh(body, muscle, choice.cells);
   if (!rest) return tl::unexpected(rest.error());
   const auto& node = rest->cage.node;
-  BodySurfaces::Driver driver{muscle, static_cast<std::uint32_t>(node.size()), {}};
+  BodySurfaces::Driver driver{
+      muscle, make_muscle_plan(body, muscle)->scale, static_cast<std::uint32_t>(node.size()), {}};
   for (const auto& n : node) driver.along.push_back(static_cast<float>(n.z / node.back().z));
   made.most_nodes = std::max(made.most_nodes, node.size());
   made.driver.push_back(std::move(driver));
@@ -121,6 +122,7 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
 
 Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice) {
   Binding binding{body, choice, {}};
+  binding.made.height_m = body.request.height_m;
   binding.made.sides = choice.sides;
   for (const BoneSurface& bone : drawn.bones) {
     if (auto done = binding.add(bone); !done) return tl::unexpected(done.error());
@@ -135,6 +137,15 @@ Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice
   const auto drawn = draw_surfaces(body, choice);
   if (!drawn) return tl::unexpected(drawn.error());
   return bind_surfaces(body, *drawn, choice);
+}
+
+SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
+  SurfaceFit fit{body.request.height_m / bound.height_m, {}};
+  for (const BodySurfaces::Driver& driver : bound.driver) {
+    const BellyScale<float> own = make_muscle_plan(body, driver.muscle)->scale;
+    fit.belly.push_back({own.across / driver.scale.across, own.along / driver.scale.along});
+  }
+  return fit;
 }
 
 }  // namespace mobil

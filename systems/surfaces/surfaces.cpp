@@ -60,6 +60,8 @@ Result<void> check_stream(const char* what, const VertexStream& stream, std::siz
 
 Result<void> check_buffers(const SurfaceRequest& request) {
   if (request.surfaces == nullptr) return fail("no surfaces; bind_surfaces makes them");
+  if (request.fit != nullptr && request.fit->belly.size() != request.surfaces->driver.size())
+    return fail("a fit of other surfaces; give what fit_surfaces made of these");
   if (auto done = check_stream("positions", request.positions, request.surfaces->vertices); !done) return done;
   if (request.normals.bytes.empty()) return {};
   if (auto done = check_stream("normals", request.normals, request.surfaces->vertices); !done) return done;
@@ -81,7 +83,8 @@ void write_bone(const SurfaceRequest& request, const float* pose, const RigidSur
   RigidPose now = segment_pose(pose, part.segment);
   const Vec3<float>& o = request.origin_m;
   now.position_m = {now.position_m.x - o.x, now.position_m.y - o.y, now.position_m.z - o.z};
-  write_rigid(surface, affine_map(now), target_of(request, part.first_vertex));
+  write_rigid(surface, affine_map(now), target_of(request, part.first_vertex),
+              request.fit == nullptr ? 1.0F : request.fit->lengths);
 }
 
 }  // namespace
@@ -107,8 +110,10 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
     for (std::size_t w = 0; w < 3 * std::size_t{packed.nodes}; ++w) node[w] = muscle.node[w * lane_count];
   }
   const SurfaceRest& rest = packed.rest;
+  SurfaceScale scale;
+  if (request.fit != nullptr) scale = {request.fit->lengths, request.fit->belly[piece.driver]};
   const SkinMaps maps = skin_maps(rest, side, segment_pose(person.pose, rest.origin.bone[side]),
-                                  segment_pose(person.pose, rest.insertion.bone[side]), line, request.origin_m);
+                                  segment_pose(person.pose, rest.insertion.bone[side]), line, request.origin_m, scale);
   place_vertices(packed, maps, node, side, places);
   const SurfacePart& part = request.surfaces->part[*piece.part[side]];
   write_vertices(packed.rings, places, side == left ? -1.0F : 1.0F, target_of(request, part.first_vertex));

@@ -1,9 +1,10 @@
 #pragma once
 // People's surfaces as vertices: positions and unit normals into the caller's buffers.
 //
-//   const auto bound = bind_surfaces(body);                     // once a body: part, index, vertices (body_surfaces.h)
+//   const auto bound = bind_surfaces(usual);                    // once: part, index, vertices (body_surfaces.h)
+//   const auto fit = fit_surfaces(*bound, body);                // each body
 //   SurfaceWriter writer;                                       // keeps what it works in
-//   SurfaceRequest one{person, muscles, &*bound, {buffer, 24}, {buffer.subspan(12), 24}};
+//   SurfaceRequest one{person, muscles, &*bound, {buffer, 24}, {buffer.subspan(12), 24}, {}, &fit};
 //   writer.write(simulation.world(), {&one, 1}, jobs);          // each frame
 //
 // Triangles never change. Normals are the means of the vertices' triangles' normals weighted by their areas, on the
@@ -44,6 +45,7 @@ struct SurfaceRequest {
   const BodySurfaces* surfaces = nullptr;
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
+  const SurfaceFit* fit = nullptr;  // of surfaces that were bound to another body; null: to one like theirs
 };
 
 class SurfaceWriter {

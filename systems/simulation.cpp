@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -153,6 +154,16 @@ Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading
   return mobil::place(*world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
     move_muscles(*world_, human, way);
   });
+}
+
+Result<void> Simulation::shift_origin(float x_m, float z_m) {
+  constexpr float farthest_m = 1e6F;
+  if (!(std::fabs(x_m) <= farthest_m && std::fabs(z_m) <= farthest_m))
+    return fail(fmt::format("shift_origin: ({}, {}) m is not within ±1000000 m", x_m, z_m));
+  shift_people(*world_, x_m, z_m);
+  shift_muscles(*world_, x_m, z_m);
+  work_->recent = {};
+  return {};
 }
 
 Status Simulation::add_forces(Entity human) {

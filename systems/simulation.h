@@ -156,6 +156,13 @@ class Simulation {
   /// stale handle, a posed person, a place not within 1000 km, a heading not within ±10000; nothing has changed then.
   Result<void> place(Entity human, float x_m, float z_m, float heading_rad);
 
+  /// The world's origin moves to (x, 0, z): every place becomes so much less, of people, of muscles and of what they
+  /// remember, and everybody goes on as they were; no inertia is felt. For worlds of many kilometres: floats are half a
+  /// millimetre apart at 8 km. Shifts of whole multiples of 64 m toward where people are lose no bit of their places.
+  /// Where the host asked things to go (headings, ways aside) is not touched. Ground reaction follows with the next
+  /// tick. Errors: not within 1000 km; nothing has changed then.
+  Result<void> shift_origin(float x_m, float z_m);
+
   /// The effect of ground reaction and joint moments (components/forces.h). Posed
   /// people have no gait that it could follow from: Status::missing.
   Status add_forces(Entity human);

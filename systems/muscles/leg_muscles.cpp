@@ -310,6 +310,21 @@ void move_muscles(World& world, Entity person, const Placing& way) {
   }
 }
 
+void shift_muscles(World& world, float x_m, float z_m) {
+  // A left muscle's world is the mirror image.
+  const auto shift = [&](const MuscleOwner<Lanes<float>>& owner, Vec3<Lanes<float>>& at) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      at.x[lane] -= owner.side[lane] == left ? -x_m : x_m;
+      at.z[lane] -= z_m;
+    }
+  };
+  each(world,
+       [&](const MuscleOwner<Lanes<float>>& owner, LineOfAction<Lanes<float>>& line) { shift(owner, line.start_m); });
+  each(world, [&](const MuscleOwner<Lanes<float>>& owner, FrameHistory<Lanes<float>>& history) {
+    shift(owner, history.start_m);
+  });
+}
+
 void forget_motion(World& world, Entity person) {
   for (const OwnMuscle& own : muscles_of(world, person)) {
     for (const Entity muscle : own.entity)

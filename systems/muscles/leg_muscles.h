@@ -52,6 +52,8 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
 /// no inertia is felt of a jump.
 void move_muscles(World& world, Entity person, const Placing& way);
 void forget_motion(World& world, Entity person);
+/// Places of all muscles, and what they remember of places, less (x, 0, z).
+void shift_muscles(World& world, float x_m, float z_m);
 
 /// Fades that are over leave their rows. After a tick.
 void end_fades(World& world, float tick_s, MuscleWork& work);

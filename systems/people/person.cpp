@@ -7,6 +7,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
+#include "engine/each.h"
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
@@ -123,6 +124,22 @@ Result<Placing> place(World& world, Entity person, float x_m, float z_m, float h
   world.set(person, first_lane(feet));
   world.set(person, first_lane(centre));
   return way;
+}
+
+void shift_people(World& world, float x_m, float z_m) {
+  const auto shift = [&](Vec3<Lanes<float>>& at) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) at.x[lane] -= x_m, at.z[lane] -= z_m;
+  };
+  each(world, [&](Pose<Lanes<float>>& pose) {
+    for (auto& at : pose.position_m) shift(at);
+  });
+  each(world, [&](Feet<Lanes<float>>& feet) {
+    for (auto* const points : {feet.heel_m, feet.toe_m, feet.tip_m}) shift(points[0]), shift(points[1]);
+  });
+  each(world, [&](CentreOfMass<Lanes<float>>& centre) { shift(centre.position_m); });
+  each(world, [&](GaitState<Lanes<float>>& state) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) state.line_x_m[lane] -= x_m, state.line_z_m[lane] -= z_m;
+  });
 }
 
 Status set_pose(World& world, Entity person, const Pose<float>& pose) {

@@ -39,6 +39,8 @@ struct Placing {
 /// there (rad, about +Y). What the walker is about to do goes on, turned likewise. Errors: a stale handle, a posed
 /// person, a place not within 1000 km or a heading not within ±10000; nothing has changed then.
 Result<Placing> place(World& world, Entity person, float x_m, float z_m, float heading_rad);
+/// Everybody's places, less (x, 0, z); muscles' are their own (systems/muscles/leg_muscles.h).
+void shift_people(World& world, float x_m, float z_m);
 /// Where a posed person's skeleton is at the end of the next tick; joint angles and points of the soles follow at once,
 /// the centre of mass with the tick. Stale handles answer Status::stale_entity, walkers
 /// Status::missing; Status::not_valid where a place is not within 1000 km or a quaternion's length is not 1 within 1 %:

@@ -121,4 +121,70 @@ TEST(Place, WhatIsNoPlaceIsRefused) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
+/// The world's origin moves: nobody notices.
+TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
+  Simulation here, there;
+  std::vector<Entity> walkers;
+  for (int i = 0; i < 3; ++i) {
+    const Person person = mobil::person(i);
+    walkers.push_back(join_with(here, person, with_inertia(i == 0 ? Method::ecd : Method::reduced)));
+    join_with(there, person, with_inertia(i == 0 ? Method::ecd : Method::reduced));
+  }
+  const Entity posed = *here.spawn_posed(person(4).body);
+  ASSERT_EQ(posed, *there.spawn_posed(person(4).body));
+  Vec3<float> off{0, 0, 0};
+  for (int t = 0; t < 150; ++t) {
+    if (t % 40 == 20) {
+      const Vec3<float> by{static_cast<float>(64 * (t % 3) - 64), 0, static_cast<float>(128 - t)};
+      ASSERT_TRUE(there.shift_origin(by.x, by.z));
+      off = off + by;
+      const auto a = *here.get<Pose>(posed), b = *there.get<Pose>(posed);
+      EXPECT_LT(geometry::length(a.position_m[3] - off - b.position_m[3]), 1e-4);
+    }
+    for (const Entity walker : walkers) {
+      const auto a = *here.get<Pose>(walker), b = *there.get<Pose>(walker);
+      for (std::size_t s = 0; s < segment_count; ++s)
+        EXPECT_LT(geometry::length(a.position_m[s] - off - b.position_m[s]), 2e-4) << segment_name[s] << " at " << t;
+      const auto c = here.get<CentreOfMass>(walker)->position_m, d = there.get<CentreOfMass>(walker)->position_m;
+      EXPECT_LT(geometry::length(c - off - d), 2e-4);
+      const auto foot = here.get<Feet>(walker)->heel_m[right], other = there.get<Feet>(walker)->heel_m[right];
+      EXPECT_LT(geometry::length(foot - off - other), 2e-4);
+    }
+    here.tick();
+    there.tick();
+  }
+  for (const Entity walker : walkers) {
+    Difference difference;
+    compare(here, walker, there, walker, difference);
+    EXPECT_GT(difference.most, 1e-3);
+    EXPECT_LT(difference.apart, 0.05 * difference.most);
+  }
+  const std::uint64_t before = there.state_hash();
+  EXPECT_FALSE(there.shift_origin(std::numeric_limits<float>::quiet_NaN(), 0));
+  EXPECT_FALSE(there.shift_origin(0, 2e6F));
+  EXPECT_EQ(there.state_hash(), before);
+}
+
+/// Ten kilometres out bones are as long as floats allow; with the origin near them as long as they are.
+TEST(ShiftOrigin, BringsBackTheDigits) {
+  Simulation simulation;
+  const Entity walker = join(simulation, person(1), false);
+  ASSERT_TRUE(simulation.place(walker, 10240 + 1, 20480 + 2, 0.3F));
+  const float thigh_m = simulation.human(walker)->body.thigh_length_m;
+  const auto worst_m = [&] {
+    double worst = 0;
+    for (int t = 0; t < 60; ++t) {
+      simulation.tick();
+      const auto pose = *simulation.get<Pose>(walker);
+      const Vec3<float> thigh =
+          pose.position_m[index(Segment::shank_right)] - pose.position_m[index(Segment::thigh_right)];
+      worst = std::max(worst, std::abs(static_cast<double>(geometry::length(thigh) - thigh_m)));
+    }
+    return worst;
+  };
+  EXPECT_GT(worst_m(), 3e-4);
+  ASSERT_TRUE(simulation.shift_origin(10240, 20480));
+  EXPECT_LT(worst_m(), 3e-6);
+}
+
 }  // namespace mobil::place_test

@@ -17,6 +17,13 @@ struct GaitRequest {
   GaitStyle style{};
 };
 
+/// What is to become otherwise of a walk: what is left out stays. Of speed, step length and step frequency those that
+/// are given count alone, completed as in a GaitRequest.
+struct GaitChange {
+  std::optional<float> speed_m_s{}, step_length_m{}, step_frequency_hz{};
+  std::optional<GaitStyle> style{};
+};
+
 /// A walk that was found consistent and within range, by `resolve_gait` (systems/gait/gait.h): what a walker is to do.
 /// All zero but the style: to stand.
 template <class F>

@@ -138,8 +138,16 @@ Result<void> Simulation::load_baked(std::span<const std::byte> baked) {
   return named("load_baked", library_->load(baked));
 }
 
-Result<void> Simulation::change_gait(Entity human, const GaitRequest& gait) {
-  return mobil::change_gait(*world_, human, gait);
+Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
+  return mobil::change_gait(*world_, human, change);
+}
+
+Result<void> Simulation::set_gait(Entity human, const GaitRequest& gait) {
+  return mobil::set_gait(*world_, human, gait);
+}
+
+std::optional<GaitRequest> Simulation::gait_request(Entity human) const {
+  return mobil::gait_request(*world_, human);
 }
 
 Result<void> Simulation::turn_to(Entity human, float heading_rad) {

@@ -137,9 +137,13 @@ class Simulation {
   Result<void> load_baked(std::span<const std::byte> baked);
 
   /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
-  /// steps. A speed of 0 stops, a positive one starts again. Errors: a stale handle, a gait out of range; all is as it
-  /// was.
-  Result<void> change_gait(Entity human, const GaitRequest& gait);
+  /// steps. A speed of 0 stops, a positive one starts again; what is left out stays, the style among it. Errors: a stale
+  /// handle, a gait out of range; nothing has changed then.
+  Result<void> change_gait(Entity human, const GaitChange& change);
+  /// The same with all of a walk said anew: what is left out is as in a GaitRequest{}.
+  Result<void> set_gait(Entity human, const GaitRequest& gait);
+  /// What a walker is to do, as set_gait takes it; nothing for a stale handle and for posed people.
+  std::optional<GaitRequest> gait_request(Entity human) const;
   /// Asks a person to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left), the shorter way round, a
   /// part of it each step; who stands turns on the spot. Errors: a stale handle, a heading that is not finite;
   /// nothing has changed.

@@ -18,7 +18,8 @@ if grep -vE '^(mobil::|mobil_v[0-9_]+$|(vtable|typeinfo|typeinfo name) for mobil
 fi
 "${compile[@]}" -I"$1/include" "$2/demo/hello.cpp" "$1/libmobil.so" -Wl,-rpath,"$1" -o "$scratch/hello"
 "$scratch/hello" >"$scratch/hello.txt"
-ldd "$scratch/hello" | grep -q libmobil.so
+ldd "$scratch/hello" >"$scratch/libraries"
+grep -q libmobil.so "$scratch/libraries"
 
 cat >"$scratch/plugin.cpp" <<'CPP'
 #include <mobil/simulation.h>

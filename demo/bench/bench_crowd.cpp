@@ -126,7 +126,7 @@ Result<void> BenchCrowd::change_speeds(std::uint32_t round, float forward_swing)
     CrowdRandom random(seed, i, 0x1000 + round);
     asked_[i].gait.speed_m_s = crowd_speed(random);
     asked_[i].gait.style.forward_swing = forward_swing;
-    if (auto done = simulation_.change_gait(people_[i], asked_[i].gait); !done) return done;
+    if (auto done = simulation_.set_gait(people_[i], asked_[i].gait); !done) return done;
   }
   return {};
 }

@@ -67,7 +67,7 @@ Result<UnbalancedMoment> walk_scene(const BodyRequest& body, GaitStyle style, co
   while (simulation.time_s() < scene.seconds) {
     if (next < scene.requests.size() && simulation.time_s() >= scene.requests[next].after_s) {
       const Request& request = scene.requests[next++];
-      if (auto done = simulation.change_gait(*person, asked(request)); !done) return tl::unexpected(done.error());
+      if (auto done = simulation.set_gait(*person, asked(request)); !done) return tl::unexpected(done.error());
       const double heading = request.heading_deg * std::numbers::pi / 180;
       if (auto done = simulation.turn_to(*person, static_cast<float>(heading)); !done)
         return tl::unexpected(done.error());

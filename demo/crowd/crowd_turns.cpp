@@ -41,9 +41,9 @@ Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decision
     GaitRequest gait = crowd_person(request_.seed, walker.number, walker.draw).gait;
     const float usual_m_s = *gait.speed_m_s;
     gait.speed_m_s = change.speed_m_s;
-    if (!simulation_->change_gait(walker.entity, gait)) {
+    if (!simulation_->set_gait(walker.entity, gait)) {
       gait.speed_m_s = usual_m_s;
-      if (auto done = simulation_->change_gait(walker.entity, gait); !done) return done;
+      if (auto done = simulation_->set_gait(walker.entity, gait); !done) return done;
     }
     walker.stopped = change.speed_m_s == 0;
     ++decisions.changed_speed;

@@ -127,7 +127,7 @@ Result<void> stress_requests(StressRun& run) {
   Refusals gaits{simulation};
   for (const auto& [what, gait] : bad_gaits()) {
     gaits.take(what, refusal(simulation.spawn({}, gait)));
-    gaits.take(what, refusal(simulation.change_gait(*human, gait)));
+    gaits.take(what, refusal(simulation.set_gait(*human, gait)));
   }
   for (const double value : bad) {
     gaits.take("heading", refusal(simulation.turn_to(*human, static_cast<float>(value))));

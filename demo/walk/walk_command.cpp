@@ -67,13 +67,13 @@ void add_muscle_rows(const Simulation& simulation, const Human& human, std::stri
 }
 
 /// Hands over the changes that are due. Errors name the script's line.
-Result<void> apply_changes(const std::vector<GaitChange>& changes, const std::string& script, Entity entity,
+Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std::string& script, Entity entity,
                            Simulation& simulation, std::size_t& applied) {
   const double due = simulation.time_s() + 1e-9;
   for (; applied < changes.size() && changes[applied].time_s <= due; ++applied) {
-    const GaitChange& change = changes[applied];
+    const ScriptedChange& change = changes[applied];
     if (change.gait) {
-      const auto done = simulation.change_gait(entity, *change.gait);
+      const auto done = simulation.set_gait(entity, *change.gait);
       if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
     }
     if (change.heading_rad) {
@@ -89,7 +89,7 @@ Result<void> apply_changes(const std::vector<GaitChange>& changes, const std::st
 }
 
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
-                    const std::vector<GaitChange>& changes) {
+                    const std::vector<ScriptedChange>& changes) {
   Walked walked;
   WalkOutcome& outcome = walked.outcome;
   outcome.gait = human.gait;
@@ -160,7 +160,7 @@ Result<void> run_walk(const WalkOptions& options) {
   Simulation simulation;
   const auto entity = simulation.spawn(options.body, options.gait);
   if (!entity) return tl::unexpected(entity.error());
-  std::vector<GaitChange> changes;
+  std::vector<ScriptedChange> changes;
   if (options.script) {
     auto planned = plan_changes(*options.script, simulation.human(*entity)->body, options.gait);
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));

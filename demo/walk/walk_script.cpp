@@ -204,14 +204,14 @@ Result<WalkScript> read_walk_script(const std::string& path) {
   return read_csv(path, script_columns).and_then(from_table);
 }
 
-Result<std::vector<GaitChange>> plan_changes(const WalkScript& script, const Body& body, const GaitRequest& start) {
-  std::vector<GaitChange> changes;
+Result<std::vector<ScriptedChange>> plan_changes(const WalkScript& script, const Body& body, const GaitRequest& start) {
+  std::vector<ScriptedChange> changes;
   GaitRequest request = start;
   for (Moment moment{script.row.begin(), script.row.begin()}; moment.end != script.row.end();) {
     moment.begin = moment.end;
     moment.end = std::find_if(moment.begin, script.row.end(),
                               [&](const WalkScript::Row& row) { return row.time_s != moment.begin->time_s; });
-    GaitChange change{moment.begin->time_s, moment.begin->line};
+    ScriptedChange change{moment.begin->time_s, moment.begin->line};
     if (const auto heading = moment["heading"]) change.heading_rad = *heading * (std::numbers::pi_v<float> / 180);
     const auto aside = moment["aside"], ahead = moment["ahead"];
     if (aside || ahead) change.aside_m = {aside.value_or(0.0F), ahead.value_or(0.0F)};

@@ -39,7 +39,7 @@ Result<WalkScript> parse_walk_script(std::string_view text, std::string_view nam
 Result<WalkScript> read_walk_script(const std::string& path);
 
 /// One change: the whole request that holds from then on, the heading to turn to, and a step aside.
-struct GaitChange {
+struct ScriptedChange {
   double time_s;
   std::size_t line;  // of its first row
   std::optional<GaitRequest> gait{};
@@ -49,6 +49,6 @@ struct GaitChange {
 
 /// What the script asks of this body, from the walk it starts with. Fails, naming the line, where a gait is out of the
 /// body's range, and where step length or frequency change while the walker stands.
-Result<std::vector<GaitChange>> plan_changes(const WalkScript& script, const Body& body, const GaitRequest& start);
+Result<std::vector<ScriptedChange>> plan_changes(const WalkScript& script, const Body& body, const GaitRequest& start);
 
 }  // namespace mobil

@@ -53,8 +53,27 @@ Result<void> is_walker(const World& world, Entity person, std::string_view asked
 
 }  // namespace
 
-Result<void> change_gait(World& world, Entity person, const GaitRequest& request) {
+std::optional<GaitRequest> gait_request(const World& world, Entity person) {
+  const auto gait = world.get<Gait>(person);
+  if (!gait) return std::nullopt;
+  if (gait->speed_m_s == 0) return GaitRequest{.speed_m_s = 0.0F, .style = gait->style};
+  return GaitRequest{.speed_m_s = gait->speed_m_s, .step_length_m = gait->step_length_m, .style = gait->style};
+}
+
+Result<void> change_gait(World& world, Entity person, const GaitChange& change) {
   if (auto walks = is_walker(world, person, "change_gait", "spawn a walker instead"); !walks) return walks;
+  GaitRequest request = *gait_request(world, person);
+  if (change.style) request.style = *change.style;
+  if (change.speed_m_s || change.step_length_m || change.step_frequency_hz) {
+    request.speed_m_s = change.speed_m_s;
+    request.step_length_m = change.step_length_m;
+    request.step_frequency_hz = change.step_frequency_hz;
+  }
+  return set_gait(world, person, request);
+}
+
+Result<void> set_gait(World& world, Entity person, const GaitRequest& request) {
+  if (auto walks = is_walker(world, person, "set_gait", "spawn a walker instead"); !walks) return walks;
   auto gait = resolve_gait(*make_body(body_request(world, person)), request);
   if (!gait) return tl::unexpected(gait.error());
   const Gait<float> before = *world.get<Gait>(person);

@@ -2,6 +2,8 @@
 // One person in a world: a row with BodySize, Physique and Pose; a walker also with Gait and what follows from it. What
 // can be asked of one.
 
+#include <optional>
+
 #include "components/body.h"
 #include "components/gait.h"
 #include "components/pose.h"
@@ -19,9 +21,12 @@ BodyRequest body_request(const World& world, Entity person);
 BodySize<float> body_size(const BodyRequest& request);
 Physique<float> physique(const BodyRequest& request);
 
-/// Asks a walker to walk otherwise, from the next step on. Errors: a stale handle, a posed person, a gait out of range;
-/// nothing has changed then.
-Result<void> change_gait(World& world, Entity person, const GaitRequest& request);
+/// Asks a walker to walk otherwise, from the next step on, in what is named or in all. Errors: a stale handle, a posed
+/// person, a gait out of range; nothing has changed then.
+Result<void> change_gait(World& world, Entity person, const GaitChange& change);
+Result<void> set_gait(World& world, Entity person, const GaitRequest& request);
+/// What a walker is to do; nothing for a stale handle and for posed people.
+std::optional<GaitRequest> gait_request(const World& world, Entity person);
 /// Asks a walker to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left). Errors: a stale handle, a
 /// posed person, a heading that is not within ±10000.
 Result<void> turn_to(World& world, Entity person, float heading_rad);

@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 
+#include "assets/fem/solver_arrays.h"
+#include "assets/reduction/basis_arrays.h"
 #include "engine/row_hash.h"
 #include "systems/lines/muscle_lines.h"
 
@@ -70,34 +72,21 @@ std::uint64_t fingerprint(const MuscleLines& lines) {
   return print.hash();
 }
 
-std::uint64_t fingerprint(const BellySolver& solver) {
+std::uint64_t fingerprint(const BellySolver& solver, const Cells& cells) {
   Fingerprint print;
   for (const double value : {solver.dt_s, solver.across, solver.along, static_cast<double>(solver.sweeps),
                              static_cast<double>(solver.refinements), static_cast<double>(solver.correction)}) {
     print.add(value);
   }
-  print.add(solver.factor.before);
-  print.add(solver.factor.after);
-  for (const auto* values : {&solver.factor.forward, &solver.factor.backward, &solver.factor.inverse_diagonal,
-                             &solver.moment_kg_m, &solver.far_mass_kg}) {
-    print.add(*values);
-  }
+  each_array(solver, cells, [&](const auto& values, std::size_t) { print.add(values); });
   return print.hash();
 }
 
 std::uint64_t fingerprint(const ReducedBasis& basis) {
   Fingerprint print;
-  for (const double value :
-       {1.0 * basis.vectors, 1.0 * basis.inputs, basis.foundation_1_s2, basis.lift_energy_a, basis.lift_energy_b,
-        basis.lift_energy_c, basis.lift_energy_foundation, basis.lift_kinetic}) {
-    print.add(value);
-  }
-  for (const auto* values : {&basis.a, &basis.b, &basis.c, &basis.foundation, &basis.lift_a, &basis.lift_b,
-                             &basis.lift_c, &basis.lift_foundation, &basis.lift_mass, &basis.traction, &basis.frame,
-                             &basis.lift_frame, &basis.control_weight, &basis.fit}) {
-    print.add(*values);
-  }
-  print.add(basis.shape);
+  for (const double value : {1.0 * basis.vectors, 1.0 * basis.inputs, basis.foundation_1_s2}) print.add(value);
+  each_number(basis, [&](double value) { print.add(value); });
+  each_array(basis, !basis.turned.vector.empty(), [&](const auto& values, std::size_t) { print.add(values); });
   return print.hash();
 }
 
@@ -191,7 +180,7 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
     for (const auto& made : library.solvers_) {
       if (made.solver.get() != resource) continue;
       const BellySolver& solver = *made.solver;
-      known = {shape_recipe(ResourceKind::solver, *made.shape), fingerprint(solver)};
+      known = {shape_recipe(ResourceKind::solver, *made.shape), fingerprint(solver, made.shape->choice.cells)};
       known.recipe.method = static_cast<std::uint32_t>(solver.method);
       known.recipe.mass = static_cast<std::uint32_t>(solver.method == Method::caa ? solver.mass : Mass::lumped);
       known.recipe.dt = std::bit_cast<std::uint64_t>(solver.dt_s);

@@ -351,7 +351,7 @@ class Crowd {
     } else {
       const GaitRequest gait = any_gait(random_, asking_, walker);
       walker.next_s += 1.0 / 60;
-      if (!simulation_.change_gait(walker.entity, gait)) return;  // asks again at once
+      if (!simulation_.set_gait(walker.entity, gait)) return;  // asks again at once
       walker.gait = gait;
       text << describe(gait);
     }

@@ -232,7 +232,7 @@ TEST(Steering, ALimpsStepsAreUnevenAsAsked) {
     GaitRequest request{.speed_m_s = static_cast<float>(random.uniform(0.5, 1.5) * one.scale)};
     request.style.step_asymmetry = random.between(-0.4, 0.4);
     request.style.time_asymmetry = random.between(-0.3, 0.3);
-    const auto changed = one.simulation.change_gait(one.entity, request);
+    const auto changed = one.simulation.set_gait(one.entity, request);
     ASSERT_TRUE(changed) << changed.error().message;
     const auto gait = *one.simulation.get<Gait>(one.entity);
     for (int step = 0; step < 6; ++step) one.step();

@@ -91,7 +91,7 @@ TEST(StepAside, IsRefusedInOneLine) {
   EXPECT_NE(said(0.5F, 0).find("0.5 m to the left is outside"), std::string::npos);
   EXPECT_NE(said(0, -0.4F).find("-0.4 m ahead is outside"), std::string::npos);
   EXPECT_NE(said(std::nanf(""), 0).find("outside"), std::string::npos);
-  ASSERT_TRUE(one.simulation.change_gait(one.entity, {}));
+  ASSERT_TRUE(one.simulation.set_gait(one.entity, {}));
   EXPECT_NE(said(0.1F, 0).find("is to walk"), std::string::npos);
   one.simulation.despawn(one.entity);
   EXPECT_NE(said(0.1F, 0).find("stale"), std::string::npos);
@@ -107,7 +107,7 @@ TEST(StepAside, FollowsAWalkOrAnotherStepThatIsUnderWay) {
   go_on(1.3);
   GaitRequest stand;
   stand.speed_m_s = 0.0F;
-  ASSERT_TRUE(simulation.change_gait(entity, stand));
+  ASSERT_TRUE(simulation.set_gait(entity, stand));
   ASSERT_TRUE(simulation.step_aside(entity, 0.2F, 0));
   go_on(4);
   const Pose<float> moved = *simulation.get<Pose>(entity);
@@ -116,7 +116,7 @@ TEST(StepAside, FollowsAWalkOrAnotherStepThatIsUnderWay) {
   ASSERT_TRUE(simulation.step_aside(entity, -0.1F, 0));
   go_on(3);
   expect_moved(moved, *simulation.get<Pose>(entity), -0.2, 0);
-  ASSERT_TRUE(simulation.change_gait(entity, {}));
+  ASSERT_TRUE(simulation.set_gait(entity, {}));
   go_on(3);
   const auto pelvis = simulation.get<Pose>(entity)->position_m[0];
   EXPECT_GT(pelvis.z, moved.position_m[0].z + 1);
@@ -134,7 +134,7 @@ TEST(StepAside, NothingJumpsWhateverIsAskedOnTheWay) {
     if (what < 1) {
       GaitRequest walk;
       walk.speed_m_s = dice.single(0.5, 1.8);
-      ASSERT_TRUE(one.simulation.change_gait(one.entity, walk));
+      ASSERT_TRUE(one.simulation.set_gait(one.entity, walk));
     } else if (what < 2) {
       ASSERT_TRUE(one.simulation.turn_to(one.entity, dice.single(-3, 3)));
     } else {

@@ -286,7 +286,7 @@ TEST(Script, ChangesAreWhatTheRulesOfHelpMakeOfTheRows) {
     RC_ASSERT(changes->size() == expected.size());
     GaitRequest request = start;
     for (std::size_t i = 0; i < expected.size(); ++i) {
-      const GaitChange& change = (*changes)[i];
+      const ScriptedChange& change = (*changes)[i];
       const Expected& e = expected[i];
       RC_ASSERT(change.time_s == times[i]);
       if (change.gait) request = *change.gait;

@@ -128,4 +128,38 @@ TEST(Made, ASimulationMayMove) {
   }
 }
 
+/// A change names what is to be otherwise; the rest stays, and can be read back.
+TEST(GaitChanges, WhatIsLeftOutStays) {
+  Simulation simulation;
+  GaitRequest asked{.speed_m_s = 1.2F, .step_length_m = 0.66F};
+  asked.style.toe_out_deg = 15;
+  const Entity human = *simulation.spawn(person(1).body, asked);
+  const auto now = [&] { return *simulation.gait_request(human); };
+  EXPECT_FLOAT_EQ(*now().speed_m_s, 1.2F);
+  EXPECT_FLOAT_EQ(*now().step_length_m, 0.66F);
+  EXPECT_EQ(now().style.toe_out_deg, 15);
+  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.5F}));
+  EXPECT_FLOAT_EQ(*now().speed_m_s, 1.5F);
+  EXPECT_NE(*now().step_length_m, 0.66F) << "a speed alone has the usual steps";
+  EXPECT_EQ(now().style.toe_out_deg, 15);
+  const float length_m = *now().step_length_m;
+  GaitStyle style = now().style;
+  style.toe_out_deg = 3;
+  ASSERT_TRUE(simulation.change_gait(human, {.style = style}));
+  EXPECT_FLOAT_EQ(*now().speed_m_s, 1.5F);
+  EXPECT_FLOAT_EQ(*now().step_length_m, length_m);
+  EXPECT_EQ(now().style.toe_out_deg, 3);
+  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 0.0F}));
+  EXPECT_EQ(*now().speed_m_s, 0);
+  ASSERT_TRUE(simulation.change_gait(human, {}));
+  EXPECT_EQ(*now().speed_m_s, 0);
+  EXPECT_EQ(now().style.toe_out_deg, 3);
+  ASSERT_TRUE(simulation.set_gait(human, {}));
+  EXPECT_EQ(now().style.toe_out_deg, GaitStyle{}.toe_out_deg);
+  EXPECT_FALSE(simulation.change_gait(human, {.speed_m_s = 9.0F}));
+  EXPECT_GT(*now().speed_m_s, 1);
+  EXPECT_FALSE(simulation.gait_request(*simulation.spawn_posed({})));
+  EXPECT_FALSE(simulation.gait_request({}));
+}
+
 }  // namespace mobil::door_test

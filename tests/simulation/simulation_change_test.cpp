@@ -69,7 +69,7 @@ TEST(Change, RequestsOutOfRangeChangeNothing) {
     }
   }
   for (const GaitRequest& request : bad) {
-    const auto changed = simulation.change_gait(human, request);
+    const auto changed = simulation.set_gait(human, request);
     ASSERT_FALSE(changed);
     EXPECT_EQ(changed.error().message.find('\n'), std::string::npos) << changed.error().message;
     ASSERT_EQ(hash_world(simulation), before) << changed.error().message;

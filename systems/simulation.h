@@ -8,7 +8,11 @@
 //   simulation.get<Pose>(human)->position_m[index(Segment::head)];
 //
 // Everything else is a table: `world()` has all components to read, `schedule()` all systems in the order they run.
-// Nothing is global; any number of simulations may live side by side. One thread at a time may use one.
+// Nothing is global; any number of simulations may live side by side.
+//
+// Threads: one at a time may change a simulation. Between changes any number may read it at once: every const call but
+// `save`, `snapshot_bytes` and `state_hash`, which work with the simulation's jobs or keep what they learn; PoseWriter
+// and SurfaceWriter too, one of them a thread.
 //
 // Where memory runs out as people come or change, std::bad_alloc is thrown and the simulation is unchanged, including
 // future handles. Despawning never allocates.

@@ -64,6 +64,7 @@ Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);
 Result<void> bench_reduced(BenchRun& run);
 Result<void> bench_paper_figures(BenchRun& run);
+Result<void> bench_relevance(BenchRun& run);
 Result<void> bench_crowds(BenchRun& run);
 
 }  // namespace mobil

@@ -40,9 +40,9 @@ inline constexpr std::array<Rung, rung_count> rungs = {{
     {"full", Method::ecd, 0, true, {2, 2, 8}},
 }};
 
-/// What changing a muscle's method to that rung takes, both legs', µs on the machine that was measured (`mobil bench
+/// What changing a muscle's method to that rung takes, both legs', µs of a core of an Intel Xeon of 3 GHz (`mobil bench
 /// relevance`): finding a body's motions along many vectors takes most.
-inline constexpr std::array<float, rung_count> switch_us = {15, 80, 55, 65, 75, 95, 130, 240, 440, 440, 40};
+inline constexpr std::array<float, rung_count> switch_us = {9, 55, 40, 45, 52, 66, 86, 155, 290, 290, 15};
 
 /// Walks that errors were measured in, as the reference body walks them; others walk as fast in proportion to the root
 /// of their height.

@@ -230,7 +230,7 @@ class Relevance {
   void plan_budget();
   void carry_out(RelevanceReport& report);
   void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
-  void change(const Switch& one, RelevanceReport& report);
+  bool change(const Switch& one, RelevanceReport& report);
   bool at_hand(const Switch& one, std::uint32_t rung, bool order);
   std::uint32_t wanted(const Needs<float>& needs) const;
 

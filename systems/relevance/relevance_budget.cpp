@@ -63,8 +63,7 @@ void Relevance::change_first(std::span<const Switch> all, std::int64_t most_ps, 
     const auto cost_ps = static_cast<std::int64_t>(1e6 * static_cast<double>(switch_us[one.rung]) * machine_.mean());
     if (switching_ps_ > 0 && switching_ps_ + cost_ps > most_ps) return;
     if (within_budget && cost_ps_ + one.cost_ps > budget_ps_) continue;
-    switching_ps_ += cost_ps;
-    change(one, report);
+    if (change(one, report)) switching_ps_ += cost_ps;
   }
 }
 
@@ -111,7 +110,8 @@ bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
   return orders_->ready(SimulationWorld::library(simulation_), muscle, choice, plan->scale, simulation_.ticks(), order);
 }
 
-void Relevance::change(const Switch& one, RelevanceReport& report) {
+/// False where it waits for what its method shares.
+bool Relevance::change(const Switch& one, RelevanceReport& report) {
   auto tiers = *simulation_.world().get<Tiers>(one.human);
   const std::uint32_t now = rung_at(tiers.rung, one.muscle);
   const RungCase of = {one.muscle, tiers.speed_step, tiers.inertia != 0, one.points};
@@ -121,7 +121,7 @@ void Relevance::change(const Switch& one, RelevanceReport& report) {
     const auto* cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(rung));
     while (cheaper != order.begin() && !at_hand(one, *cheaper, false)) --cheaper;
     rung = *cheaper;
-    if (rung == now || ladder_.error_m(of, rung) >= ladder_.error_m(of, now)) return;  // it is as good as that
+    if (rung == now || ladder_.error_m(of, rung) >= ladder_.error_m(of, now)) return false;
   }
   const auto done = simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), rung_method(rung, one.points));
   if (done) {
@@ -139,6 +139,7 @@ void Relevance::change(const Switch& one, RelevanceReport& report) {
     report.refusal = done.error().message;
   }
   world_of(simulation_).set(one.human, tiers);
+  return true;
 }
 
 }  // namespace mobil

@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include "systems/people/pose_writer.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
 
@@ -78,6 +79,37 @@ TEST(CrowdThreads, ManyComeAndGoAtOnce) {
   const auto expected = come_and_go({});
   EXPECT_EQ(come_and_go({.threads = 2}), expected);
   EXPECT_EQ(come_and_go({.jobs = pool.jobs()}), expected);
+}
+
+/// What simulation.h promises to readers between changes.
+TEST(CrowdThreads, ManyReadAtOnce) {
+  play::Crowd crowd({}, script);
+  for (int i = 0; i < 5; ++i) crowd.tick();
+  const Simulation& simulation = crowd.simulation();
+  const std::vector<Entity> people = simulation.people();
+  std::vector<double> seen(4);
+  {
+    std::vector<std::jthread> readers;
+    for (double& sum : seen) {
+      readers.emplace_back([&simulation, &people, &sum] {
+        PoseWriter writer;
+        std::vector<std::byte> bytes(people.size() * segment_count * 28);
+        EXPECT_TRUE(writer.write(simulation.world(), people, 0.01, {}, {bytes}));
+        for (const Entity person : simulation.people()) {
+          sum += static_cast<double>(simulation.get<Pose>(person)->position_m[0].y);
+          sum += static_cast<double>(simulation.human(person)->body.request.height_m);
+          for (const OwnMuscle& own : simulation.muscles(person)) {
+            sum += static_cast<double>(own.muscle) + (simulation.nodal_displacement(own.entity[left]).first != nullptr);
+          }
+        }
+        simulation.each([&sum](const Rows& rows, const Pose<Lanes<float>>& pose) {
+          for (std::uint32_t lane = 0; lane < rows.live; ++lane) sum += static_cast<double>(pose.position_m[0].x[lane]);
+        });
+        sum += simulation.report().ticks + static_cast<double>(bytes[2]);
+      });
+    }
+  }
+  for (const double sum : seen) EXPECT_EQ(sum, seen[0]);
 }
 
 }  // namespace mobil::crowd_threads_test

@@ -5,8 +5,8 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
 #include <mobil/relevance.h>
@@ -32,8 +32,8 @@ int main(int count, char** arguments) {
   // A game ships the file; here, without it, what is needed at a few metres is made at first use.
   const double start_ms = now_ms();
   if (count > 1) {
-    std::ifstream file(arguments[1], std::ios::binary);
-    const std::vector<char> bytes(std::istreambuf_iterator<char>(file), {});
+    std::vector<char> bytes(std::filesystem::file_size(arguments[1]));
+    std::ifstream(arguments[1], std::ios::binary).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
     if (const auto done = simulation.load_baked(std::as_bytes(std::span(bytes))); !done) return failed(done.error());
   }
   std::printf("loaded in %.0f ms\n", now_ms() - start_ms);

@@ -165,7 +165,6 @@ Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading
 }
 
 Result<void> Simulation::shift_origin(float x_m, float z_m) {
-  constexpr float farthest_m = 1e6F;
   if (!(std::fabs(x_m) <= farthest_m && std::fabs(z_m) <= farthest_m))
     return fail(fmt::format("shift_origin: ({}, {}) m is not within ±1000000 m", x_m, z_m));
   shift_people(*world_, x_m, z_m);

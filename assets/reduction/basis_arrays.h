@@ -2,7 +2,6 @@
 // The arrays of a reduced basis, one after the other: what its fingerprint is of, and what a file keeps of it.
 
 #include <cstddef>
-#include <utility>
 
 #include "assets/reduction/reduced_basis.h"
 

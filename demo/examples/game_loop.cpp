@@ -47,16 +47,16 @@ int main() {
   for (int frame = 0; frame < 600; ++frame) {
     const double frame_s = 0.004 + 0.03 * static_cast<double>(any(random));
     if (frame % 50 == 0 && people.size() < 200) {
-      std::vector<mobil::SpawnRequest> comers(50);
-      for (mobil::SpawnRequest& one : comers) {
+      std::vector<mobil::SpawnRequest> requests(50);
+      for (mobil::SpawnRequest& one : requests) {
         one.body.height_m = 1.55F + 0.4F * any(random);
         one.body.mass_kg = 24 * one.body.height_m * one.body.height_m;
         one.gait.speed_m_s = 0.8F + 0.9F * any(random);
         one.x_m = 40 * any(random);
       }
-      people.resize(people.size() + comers.size());
-      const auto made = std::span(people).last(comers.size());
-      if (const auto done = simulation.spawn(comers, made); !done) return failed(done.error());
+      people.resize(people.size() + requests.size());
+      const auto made = std::span(people).last(requests.size());
+      if (const auto done = simulation.spawn(requests, made); !done) return failed(done.error());
       instances.resize(people.size() * mobil::segment_count * 12 * sizeof(float));
     }
     if (frame % 20 == 0) {

@@ -168,10 +168,7 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
   const WideQuat tilted = facing * turn_z(aside);
   skeleton.hang(thigh, tilted * turn_x(-thigh_angle));
   skeleton.hang(shank, tilted * turn_x(-shank_angle));
-  // The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
-  // within a seventh.
-  constexpr float part = 0.9F;
-  const WideQuat on_the_way = tilted * turn_x(part * flexion - thigh_angle);
+  const WideQuat on_the_way = tilted * turn_x(kneecap_part * flexion - thigh_angle);
   const Vec3<float> knee = unit_skeleton.joint_offset[index(shank)], cap = unit_skeleton.joint_offset[index(patella)];
   skeleton.put(
       patella,

@@ -7,6 +7,10 @@
 
 namespace mobil {
 
+/// The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
+/// within a seventh.
+inline constexpr float kneecap_part = 0.9F;
+
 /// Writes every segment's world position and rotation, the joint angles and the feet's ground points. Hips follow the
 /// step's curves, turned, listed, tilted and shifted as `pelvis_phase` (components/gait.h) says; the standing foot
 /// turns about its planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with the

@@ -114,6 +114,9 @@ inline constexpr double rare_ratio = 1.05;  // times more or less
 }  // namespace usual_sizes
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
+/// What a reduced belly's basis depends on of a choice, but for how many vectors it has; all else is as in a
+/// LegMuscles{}.
+LegMuscles basis_choice(const LegMuscles& choice);
 /// Of one that is, whether reduced bellies can be so.
 Result<void> check_reduced(const LegMuscles& choice);
 /// Of a choice in range: the sideways foundation, Hz.

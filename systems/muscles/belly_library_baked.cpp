@@ -2,11 +2,7 @@
 // template only what takes long to find is kept, of solvers and bases the arrays; how long these are follows from the
 // choice, so that no altered length can lead astray.
 #include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
 #include <cstring>
-#include <limits>
 
 #include "assets/fem/solver_arrays.h"
 #include "assets/reduction/basis_arrays.h"
@@ -36,11 +32,12 @@ struct Chosen {
 
 Chosen read_chosen(BakeReader& in) {
   const auto last = static_cast<std::uint32_t>(muscles().size() - 1);
-  Chosen chosen{static_cast<Muscle>(in.take_up_to(last)), {}};
+  const auto muscle = static_cast<Muscle>(in.take_up_to(last));
   ChoiceWords words{};
   for (std::uint64_t& word : words) word = in.take<std::uint64_t>();
-  LegMuscles choice = choice_of(words).value_or(LegMuscles{});
-  if (!choice_of(words)) in.refuse();
+  const auto named = choice_of(words);
+  if (!named) in.refuse();
+  LegMuscles choice = named.value_or(LegMuscles{});
   choice.dt_s.reset();
   if (!check_choice(choice, any_tick_s)) in.refuse();
   for (const Cells& cells : {choice.cells, choice.reduced.cells}) {
@@ -48,8 +45,7 @@ Chosen read_chosen(BakeReader& in) {
     for (const std::uint32_t count : cells) nodes *= std::uint64_t{std::min(count, largest_mesh_nodes)} + 1;
     if (nodes > largest_mesh_nodes || nodes <= 1) in.refuse();
   }
-  chosen.choice = choice;
-  return chosen;
+  return {muscle, choice};
 }
 
 /// A table's arguments: ascending.

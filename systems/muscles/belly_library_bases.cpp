@@ -14,14 +14,21 @@ namespace {
 constexpr double ratio_step = 1.1;    // between the middles of ranges of slenderness: twelve vectors serve such a range
 constexpr double product_step = 1.5;  // between those of size, which the foundation alone goes by
 
-/// Alike but for how many vectors there are.
-bool same_basis(const LegMuscles& a, const LegMuscles& b) {
-  return same_tissue(a, b) && a.drive == b.drive && a.inertia == b.inertia && a.damping_per_s == b.damping_per_s &&
-         foundation_of(a) == foundation_of(b) && a.reduced.cells == b.reduced.cells &&
-         a.reduced.corrected == b.reduced.corrected;
-}
-
 }  // namespace
+
+LegMuscles basis_choice(const LegMuscles& choice) {
+  LegMuscles alike;
+  alike.drive = choice.drive;
+  alike.reduced.corrected = choice.reduced.corrected;
+  alike.reduced.cells = choice.reduced.cells;
+  alike.material = choice.material;
+  alike.element = choice.element;
+  alike.damping_per_s = choice.damping_per_s;
+  alike.inertia = choice.inertia;
+  alike.foundation_hz = foundation_of(choice);
+  alike.cells = choice.cells;
+  return alike;
+}
 
 Result<void> check_reduced(const LegMuscles& choice) {
   const std::uint32_t vectors = choice.reduced.vectors;
@@ -62,7 +69,7 @@ std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& 
 BellyLibrary::Basis* BellyLibrary::find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key) {
   const auto at = std::find_if(bases_.begin(), bases_.end(), [&](const Basis& made) {
     return made.muscle == muscle && key == BasisKey{made.middle_ratio, made.middle_product} &&
-           made.whole->vectors >= choice.reduced.vectors && same_basis(made.choice, choice);
+           made.whole->vectors >= choice.reduced.vectors && basis_choice(made.choice) == basis_choice(choice);
   });
   return at == bases_.end() ? nullptr : &*at;
 }
@@ -93,8 +100,7 @@ Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMus
   auto whole = make(most_vectors);
   if (!whole) whole = make(choice.reduced.vectors);  // a small mesh may not have so many
   if (!whole) return tl::unexpected(whole.error());
-  Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ReducedBasis>(std::move(*whole)),
-             {},     false};
+  Basis made{muscle, choice, key.ratio, key.product, std::make_shared<const ReducedBasis>(std::move(*whole)), {}};
   cut(made, choice.reduced.vectors);
   return made;
 }

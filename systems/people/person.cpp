@@ -15,6 +15,11 @@
 
 namespace mobil {
 
+bool is_rotation(const Quat<float>& q) {
+  constexpr float rounding = 0.01F;
+  return std::fabs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1) < 2 * rounding;
+}
+
 bool is_person(const World& world, Entity entity) {
   return world.has<Physique>(entity);
 }
@@ -39,8 +44,6 @@ Physique<float> physique(const BodyRequest& request) {
 }
 
 namespace {
-
-constexpr float farthest_m = 1e6F;
 
 /// Errors: a stale handle, a posed person; `asked` is what was asked, `mend` what to do instead.
 Result<void> is_walker(const World& world, Entity person, std::string_view asked, std::string_view mend) {
@@ -164,15 +167,12 @@ void shift_people(World& world, float x_m, float z_m) {
 Status set_pose(World& world, Entity person, const Pose<float>& pose) {
   if (!is_person(world, person)) return Status::stale_entity;
   if (!is_posed(world, person)) return Status::missing;
-  constexpr float rounding = 0.01F;
   bool valid = true;
   for (std::size_t s = 0; s < segment_count; ++s) {
     const auto& [x, y, z] = pose.position_m[s];
-    const Quat<float>& q = pose.rotation[s];
-    const float size2 = q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w;
     // No comparison holds for what is not a number.
     valid &= std::fabs(x) < farthest_m && std::fabs(y) < farthest_m && std::fabs(z) < farthest_m &&
-             std::fabs(size2 - 1) < 2 * rounding;
+             is_rotation(pose.rotation[s]);
   }
   if (!valid) return Status::not_valid;
   world.set(person, joint_angles(pose));

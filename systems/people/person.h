@@ -12,6 +12,11 @@
 
 namespace mobil {
 
+/// Places beyond are refused, m.
+inline constexpr float farthest_m = 1e6F;
+/// Whether a quaternion's length is 1 within 1 %; not of what is no number.
+bool is_rotation(const Quat<float>& q);
+
 bool is_person(const World& world, Entity entity);
 /// A person whose host animates the skeleton; false for a stale handle.
 bool is_posed(const World& world, Entity entity);

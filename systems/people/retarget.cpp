@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "engine/geometry.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/people/person.h"
 #include "systems/people/pose_axes.h"
 #include "systems/people/pose_measures.h"
 
@@ -18,7 +20,6 @@ using namespace geometry;
 using Rotation = Quat<double>;
 
 constexpr std::int32_t no_bone = SkeletonBones::no_bone;
-constexpr float farthest_bone_m = 1e6F;
 
 /// The shortest rotation that takes one direction to another.
 Rotation arc(const Vec& from, const Vec& to) {
@@ -61,22 +62,17 @@ Rotation turn_about_x(double angle) {
   return {std::sin(angle / 2), 0, 0, std::cos(angle / 2)};
 }
 
-std::int64_t as_number(std::size_t i) {
-  return static_cast<std::int64_t>(i);
-}
-
 Result<void> check_place(const BonePlace& bone, std::size_t number, float units_per_m) {
   const auto& [at, turn] = bone;
-  const float most = farthest_bone_m * units_per_m;
-  const float size2 = turn.x * turn.x + turn.y * turn.y + turn.z * turn.z + turn.w * turn.w;
+  const float most = farthest_m * units_per_m;
   // No comparison holds for what is not a number.
   const bool placed = std::fabs(at.x) < most && std::fabs(at.y) < most && std::fabs(at.z) < most;
   if (!placed)
     return fail(fmt::format("retarget: bone {} is at ({}, {}, {}); give a finite place within 1000 km", number, at.x,
                             at.y, at.z));
-  if (!(std::fabs(size2 - 1) < 0.02F))
+  if (!is_rotation(turn))
     return fail(fmt::format("retarget: the quaternion of bone {} has the length {:.4g}; give one of length 1", number,
-                            std::sqrt(size2)));
+                            std::sqrt(turn.x * turn.x + turn.y * turn.y + turn.z * turn.z + turn.w * turn.w)));
   return {};
 }
 
@@ -99,7 +95,7 @@ Result<void> check_bones(const SkeletonBones& bones, std::size_t count) {
     const bool needed = name == "pelvis" || name == "spine" || name == "thigh" || name == "shank" || name == "foot";
     if (bone == no_bone && needed) return fail(fmt::format("retarget: no bone is named for the {}; name one", name));
     if (bone == no_bone) continue;
-    if (bone < 0 || bone >= as_number(count))
+    if (bone < 0 || std::cmp_greater_equal(bone, count))
       return fail(fmt::format("retarget: bone {} for the {} is none of the {} at rest", bone, name, count));
     if (std::ranges::count(seen, bone) != 0)
       return fail(fmt::format("retarget: bone {} is named twice, last for the {}", bone, name));
@@ -113,9 +109,6 @@ Result<void> check_bones(const SkeletonBones& bones, std::size_t count) {
   }
   return {};
 }
-
-/// The kneecap slides round the knee with the shank but for a tenth of its flexion, as in walkers.
-constexpr double kneecap_part = 0.9;
 
 }  // namespace
 
@@ -255,7 +248,7 @@ Result<Pose<float>> Retarget::pose(std::span<const BonePlace> bones) const {
     const std::size_t thigh = index(on_side(thigh_right, side)), shank = index(on_side(shank_right, side));
     const std::size_t cap = index(on_side(patella_right, side));
     const double flexion = twist_about_x(product(conjugate(rotation[thigh]), rotation[shank]));
-    rotation[cap] = product(rotation[thigh], turn_about_x(kneecap_part * flexion));
+    rotation[cap] = product(rotation[thigh], turn_about_x(static_cast<double>(kneecap_part) * flexion));
     place[cap] = place[shank] +
                  rotated(rotation[cap], to_double(body_.joint_offset_m[cap]) - to_double(body_.joint_offset_m[shank]));
   }

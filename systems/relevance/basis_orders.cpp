@@ -16,15 +16,8 @@ void BasisOrders::Work::make() {
   stage.notify_all();
 }
 
-/// Bases are told apart by all of the choice but how many vectors are taken, and what is shown of them.
 OrderedBasis BasisOrders::name_of(Muscle muscle, const LegMuscles& choice, const BellyLibrary::BasisKey& key) {
-  LegMuscles alike = choice;
-  alike.muscles = LegMuscles{}.muscles;
-  alike.method = Method::reduced;
-  alike.reduced = {};
-  alike.reduced.cells = choice.reduced.cells;
-  alike.reduced.corrected = choice.reduced.corrected;
-  return {hash_of(alike),
+  return {hash_of(basis_choice(choice)),
           static_cast<float>(key.ratio),
           static_cast<float>(key.product),
           static_cast<std::uint16_t>(muscle),

@@ -97,17 +97,16 @@ void Relevance::carry_out(RelevanceReport& report) {
 /// Whether what a rung shares is there, or time has come for it.
 bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
   if (options_.background.run == nullptr || rungs[rung].method != Method::reduced) return true;
-  const World& world = world_of(simulation_);
+  const World& world = simulation_.world();
   const auto muscle = static_cast<Muscle>(one.muscle);
-  const Entity right_one = simulation_.muscle(one.human, muscle, right);
-  const Entity there = world.alive(right_one) ? right_one : simulation_.muscle(one.human, muscle, left);
-  if (!world.alive(there)) return true;  // set_method says so
-  LegMuscles choice = *world.shared<LegMuscles>(there);
+  auto choice = choice_of(world, one.human);
+  if (!choice) return true;  // set_method says so
   const MuscleMethod method = rung_method(rung, one.points);
-  choice.method = method.method;
-  choice.reduced = method.reduced;
+  choice->method = method.method;
+  choice->reduced = method.reduced;
   const auto plan = make_muscle_plan(*make_body(body_request(world, one.human)), muscle);
-  return orders_->ready(SimulationWorld::library(simulation_), muscle, choice, plan->scale, simulation_.ticks(), order);
+  return orders_->ready(SimulationWorld::library(simulation_), muscle, *choice, plan->scale, simulation_.ticks(),
+                        order);
 }
 
 /// False where it waits for what its method shares.

@@ -191,10 +191,7 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
       const ReducedBasis* basis = made.whole.get() == resource ? made.whole.get() : nullptr;
       for (const auto& cut : made.cut) basis = cut.get() == resource ? cut.get() : basis;
       if (basis == nullptr) continue;
-      LegMuscles alike = driven(made.choice);
-      alike.inertia = made.choice.inertia;
-      alike.reduced.cells = made.choice.reduced.cells;
-      alike.reduced.corrected = made.choice.reduced.corrected;
+      LegMuscles alike = basis_choice(made.choice);
       alike.reduced.vectors = basis->vectors;
       known = {recipe_of(ResourceKind::basis, made.muscle, alike), fingerprint(*basis)};
       known.recipe.vectors = basis->vectors;

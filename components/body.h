@@ -17,15 +17,27 @@ struct Biotype {
   float endo = 3, meso = 4, ecto = 3;
 };
 
+/// Lengths of long bones from joint to joint, m, both sides; 0: as long as the height makes them.
+template <class F>
+struct LimbLengths {
+  F thigh_m, shank_m, upper_arm_m, forearm_m;
+};
+
 /// What a caller asks of a body. Ranges: height 1.2–2.2 m, mass 30–200 kg and at that height what a living body may
-/// have
-/// (`living_mass_kg`), each part of the biotype 0.1–12.
+/// have (`living_mass_kg`), each part of the biotype 0.1–12, limbs 0.6–1.6 times what the height makes them. Limbs of
+/// their own are for posed people (systems/people/retarget.h): a walker's gait is that of a leg in proportion.
 struct BodyRequest {
   float height_m = 1.75F;
   float mass_kg = 75.0F;
   Biotype biotype{};
   Constitution constitution = Constitution::average;
+  LimbLengths<float> limbs{};
 };
+/// Whether any limb's length was asked for.
+constexpr bool has_own_limbs(const BodyRequest& request) {
+  const auto& [thigh_m, shank_m, upper_arm_m, forearm_m] = request.limbs;
+  return thigh_m != 0 || shank_m != 0 || upper_arm_m != 0 || forearm_m != 0;
+}
 
 /// What a request had to give way in: bits of BodyComposition::notes, in words by `body_notes`
 /// (assets/body/body_composition.h).
@@ -70,7 +82,8 @@ struct Body {
   float hip_height_m;
 };
 
-/// The few sizes that per-tick kernels read; all other lengths are these times a constant.
+/// The few sizes that per-tick kernels read; all other lengths are these times a constant. (Limbs of their own are in a
+/// posed person's pose, and in the scale of its muscles' paths.)
 template <class F>
 struct BodySize {
   F height_m;

@@ -4,18 +4,20 @@
 #include <cstddef>
 
 #include "components/lanes.h"
+#include "components/pose.h"
 
 namespace mobil {
 
 /// What the ground does to each foot, world frame: force (N) and the centre of pressure it acts at (m, on the ground);
-/// zero force where the foot is in the air. Index 0 right, 1 left.
+/// zero force where the foot is in the air. Of people whose host animates them: one tick ago. Index 0 right, 1 left.
 template <class F>
 struct GroundReaction {
   Vec3<F> force_n[2];
   Vec3<F> centre_m[2];
 };
 
-/// Internal sagittal moments, N m: hip and knee extensor positive, ankle plantarflexor positive. Index 0 right, 1 left.
+/// Internal sagittal moments, N m, at the instant of the ground reaction: hip and knee extensor positive, ankle
+/// plantarflexor positive. Index 0 right, 1 left.
 template <class F>
 struct JointMoments {
   F hip_nm[2], knee_nm[2], ankle_nm[2];
@@ -30,6 +32,15 @@ constexpr std::size_t leg_point(std::size_t side, LegPoint p) {
 
 /// Between the poses that a walker's motion is taken from, s: longer blurs, shorter shows single precision.
 inline constexpr float motion_difference_s = 0.006F;
+
+/// Of a person whose host animates the skeleton, what its motion is taken from: the poses of the last two ticks, the
+/// newer one first; how high its lowest sole was, m; and how many of the poses are known.
+template <class F>
+struct PosedPast {
+  Pose<F> pose[2];
+  F floor_m;
+  Whole<F> known;
+};
 
 /// How a walker moves now, in the frame of the stance foothold: x to the left, y up, z the way the walking line heads
 /// there. What accelerates the body against gravity, Σ m (a + g), and the moment of that with its turning about the

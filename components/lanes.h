@@ -36,6 +36,9 @@ struct Quat {
 };
 
 /// Index of a bilateral field: the right side is 0, the left side 1.
+namespace sides {
 enum Side : std::uint32_t { right = 0, left = 1 };
+}  // namespace sides
+using sides::Side;  // Side::left is ours; left alone may be std::left
 
 }  // namespace mobil

@@ -30,10 +30,10 @@ int main() {
     if (frame % 15 != 0) continue;
     const auto pose = simulation.get<mobil::Pose>(*human);
     const auto knee = simulation.get<mobil::JointAngles>(*human);
-    const auto hamstrings = simulation.muscle(*human, mobil::Muscle::hamstrings, mobil::right);
+    const auto hamstrings = simulation.muscle(*human, mobil::Muscle::hamstrings, mobil::Side::right);
     const auto line = simulation.get<mobil::LineOfAction>(hamstrings);
     std::printf("%4.1f s  pelvis at z = %.2f m  right knee %4.1f deg  hamstrings %.1f mm from rest  (%u ticks)\n",
-                simulation.time_s(), pose->position_m[0].z, knee->knee_flexion[mobil::right] * 57.2958F,
+                simulation.time_s(), pose->position_m[0].z, knee->knee_flexion[mobil::Side::right] * 57.2958F,
                 1000 * (line->length_m - line->rest_length_m), advance.count);
   }
 }

@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <limits>
 #include <memory_resource>
-#include <string_view>
 #include <vector>
+
+#include "engine/status.h"
 
 namespace mobil {
 
@@ -18,38 +19,6 @@ struct Entity {
 
   friend bool operator==(const Entity&, const Entity&) = default;
 };
-
-/// What became of a request on one entity. Nothing was changed unless it is `ok`.
-enum class Status : std::uint8_t {
-  ok,
-  stale_entity,   ///< the entity was destroyed, or never was
-  missing,        ///< it has no such component, field or tag
-  already_there,  ///< it has that component, field or tag already
-  wrong_width,    ///< the span is not as long as the field
-  not_valid,      ///< a value that is not finite or out of its range
-  not_yours,      ///< a part or an entity that is the library's, where a host's is asked for
-};
-
-/// In words.
-constexpr std::string_view status_text(Status status) {
-  switch (status) {
-    case Status::ok:
-      return "ok";
-    case Status::stale_entity:
-      return "that entity is gone, or never was";
-    case Status::missing:
-      return "the entity has no such component";
-    case Status::already_there:
-      return "the entity has that component already";
-    case Status::wrong_width:
-      return "the span is not as long as the field";
-    case Status::not_valid:
-      return "a value is not finite or out of its range";
-    case Status::not_yours:
-      return "that part or entity is the library's; use the call that is for it";
-  }
-  return "no status";
-}
 
 /// Who is alive, and where: the table (its number in the world) and the row. Slots are reused last in, first out, each
 /// time with the next generation; a slot whose generations are used up is retired.

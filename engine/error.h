@@ -1,21 +1,41 @@
 #pragma once
-// How a failure is handed back: one clear line that says what, where, the valid range and how to mend it.
+// How a failure is handed back: one clear line that says what, where, the valid range and how to mend it; and a code.
 
 #include <string>
 #include <tl/expected.hpp>
 #include <utility>
 
+#include "engine/status.h"
+
 namespace mobil {
 
 struct Error {
   std::string message;
+  Status status = Status::not_valid;  // never ok
 };
+inline bool operator==(const Error& error, Status status) {
+  return error.status == status;
+}
 
 template <class T>
 using Result = tl::expected<T, Error>;
 
-inline tl::unexpected<Error> fail(std::string message) {
-  return tl::unexpected<Error>(Error{std::move(message)});
+inline tl::unexpected<Error> fail(std::string message, Status status = Status::not_valid) {
+  return tl::unexpected<Error>(Error{std::move(message), status});
+}
+/// With the status' own line, or none where there is no memory for it.
+tl::unexpected<Error> fail(Status status) noexcept;
+
+/// A status with its line.
+inline Result<void> result_of(Status status) {
+  if (status == Status::ok) return {};
+  return fail(status);
+}
+
+/// Whether it ended like that: simulation.despawn(person) == Status::ok.
+template <class T>
+bool operator==(const tl::expected<T, Error>& result, Status status) {
+  return status == Status::ok ? result.has_value() : !result.has_value() && result.error().status == status;
 }
 
 }  // namespace mobil

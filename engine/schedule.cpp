@@ -42,6 +42,8 @@ Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memor
       passes_(schedule_passes(systems_)),
       timings_(systems_.size()),
       matches_(passes_.size()),
+      chosen_lanes_(memory),
+      chosen_(memory),
       scratch_floats_(passes_.size()),
       spent_ns_(std::make_unique<std::atomic<std::int64_t>[]>(systems_.size())),
       scratch_(std::make_unique<ScratchPool>(memory)),

@@ -114,8 +114,8 @@ class Schedule {
   std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
   std::vector<std::vector<Match>> matches_;                // by pass
-  std::vector<std::uint16_t> chosen_lanes_;                // by block of a packed system that runs, kept for its memory
-  std::vector<ChosenRow> chosen_;                          // the same as rows
+  std::pmr::vector<std::uint16_t> chosen_lanes_;           // by block of a packed system that runs, kept for its memory
+  std::pmr::vector<ChosenRow> chosen_;                     // the same as rows
   std::vector<std::size_t> scratch_floats_;                // by pass, the most that a table of it needs
   std::unique_ptr<std::atomic<std::int64_t>[]> spent_ns_;  // by system, this tick
   std::unique_ptr<ScratchPool> scratch_;
@@ -152,8 +152,8 @@ class ScheduleBuilder {
   }
 
   /// Fails on two systems of one name, on an `after` that names nobody, on a system that takes a component twice and
-  /// writes it, on writers that nobody ordered and on circles. `memory` serves the systems' scratch memory; it is asked
-  /// by one thread at a time, perhaps during a run, and must outlive the schedule.
+  /// writes it, on writers that nobody ordered and on circles. `memory` serves the systems' scratch memory and the
+  /// lists of chosen rows; it is asked by one thread at a time, perhaps during a run, and must outlive the schedule.
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 
  private:

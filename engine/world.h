@@ -127,7 +127,14 @@ class World {
   }
   /// An entity's row of a component.
   template <template <class> class C>
-  tl::expected<C<float>, Status> get(Entity entity) const;
+  tl::expected<C<float>, Status> get(Entity entity) const {
+    tl::expected<C<float>, Status> row{tl::in_place};
+    if (const Status status = read(entity, *row); status != Status::ok) return tl::unexpected(status);
+    return row;
+  }
+  /// The same into a row that is there.
+  template <template <class> class C>
+  Status read(Entity entity, C<float>& row) const;
   /// The value of an entity's tag; of a field, its words a row.
   template <class Tag>
   tl::expected<std::uint64_t, Status> get(Entity entity) const {
@@ -290,13 +297,12 @@ Status World::set(Entity entity, const C<float>& row) {
 }
 
 template <template <class> class C>
-tl::expected<C<float>, Status> World::get(Entity entity) const {
+Status World::read(Entity entity, C<float>& row) const {
   const auto part = part_of(entity, type_id<C<float>>());
-  if (!part) return tl::unexpected(part.error());
-  C<float> row;
+  if (!part) return part.error();
   const auto place = find(entity);
   place.table->read(place.row, place.table->column(part->id), ComponentLayout<C>::words, &row);
-  return row;
+  return Status::ok;
 }
 
 }  // namespace mobil

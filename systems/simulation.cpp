@@ -26,7 +26,7 @@ namespace {
 template <class T>
 Result<T> named(const char* call, Result<T> result) {
   if (result) return result;
-  return fail(fmt::format("{}: {}", call, result.error().message));
+  return fail(fmt::format("{}: {}", call, result.error().message), result.error().status);
 }
 
 }  // namespace
@@ -78,12 +78,12 @@ bool Simulation::ours(std::uint64_t part) const {
   return std::ranges::binary_search(our_parts_, part);
 }
 
-Status Simulation::destroy(Entity entity) {
+Result<void> Simulation::destroy(Entity entity) {
   const auto place = world_->find(entity);
-  if (!place) return Status::stale_entity;
+  if (!place) return fail(Status::stale_entity);
   const auto one_of_ours = [&](const KeyPart& part) { return ours(part.id); };
-  if (std::ranges::any_of(place.table->key(), one_of_ours)) return Status::not_yours;
-  return world_->destroy(entity);
+  if (std::ranges::any_of(place.table->key(), one_of_ours)) return fail(Status::not_yours);
+  return result_of(world_->destroy(entity));
 }
 
 MuscleScene Simulation::muscle_scene() {
@@ -112,17 +112,20 @@ Result<Entity> Simulation::spawn_posed(const BodyRequest& body) {
   return mobil::spawn_posed(*world_, body);
 }
 
-Status Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival arrival) {
-  const Status status = mobil::set_pose(*world_, human, pose);
-  if (status == Status::ok && arrival == Arrival::jumped) forget_motion(*world_, human);
-  return status;
+Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival arrival) {
+  auto done = mobil::set_pose(*world_, human, pose);
+  if (done && arrival == Arrival::jumped) {
+    forget_motion(*world_, human);
+    forget_past(*world_, human);
+  }
+  return done;
 }
 
-Status Simulation::despawn(std::span<const Entity> people) {
-  return despawn_people(*world_, jobs_, people);
+Result<void> Simulation::despawn(std::span<const Entity> people) {
+  return result_of(despawn_people(*world_, jobs_, people));
 }
 
-Status Simulation::despawn(Entity human) {
+Result<void> Simulation::despawn(Entity human) {
   return despawn(std::span(&human, 1));
 }
 
@@ -173,12 +176,12 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
   return {};
 }
 
-Status Simulation::add_forces(Entity human) {
-  return mobil::add_forces(*world_, human);
+Result<void> Simulation::add_forces(Entity human) {
+  return result_of(mobil::add_forces(*world_, human));
 }
 
-Status Simulation::remove_forces(Entity human) {
-  return mobil::remove_forces(*world_, human);
+Result<void> Simulation::remove_forces(Entity human) {
+  return result_of(mobil::remove_forces(*world_, human));
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
@@ -189,8 +192,8 @@ Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choi
   return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
 }
 
-Status Simulation::remove_leg_muscles(Entity human) {
-  return mobil::remove_leg_muscles(*world_, jobs_, human);
+Result<void> Simulation::remove_leg_muscles(Entity human) {
+  return result_of(mobil::remove_leg_muscles(*world_, jobs_, human));
 }
 
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
@@ -198,8 +201,8 @@ Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMet
 }
 
 MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
-  const Entity right_one = this->muscle(human, muscle, right);
-  return muscle_method(*world_, world_->alive(right_one) ? right_one : this->muscle(human, muscle, left));
+  const Entity right_one = this->muscle(human, muscle, Side::right);
+  return muscle_method(*world_, world_->alive(right_one) ? right_one : this->muscle(human, muscle, Side::left));
 }
 
 Ticks Simulation::advance(double seconds) {

@@ -14,6 +14,9 @@
 // `save`, `snapshot_bytes` and `state_hash`, which work with the simulation's jobs or keep what they learn; PoseWriter
 // and SurfaceWriter too, one of them a thread.
 //
+// Whatever can fail answers with a Result: what was asked for, or an Error with a code for the program and a line for
+// its user. What failed has changed nothing. (World and Schedule, inside, answer with the code alone.)
+//
 // Where memory runs out as people come or change, std::bad_alloc is thrown and the simulation is unchanged, including
 // future handles. Despawning never allocates.
 
@@ -50,6 +53,8 @@ struct SimulationOptions {
   double max_frame_s = 0.25;   // of a longer frame the rest is dropped and reported
   int threads = 1;             // of the built-in pool; 0: as many as the machine has
   std::optional<Jobs> jobs{};  // the caller's own job system instead
+  /// Of all that grows with people: tables, handles, what systems work in. From the heap are the tables that bodies
+  /// share, and what a call works with until it returns.
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   /// The host's own effects (engine/module.h), behind the library's.
   std::vector<Module> modules{};
@@ -115,20 +120,20 @@ class Simulation {
   /// A person whose host animates the skeleton, in the anatomical position at the origin: no gait, nothing of
   /// kinematics. Errors: a body out of range, in one line; the simulation is unchanged.
   Result<Entity> spawn_posed(const BodyRequest& body);
-  /// Where a posed person's skeleton is at the end of the next tick, taken as it is. Leg muscles follow. Stale handles
-  /// answer Status::stale_entity, walkers Status::missing; Status::not_valid where a place is not within 1000 km or a
-  /// quaternion's length is not 1 within 1 %: the pose then stays. Muscles with inertia feel the way from the last
-  /// pose, unless it has `jumped`.
-  Status set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
-  /// Stale handles answer Status::stale_entity.
-  Status despawn(Entity human);
+  /// Where a posed person's skeleton is at the end of the next tick, taken as it is. Leg muscles follow. Errors, which
+  /// name the segment: a stale handle, a walker (Status::missing), a place not within 1000 km, a quaternion whose
+  /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, unless it
+  /// has `jumped`.
+  Result<void> set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
+  /// Errors: a stale handle.
+  Result<void> despawn(Entity human);
 
   /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
   /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is as it
   /// was; `entities` mean nothing then.
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
-  /// All or none: where one of them is stale or named twice, Status::stale_entity.
-  Status despawn(std::span<const Entity> people);
+  /// All or none. Errors: one of them is stale, or named twice.
+  Result<void> despawn(std::span<const Entity> people);
   /// Makes the templates and bases that typical bodies share for this choice, with the simulation's jobs: then spawning
   /// them and changing their methods does not wait for that. Errors: a choice out of range; nothing has changed.
   Result<void> prepare(const LegMuscles& choice);
@@ -141,8 +146,8 @@ class Simulation {
   Result<void> load_baked(std::span<const std::byte> baked);
 
   /// Asks a person to walk otherwise, from the next step on; speeds far from the present one are reached over several
-  /// steps. A speed of 0 stops, a positive one starts again; what is left out stays, the style among it. Errors: a stale
-  /// handle, a gait out of range; nothing has changed then.
+  /// steps. A speed of 0 stops, a positive one starts again; what is left out stays, the style among it. Errors: a
+  /// stale handle, a gait out of range; nothing has changed then.
   Result<void> change_gait(Entity human, const GaitChange& change);
   /// The same with all of a walk said anew: what is left out is as in a GaitRequest{}.
   Result<void> set_gait(Entity human, const GaitRequest& gait);
@@ -171,11 +176,11 @@ class Simulation {
   /// tick. Errors: not within 1000 km; nothing has changed then.
   Result<void> shift_origin(float x_m, float z_m);
 
-  /// The effect of ground reaction and joint moments (components/forces.h). Posed
-  /// people have no gait that it could follow from: Status::missing.
-  Status add_forces(Entity human);
-  /// Status::missing, too, where they are not there.
-  Status remove_forces(Entity human);
+  /// The effect of ground reaction and joint moments (components/forces.h). Walkers' follow from their step, at once;
+  /// posed people's from how their last three poses move, one tick late (systems/forces/forces.h says how).
+  Result<void> add_forces(Entity human);
+  /// Errors: a stale handle, or they are not there (Status::missing).
+  Result<void> remove_forces(Entity human);
 
   /// The effect of leg muscles: lines of action and finite-element bellies of the muscles chosen, both legs, at rest
   /// where the person stands in the stride (with inertia under the load of that moment). Errors: a stale handle,
@@ -188,8 +193,8 @@ class Simulation {
   /// Inertia that begins under way lets the bellies sag. Every choice not made before is set up and kept. Errors: as
   /// above, and muscles that are not there; nothing has changed.
   Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
-  /// Status::stale_entity; Status::missing where there are none.
-  Status remove_leg_muscles(Entity human);
+  /// Errors: a stale handle, or there are none (Status::missing).
+  Result<void> remove_leg_muscles(Entity human);
 
   /// Another method for one muscle, both sides, from the next tick on; the person's other choices hold. What is shown
   /// of control points goes on without a jump in displacement or velocity: what the new method cannot begin with is
@@ -225,12 +230,16 @@ class Simulation {
 
   /// An entity's row of a component, or why there is none: get<Pose>(human). Of a tag its value.
   template <template <class> class C>
-  tl::expected<C<float>, Status> get(Entity entity) const {
-    return world_->get<C>(entity);
+  Result<C<float>> get(Entity entity) const {
+    Result<C<float>> row{tl::in_place};
+    if (const Status status = world_->read(entity, *row); status != Status::ok) return fail(status);
+    return row;
   }
   template <class Tag>
-  tl::expected<std::uint64_t, Status> get(Entity entity) const {
-    return world_->get<Tag>(entity);
+  Result<std::uint64_t> get(Entity entity) const {
+    const auto value = world_->get<Tag>(entity);
+    if (!value) return fail(value.error());
+    return *value;
   }
 
   /// The host's own parts (engine/key.h) on people and muscles, and entities of the host's own: the one door to what
@@ -238,31 +247,31 @@ class Simulation {
   /// A part of a muscle stays with it whatever its method. What is the library's, and its people and muscles, answer
   /// Status::not_yours: for these are the calls above.
   template <class P>
-  Status add(Entity entity, const P& part) {
-    return ours(key_part(part).id) ? Status::not_yours : world_->add(entity, part);
+  Result<void> add(Entity entity, const P& part) {
+    return result_of(ours(key_part(part).id) ? Status::not_yours : world_->add(entity, part));
   }
   template <template <class> class C>
-  Status set(Entity entity, const C<float>& row) {
-    return ours(type_id<C<float>>()) ? Status::not_yours : world_->set(entity, row);
+  Result<void> set(Entity entity, const C<float>& row) {
+    return result_of(ours(type_id<C<float>>()) ? Status::not_yours : world_->set(entity, row));
   }
   template <class Tag>
-  Status set_field(Entity entity, std::span<const float> values) {
-    return ours(type_id<Tag>()) ? Status::not_yours : world_->set_field<Tag>(entity, values);
+  Result<void> set_field(Entity entity, std::span<const float> values) {
+    return result_of(ours(type_id<Tag>()) ? Status::not_yours : world_->set_field<Tag>(entity, values));
   }
   template <template <class> class C>
-  Status remove(Entity entity) {
-    return ours(type_id<C<float>>()) ? Status::not_yours : world_->remove<C>(entity);
+  Result<void> remove(Entity entity) {
+    return result_of(ours(type_id<C<float>>()) ? Status::not_yours : world_->remove<C>(entity));
   }
   template <class Tag>
-  Status remove(Entity entity) {
-    return ours(type_id<Tag>()) ? Status::not_yours : world_->remove<Tag>(entity);
+  Result<void> remove(Entity entity) {
+    return result_of(ours(type_id<Tag>()) ? Status::not_yours : world_->remove<Tag>(entity));
   }
   template <class... P>
-  tl::expected<Entity, Status> create(const P&... parts) {
-    if ((ours(key_part(parts).id) || ...)) return tl::unexpected(Status::not_yours);
+  Result<Entity> create(const P&... parts) {
+    if ((ours(key_part(parts).id) || ...)) return fail(Status::not_yours);
     return world_->create(parts...);
   }
-  Status destroy(Entity entity);
+  Result<void> destroy(Entity entity);
   /// Takes a share in an immutable resource, for a Shared part.
   template <class T>
   Shared<T> share(std::shared_ptr<const T> resource) {
@@ -274,10 +283,10 @@ class Simulation {
   /// The library's parts are there to be read: where `f` would write one, nothing is done and the answer is
   /// Status::not_yours. Within ticks a module's systems may write them.
   template <class F>
-  Status each(F&& f) {
-    if (writes_ours(Signature<std::remove_cvref_t<F>>{})) return Status::not_yours;
+  Result<void> each(F&& f) {
+    if (writes_ours(Signature<std::remove_cvref_t<F>>{})) return fail(Status::not_yours);
     mobil::each(*world_, f);
-    return Status::ok;
+    return {};
   }
   template <class F>
   void each(F&& f) const {

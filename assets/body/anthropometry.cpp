@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "assets/body/body_composition.h"
 #include "assets/body/fat_distribution.h"
@@ -32,6 +35,49 @@ Vec3<float> scaled(const Vec3<double>& v, double by) {
   return {static_cast<float>(v.x * by), static_cast<float>(v.y * by), static_cast<float>(v.z * by)};
 }
 
+/// A long bone that may have a length of its own: what is fixed at its far end, the kneecap too, goes with it.
+struct LongBone {
+  const char* name;
+  Segment segment;
+  std::vector<Segment> at_its_end;
+  double fraction;
+  float LimbLengths<float>::*length_m;
+};
+const std::array<LongBone, 4>& long_bones() {
+  using enum Segment;
+  static const std::array<LongBone, 4> bones = {{
+      {"thigh", thigh_right, {shank_right, patella_right}, fraction::thigh, &LimbLengths<float>::thigh_m},
+      {"shank", shank_right, {foot_right}, fraction::shank, &LimbLengths<float>::shank_m},
+      {"upper arm", upper_arm_right, {forearm_right}, fraction::upper_arm, &LimbLengths<float>::upper_arm_m},
+      {"forearm", forearm_right, {hand_right}, fraction::forearm, &LimbLengths<float>::forearm_m},
+  }};
+  return bones;
+}
+
+std::string wrong_limb(const BodyRequest& request) {
+  constexpr double least = 0.6, most = 1.6;
+  for (const LongBone& bone : long_bones()) {
+    const auto asked = static_cast<double>(request.limbs.*bone.length_m);
+    const double usual = bone.fraction * static_cast<double>(request.height_m);
+    if (asked == 0 || (asked >= least * usual && asked <= most * usual)) continue;
+    return fmt::format("body: a {} of {} m is outside {:.3f}–{:.3f} m at that height; choose one within, or 0",
+                       bone.name, asked, least * usual, most * usual);
+  }
+  return {};
+}
+
+void lengthen(const LongBone& bone, Body& body) {
+  const float asked = body.request.limbs.*bone.length_m;
+  if (asked == 0) return;
+  const auto usual = static_cast<float>(bone.fraction * static_cast<double>(body.request.height_m));
+  for (const std::size_t side : {std::size_t{Side::right}, std::size_t{Side::left}}) {
+    const std::size_t own = index(on_side(bone.segment, side));
+    body.centre_of_mass_m[own].y *= asked / usual;
+    body.tip_m[own].y = -asked;
+    for (const Segment s : bone.at_its_end) body.joint_offset_m[index(on_side(s, side))].y += usual - asked;
+  }
+}
+
 }  // namespace
 
 Result<void> check_body(const BodyRequest& request) {
@@ -43,6 +89,7 @@ Result<void> check_body(const BodyRequest& request) {
   if (wrong.empty() && request.constitution > Constitution::heavy)
     wrong = "body: constitution is none of thin, average, athletic, heavy; choose one of them";
   if (wrong.empty()) wrong = not_living(request);
+  if (wrong.empty()) wrong = wrong_limb(request);
   if (!wrong.empty()) return fail(wrong);
   return {};
 }
@@ -72,7 +119,35 @@ Result<Body> make_body(const BodyRequest& request) {
   body.thigh_length_m = static_cast<float>(fraction::thigh * height);
   body.shank_length_m = static_cast<float>(fraction::shank * height);
   body.hip_height_m = static_cast<float>(fraction::hip_height * height);
+  if (!has_own_limbs(request)) return body;
+  for (const LongBone& bone : long_bones()) lengthen(bone, body);
+  if (request.limbs.thigh_m != 0) body.thigh_length_m = request.limbs.thigh_m;
+  if (request.limbs.shank_m != 0) body.shank_length_m = request.limbs.shank_m;
+  body.hip_height_m = static_cast<float>(fraction::ankle_height * height) + body.thigh_length_m + body.shank_length_m;
+  body.joint_offset_m[index(Segment::pelvis)].y = body.hip_height_m;
   return body;
+}
+
+LimbLengths<float> limb_lengths(const Body& body) {
+  LimbLengths<float> limbs{};
+  for (const LongBone& bone : long_bones()) limbs.*bone.length_m = -body.tip_m[index(bone.segment)].y;
+  return limbs;
+}
+
+Pose<float> standing_pose(const Body& body) {
+  Pose<float> pose;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const std::size_t parent = index(segment_parent[s]);
+    const Vec3<float>& offset = body.joint_offset_m[s];
+    pose.rotation[s] = {0, 0, 0, 1};
+    if (s == parent) {
+      pose.position_m[s] = offset;
+      continue;
+    }
+    const Vec3<float>& at = pose.position_m[parent];
+    pose.position_m[s] = {at.x + offset.x, at.y + offset.y, at.z + offset.z};
+  }
+  return pose;
 }
 
 }  // namespace mobil

@@ -6,6 +6,7 @@
 #include <cstddef>
 
 #include "components/body.h"
+#include "components/pose.h"
 #include "engine/error.h"
 
 namespace mobil {
@@ -40,10 +41,14 @@ inline constexpr double patella_forward = 0.027, patella_up = -0.009;
 constexpr UnitBody make_unit_body();
 
 /// Body of the asked height and mass. Masses add up to mass_kg without rounding error; the column's offsets add up to
-/// the stature. Fails on a height outside 1.2–2.2 m, a mass outside 30–200 kg, a biotype outside 0.1–12, or a mass that
-/// no living body of that height has. Where height, mass, biotype and constitution contradict each other less grossly,
-/// one gives way and `composition` notes it.
+/// the stature (less what limbs of their own add). Fails on a height outside 1.2–2.2 m, a mass outside 30–200 kg, a
+/// biotype outside 0.1–12, a mass that no living body of that height has, or a limb out of range. Where height, mass,
+/// biotype and constitution contradict each other less grossly, one gives way and `composition` notes it.
 Result<Body> make_body(const BodyRequest& request);
+/// How long a body's limbs are, asked for or not.
+LimbLengths<float> limb_lengths(const Body& body);
+/// The anatomical position: standing at the origin facing +Z, all rotations identity.
+Pose<float> standing_pose(const Body& body);
 /// Whether `make_body` would make it; the same errors.
 Result<void> check_body(const BodyRequest& request);
 
@@ -94,7 +99,7 @@ constexpr UnitBody make_unit_body() {
   b.centre_of_mass[at(head)] = {0, 0.014, 0.008};
 
   for (std::size_t side = 0; side < 2; ++side) {
-    const double out = side == right ? -1.0 : 1.0;  // +X is left
+    const double out = side == Side::right ? -1.0 : 1.0;  // +X is left
     auto of = [&](Segment s) { return index(on_side(s, side)); };
     constexpr double patella_mass = 0.0012, toes_mass = 0.0025;
 

@@ -52,7 +52,8 @@ void add_bone(const AnatomyPart& part, const BoneMaps& maps, const LegJoints& jo
   for (auto& p : bone.mesh.position) p = single(map(eigen(p)) - origin);
   bones.push_back(bone);
   if (part.midline) return;
-  BoneSurface image{part.origin == Segment::pelvis ? part.origin : on_side(part.origin, left), mirror_image(bone.mesh)};
+  BoneSurface image{part.origin == Segment::pelvis ? part.origin : on_side(part.origin, Side::left),
+                    mirror_image(bone.mesh)};
   image.mesh.name = left_name(image.mesh.name);
   bones.push_back(std::move(image));
 }

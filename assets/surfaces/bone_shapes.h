@@ -14,7 +14,7 @@ namespace mobil::bones {
 /// A body's lengths in mm of the measured man, so that shapes can be drawn in his numbers.
 struct Proportions {
   std::array<Vec3<double>, segment_count> joint, tip;  // origin in the parent's frame, end in its own
-  std::array<Vec3<double>, segment_count> world;       // origin in the world, standing
+  std::array<Vec3<double>, segment_count> world;       // origin in the world, standing on legs in proportion
   LegFrame leg;                                        // hip at the origin, unit 1
 };
 Proportions proportions(const Body& body);

@@ -25,8 +25,8 @@ std::vector<BoneSurface> make_bone_surfaces(const Body& body) {
     all[index(segment)] = {segment, std::move(mesh)};
   };
   const auto put_both = [&](Segment segment, const std::string& name, const SurfaceMesh& mesh) {
-    put(on_side(segment, right), name + "_right", mesh);
-    put(on_side(segment, left), name + "_left", mirror_image(mesh));
+    put(on_side(segment, Side::right), name + "_right", mesh);
+    put(on_side(segment, Side::left), name + "_left", mirror_image(mesh));
   };
   put(pelvis, "pelvis", bones::pelvis());
   for (std::size_t s = index(L5); s <= index(C1); ++s) {

@@ -31,7 +31,7 @@ struct LineBlock {
 };
 
 constexpr Side side_of(std::size_t lane) {
-  return lane % 2 == 0 ? right : left;
+  return lane % 2 == 0 ? Side::right : Side::left;
 }
 
 Result<std::vector<LineBlock>> make_blocks(BenchCrowd& crowd) {

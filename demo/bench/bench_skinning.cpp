@@ -18,6 +18,9 @@ namespace {
 // their weighted sum (15), its side (1); its six neighbours' differences (12) and two products (21), its length (8;
 // root and quotient count as one each), and by that (3).
 constexpr double muscle_flops = 45 + 3 + 54 + 15 + 1 + 12 + 21 + 8 + 3;
+// Its tangent besides: four neighbours' differences (36), at right angles to the normal (11), its length (8), by that
+// (3).
+constexpr double tangent_flops = 36 + 11 + 8 + 3;
 constexpr double bone_flops = 18 + 15;  // rotated, and the position shifted
 
 /// A person and the vertices that they are drawn with.
@@ -37,7 +40,8 @@ struct Scene {
 
 double bytes_of(const PackedSurface& s) {
   return static_cast<double>(s.node.size() * sizeof(s.node[0]) + s.cage.size() * sizeof(CageBlock) +
-                             s.bone.size() * sizeof(BoneBlock) + s.rings.vertex.size() * sizeof(PlacedRing));
+                             s.bone.size() * sizeof(BoneBlock) + s.rings.vertex.size() * sizeof(PlacedRing) +
+                             s.along.size() * sizeof(PlacedAlong));
 }
 
 /// Bytes of all that a person's vertices are made from, each once: both sides share it.
@@ -75,7 +79,8 @@ Result<void> gather(Scene& scene, std::size_t count, bool shared, const SurfaceC
   return {};
 }
 
-/// Times one way to write everybody, `stride` bytes a vertex (12: positions alone).
+/// Times one way to write everybody, `stride` bytes a vertex (12: positions alone; from 24 on normals, from 40 on
+/// tangents).
 Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& scene, std::size_t stride,
                           double flops) {
   std::vector<std::byte> buffer(static_cast<std::size_t>(scene.vertices) * stride);
@@ -85,6 +90,7 @@ Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& s
     SurfaceRequest request{person.entity, person.muscles, person.surfaces};
     request.positions = {free.first(person.surfaces->vertices * stride), stride};
     if (stride >= 24) request.normals = {request.positions.bytes.subspan(12), stride};
+    if (stride >= 40) request.tangents = {request.positions.bytes.subspan(24), stride};
     free = free.subspan(person.surfaces->vertices * stride);
     requests.push_back(request);
   }
@@ -106,12 +112,15 @@ Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& s
 
 Result<void> bench_skinning(BenchRun& run) {
   const SurfaceChoice muscles{.bones = false}, bones{.simulated = {}};
+  const SurfaceChoice textured{.bones = false, .textured = true}, coarse{.bones = false, .detail = 0.1};
   constexpr std::size_t many = 100;
-  Scene one, shared, own, skeleton;
+  Scene one, shared, own, skeleton, tangents, tenth;
   if (auto done = gather(one, 1, true, muscles); !done) return done;
   if (auto done = gather(shared, many, true, muscles); !done) return done;
   if (auto done = gather(own, many, false, muscles); !done) return done;
   if (auto done = gather(skeleton, 1, true, bones); !done) return done;
+  if (auto done = gather(tangents, 1, true, textured); !done) return done;
+  if (auto done = gather(tenth, many, true, coarse); !done) return done;
   struct Way {
     const char* name;
     const Scene& scene;
@@ -124,6 +133,8 @@ Result<void> bench_skinning(BenchRun& run) {
                          Way{"skinning.hundred_shared.stride_32.ns_per_vertex", shared, 32, muscle_flops},
                          Way{"skinning.hundred_own.ns_per_vertex", own, 24, muscle_flops},
                          Way{"skinning.hundred_own.stride_32.ns_per_vertex", own, 32, muscle_flops},
+                         Way{"skinning.tangents.ns_per_vertex", tangents, 40, muscle_flops + tangent_flops},
+                         Way{"skinning.hundred_of_a_tenth.ns_per_vertex", tenth, 24, muscle_flops},
                          Way{"skinning.bones.ns_per_vertex", skeleton, 24, bone_flops}}) {
     if (auto done = time_writing(run, way.name, way.scene, way.stride, way.flops); !done) return done;
   }

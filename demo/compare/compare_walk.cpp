@@ -29,10 +29,10 @@ double value(float v) {
 
 void add_motion(const Simulation& simulation, Entity entity, TickRows& rows) {
   const auto angles = *simulation.get<JointAngles>(entity);
-  rows.hip.push_back(degrees * value(angles.hip_flexion[right]));
+  rows.hip.push_back(degrees * value(angles.hip_flexion[Side::right]));
   rows.tilt.push_back(degrees * value(angles.pelvis_tilt));
-  rows.knee.push_back(degrees * value(angles.knee_flexion[right]));
-  rows.ankle.push_back(degrees * value(angles.ankle_dorsiflexion[right]));
+  rows.knee.push_back(degrees * value(angles.knee_flexion[Side::right]));
+  rows.ankle.push_back(degrees * value(angles.ankle_dorsiflexion[Side::right]));
   rows.com.push_back(value(simulation.get<CentreOfMass>(entity)->position_m.y));
 }
 
@@ -42,12 +42,12 @@ bool add_forces(const Simulation& simulation, Entity entity, double mass_kg, Tic
   const auto moments = simulation.get<JointMoments>(entity);
   if (!ground || !moments) return false;
   const double weight = mass_kg * gravity_m_s2;
-  rows.vertical.push_back(value(ground->force_n[right].y) / weight);
-  rows.fore_aft.push_back(value(ground->force_n[right].z) / weight);  // walking toward +z
-  rows.both_feet.push_back(value(ground->force_n[right].y + ground->force_n[left].y) / weight);
-  rows.hip_moment.push_back(value(moments->hip_nm[right]) / mass_kg);
-  rows.knee_moment.push_back(value(moments->knee_nm[right]) / mass_kg);
-  rows.ankle_moment.push_back(value(moments->ankle_nm[right]) / mass_kg);
+  rows.vertical.push_back(value(ground->force_n[Side::right].y) / weight);
+  rows.fore_aft.push_back(value(ground->force_n[Side::right].z) / weight);  // walking toward +z
+  rows.both_feet.push_back(value(ground->force_n[Side::right].y + ground->force_n[Side::left].y) / weight);
+  rows.hip_moment.push_back(value(moments->hip_nm[Side::right]) / mass_kg);
+  rows.knee_moment.push_back(value(moments->knee_nm[Side::right]) / mass_kg);
+  rows.ankle_moment.push_back(value(moments->ankle_nm[Side::right]) / mass_kg);
   return true;
 }
 

@@ -16,7 +16,7 @@ Result<void> over_steady_cycle(Simulation& simulation, Entity human, const std::
   double last = 0;
   while (simulation.time_s() < longest_s) {
     simulation.tick();
-    const double phase = static_cast<double>(simulation.get<Feet>(human)->phase[right]);
+    const double phase = static_cast<double>(simulation.get<Feet>(human)->phase[Side::right]);
     if (phase < last - 0.5) ++cycles;
     last = phase;
     const double total = cycles + phase;

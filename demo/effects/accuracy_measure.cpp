@@ -46,7 +46,7 @@ Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, cons
 
 Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, bool counted) {
   for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       ReferenceMuscle& reference = walk.reference[m][side];
       if (auto done = reference.follow(simulation, simulation.muscle(walk.human[driving_rung], plan.muscles[m], side));
           !done)

@@ -216,10 +216,10 @@ Result<void> show_switching(const CrowdShow& show, const Told& told) {
     for (std::size_t i = 0; i < humans * muscle_group_count / 60; ++i) {
       const Entity human = made->crowd->people()[below(humans)];
       const auto muscle = static_cast<Muscle>(below(muscle_group_count));
-      const auto before = shown(simulation, simulation.muscle(human, muscle, right));
+      const auto before = shown(simulation, simulation.muscle(human, muscle, Side::right));
       const MuscleMethod method = rung_method(below(rung_count - 1) == 9 ? 10 : below(rung_count - 2), below(4) != 0);
       if (auto done = simulation.set_method(human, muscle, method); !done) return done;
-      const auto after = shown(simulation, simulation.muscle(human, muscle, right));
+      const auto after = shown(simulation, simulation.muscle(human, muscle, Side::right));
       if (!before.empty() && !after.empty()) jump_m = std::max(jump_m, farthest_m(before, after));
       ++changed;
     }
@@ -227,7 +227,7 @@ Result<void> show_switching(const CrowdShow& show, const Told& told) {
     std::vector<std::pair<Entity, std::vector<float>>> watched;
     for (std::size_t i = 0; i < 20; ++i) {
       const Entity muscle = simulation.muscle(made->crowd->people()[below(humans)],
-                                              static_cast<Muscle>(below(muscle_group_count)), right);
+                                              static_cast<Muscle>(below(muscle_group_count)), Side::right);
       watched.emplace_back(muscle, shown(simulation, muscle));
     }
     simulation.tick();

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include <mobil/forces.h>
 #include <mobil/retarget.h>
 #include <mobil/simulation.h>
 
@@ -57,41 +58,53 @@ Bones squat(float hip, float knee, float lean) {
   return bones;
 }
 
+int failed(const mobil::Error& error) {
+  std::fprintf(stderr, "%s\n", error.message.c_str());
+  return 2;
+}
+
 }  // namespace
 
 int main() {
   mobil::Simulation simulation;
-  const auto person = simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
-  if (!person || !simulation.add_leg_muscles(*person)) return 2;
-
   mobil::SkeletonBones bones;
   bones.pelvis = hips;
   bones.spine = {belly, chest};
   bones.head = head;
-  bones.limbs[mobil::right] = {
+  bones.limbs[mobil::Side::right] = {
       .thigh = thigh_r, .shank = calf_r, .foot = foot_r, .upper_arm = upper_arm_r, .forearm = forearm_r};
-  bones.limbs[mobil::left] = {
+  bones.limbs[mobil::Side::left] = {
       .thigh = thigh_l, .shank = calf_l, .foot = foot_l, .upper_arm = upper_arm_l, .forearm = forearm_l};
   const mobil::BoneUnits unreal{mobil::PoseAxes::z_up_left_handed, 100};
-  const auto map = mobil::Retarget::make(simulation.human(*person)->body, bones, squat(0, 0, 0), unreal);
-  if (!map) {
-    std::fprintf(stderr, "%s\n", map.error().message.c_str());
-    return 2;
-  }
-  const mobil::Entity quadriceps = simulation.muscle(*person, mobil::Muscle::quadriceps, mobil::right);
-  float longest_m = 0, deepest_rad = 0;
+  const Bones rest = squat(0, 0, 0);
+  const auto limbs = mobil::limb_lengths(bones, rest, unreal);
+  if (!limbs) return failed(limbs.error());
+  const auto person = simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80, .limbs = *limbs});
+  if (!person) return failed(person.error());
+  const auto map = mobil::Retarget::make(simulation.human(*person)->body, bones, rest, unreal);
+  if (!map) return failed(map.error());
+  if (const auto done = simulation.add_leg_muscles(*person); !done) return failed(done.error());
+  if (const auto done = simulation.add_forces(*person); !done) return failed(done.error());
+  const mobil::Entity quadriceps = simulation.muscle(*person, mobil::Muscle::quadriceps, mobil::Side::right);
+  float longest_m = 0, deepest_rad = 0, most_n = 0;
   for (int tick = 0; tick <= 240; ++tick) {
     const float part = 0.5F - 0.5F * std::cos(static_cast<float>(tick) * 0.0262F);
     const auto pose = map->pose(squat(0.9F * part, 1.6F * part, 0.4F * part));
-    if (!pose || simulation.set_pose(*person, *pose) != mobil::Status::ok) return 2;
+    if (!pose) return failed(pose.error());
+    if (const auto done = simulation.set_pose(*person, *pose); !done) return failed(done.error());
     simulation.tick();
     const auto line = *simulation.get<mobil::LineOfAction>(quadriceps);
-    const float knee = simulation.get<mobil::JointAngles>(*person)->knee_flexion[mobil::right];
+    const float knee = simulation.get<mobil::JointAngles>(*person)->knee_flexion[mobil::Side::right];
     longest_m = std::max(longest_m, line.length_m - line.rest_length_m);
     deepest_rad = std::max(deepest_rad, knee);
+    const auto ground = *simulation.get<mobil::GroundReaction>(*person);
+    const float up_n = ground.force_n[mobil::Side::right].y + ground.force_n[mobil::Side::left].y;
+    most_n = std::max(most_n, up_n);
     if (tick % 60 == 0)
-      std::printf("%.0f s: knee %3.0f deg, quadriceps %+3.0f mm\n", tick / 60.0, 57.3 * static_cast<double>(knee),
-                  1e3 * static_cast<double>(line.length_m - line.rest_length_m));
+      std::printf("%.0f s: knee %3.0f deg, quadriceps %+3.0f mm, %3.0f N on the ground\n", tick / 60.0,
+                  57.3 * static_cast<double>(knee), 1e3 * static_cast<double>(line.length_m - line.rest_length_m),
+                  static_cast<double>(up_n));
   }
-  return deepest_rad > 1.5F && longest_m > 0.02F ? 0 : 1;  // knees bend, and their extensors lengthen
+  // Knees bend, their extensors lengthen, and to come up takes more than the weight.
+  return deepest_rad > 1.5F && longest_m > 0.02F && most_n > 80 * 9.81F ? 0 : 1;
 }

@@ -72,7 +72,7 @@ Result<void> record(const FrontierWalk& walk, std::size_t lane, std::vector<Fron
     simulation.tick();
     const auto part = static_cast<float>(ramp(static_cast<double>(t) * frontier_tick_s / ramp_s));
     for (FrontierDrive& drive : drives) {
-      const Entity muscle = simulation.muscle(*human, drive.muscle, right);
+      const Entity muscle = simulation.muscle(*human, drive.muscle, Side::right);
       const auto end = simulation.get<EndDrive>(muscle);
       const auto load = simulation.get<FrameLoad>(muscle);
       if (!end || !load) return fail("frontier: a muscle is gone from its walker");

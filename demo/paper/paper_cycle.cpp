@@ -68,24 +68,24 @@ double thickness(const Simulation& simulation, const MusclePlan& plan, Entity mu
 
 void add_rows(const Simulation& simulation, const Human& human, TickRows& rows) {
   const Entity entity = human.entity;
-  rows.force.push_back(value(simulation.get<GroundReaction>(entity)->force_n[right].y));
+  rows.force.push_back(value(simulation.get<GroundReaction>(entity)->force_n[Side::right].y));
   const auto com = simulation.get<CentreOfMass>(entity)->position_m;
   rows.com_height.push_back(value(com.y));
   rows.com_sideways.push_back(value(com.x));  // walking toward +z
   rows.pelvis.push_back(value(simulation.get<Pose>(entity)->position_m[index(Segment::pelvis)].y));
-  rows.knee.push_back(degrees * value(simulation.get<JointAngles>(entity)->knee_flexion[right]));
+  rows.knee.push_back(degrees * value(simulation.get<JointAngles>(entity)->knee_flexion[Side::right]));
   rows.muscle.resize(human.muscles.size());
   for (std::size_t m = 0; m < human.muscles.size(); ++m) {
     const MusclePlan& plan = human.muscles[m].plan;
     const auto& muscle = human.muscles[m].entity;
-    const auto line = *simulation.get<LineOfAction>(muscle[right]);
-    const auto belly = *simulation.get<BellyReport>(muscle[right]);
+    const auto line = *simulation.get<LineOfAction>(muscle[Side::right]);
+    const auto belly = *simulation.get<BellyReport>(muscle[Side::right]);
     MuscleRows& own = rows.muscle[m];
     own.length.push_back(value(line.length_m));
     own.pull.push_back(-value(line.force_n));
     own.elongation.push_back(value(belly.elongation_m));
     own.volume.push_back(value(belly.volume_ratio));
-    own.thickness.push_back(thickness(simulation, plan, muscle[right]));
+    own.thickness.push_back(thickness(simulation, plan, muscle[Side::right]));
   }
 }
 
@@ -103,7 +103,7 @@ PaperCycle sample(const Simulation& simulation, const Human& human, const TickRo
   cycle.ground_n = sample_cycle(rows.phase, rows.force);
   for (std::size_t m = 0; m < human.muscles.size(); ++m) {
     const MusclePlan& plan = human.muscles[m].plan;
-    const Entity muscle = human.muscles[m].entity[right];
+    const Entity muscle = human.muscles[m].entity[Side::right];
     const MuscleRows& own = rows.muscle[m];
     cycle.muscles.push_back({plan, value(simulation.get<LineOfAction>(muscle)->rest_length_m), rest_thickness(plan),
                              over(own.length), over(own.pull), over(own.elongation), over(own.volume),

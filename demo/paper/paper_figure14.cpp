@@ -211,7 +211,7 @@ Result<void> paper_figure14(PaperRun& run) {
   choice.cells = paper_mesh;
   choice.dt_s = step_s;
   if (auto added = simulation.add_leg_muscles(*entity, choice); !added) return added;
-  const Entity muscle = simulation.muscle(*entity, Muscle::hamstrings, right);
+  const Entity muscle = simulation.muscle(*entity, Muscle::hamstrings, Side::right);
   const BellyScale<float> scale = simulation.human(*entity)->muscles.front().plan.scale;
   std::vector<Row> rows;
   auto walked = over_steady_cycle(simulation, *entity, [&](double phase) {

@@ -43,7 +43,7 @@ std::vector<std::uint32_t> human_words(const Simulation& simulation, Entity huma
   std::vector<std::uint32_t> words;
   add_row(simulation.world(), human, false, words);
   for (std::size_t g = 0; g < muscle_group_count; ++g) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       add_row(simulation.world(), simulation.muscle(human, static_cast<Muscle>(g), side), false, words);
     }
   }
@@ -168,7 +168,7 @@ Poison in_component(float C<float>::*field) {
 template <template <class> class C>
 Poison in_muscle(float C<float>::*field) {
   return [field](Simulation& simulation, Entity human, float value) {
-    const Entity muscle = simulation.muscle(human, Muscle::hamstrings, right);
+    const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
     auto row = simulation.get<C>(muscle).value();
     row.*field = value;
     world_of(simulation).set(muscle, row);
@@ -178,7 +178,7 @@ Poison in_muscle(float C<float>::*field) {
 template <class Tag>
 Poison in_nodes() {
   return [](Simulation& simulation, Entity human, float value) {
-    const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, left);
+    const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::left);
     const auto width = simulation.world().get<Tag>(muscle);
     if (!width) return;
     std::vector<float> nodes(*width);

@@ -21,7 +21,7 @@ bool is_tendon(const std::string& name) {
 SurfaceChoice choice_of(const Simulation& simulation, const Human& human) {
   SurfaceChoice choice{.bones = false, .simulated = {}, .cells = human.leg_muscles.cells};
   for (const HumanMuscle& own : human.muscles) {
-    const bool belly = simulation.world().shared<MuscleTemplate>(own.entity[right]) != nullptr;
+    const bool belly = simulation.world().shared<MuscleTemplate>(own.entity[Side::right]) != nullptr;
     choice.simulated.set(static_cast<std::size_t>(own.plan.muscle), belly);
   }
   return choice;
@@ -108,8 +108,8 @@ void record_frame(const Figure& figure, const Simulation& simulation, const Huma
   std::vector<SurfaceMuscle> muscles;
   for (const BodySurfaces::Driver& driver : figure.muscles.driver) {
     muscles.push_back({driver.muscle,
-                       {simulation.muscle(human.entity, driver.muscle, right),
-                        simulation.muscle(human.entity, driver.muscle, left)}});
+                       {simulation.muscle(human.entity, driver.muscle, Side::right),
+                        simulation.muscle(human.entity, driver.muscle, Side::left)}});
   }
   std::vector<Vec3<float>> position(figure.muscles.vertices);
   SurfaceRequest request{human.entity, muscles, &figure.muscles};

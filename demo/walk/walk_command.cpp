@@ -56,7 +56,7 @@ std::optional<WalkForces> walk_forces(const Simulation& simulation, Entity entit
 }
 
 void add_muscle_rows(const Simulation& simulation, const Human& human, std::string_view method, MuscleTable& table) {
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     for (const HumanMuscle& own : human.muscles) {
       const Entity muscle = own.entity[side];
       const auto belly = simulation.get<BellyReport>(muscle);

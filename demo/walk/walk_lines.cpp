@@ -14,7 +14,7 @@ using namespace geometry;
 /// A point of a muscle's frame in the world; a left muscle's is reflected.
 Vec3<float> to_world(const LineOfAction<float>& line, Side side, const Vec3<float>& p) {
   const Vec3<float> world = line.start_m + rotated(line.rotation, p);
-  return side == left ? mirrored(world) : world;
+  return side == Side::left ? mirrored(world) : world;
 }
 
 /// Each edge of the boundary once.
@@ -35,7 +35,7 @@ std::vector<std::array<std::uint32_t, 2>> boundary_edges(const Cells& cells) {
 template <class F>
 void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
   for (const HumanMuscle& own : human.muscles) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       const auto line = simulation.get<LineOfAction>(own.entity[side]);
       if (line) f(own.plan, own.entity[side], side, *line);
     }

@@ -21,7 +21,7 @@ double decimal(float value) {
 Json muscles_json(const Simulation& simulation, const Human& human) {
   Json muscles = Json::array();
   for (const HumanMuscle& own : human.muscles) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       const Entity entity = own.entity[side];
       const auto* shape = simulation.world().shared<MuscleTemplate>(entity);
       const BellyScale<float>& scale = own.plan.scale;
@@ -38,7 +38,7 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
                                       : 0.0;
       const MusclePlan& plan = own.plan;
       muscles.push_back({{"group", muscle_name(plan.muscle)},
-                         {"side", side == right ? "right" : "left"},
+                         {"side", side == Side::right ? "right" : "left"},
                          {"method", method_name[static_cast<std::size_t>(method)]},
                          {"nodes", shape == nullptr ? 0 : node_count(shape->mesh.cells)},
                          {"vectors", method == Method::reduced ? Json(own.method.reduced.vectors) : Json()},

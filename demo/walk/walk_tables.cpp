@@ -36,8 +36,8 @@ void MotionTable::add(const MotionRow& row, const std::optional<WalkForces>& for
   const auto& [time_s, heading_rad, angles, feet, com] = row;
   const float ahead_x = std::sin(heading_rad), ahead_z = std::cos(heading_rad);
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}", time_s, feet.phase[right],
-                 feet.phase[left], com.position_m.x, com.position_m.y, com.position_m.z,
+  fmt::format_to(out, "{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f},{:.4f},{:.4f}", time_s, feet.phase[Side::right],
+                 feet.phase[Side::left], com.position_m.x, com.position_m.y, com.position_m.z,
                  angles.pelvis_rotation * degrees, angles.pelvis_list * degrees, angles.pelvis_tilt * degrees);
   for (std::size_t side = 0; side < 2; ++side) {
     for (const float angle : {angles.hip_flexion[side], angles.knee_flexion[side], angles.ankle_dorsiflexion[side],

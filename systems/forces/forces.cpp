@@ -11,6 +11,11 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
+namespace contact {
+/// A point of a sole bears nothing this high over the ground (m), or this fast; all of what it can when still.
+constexpr float high_m = 0.03F, still_m_s = 0.3F, moving_m_s = 1.2F;
+}  // namespace contact
+
 /// A vector in a vertical plane.
 struct Flat {
   Wide ahead, up;
@@ -49,24 +54,29 @@ struct Sole {
   Wide pressed;
 };
 
-/// The foot of the right side (right_one = 1) or the left (0) at a phase of its cycle, `off` that of its toe-off; `of`:
-/// the numbers of its walk.
-template <class Shape>
-HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motion, const Wide& right_one,
-                          const Wide& height, const Wide& cycle, const Wide& off) {
+/// The foot of the right side (right_one = 1) or the left (0), not pressed yet.
+HWY_NOINLINE Sole sole_at(const BodyMotion<Lanes<float>>& motion, const Wide& right_one, const Wide& height) {
   auto side = [&](const Lanes<float>& of_right, const Lanes<float>& of_left) {
     return select(right_one > 0.0F, load(of_right), load(of_left));
   };
-  const Vec3<Lanes<float>>& right_ankle = motion.place_m[leg_point(right, ankle_point)];
-  const Vec3<Lanes<float>>& left_ankle = motion.place_m[leg_point(left, ankle_point)];
+  const Vec3<Lanes<float>>& right_ankle = motion.place_m[leg_point(Side::right, ankle_point)];
+  const Vec3<Lanes<float>>& left_ankle = motion.place_m[leg_point(Side::left, ankle_point)];
   Sole s;
-  s.along_x = side(motion.foot_x[right], motion.foot_x[left]);
-  s.along_z = side(motion.foot_z[right], motion.foot_z[left]);
-  const Wide pitch = side(motion.foot_pitch[right], motion.foot_pitch[left]);
+  s.along_x = side(motion.foot_x[Side::right], motion.foot_x[Side::left]);
+  s.along_z = side(motion.foot_z[Side::right], motion.foot_z[Side::left]);
+  const Wide pitch = side(motion.foot_pitch[Side::right], motion.foot_pitch[Side::left]);
   const Wide rolled = planted_ankle(height, pitch).along.value;
   s.x = fnma(rolled, s.along_x, side(right_ankle.x, left_ankle.x));
   s.z = fnma(rolled, s.along_z, side(right_ankle.z, left_ankle.z));
   s.reach = sole_reach(height, pitch);
+  return s;
+}
+
+/// The same at a phase of its cycle, `off` that of its toe-off, pressed as its walk does; `of`: that one's numbers.
+template <class Shape>
+HWY_NOINLINE Sole sole_of(const Shape& of, const BodyMotion<Lanes<float>>& motion, const Wide& right_one,
+                          const Wide& height, const Wide& cycle, const Wide& off) {
+  Sole s = sole_at(motion, right_one, height);
   s.pressed = pressed(of, height, cycle / off);
   return s;
 }
@@ -97,41 +107,40 @@ HWY_NOINLINE Shares planned_shares(const StepPlan<Lanes<float>>& plan, const Wid
           select(from_stands, wide(0.0F), 4.0F * u * (1.0F - u) * apart)};
 }
 
-/// Total force of the ground, and how it is split and where it acts.
-HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
-                          const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
-  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
-  const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
-  const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
-  const Wide off = load(plan.double_support);
-  const Wide right_stands = select(equal(state.stance_side, right), one, zero);
-  const Wide stance_off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
-  const Sole soles[2] = {
-      sole_of(of, motion, right_stands, height, 0.5F * phase, stance_off),
-      sole_of(OneShape{plan.from.shape}, motion, one - right_stands, height, 0.5F + 0.5F * phase, 0.5F + 0.5F * off)};
-  const Shares planned = planned_shares(plan, phase);
-  Wide share[2] = {planned.stance, one - planned.stance};
-
-  // Where the ground must press so that its moment is the motion's.
-  const WideVec total = load(motion.force_per_kg), moment = load(motion.moment_per_kg);
+/// Where the ground must press so that its moment is the motion's.
+struct Pressed {
+  Wide x, z;
+};
+HWY_INLINE Pressed balancing(const BodyMotion<Lanes<float>>& motion, const WideVec& total) {
+  const WideVec moment = load(motion.moment_per_kg);
   const Wide lift = max(total.y, 1.0F);
-  const Wide wanted_x = moment.z / lift, wanted_z = -(moment.x / lift);
+  return {moment.z / lift, -(moment.x / lift)};
+}
+
+/// Forces of both feet, whose sum is the motion's, and where they act. `split(balanced)`: the first foot's share, given
+/// the one that would balance the motion with centres as they are pressed; `split_again` the same once the centres have
+/// moved, asked where both feet bear. `push`: the first foot's forward and the other's back, per kg; `pivot`: height of
+/// the point that forces lean toward.
+template <class Split, class SplitAgain>
+HWY_INLINE void press(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion, const WideVec& total,
+                      const Sole (&soles)[2], const Split& split, const SplitAgain& split_again, const Wide& push,
+                      const Wide& pivot, WideVec (&force)[2], WideVec (&centre)[2]) {
+  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m), mass = load(size.mass_kg);
+  const Pressed wanted = balancing(motion, total);
   Wide x[2], z[2];
   for (std::size_t k = 0; k < 2; ++k) {
     x[k] = fma(soles[k].pressed, soles[k].along_x, soles[k].x);
     z[k] = fma(soles[k].pressed, soles[k].along_z, soles[k].z);
   }
-  // The stance foot's share that would do with these centres; who stands has it.
   auto balanced = [&] {
     const Wide apart_x = x[0] - x[1], apart_z = z[0] - z[1];
     const Wide apart2 = max(fma(apart_x, apart_x, apart_z * apart_z), wide(1e-6F));
-    return clamp(fma(wanted_x - x[1], apart_x, (wanted_z - z[1]) * apart_z) / apart2, 0.0F, 1.0F);
+    return clamp(fma(wanted.x - x[1], apart_x, (wanted.z - z[1]) * apart_z) / apart2, 0.0F, 1.0F);
   };
-  const WideMask stands = load(plan.landing) <= 0.0F;
-  share[0] = select(stands, balanced(), share[0]);
+  Wide share[2] = {split(balanced()), zero};
   share[1] = one - share[0];
-  const Wide lacking_x = wanted_x - fma(share[0], x[0], share[1] * x[1]);
-  const Wide lacking_z = wanted_z - fma(share[0], z[0], share[1] * z[1]);
+  const Wide lacking_x = wanted.x - fma(share[0], x[0], share[1] * x[1]);
+  const Wide lacking_z = wanted.z - fma(share[0], z[0], share[1] * z[1]);
   const Wide half_width = wide(sole::half_width) * height;
   for (std::size_t k = 0; k < 2; ++k) {
     const Sole& s = soles[k];
@@ -143,22 +152,41 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
   }
   // What is left is made up by the shares, where both feet bear.
   const WideMask both = (share[0] > 0.001F) & (share[0] < 0.999F);
-  share[0] = select(both, balanced(), share[0]);
+  share[0] = select(both, split_again(balanced()), share[0]);
   share[1] = one - share[0];
 
   const Wide mean_x = fma(share[0], x[0], share[1] * x[1]), mean_z = fma(share[0], z[0], share[1] * z[1]);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Wide up = share[k] * total.y, lean = up / pivot;
+    force[k] = {mass * fma(lean, mean_x - x[k], share[k] * total.x), mass * up,
+                mass * (fma(lean, mean_z - z[k], share[k] * total.z) + (k == 0 ? push : -push))};
+    centre[k] = {x[k], zero, z[k]};
+  }
+}
+
+/// Total force of the ground on walkers, and how it is split and where it acts.
+HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                          const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Support& out) {
+  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m);
+  const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
+  const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+  const Wide off = load(plan.double_support);
+  const Wide right_stands = select(equal(state.stance_side, Side::right), one, zero);
+  const Wide stance_off = 0.5F + mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
+  const Sole soles[2] = {
+      sole_of(of, motion, right_stands, height, 0.5F * phase, stance_off),
+      sole_of(OneShape{plan.from.shape}, motion, one - right_stands, height, 0.5F + 0.5F * phase, 0.5F + 0.5F * off)};
+  const Shares planned = planned_shares(plan, phase);
+  const WideMask stands = load(plan.landing) <= 0.0F;  // what balances them, then
   const Wide pivot =
       (forces::pivot_height + of(step_shape::split, 0)) * max(load(motion.centre_height_m), 0.1F * height);
   WideVec force[2], centre[2];
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Wide up = share[k] * total.y, lean = up / pivot;
-    const Wide push = forces::gravity * (k == 0 ? planned.push : -planned.push);
-    force[k] = {mass * fma(lean, mean_x - x[k], share[k] * total.x), mass * up,
-                mass * (fma(lean, mean_z - z[k], share[k] * total.z) + push)};
-    centre[k] = {x[k], zero, z[k]};
-  }
+  press(
+      size, motion, load(motion.force_per_kg), soles,
+      [&](const Wide& balanced) HWY_ATTR { return select(stands, balanced, planned.stance); },
+      [](const Wide& balanced) HWY_ATTR { return balanced; }, forces::gravity * planned.push, pivot, force, centre);
   auto of_side = [&](const WideVec(&stance_first)[2], std::size_t side) {
-    const WideMask first = side == right ? right_stands > 0.0F : right_stands <= 0.0F;
+    const WideMask first = side == Side::right ? right_stands > 0.0F : right_stands <= 0.0F;
     const WideVec &a = stance_first[0], &b = stance_first[1];
     return WideVec{select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
   };
@@ -166,6 +194,72 @@ HWY_NOINLINE void support(const BodySize<Lanes<float>>& size, const BodyMotion<L
     out.force[side] = of_side(force, side);
     out.centre[side] = of_side(centre, side);
   }
+}
+
+/// What of a foot's lowest points is near the ground and at rest there, 0 to 1; and how high the lowest is.
+struct Contact {
+  Wide part, lowest;
+};
+
+/// Points under heel, ball and tips of the toes (as in Feet).
+HWY_NOINLINE Contact contact_of(const Wide& height, const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
+                                const Pose<Lanes<float>>& after, std::size_t side, float apart_s) {
+  namespace f = fraction;
+  struct Point {
+    Segment segment;
+    double up, ahead;
+  };
+  using enum Segment;
+  constexpr Point points[] = {{foot_right, -f::ankle_height, -f::heel_back},
+                              {toes_right, -f::toe_joint_height, 0},
+                              {toes_right, -f::toe_joint_height, f::toes_length}};
+  const Wide zero = wide(0.0F);
+  Wide up[3], slow[3];
+  for (std::size_t p = 0; p < 3; ++p) {
+    const std::size_t s = index(on_side(points[p].segment, side));
+    const WideVec own = {zero, height * static_cast<float>(points[p].up), height * static_cast<float>(points[p].ahead)};
+    auto place = [&](const Pose<Lanes<float>>& pose)
+                     HWY_ATTR { return load(pose.position_m[s]) + rotate(load(pose.rotation[s]), own); };
+    const WideVec moved = place(after) - place(before);
+    up[p] = place(now).y;
+    slow[p] = 1.0F - smooth((length(moved) * wide(0.5F / apart_s) - contact::still_m_s) *
+                            wide(1.0F / (contact::moving_m_s - contact::still_m_s)));
+  }
+  const Wide lowest = min(up[0], min(up[1], up[2]));
+  Wide part = zero;
+  for (std::size_t p = 0; p < 3; ++p) part = max(part, slow[p] * (1.0F - smooth(up[p] * wide(1.0F / contact::high_m))));
+  return {part, lowest};
+}
+
+/// The same of posed people, in a frame whose floor is the ground.
+HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                                const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
+                                const Pose<Lanes<float>>& after, float apart_s, Support& out) {
+  const Wide zero = wide(0.0F), one = wide(1.0F), height = load(size.height_m);
+  WideVec total = load(motion.force_per_kg);
+  const WideMask pulls = total.y <= 0.0F;  // the ground does not
+  total = {select(pulls, zero, total.x), select(pulls, zero, total.y), select(pulls, zero, total.z)};
+  const Pressed wanted = balancing(motion, total);
+  Sole soles[2];
+  Contact contact[2];
+  for (std::size_t side = 0; side < 2; ++side) {
+    Sole& s = soles[side];
+    s = sole_at(motion, side == Side::right ? one : zero, height);
+    // Each as near to the place that balances as its sole reaches: the foot ahead at the heel, the one behind at the
+    // toes.
+    s.pressed = min(max(fma(wanted.x - s.x, s.along_x, (wanted.z - s.z) * s.along_z), s.reach.back), s.reach.front);
+    contact[side] = contact_of(height, before, now, after, side, apart_s);
+  }
+  // Who has no foot at rest near the ground stands on the lower one.
+  const WideMask right_is_lower = contact[Side::right].lowest <= contact[Side::left].lowest;
+  const Wide right_bears = contact[Side::right].part + select(right_is_lower, wide(1e-4F), zero);
+  const Wide left_bears = contact[Side::left].part + select(right_is_lower, zero, wide(1e-4F));
+  auto split = [&](const Wide& balanced) HWY_ATTR {
+    const Wide on_right = right_bears * (balanced + 1e-3F), on_left = left_bears * (1.001F - balanced);
+    return on_right / (on_right + on_left);
+  };
+  const Wide pivot = forces::pivot_height * max(load(motion.centre_height_m), 0.1F * height);
+  press(size, motion, total, soles, split, split, zero, pivot, out.force, out.centre);
 }
 
 /// Hip, knee and ankle moments of one leg, from the foot up.
@@ -205,6 +299,17 @@ HWY_NOINLINE void leg_moments(const BodySize<Lanes<float>>& size, const BodyMoti
   hip_knee_ankle[0] = turning;
 }
 
+void put_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion, const Support& ground,
+                 JointMoments<Lanes<float>>& moments) {
+  for (std::size_t side = 0; side < 2; ++side) {
+    Wide joint[3];
+    leg_moments(size, motion, ground, side, joint);
+    store(joint[0], moments.hip_nm[side]);
+    store(joint[1], moments.knee_nm[side]);
+    store(joint[2], moments.ankle_nm[side]);
+  }
+}
+
 void forces_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                   const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                   GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
@@ -217,12 +322,20 @@ void forces_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<flo
     const WideVec &f = ground.force[side], &p = ground.centre[side];
     store(WideVec{fma(f.x, c, f.z * s), f.y, fnma(f.x, s, f.z * c)}, reaction.force_n[side]);
     store(WideVec{line_x + fma(p.x, c, p.z * s), p.y, line_z + fnma(p.x, s, p.z * c)}, reaction.centre_m[side]);
-    Wide joint[3];
-    leg_moments(size, motion, ground, side, joint);
-    store(joint[0], moments.hip_nm[side]);
-    store(joint[1], moments.knee_nm[side]);
-    store(joint[2], moments.ankle_nm[side]);
   }
+  put_moments(size, motion, ground, moments);
+}
+
+void posed_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                 const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after,
+                 float apart_s, GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
+  Support ground;
+  posed_support(size, motion, before, now, after, apart_s, ground);
+  for (std::size_t side = 0; side < 2; ++side) {
+    store(ground.force[side], reaction.force_n[side]);
+    store(ground.centre[side], reaction.centre_m[side]);
+  }
+  put_moments(size, motion, ground, moments);
 }
 
 }  // namespace mobil::HWY_NAMESPACE
@@ -232,11 +345,18 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 
 HWY_EXPORT(forces_block);
+HWY_EXPORT(posed_block);
 
 void joint_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                   const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                   GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
   HWY_DYNAMIC_DISPATCH(forces_block)(size, motion, plan, state, reaction, moments);
+}
+
+void posed_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                  const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after,
+                  float apart_s, GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
+  HWY_DYNAMIC_DISPATCH(posed_block)(size, motion, before, now, after, apart_s, reaction, moments);
 }
 
 }  // namespace mobil

@@ -38,7 +38,7 @@ HWY_INLINE NextFoot next_foot(const BodySize<Lanes<float>>& size, const StepPlan
   const Wide after = (way - (1.0F - slope_at_end) * length * load(state.bend_per_m)) / far;
   const Wide shift_per_bend = -centre_over_gravity * height * squared;
   const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m), shift = load(state.shift_m);
-  const Wide lands_left = select(equal(state.stance_side, right), wide(1.0F), wide(-1.0F));
+  const Wide lands_left = select(equal(state.stance_side, Side::right), wide(1.0F), wide(-1.0F));
   // The foot after one on the inside can come back inward only so far: no more than that foot can undo.
   const Wide undone = ((1.0F - nearest) * apart + within_sole * height) / -shift_per_bend, turned = abs(after);
   const WideMask inside = (after * lands_left > 0.0F) & (turned > undone);

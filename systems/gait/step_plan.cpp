@@ -227,7 +227,7 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
     if (!(way > 0.0F)) continue;
     begins[l] = 1.0F;
     plan.slant_rad[l] = std::atan2(left_m, ahead_m);
-    const std::uint32_t stance = left_m > 0.0F ? right : left_m < 0.0F ? left : state.stance_side[l];
+    const std::uint32_t stance = left_m > 0.0F ? Side::right : left_m < 0.0F ? Side::left : state.stance_side[l];
     plan.swaps[l] = static_cast<std::uint32_t>(stance != state.stance_side[l]);
     if (plan.swaps[l] != 0) {
       std::swap(plan.trailing_half_width_m[l], plan.from.half_width_m[l]);
@@ -260,7 +260,7 @@ void first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
 void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                 const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
-  const WideMask right_lands = equal(state.stance_side, left), fresh = zero > one;
+  const WideMask right_lands = equal(state.stance_side, Side::left), fresh = zero > one;
   const WideMask sides_change = load(plan.landing) > 0.0F;  // as advance_gait has it
   auto keep = [](const WideMask& where, const Lanes<float>& kept, Lanes<float>& value) {
     store(select(where, load(kept), load(value)), value);

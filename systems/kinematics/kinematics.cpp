@@ -175,7 +175,7 @@ HWY_NOINLINE Wide pose_leg(const FootMotion& foot, const Foothold& at, const Pel
       skeleton.position(shank) + rotate(on_the_way, scaled({cap.x - knee.x, cap.y - knee.y, cap.z - knee.z}, height)),
       on_the_way);
 
-  const Wide yaw = origin.heading + at.heading + foot.toe_out * (side == left ? 1.0F : -1.0F);
+  const Wide yaw = origin.heading + at.heading + foot.toe_out * (side == Side::left ? 1.0F : -1.0F);
   const WideQuat outward = turn_y(yaw);
   const Ground ankle = turned(at.ankle.left, at.ankle.forward, origin.sine, origin.cosine);
   const WideQuat sole = outward * turn_x(-foot.pitch), toe_rotation = outward * turn_x(-(foot.pitch + foot.toes));
@@ -230,7 +230,7 @@ HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::
                            JointAngles<Lanes<float>>& angles) {
   using enum Segment;
   auto of = [&](Segment s) { return on_side(s, side); };
-  const float out = side == left ? 1.0F : -1.0F;
+  const float out = side == Side::left ? 1.0F : -1.0F;
   const Wide shoulder = fma(ahead, arm_manner.forward + arm_manner.back, -arm_manner.back);
   const Wide elbow = fma(ahead, arm_manner.elbow_forward - arm_manner.elbow_back, arm_manner.elbow_back);
   const Wide pronation = arm_manner.pronation * -out;
@@ -284,7 +284,8 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Wide one = wide(1.0F), zero = wide(0.0F);
   const Skeleton skeleton{load(size.height_m), pose};
   const Wide time = load(state.time_s);
-  const WideMask right_stands = equal(state.stance_side, right), left_stands = equal(state.stance_side, left);
+  const WideMask right_stands = equal(state.stance_side, Side::right),
+                 left_stands = equal(state.stance_side, Side::left);
   const Wide u = time / load(plan.duration_s), eased = smooth(u), phase = step_phase(plan, u);
   const StepWaves waves = step_waves(phase);
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
@@ -319,7 +320,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   FootMotion foot[2];
   Foothold at[2];
   for (std::size_t side = 0; side < 2; ++side) {
-    const WideMask stands = side == right ? right_stands : left_stands;
+    const WideMask stands = side == Side::right ? right_stands : left_stands;
     foot[side] = foot_of(stands, stance, other);
     at[side] = foothold_of(stands, standing_at, other_at);
     draw_in(foot[side], at[side], pelvis, motion, side, skeleton.height);
@@ -329,7 +330,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   auto limit = [&](std::size_t side) {
     return highest_hips(foot[side], at[side], pelvis, motion, side, skeleton.height);
   };
-  pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(right), limit(left), rounding), rounding);
+  pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(Side::right), limit(Side::left), rounding), rounding);
 
   Origin origin = {{load(state.line_x_m), zero, load(state.line_z_m)}, load(state.heading_rad), zero, zero};
   sin_cos(origin.heading, origin.sine, origin.cosine);
@@ -340,7 +341,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 
   Wide leg[2];
   for (std::size_t side = 0; side < 2; ++side) {
-    const WideMask stands = side == right ? right_stands : left_stands;
+    const WideMask stands = side == Side::right ? right_stands : left_stands;
     leg[side] = pose_leg(foot[side], at[side], pelvis, motion, origin, facing, side, skeleton, angles, feet);
     store(0.5F * select(stands, u, u + 1.0F), feet.phase[side]);
   }
@@ -364,14 +365,6 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   store(motion.tilt, angles.pelvis_tilt);
 }
 
-void anatomical_block(const BodySize<Lanes<float>>& size, Pose<Lanes<float>>& pose) {
-  const Skeleton skeleton{load(size.height_m), pose};
-  const Wide zero = wide(0.0F);
-  const WideQuat identity = {zero, zero, zero, wide(1.0F)};
-  skeleton.put(Segment::pelvis, scaled(unit_skeleton.joint_offset[0], skeleton.height), identity);
-  for (std::size_t s = 1; s < segment_count; ++s) skeleton.hang(static_cast<Segment>(s), identity);
-}
-
 void centre_block(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
                   CentreOfMass<Lanes<float>>& centre) {
   const Wide height = load(size.height_m), extra = load(size.extra_fat);
@@ -391,17 +384,12 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 
 HWY_EXPORT(pose_block);
-HWY_EXPORT(anatomical_block);
 HWY_EXPORT(centre_block);
 
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
                    Feet<Lanes<float>>& feet) {
   HWY_DYNAMIC_DISPATCH(pose_block)(size, plan, state, pose, angles, feet);
-}
-
-void pose_anatomical(const BodySize<Lanes<float>>& size, Pose<Lanes<float>>& pose) {
-  HWY_DYNAMIC_DISPATCH(anatomical_block)(size, pose);
 }
 
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,

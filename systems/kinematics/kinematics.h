@@ -24,7 +24,4 @@ void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<floa
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,
                     CentreOfMass<Lanes<float>>& centre);
 
-/// The anatomical position: standing at the origin facing +Z, all rotations identity.
-void pose_anatomical(const BodySize<Lanes<float>>& size, Pose<Lanes<float>>& pose);
-
 }  // namespace mobil

@@ -140,7 +140,7 @@ HWY_EXPORT(put_rows);
 /// `word(i)` is the i-th of a pose's words; put(f, x, sign) makes sign·x what f becomes.
 template <class Word, class F, class Put>
 void gather(Word word, Side side, LegFrames<F>& legs, Put put) {
-  const float mirror = side == left ? -1.0F : 1.0F;
+  const float mirror = side == Side::left ? -1.0F : 1.0F;
   const auto position = [&](Segment right_segment, Vec3<F>& to) {
     const std::size_t at = 3 * index(on_side(right_segment, side));
     put(to.x, word(at), mirror);
@@ -172,7 +172,7 @@ void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std
 
 void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts) {
   const auto* words = reinterpret_cast<const Lanes<float>*>(&pose);
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     LegFrames<Lanes<float>> legs;
     gather([words](std::size_t i) -> const Lanes<float>& { return words[i]; }, side, legs,
            [](Lanes<float>& to, const Lanes<float>& x, float sign) {

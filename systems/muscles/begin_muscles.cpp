@@ -121,13 +121,13 @@ class Block {
       rest.stiffness_n_per_m[lane] = static_cast<float>(axial_stiffness(
           group_.common.shape->axial, static_cast<double>(of.scale.across), static_cast<double>(of.scale.along)));
       const float* const pose = poses.find(human);
-      for (const Side side : {right, left}) {
+      for (const Side side : {Side::right, Side::left}) {
         gather_leg(pose, side, leg[side], lane);
         put_row(MuscleOwner<float>{human.index, human.generation, side}, group_.side[side].block<MuscleOwner>(b_),
                 lane);
       }
     }
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       auto& line = group_.side[side].block<LineOfAction>(b_);
       auto& end = group_.side[side].block<EndDrive>(b_);
       line = rest;
@@ -143,7 +143,7 @@ class Block {
       if (!effect.wanted(group_.kind)) continue;
       const std::vector<KeyPart> parts = effect.module().parts;
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        for (const Side side : {right, left}) {
+        for (const Side side : {Side::right, Side::left}) {
           const Columns& of = group_.side[side];
           RowValues values;
           const auto line = row_of(of.block<LineOfAction>(b_), lane);
@@ -186,7 +186,7 @@ class Block {
       if (auto* const shape = group_.both.field<ReducedShape>(b_)) write_shapes(bellies, damping, shape->lane);
     }
     if (group_.kind.shape.resource == nullptr) return {};
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       auto* const displacement = group_.side[side].field<NodalDisplacement>(b_);
       if (basis != nullptr && !group_.kind.inertia) {
         place_at_rest(*basis, bellies, group_.side[side].block<EndDrive>(b_).to, displacement->lane);
@@ -224,7 +224,7 @@ class Block {
 
 /// Both sides' rows.
 void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector<Entity>& all_made) {
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     std::vector<PartValue> parts;
     for (const KeyPart& part : group.parts) {
       const Column* column = group.side[side].find(part.id);

@@ -139,7 +139,7 @@ void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const
   std::vector<NextMuscle> next;
   next.reserve(2 * bellies.size());
   for (std::size_t m = 0; m < bellies.size(); ++m) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       if (!world.alive(own[m].entity[side])) continue;
       next.push_back(next_muscle(world, library, work, {change, side, bellies[m], own[m].entity[side]}));
       world.reserve_remade(next.back().muscle, next.back().parts, muscle_part_ids(), 2);

@@ -40,7 +40,7 @@ class NewRows {
 };
 
 tl::unexpected<Error> not_there() {
-  return fail("that person is not there (a stale handle); spawn one first");
+  return fail("that person is not there (a stale handle); spawn one first", Status::stale_entity);
 }
 
 /// The sizes of muscles that people asked for, one person's after the other's.
@@ -139,7 +139,8 @@ Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side) {
 std::optional<LegMuscles> choice_of(const World& world, Entity person) {
   const std::vector<OwnMuscle> own = muscles_of(world, person);
   if (own.empty()) return std::nullopt;
-  const Entity first = world.alive(own.front().entity[right]) ? own.front().entity[right] : own.front().entity[left];
+  const Entity first =
+      world.alive(own.front().entity[Side::right]) ? own.front().entity[Side::right] : own.front().entity[Side::left];
   LegMuscles choice = *world.shared<LegMuscles>(first);
   const MuscleMethod method = muscle_method(world, first);
   choice.method = method.method;
@@ -202,7 +203,8 @@ Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> pe
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
-  if (!muscles_of(world, person).empty()) return fail("this person has leg muscles; remove them first");
+  if (!muscles_of(world, person).empty())
+    return fail("this person has leg muscles; remove them first", Status::already_there);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
   const Body body = *make_body(body_request(world, person));
   std::vector<MuscleSize> size;
@@ -221,7 +223,7 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
   const std::vector<OwnMuscle> before = muscles_of(world, person);
-  if (before.empty()) return fail("this person has no leg muscles; add them first");
+  if (before.empty()) return fail("this person has no leg muscles; add them first", Status::missing);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
   const Body body = *make_body(body_request(world, person));
   LegMuscles new_ones = choice;
@@ -269,9 +271,11 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
-  const OwnMuscle own{muscle, {muscle_of(world, person, muscle, right), muscle_of(world, person, muscle, left)}};
-  const Entity one = world.alive(own.entity[right]) ? own.entity[right] : own.entity[left];
-  if (!world.alive(one)) return fail("this person has no such muscle; choose one of those in add_leg_muscles");
+  const OwnMuscle own{muscle,
+                      {muscle_of(world, person, muscle, Side::right), muscle_of(world, person, muscle, Side::left)}};
+  const Entity one = world.alive(own.entity[Side::right]) ? own.entity[Side::right] : own.entity[Side::left];
+  if (!world.alive(one))
+    return fail("this person has no such muscle; choose one of those in add_leg_muscles", Status::missing);
   if (same_method(muscle_method(world, one), method)) return {};
   LegMuscles choice = *world.shared<LegMuscles>(one);
   choice.method = method.method;
@@ -286,10 +290,10 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
 void move_muscles(World& world, Entity person, const Placing& way) {
   using geometry::operator+, geometry::operator-;
   for (const OwnMuscle& own : muscles_of(world, person)) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       const Entity muscle = own.entity[side];
       // A left muscle's world is the mirror image's.
-      const float mirrored = side == left ? -1.0F : 1.0F;
+      const float mirrored = side == Side::left ? -1.0F : 1.0F;
       const Vec3<float> from = {mirrored * way.from_x_m, 0, way.from_z_m}, to = {mirrored * way.to_x_m, 0, way.to_z_m};
       const double half = 0.5 * double{mirrored} * double{way.turn_rad};
       const Quat<float> turn = {0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))};
@@ -314,7 +318,7 @@ void shift_muscles(World& world, float x_m, float z_m) {
   // A left muscle's world is the mirror image.
   const auto shift = [&](const MuscleOwner<Lanes<float>>& owner, Vec3<Lanes<float>>& at) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      at.x[lane] -= owner.side[lane] == left ? -x_m : x_m;
+      at.x[lane] -= owner.side[lane] == Side::left ? -x_m : x_m;
       at.z[lane] -= z_m;
     }
   };

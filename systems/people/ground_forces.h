@@ -1,14 +1,24 @@
 #pragma once
-// The effect of ground reaction and joint moments (components/forces.h) on one walker.
+// The effect of ground reaction and joint moments (components/forces.h) on one person.
 
+#include "components/body.h"
+#include "components/forces.h"
+#include "components/pose.h"
 #include "engine/world.h"
 
 namespace mobil {
 
-/// Stale handles answer Status::stale_entity, posed people Status::missing: they have no gait that forces could follow
-/// from.
+/// Stale handles answer Status::stale_entity.
 Status add_forces(World& world, Entity person);
 /// Status::missing, too, where they are not there.
 Status remove_forces(World& world, Entity person);
+/// A posed person who has them has jumped: how the pose moves is known from the third tick on.
+void forget_past(World& world, Entity person);
+
+/// Of people whose host animates them, at the instant of the last tick's pose: where the poses before and after it are
+/// known, too, with what they accelerate, else as if at rest. The ground is level and as high as the lower sole.
+void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose, const Feet<Lanes<float>>& feet,
+                 PosedPast<Lanes<float>>& past, float tick_s, GroundReaction<Lanes<float>>& ground,
+                 JointMoments<Lanes<float>>& moments);
 
 }  // namespace mobil

@@ -17,6 +17,8 @@
 #include "systems/kinematics/body_motion.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/line_of_action.h"
+#include "systems/people/ground_forces.h"
+#include "systems/people/pose_measures.h"
 
 namespace mobil {
 namespace {
@@ -33,7 +35,9 @@ Result<void> check_key(const TableKey& key, const World&) {
   const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>(), type_id<Pose<float>>(),
                            type_id<JointAngles<float>>(), type_id<Feet<float>>(), type_id<CentreOfMass<float>>()});
   const auto walk = count({type_id<Gait<float>>(), type_id<StepPlan<float>>(), type_id<GaitState<float>>()});
-  if ((body == 0 || body == 6) && (walk == 0 || (walk == 3 && body == 6))) return {};
+  const auto limbs = count({type_id<LimbLengths<float>>()});
+  if ((body == 0 || body == 6) && (walk == 0 || (walk == 3 && body == 6)) && (limbs == 0 || (walk == 0 && body == 6)))
+    return {};
   return fail("the snapshot does not agree with itself (the parts of a person); give one that `save` made");
 }
 
@@ -41,14 +45,17 @@ Result<void> check_key(const TableKey& key, const World&) {
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   const std::uint32_t size = saved.column(table, type_id<BodySize<float>>());
   const std::uint32_t physique = saved.column(table, type_id<Physique<float>>());
+  const std::uint32_t limbs = saved.column(table, type_id<LimbLengths<float>>());
   if (size == Table::no_column || physique == Table::no_column) return {};
   for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
     const auto number = [&](std::uint32_t word) { return std::bit_cast<float>(saved.word(table, row, word)); };
     const std::uint32_t constitution = saved.word(table, row, physique + 3);
-    const BodyRequest body{number(size),
-                           number(size + 1),
-                           {number(physique), number(physique + 1), number(physique + 2)},
-                           static_cast<Constitution>(constitution)};
+    BodyRequest body{number(size),
+                     number(size + 1),
+                     {number(physique), number(physique + 1), number(physique + 2)},
+                     static_cast<Constitution>(constitution)};
+    if (limbs != Table::no_column)
+      body.limbs = {number(limbs), number(limbs + 1), number(limbs + 2), number(limbs + 3)};
     if (constitution <= static_cast<std::uint32_t>(Constitution::heavy) && check_body(body)) continue;
     return fail("the snapshot does not agree with itself (a person's body); give one that `save` made");
   }
@@ -73,21 +80,30 @@ Module walking_module() {
 }
 
 Module forces_module() {
-  return {
-      .name = "forces",
-      .parts = {component_part<BodyMotion>(), component_part<GroundReaction>(), component_part<JointMoments>()},
-      .systems = [](ScheduleBuilder& systems) { systems.add("motion", &walker_motion).add("forces", &joint_forces); }};
+  return {.name = "forces",
+          .parts = {component_part<BodyMotion>(), component_part<GroundReaction>(), component_part<JointMoments>(),
+                    component_part<PosedPast>()},
+          .systems = [](ScheduleBuilder& systems) {
+            systems.add("motion", &walker_motion)
+                .add("forces", &joint_forces)
+                .add("posed forces", &press_posed)
+                .after("forces");
+          }};
 }
 
 Module skeleton_module() {
-  return {.name = "skeleton",
-          .version = 2,
-          .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<Pose>(),
-                    component_part<JointAngles>(), component_part<Feet>(), component_part<CentreOfMass>(),
-                    key_part(Publishes<LegPost>{})},
-          .systems = [](ScheduleBuilder& systems) { systems.add("leg frames", &publish_legs); },
-          .check_key = &check_key,
-          .check_rows = &check_rows};
+  return {
+      .name = "skeleton",
+      .version = 2,
+      .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<LimbLengths>(),
+                component_part<Pose>(), component_part<JointAngles>(), component_part<Feet>(),
+                component_part<CentreOfMass>(), key_part(Publishes<LegPost>{})},
+      .systems =
+          [](ScheduleBuilder& systems) {
+            systems.add("leg frames", &publish_legs).add("limbs' mass", &move_mass_along_limbs).after("centre of mass");
+          },
+      .check_key = &check_key,
+      .check_rows = &check_rows};
 }
 
 }  // namespace mobil

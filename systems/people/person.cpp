@@ -7,6 +7,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
+#include "components/forces.h"
 #include "engine/each.h"
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
@@ -31,7 +32,11 @@ bool is_posed(const World& world, Entity entity) {
 BodyRequest body_request(const World& world, Entity person) {
   const BodySize<float> size = *world.get<BodySize>(person);
   const Physique<float> of = *world.get<Physique>(person);
-  return {size.height_m, size.mass_kg, {of.endo, of.meso, of.ecto}, static_cast<Constitution>(of.constitution)};
+  return {size.height_m,
+          size.mass_kg,
+          {of.endo, of.meso, of.ecto},
+          static_cast<Constitution>(of.constitution),
+          world.get<LimbLengths>(person).value_or(LimbLengths<float>{})};
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
@@ -48,9 +53,10 @@ namespace {
 /// Errors: a stale handle, a posed person; `asked` is what was asked, `mend` what to do instead.
 Result<void> is_walker(const World& world, Entity person, std::string_view asked, std::string_view mend) {
   if (!is_person(world, person))
-    return fail(fmt::format("{}: that person is not there (a stale handle); spawn one first", asked));
+    return fail(fmt::format("{}: that person is not there (a stale handle); spawn one first", asked),
+                Status::stale_entity);
   if (is_posed(world, person))
-    return fail(fmt::format("{}: this person's host animates the skeleton; {}", asked, mend));
+    return fail(fmt::format("{}: this person's host animates the skeleton; {}", asked, mend), Status::missing);
   return {};
 }
 
@@ -158,26 +164,35 @@ void shift_people(World& world, float x_m, float z_m) {
   each(world, [&](Feet<Lanes<float>>& feet) {
     for (auto* const points : {feet.heel_m, feet.toe_m, feet.tip_m}) shift(points[0]), shift(points[1]);
   });
+  each(world, [&](PosedPast<Lanes<float>>& past) {
+    for (auto& pose : past.pose) {
+      for (auto& at : pose.position_m) shift(at);
+    }
+  });
   each(world, [&](CentreOfMass<Lanes<float>>& centre) { shift(centre.position_m); });
   each(world, [&](GaitState<Lanes<float>>& state) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) state.line_x_m[lane] -= x_m, state.line_z_m[lane] -= z_m;
   });
 }
 
-Status set_pose(World& world, Entity person, const Pose<float>& pose) {
-  if (!is_person(world, person)) return Status::stale_entity;
-  if (!is_posed(world, person)) return Status::missing;
-  bool valid = true;
+Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
+  if (!is_person(world, person)) return fail(Status::stale_entity);
+  if (!is_posed(world, person))
+    return fail("set_pose: this person walks; spawn_posed makes people whom the host poses", Status::missing);
   for (std::size_t s = 0; s < segment_count; ++s) {
     const auto& [x, y, z] = pose.position_m[s];
+    const auto& [qx, qy, qz, qw] = pose.rotation[s];
     // No comparison holds for what is not a number.
-    valid &= std::fabs(x) < farthest_m && std::fabs(y) < farthest_m && std::fabs(z) < farthest_m &&
-             is_rotation(pose.rotation[s]);
+    if (!(std::fabs(x) < farthest_m && std::fabs(y) < farthest_m && std::fabs(z) < farthest_m))
+      return fail(fmt::format("set_pose: {} is at ({}, {}, {}) m; give a finite place within 1000 km", segment_name[s],
+                              x, y, z));
+    if (!is_rotation(pose.rotation[s]))
+      return fail(fmt::format("set_pose: the quaternion of {} has the length {:.4g}; give one of length 1",
+                              segment_name[s], std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw)));
   }
-  if (!valid) return Status::not_valid;
   world.set(person, joint_angles(pose));
   world.set(person, sole_points(world.get<BodySize>(person)->height_m, pose));
-  return world.set(person, pose);
+  return result_of(world.set(person, pose));
 }
 
 }  // namespace mobil

@@ -52,9 +52,8 @@ Result<Placing> place(World& world, Entity person, float x_m, float z_m, float h
 /// Everybody's places, less (x, 0, z); muscles' are their own (systems/muscles/leg_muscles.h).
 void shift_people(World& world, float x_m, float z_m);
 /// Where a posed person's skeleton is at the end of the next tick; joint angles and points of the soles follow at once,
-/// the centre of mass with the tick. Stale handles answer Status::stale_entity, walkers
-/// Status::missing; Status::not_valid where a place is not within 1000 km or a quaternion's length is not 1 within 1 %:
-/// the pose then stays.
-Status set_pose(World& world, Entity person, const Pose<float>& pose);
+/// the centre of mass with the tick. Errors: a stale handle, a walker, a place not within 1000 km, a quaternion whose
+/// length is not 1 within 1 %; the pose then stays.
+Result<void> set_pose(World& world, Entity person, const Pose<float>& pose);
 
 }  // namespace mobil

@@ -1,8 +1,10 @@
 #include "systems/people/pose_measures.h"
 
 #include <cmath>
+#include <utility>
 
 #include "assets/body/anthropometry.h"
+#include "assets/body/fat_distribution.h"
 #include "components/muscle.h"
 #include "engine/geometry.h"
 
@@ -29,7 +31,7 @@ JointAngles<float> joint_angles(const Pose<float>& pose) {
   angles.pelvis_rotation = static_cast<float>(std::remainder(heading(to_left) - heading(chest_to_left), 2 * M_PI));
   angles.pelvis_list = static_cast<float>(-std::asin(std::fmax(-1, std::fmin(1, to_left.y))));
   angles.pelvis_tilt = static_cast<float>(std::atan2(-ahead.y, up.y));
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const auto own = [side](Segment s) { return on_side(s, side); };
     angles.hip_flexion[side] = -turned(pelvis, own(thigh_right));
     angles.knee_flexion[side] = turned(own(thigh_right), own(shank_right));
@@ -40,10 +42,37 @@ JointAngles<float> joint_angles(const Pose<float>& pose) {
   return angles;
 }
 
+void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths<Lanes<float>>& limbs,
+                           const Pose<Lanes<float>>& pose, CentreOfMass<Lanes<float>>& centre) {
+  using enum Segment;
+  const std::pair<Segment, const Lanes<float>&> bones[] = {{thigh_right, limbs.thigh_m},
+                                                           {shank_right, limbs.shank_m},
+                                                           {upper_arm_right, limbs.upper_arm_m},
+                                                           {forearm_right, limbs.forearm_m}};
+  for (const auto& [right_one, length_m] : bones) {
+    for (const Side side : {Side::right, Side::left}) {
+      const std::size_t s = index(on_side(right_one, side));
+      const auto tip = static_cast<float>(unit_body.tip[s].y),
+                 part = static_cast<float>(unit_body.centre_of_mass[s].y) / tip;
+      const auto usual = static_cast<float>(unit_body.mass_fraction[s]),
+                 more = static_cast<float>(mass_per_extra_fat(s));
+      const Quat<Lanes<float>>& q = pose.rotation[s];
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        if (length_m[l] == 0) continue;
+        // Along the bone's own y axis, down.
+        const float by = (usual + more * size.extra_fat[l]) * part * (length_m[l] + tip * size.height_m[l]);
+        centre.position_m.x[l] -= by * 2 * (q.x[l] * q.y[l] - q.w[l] * q.z[l]);
+        centre.position_m.y[l] -= by * (1 - 2 * (q.x[l] * q.x[l] + q.z[l] * q.z[l]));
+        centre.position_m.z[l] -= by * 2 * (q.y[l] * q.z[l] + q.w[l] * q.x[l]);
+      }
+    }
+  }
+}
+
 Feet<float> sole_points(float height_m, const Pose<float>& pose) {
   namespace f = fraction;
   Feet<float> feet{};
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const auto point = [&](Segment segment, double up, double forward) {
       const std::size_t s = index(on_side(segment, side));
       const auto height = static_cast<double>(height_m);

@@ -12,6 +12,10 @@ double twist_about_x(const Quat<double>& rotation);
 
 /// By the conventions of JointAngles. A pose has no direction of walking: the pelvis' rotation is against the chest.
 JointAngles<float> joint_angles(const Pose<float>& pose);
+/// Takes the centre of mass of a body whose limbs' lengths follow from its height to where limbs of their own have it:
+/// each limb's own centre is as far along as in any body (Dempster, in assets/body/anthropometry.h).
+void move_mass_along_limbs(const BodySize<Lanes<float>>& size, const LimbLengths<Lanes<float>>& limbs,
+                           const Pose<Lanes<float>>& pose, CentreOfMass<Lanes<float>>& centre);
 /// Of a body of that height. `phase` is 0: a pose has none.
 Feet<float> sole_points(float height_m, const Pose<float>& pose);
 

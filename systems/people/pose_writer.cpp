@@ -233,7 +233,7 @@ Result<void> PoseWriter::write(const World& world, std::span<const Entity> peopl
   for (std::size_t i = 0; i < people.size(); ++i) {
     const auto place = world.find(people[i]);
     if (!place || !TableColumn<Pose>(*place.table))
-      return fail(fmt::format("poses: person {} of the list is not there (a stale handle)", i));
+      return fail(fmt::format("poses: person {} of the list is not there (a stale handle)", i), Status::stale_entity);
     places_.push_back({place.table, place.row, static_cast<std::uint32_t>(i)});
   }
   auto block_of = [](const Place& p) { return std::tuple(p.table, p.row / lane_count); };

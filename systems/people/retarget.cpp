@@ -110,23 +110,16 @@ Result<void> check_bones(const SkeletonBones& bones, std::size_t count) {
   return {};
 }
 
-}  // namespace
-
-Result<Retarget> Retarget::make(const Body& body, const SkeletonBones& bones, std::span<const BonePlace> rest,
-                                const BoneUnits& units) {
+/// Where the joints are at rest, m, in our axes.
+Result<std::vector<Vec>> rest_joints(const SkeletonBones& bones, std::span<const BonePlace> rest,
+                                     const BoneUnits& units) {
   if (units.axes > PoseAxes::z_up_left_handed || !(units.units_per_m >= 1e-3F && units.units_per_m <= 1e6F))
     return fail("retarget: units_per_m must lie between 0.001 and 1e6, axes be one of PoseAxes");
   if (auto ok = check_bones(bones, rest.size()); !ok) return tl::unexpected(ok.error());
+  std::vector<Vec> joint;
   for (std::size_t i = 0; i < rest.size(); ++i) {
     if (auto ok = check_place(rest[i], i, units.units_per_m); !ok) return tl::unexpected(ok.error());
-  }
-  Retarget map;
-  map.body_ = body;
-  map.units_ = units;
-  std::vector<Vec> joint;
-  for (const BonePlace& bone : rest) {
-    joint.push_back(place_from(units.axes, units.units_per_m, bone.position));
-    map.rest_.push_back(conjugate(normalised_rotation(rotation_from(units.axes, bone.rotation))));
+    joint.push_back(place_from(units.axes, units.units_per_m, rest[i].position));
   }
   const auto at = [&](std::int32_t bone) { return joint[static_cast<std::size_t>(bone)]; };
   for (const SkeletonBones::Limbs& l : bones.limbs) {
@@ -134,15 +127,48 @@ Result<Retarget> Retarget::make(const Body& body, const SkeletonBones& bones, st
     if (length(at(l.shank) - at(l.thigh)) < least_m || length(at(l.foot) - at(l.shank)) < least_m)
       return fail("retarget: a leg has no length at rest; are the units right?");
   }
-  const Vec across = at(bones.limbs[left].thigh) - at(bones.limbs[right].thigh);
+  return joint;
+}
+
+}  // namespace
+
+Result<LimbLengths<float>> limb_lengths(const SkeletonBones& bones, std::span<const BonePlace> rest,
+                                        const BoneUnits& units) {
+  const auto joint = rest_joints(bones, rest, units);
+  if (!joint) return tl::unexpected(joint.error());
+  using Limbs = SkeletonBones::Limbs;
+  const auto mean = [&](std::int32_t Limbs::*upper, std::int32_t Limbs::*lower) {
+    double sum = 0;
+    for (const Limbs& l : bones.limbs) {
+      if (l.*upper == no_bone || l.*lower == no_bone) return 0.0F;
+      const auto a = static_cast<std::size_t>(l.*upper), b = static_cast<std::size_t>(l.*lower);
+      sum += 0.5 * length((*joint)[b] - (*joint)[a]);
+    }
+    return static_cast<float>(sum);
+  };
+  return LimbLengths<float>{mean(&Limbs::thigh, &Limbs::shank), mean(&Limbs::shank, &Limbs::foot),
+                            mean(&Limbs::upper_arm, &Limbs::forearm), mean(&Limbs::forearm, &Limbs::hand)};
+}
+
+Result<Retarget> Retarget::make(const Body& body, const SkeletonBones& bones, std::span<const BonePlace> rest,
+                                const BoneUnits& units) {
+  const auto joint = rest_joints(bones, rest, units);
+  if (!joint) return tl::unexpected(joint.error());
+  Retarget map;
+  map.body_ = body;
+  map.units_ = units;
+  for (const BonePlace& bone : rest)
+    map.rest_.push_back(conjugate(normalised_rotation(rotation_from(units.axes, bone.rotation))));
+  const auto at = [&](std::int32_t bone) { return (*joint)[static_cast<std::size_t>(bone)]; };
+  const Vec across = at(bones.limbs[Side::left].thigh) - at(bones.limbs[Side::right].thigh);
   if (std::hypot(across.x, across.z) < 1e-3) return fail("retarget: the hips lie upon each other at rest");
   map.facing_ = turn_about_y(std::atan2(-across.z, across.x));
-  for (const Side side : {right, left}) map.hip_[side] = bones.limbs[side].thigh;
+  for (const Side side : {Side::right, Side::left}) map.hip_[side] = bones.limbs[side].thigh;
   for (Source& source : map.source_) source.rest = map.facing_;
-  map.set_column(bones, joint);
-  for (const Side side : {right, left}) {
-    map.set_leg(bones.limbs[side], side, joint);
-    map.set_arm(bones.limbs[side], side, joint);
+  map.set_column(bones, *joint);
+  for (const Side side : {Side::right, Side::left}) {
+    map.set_leg(bones.limbs[side], side, *joint);
+    map.set_arm(bones.limbs[side], side, *joint);
   }
   return map;
 }
@@ -152,8 +178,8 @@ void Retarget::set_column(const SkeletonBones& bones, std::span<const Vec> joint
   std::vector<std::int32_t> column = {bones.pelvis};
   column.insert(column.end(), bones.spine.begin(), bones.spine.end());
   if (bones.head != no_bone) column.push_back(bones.head);
-  const double hips =
-      0.5 * (joint[static_cast<std::size_t>(hip_[right])].y + joint[static_cast<std::size_t>(hip_[left])].y);
+  const double hips = 0.5 * (joint[static_cast<std::size_t>(hip_[Side::right])].y +
+                             joint[static_cast<std::size_t>(hip_[Side::left])].y);
   const double top = joint[static_cast<std::size_t>(column.back())].y;
   const double whole = std::max(top - hips, 1e-3);
   std::vector<double> middle;
@@ -234,7 +260,7 @@ Result<Pose<float>> Retarget::pose(std::span<const BonePlace> bones) const {
   };
   std::array<Vec, segment_count> place;
   std::array<Rotation, segment_count> rotation;
-  place[index(pelvis)] = 0.5 * (hip(right) + hip(left));
+  place[index(pelvis)] = 0.5 * (hip(Side::right) + hip(Side::left));
   for (std::size_t s = 0; s < segment_count; ++s) {
     const std::size_t parent = index(segment_parent[s]);
     const Source& source = source_[s];
@@ -244,7 +270,7 @@ Result<Pose<float>> Retarget::pose(std::span<const BonePlace> bones) const {
     rotation[s] = product(turn, source.rest);
     if (s != parent) place[s] = place[parent] + rotated(rotation[parent], to_double(body_.joint_offset_m[s]));
   }
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const std::size_t thigh = index(on_side(thigh_right, side)), shank = index(on_side(shank_right, side));
     const std::size_t cap = index(on_side(patella_right, side));
     const double flexion = twist_about_x(product(conjugate(rotation[thigh]), rotation[shank]));

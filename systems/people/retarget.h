@@ -6,7 +6,10 @@
 //
 // Each segment turns as its bone has turned from the rest pose, whatever way the bone's own axes point; the vertebrae
 // share out what the bones of the spine do, by height; kneecaps glide as they do in walkers. Segments are as long as
-// the body's: bones of other lengths turn them alike.
+// the body's: bones of other lengths turn them alike, unless the body was asked for with theirs:
+//
+//   BodyRequest request;
+//   request.limbs = *limb_lengths(bones, rest, units);                      // before the person is spawned
 
 #include <array>
 #include <cstdint>
@@ -50,6 +53,11 @@ struct BoneUnits {
   PoseAxes axes = PoseAxes::y_up;
   float units_per_m = 1;
 };
+
+/// How long a skeleton's thighs, shanks, upper arms and forearms are at rest, m, in the mean of both sides, for
+/// BodyRequest; 0 where no bone ends one. Errors: as Retarget::make.
+Result<LimbLengths<float>> limb_lengths(const SkeletonBones& bones, std::span<const BonePlace> rest,
+                                        const BoneUnits& units = {});
 
 class Retarget {
  public:

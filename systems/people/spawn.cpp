@@ -32,6 +32,8 @@ Result<void> check(const SpawnRequest& request, Gait<float>& gait, std::size_t p
                    const std::function<Result<void>(std::size_t, const Body&)>& each) {
   const auto body = make_body(request.body);
   if (!body) return tl::unexpected(body.error());
+  if (has_own_limbs(request.body))
+    return fail("body: limbs of their own are for posed people (spawn_posed); a walker's follow from the height");
   auto resolved = resolve_gait(*body, request.gait);
   if (!resolved) return tl::unexpected(resolved.error());
   if (auto placed = check_place(request); !placed) return placed;
@@ -124,13 +126,16 @@ Result<Entity> spawn_posed(World& world, const BodyRequest& request) {
   const auto body = make_body(request);
   if (!body) return tl::unexpected(body.error());
   const BodySize<float> size = body_size(request);
-  Pose<Lanes<float>> standing;
+  const Pose<float> pose = standing_pose(*body);
   CentreOfMass<Lanes<float>> centre;
-  pose_anatomical(broadcast(size), standing);
-  centre_of_mass(broadcast(size), standing, centre);
-  const Pose<float> pose = first_lane(standing);
-  return world.create(size, physique(request), pose, joint_angles(pose), sole_points(size.height_m, pose),
-                      first_lane(centre), Publishes<LegPost>{});
+  centre_of_mass(broadcast(size), broadcast(pose), centre);
+  if (!has_own_limbs(request)) {
+    return world.create(size, physique(request), pose, joint_angles(pose), sole_points(size.height_m, pose),
+                        first_lane(centre), Publishes<LegPost>{});
+  }
+  move_mass_along_limbs(broadcast(size), broadcast(request.limbs), broadcast(pose), centre);
+  return world.create(size, physique(request), request.limbs, pose, joint_angles(pose),
+                      sole_points(size.height_m, pose), first_lane(centre), Publishes<LegPost>{});
 }
 
 }  // namespace mobil

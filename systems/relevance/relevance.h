@@ -183,12 +183,12 @@ class Relevance {
   /// refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
   /// No more; muscles stay as they are.
-  Status release(Entity human);
+  Result<void> release(Entity human);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
   /// refuses.
   Result<void> force(Entity human, Muscle muscle, const MuscleMethod& method);
-  Status unforce(Entity human, Muscle muscle);
+  Result<void> unforce(Entity human, Muscle muscle);
 
   /// Looks at a part of the crowd, and changes methods. Call it before each tick, or less often. Takes memory only as
   /// crowds grow and methods change.
@@ -201,8 +201,8 @@ class Relevance {
 
   /// How many muscles have each rung of the table, both legs'; last, those with a method that was forced or refused.
   std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
-  /// Errors: Status as for components; `missing` where the person is not managed or has no such muscle.
-  tl::expected<Choice, Status> why(Entity human, Muscle muscle) const;
+  /// Errors: a stale handle; Status::missing where the person is not managed or has no such muscle.
+  Result<Choice> why(Entity human, Muscle muscle) const;
 
  private:
   /// Where a table of people keeps what is needed.

@@ -137,7 +137,8 @@ Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
 }
 
 Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
-  if (!simulation_.is_person(entity)) return fail("manage: that person is not there (a stale handle); spawn one first");
+  if (!simulation_.is_person(entity))
+    return fail("manage: that person is not there (a stale handle); spawn one first", Status::stale_entity);
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
   if (simulation_.muscles(entity).empty()) {
@@ -183,40 +184,40 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
   return {};
 }
 
-Status Relevance::release(Entity human) {
+Result<void> Relevance::release(Entity human) {
   World& world = world_of(simulation_);
-  if (const Status status = world.remove<Needs>(human); status != Status::ok) return status;
-  return world.remove<Tiers>(human);
+  if (const Status status = world.remove<Needs>(human); status != Status::ok) return fail(status);
+  return result_of(world.remove<Tiers>(human));
 }
 
 Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& method) {
   auto tiers = simulation_.world().get<Tiers>(human);
   const auto m = static_cast<std::uint32_t>(muscle);
   if (!tiers || m >= most_muscles || !bit_at(tiers->muscles, m))
-    return fail("force: that person, or that muscle of theirs, is not managed; manage it first");
+    return fail("force: that person, or that muscle of theirs, is not managed; manage it first", Status::missing);
   if (auto done = simulation_.set_method(human, muscle, method); !done) return done;
   set_rung(tiers->rung, m, forced_rung);
   world_of(simulation_).set(human, *tiers);
   return {};
 }
 
-Status Relevance::unforce(Entity human, Muscle muscle) {
+Result<void> Relevance::unforce(Entity human, Muscle muscle) {
   auto tiers = simulation_.world().get<Tiers>(human);
-  if (!tiers) return tiers.error();
+  if (!tiers) return fail(tiers.error());
   const auto m = static_cast<std::uint32_t>(muscle);
-  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return Status::missing;
+  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return fail(Status::missing);
   const MuscleMethod method = simulation_.method(human, muscle);
   set_rung(tiers->rung, m, rung_of(method));
   set_bit(tiers->points, m, method.method != Method::none && method.reduced.control_points);
-  return world_of(simulation_).set(human, *tiers);
+  return result_of(world_of(simulation_).set(human, *tiers));
 }
 
-tl::expected<Choice, Status> Relevance::why(Entity human, Muscle muscle) const {
+Result<Choice> Relevance::why(Entity human, Muscle muscle) const {
   const auto tiers = simulation_.world().get<Tiers>(human);
-  if (!tiers) return tl::unexpected(tiers.error());
+  if (!tiers) return fail(tiers.error());
   const auto needs = *simulation_.world().get<Needs>(human);
   const auto m = static_cast<std::uint32_t>(muscle);
-  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return tl::unexpected(Status::missing);
+  if (m >= most_muscles || !bit_at(tiers->muscles, m)) return fail(Status::missing);
   Choice choice;
   choice.method = simulation_.method(human, muscle);
   const std::uint32_t marked = rung_at(tiers->rung, m), goal = rung_at(tiers->goal, m);

@@ -6,9 +6,13 @@
 #include <map>
 #include <tuple>
 
+#include "engine/geometry.h"
 #include "systems/skinning/write_vertices.h"
 
 namespace mobil {
+
+using geometry::operator-, geometry::operator+, geometry::operator*;
+
 namespace {
 
 enum class Follows : std::uint8_t { cage, both, bones };
@@ -97,7 +101,8 @@ Result<T> named(const SurfaceMesh& mesh, Result<T> result) {
 
 }  // namespace
 
-Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& body, std::uint32_t nodes) {
+Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& body, std::uint32_t nodes,
+                                   std::span<const AlongStencil> along) {
   if (auto done = named(surface.mesh, check(surface, nodes)); !done) return tl::unexpected(done.error());
   PackedSurface packed;
   packed.rest = surface_rest(surface, body);
@@ -110,10 +115,14 @@ Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& bod
   auto rings = named(surface.mesh, vertex_rings(surface.mesh.triangle, place));
   if (!rings) return tl::unexpected(rings.error());
   packed.rings = std::move(*rings);
+  for (const AlongStencil& of : along) {
+    PlacedAlong& own = packed.along.emplace_back(PlacedAlong{{}, of.weight, of.handed});
+    for (std::size_t k = 0; k < 4; ++k) own.twice_place[k] = static_cast<std::uint16_t>(2 * place[of.neighbour[k]]);
+  }
   return packed;
 }
 
-Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh) {
+Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh, std::span<const AlongStencil> along) {
   RigidSurface rigid;
   rigid.vertices = mesh.position.size();
   if (rigid.vertices > most_places)
@@ -128,7 +137,7 @@ Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh) {
   const auto rings = named(mesh, vertex_rings(mesh.triangle, place));
   if (!rings) return tl::unexpected(rings.error());
   std::vector<float> unused(3 * rigid.vertices);
-  write_vertices(*rings, position.data(), 1,
+  write_vertices(*rings, {}, position.data(), 1,
                  {reinterpret_cast<std::byte*>(unused.data()), reinterpret_cast<std::byte*>(normal.data()),
                   3 * sizeof(float), 3 * sizeof(float)});
   rigid.block.resize((rigid.vertices + block_vertices - 1) / block_vertices);
@@ -137,6 +146,15 @@ Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh) {
     RigidBlock& block = rigid.block[i / block_vertices];
     set_lane(block.rest, i % block_vertices, mesh.position[v]);
     set_lane(block.normal, i % block_vertices, {normal[3 * v], normal[3 * v + 1], normal[3 * v + 2]});
+  }
+  for (std::size_t v = 0; v < along.size(); ++v) {
+    const AlongStencil& of = along[v];
+    Vec3<float> direction{0, 0, 0};
+    for (std::size_t k = 0; k < 4; ++k) {
+      const Vec3<float> apart = mesh.position[of.neighbour[k]] - mesh.position[v];
+      direction = direction + of.weight[k] * apart;
+    }
+    rigid.along.push_back({direction, of.handed});
   }
   return rigid;
 }

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "assets/surfaces/texture_places.h"
 #include "components/body.h"
 #include "components/surface.h"
 #include "engine/error.h"
@@ -45,25 +46,33 @@ struct PackedSurface {
   std::vector<CageBlock> cage;
   std::vector<BoneBlock> bone;
   VertexRings rings;
+  std::vector<PlacedAlong> along;  // by vertex; empty: no tangents
 
   std::size_t vertices() const { return rings.vertex.size(); }
   std::size_t places() const { return block_vertices * (cage_only_blocks + bone.size()); }
 };
 
-/// Packs a surface that is bound to a cage of `nodes` nodes. Errors, in one line that names the surface: not bound, or
-/// to other nodes; triangles of vertices that are not there; too many vertices.
-Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& body, std::uint32_t nodes);
+/// Packs a surface that is bound to a cage of `nodes` nodes; `along`: of each vertex, or nothing. Errors, in one line
+/// that names the surface: not bound, or to other nodes; triangles of vertices that are not there; too many vertices.
+Result<PackedSurface> pack_surface(const MuscleSurface& surface, const Body& body, std::uint32_t nodes,
+                                   std::span<const AlongStencil> along = {});
 
 /// A surface that moves as one rigid piece, in order, with its normals at rest. Lanes left over repeat the last vertex.
 struct RigidBlock {
   Vec3<Eight> rest, normal;
 };
+/// A vertex' direction along the surface at rest.
+struct RigidAlong {
+  Vec3<float> direction;
+  float handed;
+};
 struct RigidSurface {
   std::size_t vertices = 0;
   std::vector<RigidBlock> block;
+  std::vector<RigidAlong> along;  // by vertex; empty: no tangents
 };
 
 /// Errors: triangles of vertices that are not there.
-Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh);
+Result<RigidSurface> pack_rigid(const SurfaceMesh& mesh, std::span<const AlongStencil> along = {});
 
 }  // namespace mobil

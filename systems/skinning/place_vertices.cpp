@@ -75,7 +75,7 @@ HWY_EXPORT(place);
 }
 
 void place_vertices(const PackedSurface& surface, const SkinMaps& maps, const float* node, Side side, float* places) {
-  HWY_DYNAMIC_DISPATCH(place)(surface, maps, node, side == left ? -1.0F : 1.0F, places);
+  HWY_DYNAMIC_DISPATCH(place)(surface, maps, node, side == Side::left ? -1.0F : 1.0F, places);
 }
 
 }  // namespace mobil

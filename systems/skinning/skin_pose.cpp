@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "assets/body/anthropometry.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -22,13 +23,13 @@ Quat<float> between(const Quat<float>& a, const Quat<float>& b, float part) {
   return {n * q.x, n * q.y, n * q.z, n * q.w};
 }
 
-/// now ∘ rest⁻¹.
-AffineMap motion(const RigidPose& now, const RigidPose& rest) {
+/// now ∘ stretched along y ∘ rest⁻¹.
+AffineMap motion(const RigidPose& now, const RigidPose& rest, float stretch) {
   const AffineMap a = affine_map(now), b = affine_map(rest);
   AffineMap m{};
   for (int c = 0; c < 3; ++c) {
     for (int r = 0; r < 3; ++r) {
-      for (int k = 0; k < 3; ++k) m.column[c][r] += a.column[k][r] * b.column[k][c];
+      for (int k = 0; k < 3; ++k) m.column[c][r] += a.column[k][r] * (k == 1 ? stretch : 1.0F) * b.column[k][c];
     }
   }
   for (int r = 0; r < 3; ++r) {
@@ -38,33 +39,31 @@ AffineMap motion(const RigidPose& now, const RigidPose& rest) {
   return m;
 }
 
-Vec3<float> standing_place(const Body& body, Segment s) {
-  Vec3<float> p = body.joint_offset_m[index(s)];
-  while (s != segment_parent[index(s)]) {
-    s = segment_parent[index(s)];
-    p = p + body.joint_offset_m[index(s)];
-  }
-  return p;
-}
-
 SurfaceEnd surface_end(const Body& body, Segment right_bone, const Vec3<float>& attachment_m, float turn) {
   SurfaceEnd end{{}, {}, attachment_m, turn};
-  for (const Side side : {right, left}) {
+  const Pose<float> standing = standing_pose(body);
+  for (const Side side : {Side::right, Side::left}) {
     end.bone[side] = right_bone < Segment::thigh_right ? right_bone : on_side(right_bone, side);
-    end.bone_m[side] = standing_place(body, end.bone[side]);
+    end.bone_m[side] = standing.position_m[index(end.bone[side])];
   }
   return end;
 }
 
-/// Of points of the body that the surface was bound to; `lengths`: of this one's over that one's.
-AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float lengths) {
+/// Of points of the body that the surface was bound to; `lengths`: of this one's over that one's; `stretch`: of the
+/// bone's besides. What turns with the muscle goes along with its place on the bone and is not stretched itself.
+AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float lengths,
+                  float stretch) {
   RigidPose rest{lengths * end.bone_m[side], {0, 0, 0, 1}};
   if (end.turn != 0) {
-    const Vec3<float> at = lengths * (side == left ? mirrored(end.attachment_m) : end.attachment_m);
-    now = {now.position_m + rotated(now.rotation, at - rest.position_m), between(now.rotation, muscle_turn, end.turn)};
+    const Vec3<float> at = lengths * (side == Side::left ? mirrored(end.attachment_m) : end.attachment_m);
+    Vec3<float> arm = at - rest.position_m;
+    arm.y *= stretch;
+    now = {now.position_m + rotated(now.rotation, arm), between(now.rotation, muscle_turn, end.turn)};
     rest.position_m = at;
+    stretch = 1;
   }
-  AffineMap map = side == left ? motion(mirror_image(now), mirror_image(rest)) : motion(now, rest);
+  AffineMap map =
+      side == Side::left ? motion(mirror_image(now), mirror_image(rest), stretch) : motion(now, rest, stretch);
   for (int c = 0; c < 3; ++c) {
     for (float& word : map.column[c]) word *= lengths;
   }
@@ -87,12 +86,12 @@ SurfaceRest surface_rest(const MuscleSurface& surface, const Body& body) {
 SkinMaps skin_maps(const SurfaceRest& rest, Side side, RigidPose origin, RigidPose insertion,
                    const LineOfAction<float>& line, const Vec3<float>& from_m, const SurfaceScale& scale) {
   const Quat<float> in_image = product(line.rotation, conjugate(rest.rotation));
-  const Quat<float> muscle_turn = side == left ? mirrored(in_image) : in_image;
+  const Quat<float> muscle_turn = side == Side::left ? mirrored(in_image) : in_image;
   origin.position_m = origin.position_m - from_m;
   insertion.position_m = insertion.position_m - from_m;
-  const RigidPose frame{line.start_m - (side == left ? mirrored(from_m) : from_m), line.rotation};
-  return {affine_map(frame), end_map(rest.origin, side, origin, muscle_turn, scale.lengths),
-          end_map(rest.insertion, side, insertion, muscle_turn, scale.lengths), scale.belly};
+  const RigidPose frame{line.start_m - (side == Side::left ? mirrored(from_m) : from_m), line.rotation};
+  return {affine_map(frame), end_map(rest.origin, side, origin, muscle_turn, scale.lengths, scale.origin),
+          end_map(rest.insertion, side, insertion, muscle_turn, scale.lengths, scale.insertion), scale.belly};
 }
 
 }  // namespace mobil

@@ -34,6 +34,14 @@ struct MoreRing {
   VertexRing ring;
 };
 
+/// How the direction along a surface follows from four neighbours (assets/surfaces/texture_places.h), by twice their
+/// places.
+struct PlacedAlong {
+  std::array<std::uint16_t, 4> twice_place;
+  std::array<float, 4> weight;
+  float handed;
+};
+
 struct VertexRings {
   std::vector<PlacedRing> vertex;
   std::vector<MoreRing> more;  // ascending

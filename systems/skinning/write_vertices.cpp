@@ -6,6 +6,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "systems/skinning/eight-inl.h"
@@ -106,12 +107,31 @@ HWY_INLINE void hand_over(const float* vertex, std::size_t first, std::size_t co
 
 /// Whether vertices are position and normal and nothing else.
 bool is_packed(const VertexTarget& out) {
-  return out.normal == out.position + three && out.position_stride == six && out.normal_stride == six;
+  return out.normal == out.position + three && out.position_stride == six && out.normal_stride == six &&
+         out.tangent == nullptr;
 }
 
-/// A group of vertices, of which `count` are wanted.
+/// What of a direction is at right angles to a unit normal, of length 1; some such direction where nothing is left.
+HWY_INLINE void put_tangent(const Vec3<float>& along, float handed, const float* normal, std::byte* out) {
+  const float nx = normal[0], ny = normal[1], nz = normal[2];
+  const float through = along.x * nx + along.y * ny + along.z * nz;
+  float t[4] = {along.x - through * nx, along.y - through * ny, along.z - through * nz, handed};
+  float square = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+  if (!(square > 1e-12F)) {
+    const bool upright = ny * ny > 0.5F;
+    t[0] = upright ? 0.0F : nz, t[1] = upright ? -nz : 0.0F, t[2] = upright ? ny : -nx;
+    square = t[0] * t[0] + t[1] * t[1] + t[2] * t[2];
+  }
+  const float length = std::sqrt(square);
+  for (std::size_t c = 0; c < 3; ++c) t[c] /= length;
+  std::memcpy(out, t, sizeof t);
+}
+
+/// A group of vertices, of which `count` are wanted. `along(v)`: the direction along the surface and its sense, of who
+/// wants tangents.
+template <class Along>
 HWY_INLINE void put(const Rows& position, const Rows& normal, std::size_t first, std::size_t count, bool packed,
-                    const VertexTarget& out) {
+                    const VertexTarget& out, const Along& along) {
   if (packed && count >= group) {
     interleave(position, normal, reinterpret_cast<float*>(out.position + first * six));
     return;
@@ -119,6 +139,11 @@ HWY_INLINE void put(const Rows& position, const Rows& normal, std::size_t first,
   alignas(64) float vertex[6 * group];
   interleave(position, normal, vertex);
   hand_over(vertex, first, std::min(count, group), out);
+  if (out.tangent == nullptr) return;
+  for (std::size_t v = 0; v < std::min(count, group); ++v) {
+    const RigidAlong own = along(first + v);
+    put_tangent(own.direction, own.handed, vertex + 6 * v + 3, out.tangent + (first + v) * out.tangent_stride);
+  }
 }
 
 void write_positions(const VertexRings& rings, const float* places, const VertexTarget& out) {
@@ -140,7 +165,7 @@ HWY_NOINLINE void add_more(const float* places, std::size_t first, std::vector<M
 }
 
 /// A group of vertices from their rings, of which `count` are wanted; `more` goes on to the next group.
-HWY_INLINE void write_group(const PlacedRing* vertex, const VertexRings& rings,
+HWY_INLINE void write_group(const PlacedRing* vertex, const VertexRings& rings, std::span<const PlacedAlong> along,
                             std::vector<MoreRing>::const_iterator& more, const float* places, float sense,
                             std::size_t first, std::size_t count, bool packed, const VertexTarget& out) {
   const auto ring = [&](std::size_t v) HWY_ATTR -> const VertexRing& { return vertex[v].ring; };
@@ -153,39 +178,60 @@ HWY_INLINE void write_group(const PlacedRing* vertex, const VertexRings& rings,
   more = end;
   normalise(sense, normal);
   put({{looked_up(places, 0, own), looked_up(places, 1, own), looked_up(places, 2, own), looked_up(places, 3, own)}},
-      normal, first, count, packed, out);
+      normal, first, count, packed, out, [&](std::size_t v) {
+        const PlacedAlong& of = along[v];
+        const float* at = places + 2 * std::size_t{rings.vertex[v].twice_place};
+        RigidAlong sum{{0, 0, 0}, sense * of.handed};
+        for (std::size_t k = 0; k < 4; ++k) {
+          const float* to = places + 2 * std::size_t{of.twice_place[k]};
+          sum.direction.x += of.weight[k] * (to[0] - at[0]);
+          sum.direction.y += of.weight[k] * (to[1] - at[1]);
+          sum.direction.z += of.weight[k] * (to[2] - at[2]);
+        }
+        return sum;
+      });
 }
 
-void write(const VertexRings& rings, const float* places, float sense, const VertexTarget& out) {
+void write(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
+           const VertexTarget& out) {
   if (out.normal == nullptr) return write_positions(rings, places, out);
   const bool packed = is_packed(out);
   const std::size_t vertices = rings.vertex.size();
   auto more = rings.more.begin();
   std::size_t first = 0;
   for (; first + group <= vertices; first += group)
-    write_group(rings.vertex.data() + first, rings, more, places, sense, first, group, packed, out);
+    write_group(rings.vertex.data() + first, rings, along, more, places, sense, first, group, packed, out);
   if (first == vertices) return;
   PlacedRing last[group];
   for (std::size_t i = 0; i < group; ++i) last[i] = rings.vertex[std::min(first + i, vertices - 1)];
-  write_group(last, rings, more, places, sense, first, vertices - first, packed, out);
+  write_group(last, rings, along, more, places, sense, first, vertices - first, packed, out);
 }
 
-void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale) {
+void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale, float stretch) {
   const bool packed = is_packed(out);
-  AffineMap scaled = map;
+  AffineMap scaled = map, turned = map;
   for (int c = 0; c < 3; ++c) {
-    for (float& word : scaled.column[c]) word *= scale;
+    for (float& word : scaled.column[c]) word *= c == 1 ? scale * stretch : scale;
   }
+  for (float& word : turned.column[1]) word /= stretch;  // normals, whose length is made 1 again
   for (std::size_t b = 0; b < surface.block.size(); ++b) {
     const EightVec p = apply<true>(scaled, load(surface.block[b].rest)),
-                   n = apply<false>(map, load(surface.block[b].normal));
+                   n = apply<false>(turned, load(surface.block[b].normal));
     for (std::size_t i = 0; i < eight_parts; ++i) {
       const std::size_t first = block_vertices * b + group * i;
       if (first >= surface.vertices) return;
       const std::size_t count = surface.vertices - first;
       const Rows position = transposed({{p.x.part[i], p.y.part[i], p.z.part[i], p.x.part[i]}});
       if (out.normal != nullptr) {
-        put(position, transposed({{n.z.part[i], n.x.part[i], n.y.part[i], n.z.part[i]}}), first, count, packed, out);
+        Rows normal = transposed({{n.z.part[i], n.x.part[i], n.y.part[i], n.z.part[i]}});
+        if (stretch != 1) normalise(1, normal);
+        put(position, normal, first, count, packed, out, [&](std::size_t v) {
+          const auto& [d, handed] = surface.along[v];
+          const auto row = [&](int r) {
+            return scaled.column[0][r] * d.x + scaled.column[1][r] * d.y + scaled.column[2][r] * d.z;
+          };
+          return RigidAlong{{row(0), row(1), row(2)}, handed};
+        });
         continue;
       }
       alignas(64) float place[4 * group];
@@ -207,12 +253,14 @@ HWY_EXPORT(write);
 HWY_EXPORT(rigid);
 }  // namespace
 
-void write_vertices(const VertexRings& rings, const float* places, float sense, const VertexTarget& out) {
-  HWY_DYNAMIC_DISPATCH(write)(rings, places, sense, out);
+void write_vertices(const VertexRings& rings, std::span<const PlacedAlong> along, const float* places, float sense,
+                    const VertexTarget& out) {
+  HWY_DYNAMIC_DISPATCH(write)(rings, along, places, sense, out);
 }
 
-void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale) {
-  HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out, scale);
+void write_rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget& out, float scale,
+                 float stretch) {
+  HWY_DYNAMIC_DISPATCH(rigid)(surface, map, out, scale, stretch);
 }
 
 }  // namespace mobil

@@ -1,9 +1,14 @@
 #include "systems/surfaces/body_surfaces.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "assets/body/anthropometry.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/surfaces/bone_surfaces.h"
+#include "assets/surfaces/coarser_surface.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_mesh.h"
@@ -14,27 +19,40 @@ namespace {
 
 constexpr double passage_per_height = 0.04 / 1.80;
 
+struct Texture {
+  std::vector<TexturePlace> place;
+  std::vector<AlongStencil> along;
+};
+/// Nothing of triangles of vertices that are not there: packing says so.
+Texture texture_of(const SurfaceMesh& mesh, std::vector<TexturePlace> place) {
+  const auto there = [&](std::uint32_t v) { return v < place.size(); };
+  if (mesh.triangle.size() % 3 != 0 || !std::ranges::all_of(mesh.triangle, there)) return {};
+  auto along = along_stencils(mesh.triangle, place);
+  return {std::move(place), std::move(along)};
+}
+
 struct Binding {
   const Body& body;
   const SurfaceChoice& choice;
   BodySurfaces made;
 
   std::uint32_t add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
-                         const SurfaceMesh& mesh);
+                         const SurfaceMesh& mesh, std::span<const TexturePlace> texture);
   Result<std::size_t> driver_of(Muscle muscle);
   Result<void> add(const BoneSurface& bone);
   Result<void> add(const DrivenSurface& muscle);
 };
 
 std::uint32_t Binding::add_part(std::string name, Segment segment, std::optional<Muscle> driver, Side side,
-                                const SurfaceMesh& mesh) {
+                                const SurfaceMesh& mesh, std::span<const TexturePlace> texture) {
   SurfacePart part{std::move(name), segment, driver, side, made.vertices, 0, 0, 0};
   part.vertices = static_cast<std::uint32_t>(mesh.position.size());
   part.first_index = static_cast<std::uint32_t>(made.index.size());
   part.indices = static_cast<std::uint32_t>(mesh.triangle.size());
   std::vector<std::uint32_t> triangle = mesh.triangle;
-  if (driver && side == left) turn_over(triangle);
+  if (driver && side == Side::left) turn_over(triangle);
   for (const std::uint32_t v : triangle) made.index.push_back(made.vertices + v);
+  if (choice.textured) made.texture.insert(made.texture.end(), texture.begin(), texture.end());
   made.vertices += part.vertices;
   made.part.push_back(std::move(part));
   return static_cast<std::uint32_t>(made.part.size() - 1);
@@ -56,12 +74,13 @@ Result<std::size_t> Binding::driver_of(Muscle muscle) {
 
 Result<void> Binding::add(const BoneSurface& bone) {
   const std::string_view name = segment_name[index(bone.segment)];
-  const Side side = name.ends_with("_left") ? left : right;
-  const bool in_the_middle = side == right && !name.ends_with("_right");
-  if (in_the_middle ? !choice.sides[right] && !choice.sides[left] : !choice.sides[side]) return {};
-  auto rigid = pack_rigid(bone.mesh);
+  const Side side = name.ends_with("_left") ? Side::left : Side::right;
+  const bool in_the_middle = side == Side::right && !name.ends_with("_right");
+  if (in_the_middle ? !choice.sides[Side::right] && !choice.sides[Side::left] : !choice.sides[side]) return {};
+  const Texture texture = choice.textured ? texture_of(bone.mesh, texture_places(bone.mesh.position)) : Texture{};
+  auto rigid = pack_rigid(bone.mesh, texture.along);
   if (!rigid) return tl::unexpected(rigid.error());
-  const std::uint32_t part = add_part(bone.mesh.name, bone.segment, std::nullopt, side, bone.mesh);
+  const std::uint32_t part = add_part(bone.mesh.name, bone.segment, std::nullopt, side, bone.mesh, texture.place);
   made.piece.push_back({std::move(*rigid), 0, {part, std::nullopt}});
   return {};
 }
@@ -69,17 +88,23 @@ Result<void> Binding::add(const BoneSurface& bone) {
 Result<void> Binding::add(const DrivenSurface& muscle) {
   const auto driver = driver_of(muscle.driver);
   if (!driver) return tl::unexpected(driver.error());
-  auto packed = pack_surface(muscle.surface, body, made.driver[*driver].nodes);
+  Texture texture;
+  if (choice.textured) {
+    const auto axes = geometry::columns(muscle.surface.rest_rotation);
+    texture = texture_of(muscle.surface.mesh, texture_places(muscle.surface.mesh.position, axes[2], axes[1]));
+  }
+  auto packed = pack_surface(muscle.surface, body, made.driver[*driver].nodes, texture.along);
   if (!packed) return tl::unexpected(packed.error());
   made.most_places = std::max(made.most_places, packed->places());
   const SurfaceMesh& mesh = muscle.surface.mesh;
   const std::string name = mesh.name.ends_with("_right") ? mesh.name.substr(0, mesh.name.size() - 6) : mesh.name;
   const bool on_shank = muscle_row(muscle.driver).drawn.along == LegBone::shank;
   BodySurfaces::Piece piece{std::move(*packed), *driver, {}};
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     if (!choice.sides[side]) continue;
     const Segment segment = on_side(on_shank ? Segment::shank_right : Segment::thigh_right, side);
-    piece.part[side] = add_part(name + (side == right ? "_right" : "_left"), segment, muscle.driver, side, mesh);
+    piece.part[side] =
+        add_part(name + (side == Side::right ? "_right" : "_left"), segment, muscle.driver, side, mesh, texture.place);
   }
   made.piece.push_back(std::move(piece));
   return {};
@@ -103,11 +128,15 @@ Result<RestMesh> rest_mesh(const Body& body, Muscle muscle, const Cells& cells) 
 
 Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choice) {
   DrawnSurfaces drawn;
+  if (!(choice.detail >= 0.05 && choice.detail <= 1))
+    return fail(fmt::format("surfaces of {} of their triangles; choose 0.05 to 1", choice.detail));
   if (choice.bones) drawn.bones = make_bone_surfaces(body);
+  for (BoneSurface& bone : drawn.bones) bone.mesh = coarser(bone.mesh, choice.detail);
   if (choice.simulated.none()) return drawn;
   for (auto& muscle : make_muscle_surfaces(body)) {
     const auto driver = driving_muscle(choice.simulated, muscle.group, muscle.muscle);
     if (!driver) continue;
+    muscle.surface.mesh = coarser(muscle.surface.mesh, choice.detail);
     if (muscle.ligament) {
       bind_ligament(muscle.surface, muscle.attachments.origin_m, muscle.attachments.insertion_m);
     } else {
@@ -123,6 +152,7 @@ Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choic
 Result<BodySurfaces> bind_surfaces(const Body& body, const DrawnSurfaces& drawn, const SurfaceChoice& choice) {
   Binding binding{body, choice, {}};
   binding.made.height_m = body.request.height_m;
+  binding.made.limbs = limb_lengths(body);
   binding.made.sides = choice.sides;
   for (const BoneSurface& bone : drawn.bones) {
     if (auto done = binding.add(bone); !done) return tl::unexpected(done.error());
@@ -140,7 +170,16 @@ Result<BodySurfaces> bind_surfaces(const Body& body, const SurfaceChoice& choice
 }
 
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
-  SurfaceFit fit{body.request.height_m / bound.height_m, {}};
+  const float lengths = body.request.height_m / bound.height_m;
+  const LimbLengths<float> limbs = limb_lengths(body), &was = bound.limbs;
+  const auto stretch = [lengths](float own_m, float was_m) {
+    const float s = own_m / (lengths * was_m);
+    return std::abs(s - 1) < 1e-5F ? 1.0F : s;  // in proportion but for rounding
+  };
+  SurfaceFit fit{lengths,
+                 {stretch(limbs.thigh_m, was.thigh_m), stretch(limbs.shank_m, was.shank_m),
+                  stretch(limbs.upper_arm_m, was.upper_arm_m), stretch(limbs.forearm_m, was.forearm_m)},
+                 {}};
   for (const BodySurfaces::Driver& driver : bound.driver) {
     const BellyScale<float> own = make_muscle_plan(body, driver.muscle)->scale;
     fit.belly.push_back({own.across / driver.scale.across, own.along / driver.scale.along});

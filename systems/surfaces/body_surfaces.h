@@ -12,6 +12,7 @@
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/surface_binding.h"
+#include "assets/surfaces/texture_places.h"
 #include "components/body.h"
 #include "components/muscle.h"
 #include "components/surface.h"
@@ -27,6 +28,12 @@ struct SurfaceChoice {
   std::array<bool, 2> sides = {true, true};  // by Side; what lies in the middle is there with either
   MuscleSet simulated = muscle_groups();
   Cells cells = {2, 2, 8};
+  /// For the middle distance: the part of the triangles that are kept of each piece (assets/surfaces/
+  /// coarser_surface.h), before it is bound; 1: all that are drawn. A third is off by half a millimetre in the mean, a
+  /// tenth by 1.5, where small pieces may go.
+  double detail = 1;
+  /// Texture coordinates, and tangents where they are asked for.
+  bool textured = false;
 };
 
 /// A muscle's mesh at rest in one body, right side: in the muscle's frame, and the frame.
@@ -49,7 +56,7 @@ struct DrawnSurfaces {
   std::vector<BoneSurface> bones;      // both sides
   std::vector<DrivenSurface> muscles;  // right side
 };
-/// Generated from published dimensions. Errors: as rest_mesh.
+/// Generated from published dimensions. Errors: as rest_mesh; `detail` outside 0.05 to 1.
 Result<DrawnSurfaces> draw_surfaces(const Body& body, const SurfaceChoice& choice);
 
 /// One piece of what comes out: a bone, or a muscle or tendon of one side. Its vertices and indices lie together.
@@ -57,7 +64,7 @@ struct SurfacePart {
   std::string name;  // T4, thigh_left, soleus_right
   Segment segment{};
   std::optional<Muscle> driver;  // of a muscle: whose mesh it follows
-  Side side = right;             // of a bone in the middle: right
+  Side side = Side::right;       // of a bone in the middle: right
   std::uint32_t first_vertex = 0, vertices = 0;
   std::uint32_t first_index = 0, indices = 0;
 };
@@ -65,7 +72,8 @@ struct SurfacePart {
 /// Bones in the order of their list, then muscles, of each right and left. Vertices are in the order of their meshes.
 struct BodySurfaces {
   std::vector<SurfacePart> part;
-  std::vector<std::uint32_t> index;  // three a triangle, of vertices of the whole body, wound outwards
+  std::vector<std::uint32_t> index;   // three a triangle, of vertices of the whole body, wound outwards
+  std::vector<TexturePlace> texture;  // by vertex, where the choice was textured
   std::uint32_t vertices = 0;
 
   // What follows is for SurfaceWriter.
@@ -81,6 +89,7 @@ struct BodySurfaces {
     std::array<std::optional<std::uint32_t>, 2> part{};  // by side; of a bone the first
   };
   float height_m = 0;
+  LimbLengths<float> limbs{};
   std::array<bool, 2> sides{};
   std::vector<Driver> driver;
   std::vector<Piece> piece;
@@ -90,14 +99,15 @@ struct BodySurfaces {
 /// What makes the surfaces of one body those of another: few numbers, so that a crowd shares what was bound once.
 struct SurfaceFit {
   float lengths = 1;                     // over those of the body bound
+  LimbLengths<float> limbs{1, 1, 1, 1};  // along themselves, besides
   std::vector<BellyScale<float>> belly;  // the same of the meshes, by driver
 };
 
 /// Of surfaces that were bound to one body, for another one: bones are as much longer and wider as the body is taller,
-/// bellies grow with their meshes, and tendons go from the one to the other. Two microseconds. Against surfaces drawn
-/// for that body bones are where they were, and muscles off by less than a millimetre in the mean where its build is
-/// alike; by four where an athlete shows those of a usual build, for muscles are drawn away from their bones
-/// (surface_fit_test): bind one body of each build.
+/// limbs of their own as long as they are, bellies grow with their meshes, and tendons go from the one to the other.
+/// Two microseconds. Against surfaces drawn for that body bones are where they were, and muscles off by less than a
+/// millimetre in the mean where its build is alike; by four where an athlete shows those of a usual build, for muscles
+/// are drawn away from their bones (surface_fit_test): bind one body of each build.
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body);
 
 /// Binds. To draw and to bind one body takes some tens of milliseconds, two thirds of it drawing; a crowd shares what

@@ -15,7 +15,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t vertex_bytes = 3 * sizeof(float);
+constexpr std::size_t vertex_bytes = 3 * sizeof(float), tangent_bytes = 4 * sizeof(float);
 
 /// An entity's lane of a component, null where it is stale or has none.
 template <template <class> class C>
@@ -38,6 +38,16 @@ RigidPose segment_pose(const float* pose, Segment segment) {
   return {read<Vec3<float>>(pose, 3 * index(segment)), read<Quat<float>>(pose, 3 * segment_count + 4 * index(segment))};
 }
 
+/// By how much a bone is longer along itself than its body's other bones are.
+float stretch(const SurfaceFit& fit, Segment segment) {
+  using enum Segment;
+  if (segment == thigh_right || segment == thigh_left) return fit.limbs.thigh_m;
+  if (segment == shank_right || segment == shank_left) return fit.limbs.shank_m;
+  if (segment == upper_arm_right || segment == upper_arm_left) return fit.limbs.upper_arm_m;
+  if (segment == forearm_right || segment == forearm_left) return fit.limbs.forearm_m;
+  return 1;
+}
+
 /// Displacements of a belly at rest that is drawn out evenly to its line's length.
 void draw_out(const BodySurfaces::Driver& driver, const LineOfAction<float>& line, float* node) {
   const float longer_m = line.length_m - line.rest_length_m;
@@ -47,10 +57,10 @@ void draw_out(const BodySurfaces::Driver& driver, const LineOfAction<float>& lin
   }
 }
 
-Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices) {
-  if (stream.stride < vertex_bytes)
-    return fail(fmt::format("a stride of {} bytes for {}; at least 12", stream.stride, what));
-  const std::size_t needed = vertices == 0 ? 0 : (vertices - 1) * stream.stride + vertex_bytes;
+Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes) {
+  if (stream.stride < bytes)
+    return fail(fmt::format("a stride of {} bytes for {}; at least {}", stream.stride, what, bytes));
+  const std::size_t needed = vertices == 0 ? 0 : (vertices - 1) * stream.stride + bytes;
   if (stream.bytes.size() < needed) {
     return fail(fmt::format("{} bytes for {} of {} vertices, {} bytes apart; {} are needed", stream.bytes.size(), what,
                             vertices, stream.stride, needed));
@@ -62,12 +72,31 @@ Result<void> check_buffers(const SurfaceRequest& request) {
   if (request.surfaces == nullptr) return fail("no surfaces; bind_surfaces makes them");
   if (request.fit != nullptr && request.fit->belly.size() != request.surfaces->driver.size())
     return fail("a fit of other surfaces; give what fit_surfaces made of these");
-  if (auto done = check_stream("positions", request.positions, request.surfaces->vertices); !done) return done;
-  if (request.normals.bytes.empty()) return {};
-  if (auto done = check_stream("normals", request.normals, request.surfaces->vertices); !done) return done;
-  const auto p = reinterpret_cast<std::uintptr_t>(request.positions.bytes.data());
-  const auto n = reinterpret_cast<std::uintptr_t>(request.normals.bytes.data());
-  if ((p < n ? n - p : p - n) < vertex_bytes) return fail("normals lie over positions; 12 bytes apart at least");
+  struct Stream {
+    const char* name;
+    const VertexStream& stream;
+    std::size_t bytes;
+  };
+  const std::array<Stream, 3> streams = {{{"positions", request.positions, vertex_bytes},
+                                          {"normals", request.normals, vertex_bytes},
+                                          {"tangents", request.tangents, tangent_bytes}}};
+  const std::size_t vertices = request.surfaces->vertices;
+  for (const auto& [name, stream, bytes] : streams) {
+    if (stream.bytes.empty() && bytes == tangent_bytes) continue;
+    if (stream.bytes.empty() && &stream == &request.normals) continue;
+    if (auto done = check_stream(name, stream, vertices, bytes); !done) return done;
+    const auto begin = reinterpret_cast<std::uintptr_t>(stream.bytes.data());
+    for (const auto& [other_name, other, other_bytes] : streams) {
+      if (&other == &stream) break;
+      const auto at = reinterpret_cast<std::uintptr_t>(other.bytes.data());
+      if (!other.bytes.empty() && begin < at + other_bytes && at < begin + bytes)
+        return fail(fmt::format("{} lie over {}; {} bytes apart at least", name, other_name, other_bytes));
+    }
+  }
+  if (request.tangents.bytes.empty()) return {};
+  if (request.surfaces->texture.size() != vertices)
+    return fail("tangents of surfaces without texture coordinates; choose them textured");
+  if (request.normals.bytes.empty()) return fail("tangents without normals; ask for both");
   return {};
 }
 
@@ -75,7 +104,8 @@ VertexTarget target_of(const SurfaceRequest& request, std::uint32_t first_vertex
   const auto at = [&](const VertexStream& s) {
     return s.bytes.empty() ? nullptr : s.bytes.data() + std::size_t{first_vertex} * s.stride;
   };
-  return {at(request.positions), at(request.normals), request.positions.stride, request.normals.stride};
+  return {at(request.positions),  at(request.normals),  request.positions.stride,
+          request.normals.stride, at(request.tangents), request.tangents.stride};
 }
 
 void write_bone(const SurfaceRequest& request, const float* pose, const RigidSurface& surface,
@@ -83,8 +113,9 @@ void write_bone(const SurfaceRequest& request, const float* pose, const RigidSur
   RigidPose now = segment_pose(pose, part.segment);
   const Vec3<float>& o = request.origin_m;
   now.position_m = {now.position_m.x - o.x, now.position_m.y - o.y, now.position_m.z - o.z};
-  write_rigid(surface, affine_map(now), target_of(request, part.first_vertex),
-              request.fit == nullptr ? 1.0F : request.fit->lengths);
+  const VertexTarget target = target_of(request, part.first_vertex);
+  if (request.fit == nullptr) return write_rigid(surface, affine_map(now), target);
+  write_rigid(surface, affine_map(now), target, request.fit->lengths, stretch(*request.fit, part.segment));
 }
 
 }  // namespace
@@ -111,12 +142,16 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
   }
   const SurfaceRest& rest = packed.rest;
   SurfaceScale scale;
-  if (request.fit != nullptr) scale = {request.fit->lengths, request.fit->belly[piece.driver]};
+  if (const SurfaceFit* fit = request.fit; fit != nullptr) {
+    scale = {fit->lengths, stretch(*fit, rest.origin.bone[side]), stretch(*fit, rest.insertion.bone[side]),
+             fit->belly[piece.driver]};
+  }
   const SkinMaps maps = skin_maps(rest, side, segment_pose(person.pose, rest.origin.bone[side]),
                                   segment_pose(person.pose, rest.insertion.bone[side]), line, request.origin_m, scale);
   place_vertices(packed, maps, node, side, places);
   const SurfacePart& part = request.surfaces->part[*piece.part[side]];
-  write_vertices(packed.rings, places, side == left ? -1.0F : 1.0F, target_of(request, part.first_vertex));
+  write_vertices(packed.rings, packed.along, places, side == Side::left ? -1.0F : 1.0F,
+                 target_of(request, part.first_vertex));
 }
 
 void SurfaceWriter::Work::write_piece(std::size_t r, const BodySurfaces::Piece& piece, float* scratch) const {
@@ -124,7 +159,7 @@ void SurfaceWriter::Work::write_piece(std::size_t r, const BodySurfaces::Piece& 
     write_bone(requests[r], writer.person_[r].pose, *rigid, requests[r].surfaces->part[*piece.part[0]]);
     return;
   }
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     if (piece.part[side]) write_side(r, piece, side, scratch);
   }
 }
@@ -134,18 +169,19 @@ SurfaceWriter::SurfaceWriter(std::pmr::memory_resource* memory) : person_(memory
 Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& request) {
   if (auto done = check_buffers(request); !done) return done;
   const Resolved person{lane_of<Pose>(world, request.person), line_.size()};
-  if (person.pose == nullptr) return fail("the person is not there (a stale handle)");
+  if (person.pose == nullptr) return fail("the person is not there (a stale handle)", Status::stale_entity);
   person_.push_back(person);
   for (const BodySurfaces::Driver& driver : request.surfaces->driver) {
     const auto own = std::ranges::find(request.muscles, driver.muscle, &SurfaceMuscle::muscle);
     const std::string_view name = muscle_name(driver.muscle);
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       Line& line = line_.emplace_back();
       if (!request.surfaces->sides[side]) continue;
       if (own == request.muscles.end()) return fail(fmt::format("{} is not among the muscles", name));
       const auto owner = world.get<MuscleOwner>(own->entity[side]);
       line.line = lane_of<LineOfAction>(world, own->entity[side]);
-      if (!owner || line.line == nullptr) return fail(fmt::format("{} is not there (a stale handle)", name));
+      if (!owner || line.line == nullptr)
+        return fail(fmt::format("{} is not there (a stale handle)", name), Status::stale_entity);
       if (owner->index != request.person.index || owner->generation != request.person.generation || owner->side != side)
         return fail(fmt::format("{} is another person's or of the other side", name));
       const NodalView nodes = nodal_displacement(world, own->entity[side]);
@@ -177,7 +213,7 @@ Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceReq
   std::size_t pieces = 0, nodes = 0, places = 0;
   for (std::size_t r = 0; r < requests.size(); ++r) {
     if (auto done = resolve(world, requests[r]); !done)
-      return fail(fmt::format("surfaces of request {}: {}", r, done.error().message));
+      return fail(fmt::format("surfaces of request {}: {}", r, done.error().message), done.error().status);
     pieces = std::max(pieces, requests[r].surfaces->piece.size());
     nodes = std::max(nodes, requests[r].surfaces->most_nodes);
     places = std::max(places, requests[r].surfaces->most_places);

@@ -38,7 +38,10 @@ struct VertexStream {
 
 /// One person, with the surfaces of a body like theirs. Positions in m, world axes, from `origin_m`, which is
 /// subtracted before anything is placed: far from the world's origin give a point near the person, for floats are half
-/// a millimetre apart at 8 km. Normals may be left out (no bytes).
+/// a millimetre apart at 8 km. Normals may be left out (no bytes), and tangents, which are four floats a vertex (stride
+/// at least 16), as glTF has them: the unit direction in which TexturePlace::along grows, at right angles to the
+/// normal, and ±1, of the side of normal × tangent where `around` grows. They need surfaces that were chosen
+/// `textured`.
 struct SurfaceRequest {
   Entity person;
   std::span<const SurfaceMuscle> muscles;  // all that drive the surfaces; more are ignored
@@ -46,6 +49,7 @@ struct SurfaceRequest {
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
   const SurfaceFit* fit = nullptr;  // of surfaces that were bound to another body; null: to one like theirs
+  VertexStream tangents{{}, 4 * sizeof(float)};
 };
 
 class SurfaceWriter {

@@ -69,7 +69,7 @@ RC_GTEST_PROP(Anthropometry, LeftMirrorsRight, ()) {
   for (Segment s : {Segment::thigh_right, Segment::patella_right, Segment::shank_right, Segment::foot_right,
                     Segment::toes_right, Segment::clavicle_right, Segment::upper_arm_right, Segment::forearm_right,
                     Segment::hand_right, Segment::fingers_right, Segment::thumb_right}) {
-    const std::size_t a = index(s), b = index(on_side(s, left));
+    const std::size_t a = index(s), b = index(on_side(s, Side::left));
     for (const auto* field : {&body->joint_offset_m, &body->centre_of_mass_m, &body->tip_m}) {
       RC_ASSERT((*field)[a].x == -(*field)[b].x);
       RC_ASSERT((*field)[a].y == (*field)[b].y);

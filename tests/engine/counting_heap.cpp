@@ -1,5 +1,7 @@
 #include "tests/engine/counting_heap.h"
 
+#include <malloc.h>
+
 #include <cstdint>
 #include <cstdlib>
 #include <new>
@@ -7,13 +9,20 @@
 namespace mobil {
 std::atomic<std::size_t> heap_requests = 0;
 std::atomic<std::size_t> heap_refuse_at = SIZE_MAX;
+std::atomic<std::size_t> heap_lent = 0;
 
 static void* counted(std::size_t bytes, std::size_t alignment) {
   if (heap_requests++ >= heap_refuse_at) throw std::bad_alloc();
   void* memory = nullptr;
   if (posix_memalign(&memory, alignment < sizeof(void*) ? sizeof(void*) : alignment, bytes) != 0)
     throw std::bad_alloc();
+  heap_lent += malloc_usable_size(memory);
   return memory;
+}
+
+static void give_back(void* memory) {
+  heap_lent -= malloc_usable_size(memory);
+  std::free(memory);
 }
 }  // namespace mobil
 
@@ -33,14 +42,14 @@ static void* counted(std::size_t bytes, std::size_t alignment) {
   }
 }
 [[gnu::noinline]] void operator delete(void* memory) noexcept {
-  std::free(memory);
+  mobil::give_back(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
+  mobil::give_back(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::align_val_t) noexcept {
-  std::free(memory);
+  mobil::give_back(memory);
 }
 [[gnu::noinline]] void operator delete(void* memory, std::size_t, std::align_val_t) noexcept {
-  std::free(memory);
+  mobil::give_back(memory);
 }

@@ -7,4 +7,5 @@
 namespace mobil {
 extern std::atomic<std::size_t> heap_requests;
 extern std::atomic<std::size_t> heap_refuse_at;  // and from that request on
+extern std::atomic<std::size_t> heap_lent;       // bytes now in use, what the allocator rounds up to included
 }  // namespace mobil

@@ -24,7 +24,7 @@ void follow(const MuscleOwner<Lanes<float>>& owner, const Lookup<Heel>& heels, E
 TEST(EngineExample, EveryMuscleFollowsItsHuman) {
   World world;
   const Entity tall = world.create(Heel<float>{0.2F}), small = world.create(Heel<float>{0.1F});
-  const Entity muscle = world.create(MuscleOwner<float>{small.index, small.generation, right}, EndDrive<float>{},
+  const Entity muscle = world.create(MuscleOwner<float>{small.index, small.generation, Side::right}, EndDrive<float>{},
                                      FieldWidth<NodalDisplacement>{3});
 
   auto schedule = ScheduleBuilder().add("follow", &follow).add("stride", &stride).build();

@@ -113,7 +113,7 @@ class Man {
     s.rotation[0] = turn(angle(2, part), Vector::UnitY()) * turn(-angle(1, part), Vector::UnitZ()) *
                     turn(angle(0, part), Vector::UnitX());
     for (std::size_t side = 0; side < 2; ++side) {
-      const double out = side == left ? -1 : 1, own = side == left ? part + 0.5 : part;
+      const double out = side == Side::left ? -1 : 1, own = side == Side::left ? part + 0.5 : part;
       auto joint = [&](std::size_t i) { return leg_[3 * side + i](part) * degree; };
       const std::size_t thigh = index(on_side(Segment::thigh_right, side));
       s.rotation[thigh] = s.rotation[0] * turn(-joint(0), Vector::UnitX()) *
@@ -154,12 +154,12 @@ std::vector<Row> computed(const Man& man) {
       b->plan.double_support[l] = static_cast<float>(2 * double_support);
       b->plan.landing[l] = 1;
       b->plan.duration_s[l] = static_cast<float>(stride_s / 2);
-      b->state.stance_side[l] = second ? left : right;
+      b->state.stance_side[l] = second ? Side::left : Side::right;
       b->state.time_s[l] = static_cast<float>((sample - (second ? samples / 2 : 0)) * dt);
     }
     forces_of(
         *b, [&](std::size_t, double t) { return man.at(i * dt + t); }, static_cast<float>(dt));
-    rows.push_back({{b->force(0, right), b->force(0, left)}, b->joints(0, right)});
+    rows.push_back({{b->force(0, Side::right), b->force(0, Side::left)}, b->joints(0, Side::right)});
   }
   return rows;
 }
@@ -191,10 +191,10 @@ TEST(ForcesOfAMeasuredWalk, AgreeWithTheForcePlatesAndTheMoments) {
   auto joint = [&](const char* name, Eigen::Index j) {
     return correlation(name, rows, measured(*table, name), [&](const Row& r) { return r.joints(j) / mass; });
   };
-  EXPECT_GT(plate("vertical_BW", right, 1), 0.98);
-  EXPECT_GT(plate("contra_vertical_BW", left, 1), 0.98);
-  EXPECT_GT(plate("foreaft_BW", right, 2), 0.97);
-  EXPECT_GT(plate("contra_foreaft_BW", left, 2), 0.97);
+  EXPECT_GT(plate("vertical_BW", Side::right, 1), 0.98);
+  EXPECT_GT(plate("contra_vertical_BW", Side::left, 1), 0.98);
+  EXPECT_GT(plate("foreaft_BW", Side::right, 2), 0.97);
+  EXPECT_GT(plate("contra_foreaft_BW", Side::left, 2), 0.97);
   EXPECT_GT(joint("hip_extensor_Nm_kg", 0), 0.8);
   EXPECT_GT(joint("knee_extensor_Nm_kg", 1), 0.75);  // the centre of pressure is that of his motion as filmed
   EXPECT_GT(joint("ankle_plantarflexor_Nm_kg", 2), 0.95);

@@ -25,7 +25,7 @@ double weight_of(const Block& b, std::size_t l) {
 }
 
 Vector total(const Block& b, std::size_t l) {
-  return b.force(l, right) + b.force(l, left);
+  return b.force(l, Side::right) + b.force(l, Side::left);
 }
 
 /// All weight on one foot, a part `at` of a step whose first fifth is on both.
@@ -119,7 +119,7 @@ TEST(Forces, StandingToOneSideLoadsThatFoot) {
     const Vector body = body_centre(height_of(*b, l), leaning(l, 0));
     Vector moment = Vector::Zero();
     for (std::size_t side = 0; side < 2; ++side) moment += (b->pressure(l, side) - body).cross(b->force(l, side));
-    EXPECT_GT(b->force(l, left).y(), b->force(l, right).y());
+    EXPECT_GT(b->force(l, Side::left).y(), b->force(l, Side::right).y());
     EXPECT_NEAR(moment.x(), 0, 1e-3 * weight_of(*b, l));
     EXPECT_NEAR(moment.z(), 0, 1e-3 * weight_of(*b, l));
   }
@@ -137,7 +137,7 @@ TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
     return s;
   };
   for (const float part : {0.2F, 0.5F, 0.8F}) {
-    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, right, 0.2F * part);
+    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, Side::right, 0.2F * part);
     forces_of(*b, motion, tick);
     for (std::size_t l = 0; l < lane_count; ++l) {
       const double height = height_of(*b, l), mass = mass_of(*b, l), dt = static_cast<double>(tick);
@@ -196,7 +196,7 @@ TEST(Forces, AFreeLegSwingsLikeTheCompoundPendulumItIs) {
   const double mean = 0.2, swing = 0.3, rate = 7.0;
   for (const double phase : {0.0, 1.0, 2.5}) {
     auto angle = [&](double t) { return mean + swing * std::sin(rate * t + phase); };
-    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, left);
+    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, Side::left);
     forces_of(
         *b,
         [&](std::size_t l, double t) {
@@ -226,8 +226,8 @@ TEST(Forces, AFreeLegSwingsLikeTheCompoundPendulumItIs) {
                    shank = 0.0465 * mass * std::pow(0.302 * fraction::shank * height, 2),
                    foot = 0.0145 * mass * std::pow(0.475 * std::hypot(0.078, 0.031) * height, 2);
       inertia += thigh + shank + foot;
-      EXPECT_NEAR(b->joints(l, right)(0), -inertia * second - torque, 0.0015 * mass * height * height);
-      EXPECT_EQ(b->force(l, right).norm(), 0);
+      EXPECT_NEAR(b->joints(l, Side::right)(0), -inertia * second - torque, 0.0015 * mass * height * height);
+      EXPECT_EQ(b->force(l, Side::right).norm(), 0);
     }
   }
 }

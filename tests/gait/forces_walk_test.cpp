@@ -39,7 +39,7 @@ struct Walker {
   std::pair<std::size_t, std::size_t> whole_strides() const {
     std::size_t first = 0, last = 0;
     for (std::size_t i = 2; i + 1 < instant.size(); ++i) {
-      if (instant[i].phase[right] >= instant[i - 1].phase[right]) continue;
+      if (instant[i].phase[Side::right] >= instant[i - 1].phase[Side::right]) continue;
       if (first == 0) first = i;
       last = i;
     }
@@ -97,7 +97,7 @@ TEST(ForcesOfWalking, TheGroundCarriesTheWeightOverAStride) {
     const auto [first, last] = w.whole_strides();
     ASSERT_GT(last, first + 100);
     Vector sum = Vector::Zero();
-    for (std::size_t i = first; i < last; ++i) sum += w.instant[i].force[right] + w.instant[i].force[left];
+    for (std::size_t i = first; i < last; ++i) sum += w.instant[i].force[Side::right] + w.instant[i].force[Side::left];
     sum /= static_cast<double>(last - first) * w.weight();
     EXPECT_NEAR(sum.y(), 1, 0.01);
     EXPECT_NEAR(sum.x(), 0, 0.01);
@@ -111,7 +111,7 @@ TEST(ForcesOfWalking, BothFeetTogetherPushTheCentreOfMass) {
       const Vector a =
           (w.instant[i + 1].centre - 2 * w.instant[i].centre + w.instant[i - 1].centre) / (w.tick_s * w.tick_s);
       const Vector f = w.mass * (a + Vector(0, gravity, 0));
-      EXPECT_LT((w.instant[i].force[right] + w.instant[i].force[left] - f).norm(),
+      EXPECT_LT((w.instant[i].force[Side::right] + w.instant[i].force[Side::left] - f).norm(),
                 0.10 * w.weight());  // at a strike, of 6 ms
     }
   }
@@ -145,7 +145,7 @@ TEST(ForcesOfWalking, InDoubleSupportTheTrailingLegPushesAndTheLeadingLegBrakes)
       if (lead.y() < 0.1 * w.weight() || trail.y() < 0.1 * w.weight()) continue;
       EXPECT_GT(trail.z() / trail.y() - lead.z() / lead.y(), 0.2);
       // Each foot is pushed toward the body's middle.
-      const double out = now.stance == left ? 1 : -1;
+      const double out = now.stance == Side::left ? 1 : -1;
       EXPECT_LT(out * (lead.x() / lead.y() - trail.x() / trail.y()), 0);
       ++seen;
     }
@@ -203,8 +203,8 @@ double at_percent(const Walker& w, double percent, Value value) {
   double sum = 0;
   int strides = 0;
   for (std::size_t i = 1; i < w.instant.size(); ++i) {
-    const double a = 100 * w.instant[i - 1].phase[right];
-    double b = 100 * w.instant[i].phase[right], p = percent;
+    const double a = 100 * w.instant[i - 1].phase[Side::right];
+    double b = 100 * w.instant[i].phase[Side::right], p = percent;
     if (b < a) {
       b += 100;
       if (p < a) p += 100;
@@ -252,12 +252,13 @@ void expect_to_resemble(const Walk& m) {
     double (*value)(const Walker&, const Instant&);
   };
   constexpr std::array<Curve, 5> curves = {
-      {{"vertical_BW", 1.1, [](const Walker& w, const Instant& i) { return i.force[right].y() / w.weight(); }},
-       {"foreaft_BW", 1.3, [](const Walker& w, const Instant& i) { return i.force[right].z() / w.weight(); }},
-       {"hip_extensor_Nm_kg", 1.5, [](const Walker& w, const Instant& i) { return i.joints[right](0) / w.mass; }},
-       {"knee_extensor_Nm_kg", 1.7, [](const Walker& w, const Instant& i) { return i.joints[right](1) / w.mass; }},
+      {{"vertical_BW", 1.1, [](const Walker& w, const Instant& i) { return i.force[Side::right].y() / w.weight(); }},
+       {"foreaft_BW", 1.3, [](const Walker& w, const Instant& i) { return i.force[Side::right].z() / w.weight(); }},
+       {"hip_extensor_Nm_kg", 1.5, [](const Walker& w, const Instant& i) { return i.joints[Side::right](0) / w.mass; }},
+       {"knee_extensor_Nm_kg", 1.7,
+        [](const Walker& w, const Instant& i) { return i.joints[Side::right](1) / w.mass; }},
        {"ankle_plantarflexor_Nm_kg", 1.4,
-        [](const Walker& w, const Instant& i) { return i.joints[right](2) / w.mass; }}}};
+        [](const Walker& w, const Instant& i) { return i.joints[Side::right](2) / w.mass; }}}};
   const Walker w = walk(m.height, m.mass, m.speed, 1.0 / 60);
   std::printf("%s\n", m.name);
   for (std::size_t c = 0; c < curves.size(); ++c) {

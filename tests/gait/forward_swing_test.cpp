@@ -242,8 +242,10 @@ TEST(ForwardSwing, IsNobodysBusinessButTheAskers) {
     const Pose<float> a = row(all->pose, l), b = row(some->pose, l);
     EXPECT_EQ(std::memcmp(&a, &b, sizeof a) == 0, l % 2 == 1) << l;
     EXPECT_EQ(some->plan.swing_by_up_m[0][l] != 0, l % 2 == 0) << l;
-    EXPECT_LT(std::fabs(all->angles.knee_flexion[left][l] - some->angles.knee_flexion[left][l]), 6 * degree);
-    EXPECT_LT(std::fabs(all->angles.knee_flexion[right][l] - some->angles.knee_flexion[right][l]), 6 * degree);
+    EXPECT_LT(std::fabs(all->angles.knee_flexion[Side::left][l] - some->angles.knee_flexion[Side::left][l]),
+              6 * degree);
+    EXPECT_LT(std::fabs(all->angles.knee_flexion[Side::right][l] - some->angles.knee_flexion[Side::right][l]),
+              6 * degree);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/geometry.h"
+#include "engine/rows.h"
 #include "tests/gait/walkers.h"
 
 namespace mobil::kinematics_test {
@@ -107,8 +108,8 @@ TEST(Kinematics, TheSkeletonHangsTogetherAndJointsKeepTheirRange) {
             s == index(Segment::patella_left))
           continue;
         // A leg that would have to be longer than straight leaves its foot where it is planted.
-        const bool straight = (s == index(Segment::foot_right) && w.angles.knee_flexion[right][l] < 0.01F) ||
-                              (s == index(Segment::foot_left) && w.angles.knee_flexion[left][l] < 0.01F);
+        const bool straight = (s == index(Segment::foot_right) && w.angles.knee_flexion[Side::right][l] < 0.01F) ||
+                              (s == index(Segment::foot_left) && w.angles.knee_flexion[Side::left][l] < 0.01F);
         double& most = straight ? overreached : apart;
         most = std::fmax(most, gap(w, s, l));
       }
@@ -207,8 +208,8 @@ struct Jumps {
 bool nearly_straight(const Walkers& w, std::size_t segment, std::size_t lane) {
   const bool on_right = segment >= index(Segment::thigh_right) && segment < index(Segment::thigh_left);
   const bool on_left = segment >= index(Segment::thigh_left) && segment < index(Segment::clavicle_right);
-  return (on_right && w.angles.knee_flexion[right][lane] < 0.1F) ||
-         (on_left && w.angles.knee_flexion[left][lane] < 0.1F);
+  return (on_right && w.angles.knee_flexion[Side::right][lane] < 0.1F) ||
+         (on_left && w.angles.knee_flexion[Side::left][lane] < 0.1F);
 }
 
 /// Walkers whose wishes change on the way, for six seconds.
@@ -320,7 +321,7 @@ TEST(Kinematics, TheLeftSideIsTheMirrorImageOfTheRight) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const float time = now->plan.duration_s[l] * (static_cast<float>(t) + 0.5F) / 40.0F;
       const float x = dice.single(-2, 2), z = dice.single(-2, 2), heading = dice.single(-3, 3);
-      const GaitState<float> state = bent(time, right, dice);
+      const GaitState<float> state = bent(time, Side::right, dice);
       put(at_place(state, x, z, heading), now->state, l);
       put(at_place(mirrored(state), -x, z, -heading), then->state, l);
     }
@@ -364,8 +365,8 @@ TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
         const Vec3<float> a = rotated(about_y, at(ahead->pose.position_m[s], l));
         ASSERT_LT(distance(at(turned->pose.position_m[s], l), {x[l] + a.x, a.y, z[l] + a.z}), 2e-5) << segment_name[s];
       }
-      ASSERT_EQ(ahead->angles.knee_flexion[right][l], turned->angles.knee_flexion[right][l]);
-      ASSERT_EQ(ahead->angles.hip_flexion[left][l], turned->angles.hip_flexion[left][l]);
+      ASSERT_EQ(ahead->angles.knee_flexion[Side::right][l], turned->angles.knee_flexion[Side::right][l]);
+      ASSERT_EQ(ahead->angles.hip_flexion[Side::left][l], turned->angles.hip_flexion[Side::left][l]);
     }
   }
 }
@@ -373,12 +374,12 @@ TEST(Kinematics, TheHeadingTurnsAllAboutThePlaceOnTheLine) {
 TEST(Kinematics, AWalkBeginsWithTheRightHeelAndAdvancesAtItsSpeedAlongItsHeading) {
   const auto w = random_walkers(3);
   for (std::size_t l = 0; l < lane_count; ++l) {
-    EXPECT_EQ(w->feet.phase[right][l], 0.0F);
-    EXPECT_NEAR(w->feet.phase[left][l], 0.5F, 1e-6);
-    EXPECT_NEAR(w->feet.heel_m[right].y[l], 0.0F, 0.02F);  // on its rim, over its pad
-    EXPECT_GT(w->feet.toe_m[right].y[l], 0.005F);
-    EXPECT_LT(w->feet.heel_m[right].x[l], 0.0F);  // +X is left
-    EXPECT_GT(w->feet.heel_m[right].z[l], w->feet.heel_m[left].z[l]);
+    EXPECT_EQ(w->feet.phase[Side::right][l], 0.0F);
+    EXPECT_NEAR(w->feet.phase[Side::left][l], 0.5F, 1e-6);
+    EXPECT_NEAR(w->feet.heel_m[Side::right].y[l], 0.0F, 0.02F);  // on its rim, over its pad
+    EXPECT_GT(w->feet.toe_m[Side::right].y[l], 0.005F);
+    EXPECT_LT(w->feet.heel_m[Side::right].x[l], 0.0F);  // +X is left
+    EXPECT_GT(w->feet.heel_m[Side::right].z[l], w->feet.heel_m[Side::left].z[l]);
     w->state.heading_rad[l] = w->gait.heading_rad[l] = 0.1F * static_cast<float>(l);
   }
   w->place();
@@ -388,7 +389,7 @@ TEST(Kinematics, AWalkBeginsWithTheRightHeelAndAdvancesAtItsSpeedAlongItsHeading
     EXPECT_NEAR(static_cast<float>(w->state.steps[l]) * w->plan.duration_s[l] + w->state.time_s[l], 600 * tick, 1e-3);
     EXPECT_EQ(w->state.stance_side[l], w->state.steps[l] % 2);
     w->state.time_s[l] = 0;
-    w->state.stance_side[l] = right;
+    w->state.stance_side[l] = Side::right;
   }
   w->place();
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -447,8 +448,9 @@ TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
     put(state, w->state, 5);
     w->place();
     const float degrees = 57.29578F;
-    const float hip = w->angles.hip_flexion[right][5] * degrees, knee = w->angles.knee_flexion[right][5] * degrees;
-    const float ankle = w->angles.ankle_dorsiflexion[right][5] * degrees;
+    const float hip = w->angles.hip_flexion[Side::right][5] * degrees,
+                knee = w->angles.knee_flexion[Side::right][5] * degrees;
+    const float ankle = w->angles.ankle_dorsiflexion[Side::right][5] * degrees;
     hip_low = std::fmin(hip_low, hip);
     hip_high = std::fmax(hip_high, hip);
     ankle_low = std::fmin(ankle_low, ankle);
@@ -474,7 +476,7 @@ TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
 
 TEST(Kinematics, AnatomicalPositionStandsOnTheGround) {
   const auto w = random_walkers(2);
-  pose_anatomical(w->size, w->pose);
+  for (std::size_t l = 0; l < lane_count; ++l) put_row(standing_pose(w->body[l]), w->pose, l);
   centre_of_mass(w->size, w->pose, w->centre);
   for (std::size_t l = 0; l < lane_count; ++l) {
     const float height = w->size.height_m[l];

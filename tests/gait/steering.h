@@ -241,7 +241,7 @@ class Watch : public Findings {
     for (std::uint32_t side = 0; side < 2; ++side) {
       const bool stands = side == now.state.stance_side || now.state.time_s < plan_.double_support_s;
       const Vec3<double> points[] = {exact(now.feet.heel_m[side]), exact(now.feet.toe_m[side])};
-      const auto& toes = now.pose.rotation[index(side == right ? Segment::toes_right : Segment::toes_left)];
+      const auto& toes = now.pose.rotation[index(side == Side::right ? Segment::toes_right : Segment::toes_left)];
       note(sunk, -points[1].y - geometry::rotated(exact(toes), Vec3<double>{0, 0, toes_}).y, now, "toes");
       for (std::size_t i = 0; i < 2; ++i) {
         const char* const name = i == 0 ? "heel" : "ball";

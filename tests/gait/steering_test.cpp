@@ -242,7 +242,7 @@ TEST(Steering, ALimpsStepsAreUnevenAsAsked) {
     for (int step = 0; step < 4; ++step) {
       const double next = one.step();
       const auto there = static_cast<double>(one.state().line_z_m);
-      const double sign = one.state().stance_side == right ? 1 : -1;  // whose foot landed
+      const double sign = one.state().stance_side == Side::right ? 1 : -1;  // whose foot landed
       EXPECT_NEAR((there - place) / static_cast<double>(gait.step_length_m),
                   1 + sign * static_cast<double>(request.style.step_asymmetry), 1e-3)
           << i;

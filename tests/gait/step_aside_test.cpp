@@ -76,7 +76,7 @@ TEST(StepAside, FeetThatStandDoNotSlide) {
     }
     EXPECT_GT(lifted, 0.02);
     if (left_m != 0) {
-      EXPECT_EQ(first, left_m > 0 ? left : right);
+      EXPECT_EQ(first, left_m > 0 ? Side::left : Side::right);
     }
   }
 }

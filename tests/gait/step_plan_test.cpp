@@ -199,8 +199,8 @@ TEST(NextStep, UnevenStepsAlternateAndJoin) {
       // After the first the pairs add up to two mean steps, the right one longer and slower by what was asked.
       if (step == 0) continue;
       const Gait<float> g = row(w->gait, l);
-      const float right_step = w->state.stance_side[l] == left ? b.step_length_m : a.step_length_m;
-      const float right_time = w->state.stance_side[l] == left ? b.duration_s : a.duration_s;
+      const float right_step = w->state.stance_side[l] == Side::left ? b.step_length_m : a.step_length_m;
+      const float right_time = w->state.stance_side[l] == Side::left ? b.duration_s : a.duration_s;
       EXPECT_NEAR(right_step, g.step_length_m * (1 + g.style.step_asymmetry), 1e-5);
       EXPECT_NEAR(a.step_length_m + b.step_length_m, 2 * g.step_length_m, 1e-5);
       EXPECT_NEAR(right_time, (1 + g.style.time_asymmetry) / g.step_frequency_hz, 1e-5);

@@ -39,11 +39,11 @@ Cycle walk(float speed_m_s, const GaitStyle& style) {
   for (int step = 0; step < 2; ++step) {
     for (std::size_t i = 0; i < instants / 2; ++i) {
       w->place_at(static_cast<float>(i) / (instants / 2));
-      c.knee.push_back(w->angles.knee_flexion[right][0] / degree);
-      c.ankle.push_back(w->angles.ankle_dorsiflexion[right][0] / degree);
+      c.knee.push_back(w->angles.knee_flexion[Side::right][0] / degree);
+      c.ankle.push_back(w->angles.ankle_dorsiflexion[Side::right][0] / degree);
       const Quat<float> foot = row(w->pose, 0).rotation[index(Segment::foot_right)];
       c.pitch.push_back(std::asin(rotated(foot, Vec3<float>{0, 0, 1}).y) / degree);
-      c.toe_up.push_back(w->feet.tip_m[right].y[0]);
+      c.toe_up.push_back(w->feet.tip_m[Side::right].y[0]);
       c.hips_up.push_back(w->pose.position_m[index(Segment::pelvis)].y[0]);
       const Quat<float> chest = row(w->pose, 0).rotation[index(Segment::T1)];
       c.lean.push_back(std::asin(rotated(chest, Vec3<float>{0, 1, 0}).z) / degree);

@@ -66,7 +66,7 @@ TEST(Turning, ThoseWhoStandTurnOnTheSpot) {
   for (int i = 0; i < 480; ++i) {
     w->tick(1.0F / 60.0F);
     for (std::size_t l = 0; l < lane_count; ++l) {
-      for (const std::size_t side : {right, left}) {
+      for (const std::size_t side : {Side::right, Side::left}) {
         const bool stands = side == w->state.stance_side[l] || w->state.time_s[l] < w->plan.double_support_s[l];
         const bool stood = side == last->state.stance_side[l] || last->state.time_s[l] < last->plan.double_support_s[l];
         const Vec3<float> toe = at(w->feet.toe_m[side], l);
@@ -86,8 +86,9 @@ TEST(Turning, ThoseWhoStandTurnOnTheSpot) {
     EXPECT_EQ(w->state.turn_before_rad[l], 0);
     EXPECT_EQ(w->state.line_x_m[l], first.line_x_m[l]);
     EXPECT_EQ(w->state.line_z_m[l], first.line_z_m[l]);
-    for (const std::size_t side : {right, left}) {
-      const double out = (side == left ? 1.0 : -1.0) * w->plan.from.half_width_m[l], heading = w->state.heading_rad[l];
+    for (const std::size_t side : {Side::right, Side::left}) {
+      const double out = (side == Side::left ? 1.0 : -1.0) * w->plan.from.half_width_m[l],
+                   heading = w->state.heading_rad[l];
       const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
       EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + out * std::cos(heading), 1e-4);
       EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - out * std::sin(heading), 1e-4);
@@ -113,7 +114,7 @@ TEST(Turning, TheNextFootholdIsWhereTheLineSays) {
     for (std::size_t l = 0; l < lane_count; ++l) {
       const std::size_t side = w->state.stance_side[l];
       const double heading = w->state.heading_rad[l];
-      const double left_of = (side == left ? 1.0 : -1.0) * w->plan.from.half_width_m[l] + w->state.shift_m[l];
+      const double left_of = (side == Side::left ? 1.0 : -1.0) * w->plan.from.half_width_m[l] + w->state.shift_m[l];
       const Vec3<float> ankle = at(w->pose.position_m[index(on_side(Segment::foot_right, side))], l);
       EXPECT_NEAR(ankle.x, w->state.line_x_m[l] + left_of * std::cos(heading), 3e-5);
       EXPECT_NEAR(ankle.z, w->state.line_z_m[l] - left_of * std::sin(heading), 3e-5);
@@ -195,7 +196,7 @@ TEST(Turning, ThePoseGoesOnThroughTheStrike) {
           const Vec3<float> in = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z};
           const Vec3<float> out = {p[3].x - p[2].x, p[3].y - p[2].y, p[3].z - p[2].z};
           // The knee of a leg that is all but straight runs away from any difference.
-          const std::size_t side = s < index(Segment::thigh_left) ? right : left;
+          const std::size_t side = s < index(Segment::thigh_left) ? Side::right : Side::left;
           const bool of_leg = s >= index(Segment::thigh_right) && s < index(Segment::clavicle_right);
           if (of_leg && w->angles.knee_flexion[side][l] < 0.1F) continue;
           jerked = std::fmax(jerked, distance(in, out) / double{h});

@@ -121,7 +121,7 @@ struct Walker {
   bool done() const { return cycle.size() == 51; }
 
   void follow(const Simulation& simulation) {
-    const double here = static_cast<double>(simulation.get<Feet>(human)->phase[right]);
+    const double here = static_cast<double>(simulation.get<Feet>(human)->phase[Side::right]);
     if (here < phase - 0.5) ++strides;
     const double before = total;
     const std::array<double, 5> last = now;
@@ -130,7 +130,7 @@ struct Walker {
     for (std::size_t c = 0; c < now.size(); ++c) {
       now[c] = 0;
       for (const auto name : group_curves[c].members) {
-        const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, *find_muscle(name), right));
+        const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, *find_muscle(name), Side::right));
         now[c] += static_cast<double>(line.length_m / line.rest_length_m);
       }
       now[c] /= static_cast<double>(group_curves[c].members.size());
@@ -204,10 +204,10 @@ TEST(LineCycle, LineMotionIsThereWhereItWasAskedForAndFollowsTheLine) {
   const auto motion_of = [&](Entity human, Side side) {
     return simulation.get<LineMotion>(simulation.muscle(human, soleus, side));
   };
-  EXPECT_FALSE(motion_of(without, left));
-  ASSERT_TRUE(motion_of(with, left));
-  EXPECT_EQ(motion_of(with, left)->speed_m_s, 0);
-  EXPECT_LT(motion_of(with, left)->ankle_dorsiflexion_arm_m, 0);
+  EXPECT_FALSE(motion_of(without, Side::left));
+  ASSERT_TRUE(motion_of(with, Side::left));
+  EXPECT_EQ(motion_of(with, Side::left)->speed_m_s, 0);
+  EXPECT_LT(motion_of(with, Side::left)->ankle_dorsiflexion_arm_m, 0);
   float fastest = 0;
   for (int tick = 0; tick < 90; ++tick) {
     // Other tissue half way through changes nothing of the line.
@@ -215,10 +215,10 @@ TEST(LineCycle, LineMotionIsThereWhereItWasAskedForAndFollowsTheLine) {
       choice.material.young_pa *= 2;
       ASSERT_TRUE(simulation.change_leg_muscles(with, choice));
     }
-    const float before = simulation.get<LineOfAction>(simulation.muscle(with, soleus, left))->length_m;
+    const float before = simulation.get<LineOfAction>(simulation.muscle(with, soleus, Side::left))->length_m;
     simulation.tick();
-    const float now = simulation.get<LineOfAction>(simulation.muscle(with, soleus, left))->length_m;
-    const float speed = motion_of(with, left)->speed_m_s;
+    const float now = simulation.get<LineOfAction>(simulation.muscle(with, soleus, Side::left))->length_m;
+    const float speed = motion_of(with, Side::left)->speed_m_s;
     EXPECT_EQ(speed, (now - before) / static_cast<float>(simulation.tick_s()));
     fastest = std::max(fastest, speed);
   }
@@ -226,7 +226,7 @@ TEST(LineCycle, LineMotionIsThereWhereItWasAskedForAndFollowsTheLine) {
   EXPECT_LT(fastest, 0.6F);
   choice.line_motion = false;
   ASSERT_TRUE(simulation.change_leg_muscles(with, choice));
-  EXPECT_FALSE(motion_of(with, left));
+  EXPECT_FALSE(motion_of(with, Side::left));
 }
 
 }  // namespace mobil::line_cycle_test

@@ -207,8 +207,8 @@ TEST(LineOfAction, ALeftLegIsTheRightOnesMirrorImage) {
       const Body body = random.body();
       const LegFrames<double> leg = random.leg(body);
       for (auto* block : {&of_right, &of_left}) set(*block, body, leg, muscle, l);
-      gather_leg(pose_of(leg, right), right, of_right.legs, l);
-      gather_leg(pose_of(mirror_image(leg), left), left, of_left.legs, l);
+      gather_leg(pose_of(leg, Side::right), Side::right, of_right.legs, l);
+      gather_leg(pose_of(mirror_image(leg), Side::left), Side::left, of_left.legs, l);
     }
     lines_of_action(lines, of_right.scale, of_right.legs, FarEnd::held, of_right.line, of_right.end);
     lines_of_action(lines, of_left.scale, of_left.legs, FarEnd::held, of_left.line, of_left.end);
@@ -229,12 +229,12 @@ TEST(LineOfAction, GatheringFromABlockAndFromARowIsTheSame) {
       const std::size_t q = 3 * segment_count + 4 * s;
       row.rotation[s] = {words[q][human], words[q + 1][human], words[q + 2][human], words[q + 3][human]};
     }
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       LegFrames<Lanes<float>> from_row{}, from_block{};
       gather_leg(row, side, from_row, 5);
       gather_leg(&words[0].lane[human], side, from_block, 5);
       EXPECT_EQ(std::memcmp(&from_row, &from_block, sizeof from_row), 0);
-      const float mirror = side == left ? -1.0F : 1.0F;
+      const float mirror = side == Side::left ? -1.0F : 1.0F;
       EXPECT_EQ(from_row.knee_m.x[5], mirror * row.position_m[index(on_side(Segment::shank_right, side))].x);
       EXPECT_EQ(from_row.foot.y[5], mirror * row.rotation[index(on_side(Segment::foot_right, side))].y);
     }

@@ -298,10 +298,10 @@ TEST(Balance, AMomentThatTheMotionAsksForIsNotMissed) {
       BalanceMeter meter(body);
       const double lever = borne * inertia * spin_up / weight;
       GroundReaction<float> ground{};
-      ground.force_n[left] = {0, static_cast<float>(weight), 0};
+      ground.force_n[Side::left] = {0, static_cast<float>(weight), 0};
       // a force up at (x, z) from the centre has the moment (−z F, 0, x F)
-      ground.centre_m[left] = {static_cast<float>(centre.x() + (pitch ? 0 : lever)), 0,
-                               static_cast<float>(centre.z() - (pitch ? lever : 0))};
+      ground.centre_m[Side::left] = {static_cast<float>(centre.x() + (pitch ? 0 : lever)), 0,
+                                     static_cast<float>(centre.z() - (pitch ? lever : 0))};
       for (int i = -8; i <= 8; ++i) {
         const double t = i * tick_s;
         const figure::Rotation turn = figure::turn(0.5 * spin_up * t * t, axis);

@@ -92,7 +92,7 @@ Result<void> follow(const Simulation& simulation, const Relevance& relevance, fl
                     Tallies* tallies) {
   for (std::size_t m = 0; m < walk.muscles.size(); ++m) {
     const Muscle muscle = walk.muscles[m];
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       ReferenceMuscle& reference = walk.reference[m][side];
       if (auto done = reference.follow(simulation, simulation.muscle(walk.copies.front(), muscle, side)); !done)
         return done;

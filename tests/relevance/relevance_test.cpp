@@ -211,7 +211,7 @@ TEST(Relevance, OutOfSightAndReachNothingDeformsAndPeopleWalkOn) {
   scene.each([&](Entity human, Muscle muscle) {
     EXPECT_EQ(scene.simulation.method(human, muscle).method, Method::none);
     EXPECT_EQ(scene.relevance.why(human, muscle)->reason, Reason::out_of_reach);
-    EXPECT_EQ(scene.simulation.nodal_displacement(scene.simulation.muscle(human, muscle, right)).first, nullptr);
+    EXPECT_EQ(scene.simulation.nodal_displacement(scene.simulation.muscle(human, muscle, Side::right)).first, nullptr);
   });
 }
 
@@ -243,7 +243,7 @@ TEST(Relevance, ControlPointsArePlacedForThoseLookedAtAlone) {
   ASSERT_TRUE(scene.relevance.manage(scene.people[3], {.looked_at = true}));
   scene.run(60);
   for (std::size_t i = 0; i < scene.people.size(); ++i) {
-    const Entity muscle = scene.simulation.muscle(scene.people[i], Muscle::hamstrings, left);
+    const Entity muscle = scene.simulation.muscle(scene.people[i], Muscle::hamstrings, Side::left);
     EXPECT_EQ(scene.simulation.nodal_displacement(muscle).first != nullptr, i == 3) << i;
   }
 }

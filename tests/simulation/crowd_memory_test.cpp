@@ -210,7 +210,7 @@ TEST(CrowdMemory, GoingTakesNone) {
   const std::array<Entity, 2> twice = {people[20], people[20]};
   memory.refuse_after = 0;
   heap_refuse_at = 0;
-  const Status refused = simulation.despawn(twice);
+  const auto refused = simulation.despawn(twice);
   bool gone = true;
   for (const Entity human : all.first(20)) gone = simulation.despawn(human) == Status::ok && gone;
   for (const Entity human : all.subspan(20, 4))
@@ -220,6 +220,29 @@ TEST(CrowdMemory, GoingTakesNone) {
   EXPECT_EQ(refused, Status::stale_entity);
   EXPECT_TRUE(gone);
   EXPECT_EQ(rows(simulation.world()), 0U);
+}
+
+/// What is shared by bodies is on the heap, made once; what is somebody's own is in the caller's memory.
+TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
+  CountingMemory memory;
+  Simulation simulation({.memory = &memory});
+  const auto effects = every_effect();
+  std::vector<Entity> people;
+  const auto grow_to = [&](std::size_t count) {
+    while (people.size() < count) {
+      const Effects& e = effects[people.size() % effects.size()];
+      people.push_back(join(simulation, person(static_cast<int>(people.size() % (4 * effects.size()))), false));
+      if (e.forces) {
+        EXPECT_EQ(simulation.add_forces(people.back()), Status::ok);
+      }
+      add(simulation, people.back(), e.muscles);
+    }
+    simulation.tick();
+    return heap_lent - memory.lent_bytes();  // which the heap lends, too
+  };
+  const std::size_t some = grow_to(4 * effects.size()), many = grow_to(40 * effects.size());
+  std::printf("%zu bytes for %zu people more\n", many - some, 36 * effects.size());
+  EXPECT_LT(many, some + 36 * effects.size() * 100);  // what counts the memory keeps some, too
 }
 
 TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {

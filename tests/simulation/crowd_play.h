@@ -120,10 +120,14 @@ class Crowd {
   }
 
   void come(int who) {
-    const Person p = person(who);
+    Person p = person(who);
+    if (is_posed(who)) p.body.limbs = {0.27F * p.body.height_m, 0, 0, 0.16F * p.body.height_m};
     const auto human = is_posed(who) ? simulation_.spawn_posed(p.body) : simulation_.spawn(p.body, p.gait);
     ASSERT_TRUE(human) << human.error().message;
     people_[who] = *human;
+    if (is_posed(who)) {
+      EXPECT_EQ(simulation_.add_forces(*human), Status::ok);
+    }
     if (who % 8 == 5) return;  // walks without muscles
     const auto added = simulation_.add_leg_muscles(*human, choice_of(draw(who, -1)));
     ASSERT_TRUE(added) << added.error().message;
@@ -164,7 +168,7 @@ class Crowd {
   }
 
   void ask_for_muscles(Entity human, std::uint64_t what, std::uint64_t how) {
-    const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, right);
+    const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, Side::right);
     if (!simulation_.world().alive(hamstrings)) {
       EXPECT_TRUE(simulation_.add_leg_muscles(human, choice_of(how)));
     } else if (what == 0) {

@@ -99,7 +99,8 @@ TEST(CrowdThreads, ManyReadAtOnce) {
           sum += static_cast<double>(simulation.get<Pose>(person)->position_m[0].y);
           sum += static_cast<double>(simulation.human(person)->body.request.height_m);
           for (const OwnMuscle& own : simulation.muscles(person)) {
-            sum += static_cast<double>(own.muscle) + (simulation.nodal_displacement(own.entity[left]).first != nullptr);
+            sum += static_cast<double>(own.muscle) +
+                   (simulation.nodal_displacement(own.entity[Side::left]).first != nullptr);
           }
         }
         simulation.each([&sum](const Rows& rows, const Pose<Lanes<float>>& pose) {

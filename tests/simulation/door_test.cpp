@@ -25,7 +25,7 @@ TEST(Door, AHostsPartsPass) {
   Simulation simulation;
   const Entity human = *simulation.spawn(person(1).body);
   ASSERT_TRUE(simulation.add_leg_muscles(human));
-  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, left);
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::left);
   for (const Entity entity : {human, muscle}) {
     EXPECT_EQ(simulation.add(entity, Score<float>{3, 0.5F}), Status::ok);
     EXPECT_EQ(simulation.add(entity, FieldWidth<Trail>{2}), Status::ok);
@@ -60,7 +60,7 @@ TEST(Door, WhatIsTheLibrarysDoesNot) {
   Simulation simulation;
   const Entity human = *simulation.spawn(person(1).body);
   ASSERT_TRUE(simulation.add_leg_muscles(human));
-  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, left);
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::left);
   const std::uint64_t before = simulation.state_hash();
   EXPECT_EQ(simulation.destroy(human), Status::not_yours);
   EXPECT_EQ(simulation.destroy(muscle), Status::not_yours);

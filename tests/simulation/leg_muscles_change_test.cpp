@@ -212,8 +212,8 @@ TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   Simulation simulation;
   const Entity human = join_with(simulation, person(3), {});
   for (int i = 0; i < 30; ++i) simulation.tick();
-  const Entity stays = simulation.muscle(human, Muscle::hamstrings, left),
-               goes = simulation.muscle(human, Muscle::quadriceps, right);
+  const Entity stays = simulation.muscle(human, Muscle::hamstrings, Side::left),
+               goes = simulation.muscle(human, Muscle::quadriceps, Side::right);
   const auto before = displacement(simulation, stays);
 
   const Muscle soleus = find_muscle("soleus").value();
@@ -221,14 +221,14 @@ TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   choice.muscles = 0;
   choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings)).set(static_cast<std::size_t>(soleus));
   ASSERT_TRUE(simulation.change_leg_muscles(human, choice));
-  EXPECT_EQ(simulation.muscle(human, Muscle::hamstrings, left), stays);
+  EXPECT_EQ(simulation.muscle(human, Muscle::hamstrings, Side::left), stays);
   EXPECT_EQ(displacement(simulation, stays), before);
   EXPECT_FALSE(simulation.world().alive(goes));
   EXPECT_EQ(simulation.human(human)->muscles.size(), 2U);
   EXPECT_EQ(rows(simulation.world()), 5U);
   simulation.tick();
-  const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, soleus, right));
-  const auto belly = *simulation.get<BellyReport>(simulation.muscle(human, soleus, right));
+  const auto line = *simulation.get<LineOfAction>(simulation.muscle(human, soleus, Side::right));
+  const auto belly = *simulation.get<BellyReport>(simulation.muscle(human, soleus, Side::right));
   EXPECT_NEAR(belly.elongation_m, line.length_m - line.rest_length_m, 1e-6F);
 
   const auto hash = hash_world(simulation);

@@ -168,11 +168,11 @@ TEST(Steps, AreTakenAsAsked) {
   const auto& world = simulation.world();
   for (std::size_t g = 0; g < muscle_group_count; ++g) {
     const auto group = static_cast<Muscle>(g);
-    EXPECT_EQ(world.get<Substeps>(simulation.muscle(explicitly, group, left)), 20U);
-    EXPECT_EQ(world.get<Substeps>(simulation.muscle(hardly_less, group, left)), 21U);
-    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(once, group, left)), 1U);
-    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(long_ones, group, left)), 1U);
-    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(thrice, group, left)), 3U);
+    EXPECT_EQ(world.get<Substeps>(simulation.muscle(explicitly, group, Side::left)), 20U);
+    EXPECT_EQ(world.get<Substeps>(simulation.muscle(hardly_less, group, Side::left)), 21U);
+    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(once, group, Side::left)), 1U);
+    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(long_ones, group, Side::left)), 1U);
+    EXPECT_EQ(world.get<SolvedSteps>(simulation.muscle(thrice, group, Side::left)), 3U);
   }
 }
 
@@ -183,7 +183,7 @@ TEST(Steps, AboveTheLimitAreRefusedByName) {
     const Entity probe = join_with(simulation, person(2), {.method = method});
     std::array<double, muscle_group_count> limit{};
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
-      limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), right));
+      limit[g] = limit_of(simulation, simulation.muscle(probe, static_cast<Muscle>(g), Side::right));
     }
     EXPECT_EQ(simulation.remove_leg_muscles(probe), Status::ok);
     const std::size_t lowest = static_cast<std::size_t>(std::min_element(limit.begin(), limit.end()) - limit.begin());
@@ -232,7 +232,7 @@ TEST(Inertia, BeginsAsAWalkThatWasUnderWay) {
 TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
   Simulation simulation;
   const Entity human = join_with(simulation, {{}, {.speed_m_s = 1.4F}}, {.method = Method::statics, .inertia = true});
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     double turning = 0, swinging = 0;  // ω² and α times 0.4 m
     for (int i = 0; i < 90; ++i) {
       simulation.tick();

@@ -61,7 +61,7 @@ Marked marked_walker(Simulation& simulation) {
   Marked made;
   made.human = *simulation.spawn({});
   EXPECT_TRUE(simulation.add_leg_muscles(made.human, {.cells = play::coarse}));
-  made.muscle = simulation.muscle(made.human, Muscle::hamstrings, left);
+  made.muscle = simulation.muscle(made.human, Muscle::hamstrings, Side::left);
   mark(simulation, made.human, 11);
   mark(simulation, made.muscle, 22);
   return made;

@@ -38,7 +38,9 @@ void expect_along(const Way& way, const Simulation& here, Entity stays, const Si
     const Quat<float> q = geometry::product(way.turn, a.rotation[s]), r = b.rotation[s];
     EXPECT_NEAR(std::abs(q.x * r.x + q.y * r.y + q.z * r.z + q.w * r.w), 1, 1e-5) << segment_name[s];
   }
-  EXPECT_LT(geometry::length(way(here.get<Feet>(stays)->toe_m[left]) - there.get<Feet>(placed)->toe_m[left]), within_m);
+  EXPECT_LT(
+      geometry::length(way(here.get<Feet>(stays)->toe_m[Side::left]) - there.get<Feet>(placed)->toe_m[Side::left]),
+      within_m);
 }
 
 TEST(Place, PoseAndMusclesGoAlongAndWalkOn) {
@@ -147,7 +149,8 @@ TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
         EXPECT_LT(geometry::length(a.position_m[s] - off - b.position_m[s]), 2e-4) << segment_name[s] << " at " << t;
       const auto c = here.get<CentreOfMass>(walker)->position_m, d = there.get<CentreOfMass>(walker)->position_m;
       EXPECT_LT(geometry::length(c - off - d), 2e-4);
-      const auto foot = here.get<Feet>(walker)->heel_m[right], other = there.get<Feet>(walker)->heel_m[right];
+      const auto foot = here.get<Feet>(walker)->heel_m[Side::right],
+                 other = there.get<Feet>(walker)->heel_m[Side::right];
       EXPECT_LT(geometry::length(foot - off - other), 2e-4);
     }
     here.tick();

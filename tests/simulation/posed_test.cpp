@@ -163,7 +163,6 @@ TEST(Posed, RequestsForAGaitAreRefusedAndChangeNothing) {
   const auto turn = simulation.turn_to(human, 1);
   ASSERT_FALSE(turn);
   EXPECT_NE(turn.error().message.find("host"), std::string::npos) << turn.error().message;
-  EXPECT_EQ(simulation.add_forces(human), Status::missing);
   EXPECT_EQ(simulation.remove_forces(human), Status::missing);
   EXPECT_EQ(simulation.remove_leg_muscles(human), Status::missing);
   EXPECT_EQ(simulation.set_pose(walker, {}), Status::missing);

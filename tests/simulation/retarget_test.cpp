@@ -30,7 +30,7 @@ SkeletonBones numbers() {
   bones.pelvis = 0;
   bones.spine = {1, 2, 3, 4};
   bones.head = 5;
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const std::int32_t first = 6 + 8 * static_cast<std::int32_t>(side);
     bones.limbs[side] = {first + 4, first + 5, first + 6, first + 7, first, first + 1, first + 2, first + 3};
   }
@@ -127,7 +127,7 @@ TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
         EXPECT_LT(off_m, leg || s == 0 ? 2e-4 : 0.04) << segment_name[s] << " at tick " << tick;
       }
       for (std::size_t m = 0; m < muscle_group_count; ++m) {
-        for (const Side side : {right, left}) {
+        for (const Side side : {Side::right, Side::left}) {
           const auto of = [&](const Simulation& simulation, Entity human) {
             return simulation.get<LineOfAction>(simulation.muscle(human, static_cast<Muscle>(m), side))->length_m;
           };
@@ -153,7 +153,7 @@ TEST(Retarget, PosedPeopleHaveAnglesSolesAndACentreOfMass) {
     EXPECT_NEAR(own.pelvis_list, theirs.pelvis_list, 0.01F * degree);
     EXPECT_NEAR(own.pelvis_tilt, theirs.pelvis_tilt, 0.01F * degree);
     const auto soles = *walking.get<Feet>(walker), own_soles = *posed.get<Feet>(puppet);
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       EXPECT_NEAR(own.hip_flexion[side], theirs.hip_flexion[side], 1 * degree);
       EXPECT_NEAR(own.knee_flexion[side], theirs.knee_flexion[side], 0.1F * degree);
       EXPECT_NEAR(own.ankle_dorsiflexion[side], theirs.ankle_dorsiflexion[side], 2 * degree);
@@ -186,10 +186,10 @@ TEST(Retarget, SkeletonsThatAreNoneAreRefused) {
   };
   says(with([](SkeletonBones& b) { b.pelvis = SkeletonBones::no_bone; }), rest, "pelvis");
   says(with([](SkeletonBones& b) { b.spine.clear(); }), rest, "spine");
-  says(with([](SkeletonBones& b) { b.limbs[left].foot = SkeletonBones::no_bone; }), rest, "foot");
-  says(with([](SkeletonBones& b) { b.limbs[left].foot = 99; }), rest, "none of the 22");
-  says(with([](SkeletonBones& b) { b.limbs[left].foot = b.pelvis; }), rest, "twice");
-  says(with([](SkeletonBones& b) { b.limbs[right].forearm = SkeletonBones::no_bone; }), rest, "name both");
+  says(with([](SkeletonBones& b) { b.limbs[Side::left].foot = SkeletonBones::no_bone; }), rest, "foot");
+  says(with([](SkeletonBones& b) { b.limbs[Side::left].foot = 99; }), rest, "none of the 22");
+  says(with([](SkeletonBones& b) { b.limbs[Side::left].foot = b.pelvis; }), rest, "twice");
+  says(with([](SkeletonBones& b) { b.limbs[Side::right].forearm = SkeletonBones::no_bone; }), rest, "name both");
   std::vector<BonePlace> wrong = rest;
   wrong[12].position.x = std::numeric_limits<float>::quiet_NaN();
   says(numbers(), wrong, "bone 12");
@@ -223,7 +223,7 @@ TEST(Retarget, AFewBonesAreEnough) {
   SkeletonBones few;
   few.pelvis = 0;
   few.spine = {2};
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const SkeletonBones::Limbs all = numbers().limbs[side];
     few.limbs[side] = {all.thigh, all.shank, all.foot};
   }

@@ -33,7 +33,7 @@ TEST(Change, StaleHandlesChangeNothing) {
   const Entity gone = join(simulation, person(0)), stays = join(simulation, person(1));
   walk(simulation, 10);
   ASSERT_EQ(simulation.despawn(gone), Status::ok);
-  const Entity muscle = simulation.muscle(stays, Muscle::quadriceps, left);
+  const Entity muscle = simulation.muscle(stays, Muscle::quadriceps, Side::left);
   ASSERT_TRUE(simulation.world().alive(muscle));
   const auto before = hash_world(simulation);
   for (const Entity bad : {gone, Entity{}, Entity{~0U, 1}, muscle}) {  // a muscle lives, but walks nowhere

@@ -34,7 +34,7 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
 inline std::uint64_t hash_human(const Simulation& simulation, Entity human) {
   std::uint64_t hash = hash_row(simulation.world(), human, 0xcbf29ce484222325);
   for (std::size_t g = 0; g < muscle_group_count; ++g) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       hash = hash_row(simulation.world(), simulation.muscle(human, static_cast<Muscle>(g), side), hash);
     }
   }

@@ -97,7 +97,9 @@ Twins& twins(bool inertia) {
 /// may change twice between two ticks.
 TEST(Switching, FromMotionToItsOwnStaticAnswerAndOnInOneTickShowsNoJump) {
   Twins& t = twins(false);
-  const auto at = [&] { return displacement(t.switched, t.switched.muscle(t.who[0], Muscle::hamstrings, right)); };
+  const auto at = [&] {
+    return displacement(t.switched, t.switched.muscle(t.who[0], Muscle::hamstrings, Side::right));
+  };
   const auto change = [&](const MuscleMethod& to) {
     ASSERT_TRUE(t.switched.set_method(t.who[0], Muscle::hamstrings, to));
   };
@@ -137,7 +139,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   using Frames = std::array<std::vector<float>, 7>;
   std::array<Frames, 2> shown, unswitched;
   const auto record = [&](std::size_t frame) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       shown[side][frame] = displacement(t.switched, t.switched.muscle(t.who[human], muscle, side));
       unswitched[side][frame] = displacement(t.steady, t.steady.muscle(t.twin[human], muscle, side));
     }
@@ -151,7 +153,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
   RC_ASSERT(done.has_value());
   RC_ASSERT(t.switched.method(t.who[human], muscle).method == to.method);
   const bool seen = to.method != Method::none && (to.method != Method::reduced || to.reduced.control_points);
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const auto now = displacement(t.switched, t.switched.muscle(t.who[human], muscle, side));
     RC_ASSERT(now.empty() != seen);
     if (seen && !shown[side][last].empty()) RC_ASSERT(apart(now, shown[side][last]) < 1.1e-5);
@@ -160,7 +162,7 @@ RC_GTEST_PROP(Switching, ShowsNoJumpOfDisplacementOrVelocity, ()) {
     t.tick();
     record(frame);
   }
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     // A static answer has the velocity of its load, which changes as it likes.
     const bool still = to.method == Method::statics || (to.method == Method::reduced && !to.reduced.moving);
     if (!seen || still || shown[side][last].empty()) continue;
@@ -224,7 +226,7 @@ TEST(Switching, PlacingControlPointsChangesNoState) {
     ASSERT_TRUE(unseen.set_method(b, Muscle::hamstrings, reduced(12, true, true)));
     looked.tick();
     unseen.tick();
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       const Entity x = looked.muscle(a, Muscle::hamstrings, side), y = unseen.muscle(b, Muscle::hamstrings, side);
       EXPECT_EQ(displacement(looked, x), displacement(unseen, y));
       EXPECT_FALSE(displacement(unseen, y).empty());
@@ -243,7 +245,7 @@ TEST(Switching, BackFromNoneBeginsWhereTheLineIs) {
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none}));
       for (int i = 0; i < 3; ++i) simulation.tick();
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to)) << text(to);
-      const Entity muscle = simulation.muscle(human, Muscle::hamstrings, left);
+      const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::left);
       EXPECT_FALSE(simulation.world().has<Fade>(muscle));
       for (int i = 0; i < 20; ++i) simulation.tick();
       const auto u = displacement(simulation, muscle);
@@ -378,7 +380,7 @@ TEST(Cost, NobodyPaysForWhatTheyHaveNotAskedFor) {
   for (const char* system : {"forces", "line motion", "frame motion", "deformation", "control points", "fade"}) {
     EXPECT_EQ(worked(simulation, system), 0U) << system;
   }
-  EXPECT_EQ(simulation.nodal_displacement(simulation.muscle(crowd[0], Muscle::hamstrings, left)).first, nullptr);
+  EXPECT_EQ(simulation.nodal_displacement(simulation.muscle(crowd[0], Muscle::hamstrings, Side::left)).first, nullptr);
 
   ASSERT_TRUE(simulation.set_method(crowd[0], Muscle::hamstrings, reduced(8, false, false)));
   simulation.tick();
@@ -408,7 +410,8 @@ TEST(Cost, LinesAreTheSameWhateverTheBelliesDo) {
     none.tick();
   }
   for (std::size_t m = 0; m < muscle_group_count; ++m) {
-    const Entity x = all.muscle(a, static_cast<Muscle>(m), left), y = none.muscle(b, static_cast<Muscle>(m), left);
+    const Entity x = all.muscle(a, static_cast<Muscle>(m), Side::left),
+                 y = none.muscle(b, static_cast<Muscle>(m), Side::left);
     const auto p = *all.get<LineOfAction>(x), q = *none.get<LineOfAction>(y);
     EXPECT_EQ(std::memcmp(&p, &q, sizeof p), 0);
     const auto r = *all.get<LineMotion>(x), s = *none.get<LineMotion>(y);
@@ -424,7 +427,7 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
     for (const MuscleMethod& method : every_method) {
       ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, method));
       for (int i = 0; i < 20; ++i) simulation.tick();  // the fade is over
-      const auto place = simulation.world().find(simulation.muscle(human, Muscle::hamstrings, left));
+      const auto place = simulation.world().find(simulation.muscle(human, Muscle::hamstrings, Side::left));
       bytes[text(method) + (inertia ? ", inertia" : "")] = 4 * place.table->words();
     }
   }

@@ -267,7 +267,7 @@ TEST(Effects, MusclesComeAndGoWithTheirRows) {
       EXPECT_EQ(simulation.get<MuscleOwner>(muscle)->index, human.index);
       EXPECT_EQ(simulation.nodal_displacement(muscle).nodes, 81U);
     }
-    EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, Muscle::quadriceps, left)));
+    EXPECT_FALSE(simulation.world().alive(simulation.muscle(other, Muscle::quadriceps, Side::left)));
     simulation.tick();
     EXPECT_EQ(simulation.remove_leg_muscles(human), Status::ok);
     EXPECT_EQ(rows(simulation.world()), 2U);
@@ -319,7 +319,7 @@ TEST(Effects, BadMaterialIsAnErrorAndChangesNothing) {
 TEST(Handles, OfTheGoneAreStaleEverywhere) {
   Simulation simulation;
   const Entity human = join(simulation, person(0)), other = join(simulation, person(1));
-  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, right);
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
   const auto before = hash_human(simulation, other);
   ASSERT_EQ(simulation.despawn(human), Status::ok);
   EXPECT_EQ(rows(simulation.world()), 1 + 2 * muscle_group_count);
@@ -331,13 +331,13 @@ TEST(Handles, OfTheGoneAreStaleEverywhere) {
     EXPECT_FALSE(simulation.add_leg_muscles(gone));
     EXPECT_FALSE(simulation.human(gone));
     EXPECT_EQ(simulation.get<Pose>(gone).error(), Status::stale_entity);
-    EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, right)));
+    EXPECT_FALSE(simulation.world().alive(simulation.muscle(gone, Muscle::hamstrings, Side::right)));
   }
   EXPECT_EQ(simulation.get<BellyReport>(muscle).error(), Status::stale_entity);
   EXPECT_EQ(simulation.nodal_displacement(muscle).first, nullptr);
   EXPECT_FALSE(simulation.human(muscle));
   // A muscle is no person, though it lives.
-  const Entity living = simulation.muscle(next, Muscle::hamstrings, left);
+  const Entity living = simulation.muscle(next, Muscle::hamstrings, Side::left);
   ASSERT_TRUE(simulation.world().alive(living));
   EXPECT_FALSE(simulation.human(living));
   EXPECT_EQ(simulation.despawn(living), Status::stale_entity);

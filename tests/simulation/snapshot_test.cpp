@@ -142,7 +142,7 @@ TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
   EXPECT_FALSE(simulation.is_person(late));
   EXPECT_FALSE(simulation.world().alive(later));
   EXPECT_TRUE(simulation.is_person(people[3]));
-  EXPECT_TRUE(simulation.world().alive(simulation.muscle(people[3], Muscle::hamstrings, left)));
+  EXPECT_TRUE(simulation.world().alive(simulation.muscle(people[3], Muscle::hamstrings, Side::left)));
 }
 
 TEST(Snapshot, WithTheSamePeopleRestoringTakesNoMemoryOfTheCallers) {

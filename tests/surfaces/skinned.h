@@ -41,7 +41,7 @@ inline std::vector<Vec3<float>> skinned(const MuscleSurface& surface, Side side,
   float* const place = places.data()->lane;
   place_vertices(*packed, maps_of(packed->rest, side, pose, line), u.data(), side, place);
   std::vector<Vec3<float>> out(packed->vertices());
-  write_vertices(packed->rings, place, 1, {std::as_writable_bytes(std::span(out)).data(), nullptr, 12, 0});
+  write_vertices(packed->rings, {}, place, 1, {std::as_writable_bytes(std::span(out)).data(), nullptr, 12, 0});
   return out;
 }
 
@@ -82,7 +82,7 @@ inline std::vector<Vec3<float>> skinned_one_by_one(const MuscleSurface& surface,
       const float bones = std::fma(b.origin, carried(maps.origin, p, r), b.insertion * carried(maps.insertion, p, r));
       place[r] = std::fma(b.cage, carried(maps.frame, q, r), bones);
     }
-    out.push_back({side == left ? -place[0] : place[0], place[1], place[2]});
+    out.push_back({side == Side::left ? -place[0] : place[0], place[1], place[2]});
   }
   return out;
 }

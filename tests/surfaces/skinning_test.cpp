@@ -82,7 +82,7 @@ struct Bound {
   }
   std::uint32_t nodes() const { return node_count(mesh.cells); }
   std::vector<Vec3<float>> skin(const Pose<float>& pose, const LineOfAction<float>& line, const std::vector<float>& u,
-                                Side side = right) const {
+                                Side side = Side::right) const {
     return skinned(surface, side, b, pose, line, u);
   }
   std::vector<float> still() const { return std::vector<float>(3 * nodes(), 0.0F); }
@@ -224,7 +224,7 @@ RC_GTEST_PROP(Skinning, ALinearFieldOfTheCageIsReproducedInside, ()) {
     const Vec3<float> d = to_float(field(node));
     u.insert(u.end(), {d.x, d.y, d.z});
   }
-  const auto out = skinned(inner, right, bound.b, bound.rest_pose(), bound.rest_line(), u);
+  const auto out = skinned(inner, Side::right, bound.b, bound.rest_pose(), bound.rest_line(), u);
   for (std::size_t v = 0; v < out.size(); ++v) {
     const Vec q = rotated(conjugate(to_double(bound.frame.rotation)),
                           to_double(inner.mesh.position[v]) - to_double(bound.frame.start_m));
@@ -283,7 +283,7 @@ RC_GTEST_PROP(Skinning, LeftIsTheMirrorImageOfRight, ()) {
     const auto segment = static_cast<Segment>(s);
     const bool is_right = segment_name[s].ends_with("_right");
     if (segment_name[s].ends_with("_left")) continue;
-    const std::size_t to = is_right ? index(on_side(segment, left)) : s;
+    const std::size_t to = is_right ? index(on_side(segment, Side::left)) : s;
     const auto& p = leg.pose.position_m[s];
     const auto& q = leg.pose.rotation[s];
     mirrored.position_m[to] = {-p.x, p.y, p.z};
@@ -292,7 +292,7 @@ RC_GTEST_PROP(Skinning, LeftIsTheMirrorImageOfRight, ()) {
   std::vector<float> u;
   for (std::uint32_t n = 0; n < 3 * bound.nodes(); ++n) u.push_back(0.004F * std::sin(static_cast<float>(n)));
   const auto r = bound.skin(leg.pose, leg.line, u);
-  const auto l = bound.skin(mirrored, leg.line, u, left);
+  const auto l = bound.skin(mirrored, leg.line, u, Side::left);
   for (std::size_t v = 0; v < r.size(); ++v) RC_ASSERT(distance({-r[v].x, r[v].y, r[v].z}, l[v]) < 1e-6);
 }
 
@@ -304,7 +304,7 @@ RC_GTEST_PROP(Skinning, BlocksHoldTheBitsOfOneVertexAtATime, (bool large)) {
   const BentLeg leg = bent(bound, *rc::gen::inRange(-20, 60) * 0.01, *rc::gen::inRange(0, 100) * 0.01);
   std::vector<float> u(3 * node_count(mesh.cells));
   for (std::size_t i = 0; i < u.size(); ++i) u[i] = 0.01F * std::sin(static_cast<float>(i));
-  for (const Side side : {right, left}) {
+  for (const Side side : {Side::right, Side::left}) {
     const auto a = skinned(surface, side, bound.b, leg.pose, leg.line, u);
     const auto b = skinned_one_by_one(surface, side, bound.b, leg.pose, leg.line, u);
     for (std::size_t v = 0; v < a.size(); ++v) RC_ASSERT(a[v].x == b[v].x && a[v].y == b[v].y && a[v].z == b[v].z);
@@ -320,7 +320,7 @@ TEST(Ligament, FollowsItsBonesAtItsEnds) {
   BentLeg leg = bent(bound, 0.3, 0.8);
   const std::vector<float> u(3, 0.0F);
   leg.pose.position_m[index(Segment::patella_right)].y += 0.02F;
-  const auto out = skinned(surface, right, bound.b, leg.pose, leg.line, u);
+  const auto out = skinned(surface, Side::right, bound.b, leg.pose, leg.line, u);
   const Pose<float> rest = bound.rest_pose();
   const auto follow = [&](Segment bone, const Vec3<float>& p) {
     const std::size_t s = index(bone);

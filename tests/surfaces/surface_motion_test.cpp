@@ -85,10 +85,10 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
                               std::to_string(body.height_m) + " m, " + std::to_string(body.mass_kg) + " kg";
     const bool crosses = d.surface.origin != own->plan.origin;
     all.push_back({{label, d.group, d.ligament, d.beyond.has_value(), crosses, std::move(d.surface), {}, {}, {}},
-                   own->entity[right]});
+                   own->entity[Side::right]});
     if (d.beyond) {
       all.push_back({{label + " beyond", d.group, true, true, false, std::move(d.beyond->surface), {}, {}, {}},
-                     own->entity[right]});
+                     own->entity[Side::right]});
     }
   }
   constexpr int stride_ticks = 66, settled = stride_ticks;
@@ -99,10 +99,10 @@ std::vector<Moving> walk(const BodyRequest& body, const MuscleSet& muscles, std:
     for (auto& [moving, muscle] : all) {
       const auto u = displacements(simulation.nodal_displacement(muscle));
       moving.line[phase] = *simulation.get<LineOfAction>(muscle);
-      moving.now[phase] = skinned(moving.surface, right, human.body, pose, moving.line[phase], u);
+      moving.now[phase] = skinned(moving.surface, Side::right, human.body, pose, moving.line[phase], u);
       MuscleSurface alone = moving.surface;
       for (VertexBinding& b : alone.binding) b.cage = 1, b.origin = b.insertion = 0;
-      moving.by_mesh[phase] = skinned(alone, right, human.body, pose, moving.line[phase], u);
+      moving.by_mesh[phase] = skinned(alone, Side::right, human.body, pose, moving.line[phase], u);
     }
   }
   std::vector<Moving> seen;

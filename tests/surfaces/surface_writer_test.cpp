@@ -87,7 +87,7 @@ void expect_formula(const Simulation& simulation, const Shown& shown, const LegM
   const Pose<float> pose = *simulation.get<Pose>(shown.person);
   std::size_t next = shown.surfaces.part.size() - 2 * drawn.muscles.size();
   for (const DrivenSurface& muscle : drawn.muscles) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       const SurfacePart& part = shown.surfaces.part[next++];
       const Entity entity = simulation.muscle(shown.person, muscle.driver, side);
       const auto u = displacements(simulation.nodal_displacement(entity));
@@ -144,7 +144,7 @@ TEST(SurfaceWriter, ShowsWhatFadesAfterAChangeOfMethod) {
   simulation.advance(0.2);
   ASSERT_TRUE(simulation.set_method(shown.person, Muscle::hamstrings, {.method = Method::statics}));
   simulation.tick();
-  const Entity muscle = simulation.muscle(shown.person, Muscle::hamstrings, right);
+  const Entity muscle = simulation.muscle(shown.person, Muscle::hamstrings, Side::right);
   ASSERT_TRUE(simulation.world().has<ShownDisplacement>(muscle));
   write(simulation, shown);
   expect_formula(simulation, shown, {});
@@ -206,7 +206,7 @@ TEST(SurfaceWriter, OnePoseOfBothLegsGivesMirrorImages) {
   muscles.method = Method::statics;
   ASSERT_TRUE(simulation.add_leg_muscles(person, muscles));
   Pose<float> pose = *simulation.get<Pose>(person);
-  for (const Side side : {right, left}) {  // feet up and forward, so that bellies are bent and drawn out
+  for (const Side side : {Side::right, Side::left}) {  // feet up and forward, so that bellies are bent and drawn out
     for (const Segment s : {Segment::foot_right, Segment::toes_right}) {
       pose.position_m[index(on_side(s, side))] =
           pose.position_m[index(on_side(s, side))] + Vec3<float>{0, 0.02F, 0.03F};
@@ -320,7 +320,7 @@ TEST(SurfaceWriter, AMuscleWithoutControlPointsIsDrawnAsLongAsItsLine) {
   std::size_t next = 0;
   int seen = 0;
   for (const DrivenSurface& muscle : drawn.muscles) {
-    for (const Side side : {right, left}) {
+    for (const Side side : {Side::right, Side::left}) {
       const SurfacePart& part = shown.surfaces.part[next++];
       const Entity entity = simulation.muscle(shown.person, muscle.driver, side);
       if (simulation.nodal_displacement(entity).first != nullptr) continue;
@@ -368,7 +368,7 @@ TEST(SurfaceWriter, SidesAndBonesAreAChoice) {
   choice.sides = {false, true};
   shown.surfaces = bind_surfaces(shown.human.body, choice).value();
   shown.out.assign(shown.surfaces.vertices, Vertex{});
-  for (SurfaceMuscle& m : shown.muscles) m.entity[right] = {};  // nobody looks at them
+  for (SurfaceMuscle& m : shown.muscles) m.entity[Side::right] = {};  // nobody looks at them
   write(simulation, shown);
   std::size_t middle = 0;
   for (const SurfacePart& part : shown.surfaces.part) {
@@ -421,7 +421,7 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
   request.muscles = {};
   refused(request, "not among");
   std::vector<SurfaceMuscle> swapped = shown.muscles;
-  std::swap(swapped[0].entity[right], swapped[0].entity[left]);
+  std::swap(swapped[0].entity[Side::right], swapped[0].entity[Side::left]);
   request.muscles = swapped;
   refused(request, "other side");
   LegMuscles finer;

@@ -185,7 +185,7 @@ TEST(BoneSurfaces, LeftIsTheMirrorImageOfRight) {
   const auto bones = make_bone_surfaces(body());
   for (std::size_t s = 0; s < segment_count; ++s) {
     if (!segment_name[s].ends_with("_right")) continue;
-    const std::size_t other = index(on_side(static_cast<Segment>(s), left));
+    const std::size_t other = index(on_side(static_cast<Segment>(s), Side::left));
     const auto &r = bones[s].mesh, &l = bones[other].mesh;
     ASSERT_EQ(r.position.size(), l.position.size());
     for (std::size_t i = 0; i < r.position.size(); ++i) {

@@ -1,0 +1,35 @@
+#include "assets/surfaces/coarser_surface.h"
+
+#include <meshoptimizer.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace mobil {
+
+SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
+  if (share >= 1 || mesh.triangle.empty()) return mesh;
+  constexpr std::size_t stride = sizeof(Vec3<float>);
+  const float* places = &mesh.position[0].x;
+  const auto wanted = 3 * static_cast<std::size_t>(std::ceil(share * static_cast<double>(mesh.triangle.size() / 3)));
+  SurfaceMesh light;
+  light.name = mesh.name;
+  light.triangle.resize(mesh.triangle.size());
+  constexpr float any_error = 1;  // of the mesh' extent
+  light.triangle.resize(meshopt_simplify(light.triangle.data(), mesh.triangle.data(), mesh.triangle.size(), places,
+                                         mesh.position.size(), stride, wanted, any_error, 0, nullptr));
+  constexpr auto unused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> moved(mesh.position.size(), unused);
+  for (std::uint32_t& v : light.triangle) {
+    if (moved[v] == unused) {
+      moved[v] = static_cast<std::uint32_t>(light.position.size());
+      light.position.push_back(mesh.position[v]);
+    }
+    v = moved[v];
+  }
+  return light;
+}
+
+}  // namespace mobil

@@ -1,0 +1,41 @@
+#pragma once
+// What became of a request, for a program to read.
+
+#include <cstdint>
+#include <string_view>
+
+namespace mobil {
+
+/// What became of a request. Nothing was changed unless it is `ok`.
+enum class Status : std::uint8_t {
+  ok,
+  stale_entity,   ///< the entity was destroyed, or never was
+  missing,        ///< it has no such component, field or tag
+  already_there,  ///< it has that component, field or tag already
+  wrong_width,    ///< the span is not as long as the field
+  not_valid,      ///< a value that is not finite or out of its range
+  not_yours,      ///< a part or an entity that is the library's, where a host's is asked for
+};
+
+/// In words.
+constexpr std::string_view status_text(Status status) {
+  switch (status) {
+    case Status::ok:
+      return "ok";
+    case Status::stale_entity:
+      return "that entity is gone, or never was";
+    case Status::missing:
+      return "the entity has no such component";
+    case Status::already_there:
+      return "the entity has that component already";
+    case Status::wrong_width:
+      return "the span is not as long as the field";
+    case Status::not_valid:
+      return "a value is not finite or out of its range";
+    case Status::not_yours:
+      return "that part or entity is the library's; use the call that is for it";
+  }
+  return "no status";
+}
+
+}  // namespace mobil

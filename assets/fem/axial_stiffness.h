@@ -16,8 +16,9 @@ struct StaticStretch {
 };
 
 /// In a body scaled by `across` and `along`; the origin face is fixed, the far face is held sideways and moves as one.
-/// By conjugate gradients to 1e-10; the same bits on every machine.
-StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along);
+/// `foundation_hz`: what holds every node sideways, (2πf)² times its lumped mass (muscle_template.h). By conjugate
+/// gradients to 1e-10; the same bits on every machine.
+StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along, double foundation_hz = 0);
 
 /// How stiff the same belly is where its far face may warp: the total of a uniform traction along z over the mean
 /// displacement along z that it makes, N/m. `far_share`: part of the traction on each node of the far face, sum 1.

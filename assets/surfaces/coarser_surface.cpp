@@ -13,7 +13,8 @@ SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
   if (share >= 1 || mesh.triangle.empty()) return mesh;
   constexpr std::size_t stride = sizeof(Vec3<float>);
   const float* places = &mesh.position[0].x;
-  const auto wanted = 3 * static_cast<std::size_t>(std::ceil(share * static_cast<double>(mesh.triangle.size() / 3)));
+  const std::size_t triangles = mesh.triangle.size() / 3;
+  const auto wanted = 3 * static_cast<std::size_t>(std::ceil(share * static_cast<double>(triangles)));
   SurfaceMesh light;
   light.name = mesh.name;
   light.triangle.resize(mesh.triangle.size());

@@ -20,7 +20,7 @@ Result<std::shared_ptr<const ReducedBasis>> reference_basis(const MusclePlan& pl
   ReducedOptions options;
   options.vectors = vectors;
   options.frame_loads = choice.inertia;
-  options.foundation_hz = foundation_of(choice);
+  options.foundation_hz = foundation_of(choice, plan.muscle);
   options.damping_per_s = choice.damping_per_s;
   options.middle_ratio = across / along;
   options.ratio_width = 1;

@@ -150,6 +150,7 @@ Result<void> paper_figure15(PaperRun& run) {
   walks.push_back(std::move(*normal));
 
   std::vector<Agreement> pairs;
+  pairs.reserve(walks.size() * compared.size());
   for (const Walk& walk : walks) pairs.push_back(agreement(walk, 0));
   for (std::size_t speed = 0; speed + 1 < walks.size(); ++speed) {
     for (std::size_t m = 1; m < compared.size(); ++m) pairs.push_back(agreement(walks[speed], m));

@@ -15,17 +15,23 @@ namespace mobil {
 namespace {
 
 constexpr double lowest_ratio = 0.4, highest_ratio = 3.2;  // of across to along; bodies in range have 0.44 to 3.06
-constexpr double braced_hz = 7;                            // MUSCLE: some 5 mm sideways per g
+// Some 5 mm sideways per g; what lies on the shank is held more tightly.
+constexpr double thigh_hz = 7, shank_hz = 12;
 
 /// Of the critical step: the consistent mass is lighter where it matters.
 Mass stepped_mass(const LegMuscles& choice) {
   return choice.method == Method::icd ? Mass::consistent : Mass::lumped;
 }
 
-bool same_template(const LegMuscles& a, const LegMuscles& b) {
+/// A member of a group, on its own: what is long and thin.
+bool is_single(Muscle muscle) {
+  return static_cast<std::size_t>(muscle) >= muscle_group_count;
+}
+
+bool same_template(const LegMuscles& a, const LegMuscles& b, Muscle muscle) {
   return same_tissue(a, b) && a.drive == b.drive && stepped_mass(a) == stepped_mass(b) &&
          a.damping_per_s == b.damping_per_s && a.stiffness_damping_s == b.stiffness_damping_s &&
-         foundation_of(a) == foundation_of(b);
+         foundation_of(a, muscle) == foundation_of(b, muscle);
 }
 
 /// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
@@ -72,8 +78,10 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   return {};
 }
 
-double foundation_of(const LegMuscles& choice) {
-  return choice.foundation_hz.value_or(choice.inertia ? braced_hz : 0);
+double foundation_of(const LegMuscles& choice, Muscle muscle) {
+  if (choice.foundation_hz) return *choice.foundation_hz;
+  if (is_single(muscle)) return muscle_row(muscle).drawn.along == LegBone::shank ? shank_hz : thigh_hz;
+  return choice.inertia ? thigh_hz : 0;
 }
 
 bool same_tissue(const LegMuscles& a, const LegMuscles& b) {
@@ -93,7 +101,7 @@ std::pair<const BellyTemplate*, const BellyTemplate*> BellyLibrary::find_shape(M
   const BellyTemplate* alike = nullptr;
   for (const auto& made : templates_) {
     if (made->muscle != muscle || !same_tissue(made->choice, choice)) continue;
-    if (same_template(made->choice, choice)) return {made.get(), made.get()};
+    if (same_template(made->choice, choice, muscle)) return {made.get(), made.get()};
     alike = made.get();
   }
   return {nullptr, alike};
@@ -112,7 +120,7 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
   options.element = choice.element;
   options.mass = stepped_mass(choice);
   options.stiffness_damping_s = choice.stiffness_damping_s;
-  options.foundation_hz = foundation_of(choice);
+  options.foundation_hz = foundation_of(choice, muscle);
   std::optional<CriticalSteps> steps;
   if (known) steps = std::move(known->critical_steps);
   auto shape = make_muscle_template(std::move(*mesh), choice.material, options, std::move(steps));
@@ -125,10 +133,15 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
     made->stretch = std::move(known->stretch);
   } else if (alike != nullptr) {
     made->axial = alike->axial;
-    made->stretch = alike->stretch;
   } else {
     made->axial = tabulate_axial_stiffness(shape->terms, shape->kernel.far_share, lowest_ratio, highest_ratio);
-    made->stretch = static_stretch(shape->terms, 1, 1);
+  }
+  if (!known) {
+    // Groups are held sideways with inertia alone, and settle under the load of the moment then.
+    const bool held = is_single(muscle);
+    const bool as_alike =
+        alike != nullptr && (!held || foundation_of(alike->choice, muscle) == foundation_of(choice, muscle));
+    made->stretch = as_alike ? alike->stretch : static_stretch(shape->terms, 1, 1, held ? options.foundation_hz : 0);
   }
   made->lines = alike ? alike->lines : std::make_shared<const MuscleLines>(make_muscle_lines(muscle));
   made->shape = std::make_shared<const MuscleTemplate>(std::move(*shape));

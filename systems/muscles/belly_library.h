@@ -89,10 +89,10 @@ class BellyLibrary {
                                                     const BellyScale<float>& scale);
   Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,
                                                     const BellyScale<float>& scale);
-  static BasisKey basis_key(const LegMuscles& choice, double ratio, double product);
-  static std::vector<BasisKey> usual_bases(const LegMuscles& choice);
+  static BasisKey basis_key(const LegMuscles& choice, Muscle muscle, double ratio, double product);
+  static std::vector<BasisKey> usual_bases(const LegMuscles& choice, Muscle muscle);
   Basis* find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
-  static ReducedOptions basis_options(const LegMuscles& choice, const BasisKey& key);
+  static ReducedOptions basis_options(const LegMuscles& choice, Muscle muscle, const BasisKey& key);
   static Result<Basis> make_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key);
   static std::shared_ptr<const ReducedBasis> cut(Basis& made, std::uint32_t vectors);
   void prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s);
@@ -116,11 +116,11 @@ inline constexpr double rare_ratio = 1.05;  // times more or less
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
 /// What a reduced belly's basis depends on of a choice, but for how many vectors it has; all else is as in a
 /// LegMuscles{}.
-LegMuscles basis_choice(const LegMuscles& choice);
+LegMuscles basis_choice(const LegMuscles& choice, Muscle muscle);
 /// Of one that is, whether reduced bellies can be so.
 Result<void> check_reduced(const LegMuscles& choice);
-/// Of a choice in range: the sideways foundation, Hz.
-double foundation_of(const LegMuscles& choice);
+/// Of a choice in range: one muscle's sideways foundation, Hz.
+double foundation_of(const LegMuscles& choice, Muscle muscle);
 bool same_tissue(const LegMuscles& a, const LegMuscles& b);
 /// The middle of the range of sizes that `value` is in, ranges going from 1 / width to width times their middle. By
 /// multiplication alone: the same on every machine.

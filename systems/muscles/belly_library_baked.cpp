@@ -65,12 +65,12 @@ void write(BakeWriter& out, const CriticalSteps& steps, const AxialStiffness& ax
     out.put(number);
 }
 
-void read(BakeReader& in, const LegMuscles& choice, CriticalSteps& steps, AxialStiffness& axial,
+void read(BakeReader& in, const LegMuscles& choice, Muscle muscle, CriticalSteps& steps, AxialStiffness& axial,
           StaticStretch& stretch) {
   const auto ratios = in.take<std::uint32_t>(), axials = in.take<std::uint32_t>();
   read_ascending(in, steps.ratio, ratios);
   in(steps.top, ratios);
-  in(steps.braced_top, foundation_of(choice) > 0 ? ratios : 0);
+  in(steps.braced_top, foundation_of(choice, muscle) > 0 ? ratios : 0);
   read_ascending(in, axial.ratio, axials);
   in(axial.per_ratio, axials);
   if (in.sound()) in(stretch.displacement, 3 * std::size_t{node_count(choice.cells)});
@@ -227,7 +227,7 @@ Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked
   for (std::uint32_t i = 0; i < templates && in.sound(); ++i) {
     const auto [muscle, choice] = read_chosen(in);
     ShapeTables tables;
-    mobil::read(in, choice, tables.critical_steps, tables.axial, tables.stretch);
+    mobil::read(in, choice, muscle, tables.critical_steps, tables.axial, tables.stretch);
     if (!in.sound()) break;
     const BellyTemplate* alike = find_shape(muscle, choice).second;
     for (const auto& before : loaded.templates) {
@@ -250,7 +250,8 @@ Result<BellyLibrary::Loaded> BellyLibrary::read(std::span<const std::byte> baked
     key.product = in.take<double>();
     if (!in.sound()) break;
     const auto one = [&] {
-      return std::make_shared<const ReducedBasis>(read_basis(in, choice.reduced.cells, basis_options(choice, key)));
+      return std::make_shared<const ReducedBasis>(
+          read_basis(in, choice.reduced.cells, basis_options(choice, chosen.muscle, key)));
     };
     Basis basis{chosen.muscle, choice, key.ratio, key.product, one(), {}, true};
     const std::uint32_t cuts = in.take_up_to(most_vectors);

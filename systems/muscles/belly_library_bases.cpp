@@ -16,7 +16,7 @@ constexpr double product_step = 1.5;  // between those of size, which the founda
 
 }  // namespace
 
-LegMuscles basis_choice(const LegMuscles& choice) {
+LegMuscles basis_choice(const LegMuscles& choice, Muscle muscle) {
   LegMuscles alike;
   alike.drive = choice.drive;
   alike.reduced.corrected = choice.reduced.corrected;
@@ -25,7 +25,7 @@ LegMuscles basis_choice(const LegMuscles& choice) {
   alike.element = choice.element;
   alike.damping_per_s = choice.damping_per_s;
   alike.inertia = choice.inertia;
-  alike.foundation_hz = foundation_of(choice);
+  alike.foundation_hz = foundation_of(choice, muscle);
   alike.cells = choice.cells;
   return alike;
 }
@@ -44,12 +44,12 @@ Result<void> check_reduced(const LegMuscles& choice) {
   return {};
 }
 
-BellyLibrary::BasisKey BellyLibrary::basis_key(const LegMuscles& choice, double ratio, double product) {
+BellyLibrary::BasisKey BellyLibrary::basis_key(const LegMuscles& choice, Muscle muscle, double ratio, double product) {
   return {middle_of_range(ratio, std::sqrt(ratio_step)),
-          foundation_of(choice) > 0 ? middle_of_range(product, std::sqrt(product_step)) : 1};
+          foundation_of(choice, muscle) > 0 ? middle_of_range(product, std::sqrt(product_step)) : 1};
 }
 
-std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& choice) {
+std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& choice, Muscle muscle) {
   std::vector<BasisKey> keys;
   const bool fine = choice.reduced.cells[2] > ReducedChoice{}.cells[2];  // a basis takes half a second and more
   const double beyond = fine ? 1 : usual_sizes::rare_ratio, most_ratio = usual_sizes::most_ratio * beyond;
@@ -57,7 +57,7 @@ std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& 
     const double at_ratio = std::min(ratio, most_ratio);
     for (double product = usual_sizes::least_product;; product *= product_step) {
       const double at_product = std::min(product, usual_sizes::most_product);
-      const BasisKey key = basis_key(choice, at_ratio, at_product);
+      const BasisKey key = basis_key(choice, muscle, at_ratio, at_product);
       if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
       if (at_product < product) break;
     }
@@ -69,17 +69,18 @@ std::vector<BellyLibrary::BasisKey> BellyLibrary::usual_bases(const LegMuscles& 
 BellyLibrary::Basis* BellyLibrary::find_basis(Muscle muscle, const LegMuscles& choice, const BasisKey& key) {
   const auto at = std::find_if(bases_.begin(), bases_.end(), [&](const Basis& made) {
     return made.muscle == muscle && key == BasisKey{made.middle_ratio, made.middle_product} &&
-           made.whole->vectors >= choice.reduced.vectors && basis_choice(made.choice) == basis_choice(choice);
+           made.whole->vectors >= choice.reduced.vectors &&
+           basis_choice(made.choice, muscle) == basis_choice(choice, muscle);
   });
   return at == bases_.end() ? nullptr : &*at;
 }
 
-ReducedOptions BellyLibrary::basis_options(const LegMuscles& choice, const BasisKey& key) {
+ReducedOptions BellyLibrary::basis_options(const LegMuscles& choice, Muscle muscle, const BasisKey& key) {
   ReducedOptions options;
   options.far_end = far_end_of(choice);
   options.frame_loads = choice.inertia;
   options.corrected = choice.reduced.corrected;
-  options.foundation_hz = foundation_of(choice);
+  options.foundation_hz = foundation_of(choice, muscle);
   options.damping_per_s = choice.damping_per_s;
   options.middle_ratio = key.ratio;
   options.ratio_width = std::sqrt(ratio_step);
@@ -92,7 +93,7 @@ Result<BellyLibrary::Basis> BellyLibrary::make_basis(Muscle muscle, const LegMus
   if (auto ok = check_reduced(choice); !ok) return tl::unexpected(ok.error());
   const auto mesh = bend_block(choice.reduced.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
-  ReducedOptions options = basis_options(choice, key);
+  ReducedOptions options = basis_options(choice, muscle, key);
   const auto make = [&](std::uint32_t count) {
     options.vectors = count;
     return make_reduced_basis(*mesh, choice.material, choice.element, options);
@@ -118,7 +119,7 @@ Result<std::shared_ptr<const ReducedBasis>> BellyLibrary::basis(Muscle muscle, c
                                                                 const BellyScale<float>& scale) {
   if (auto ok = check_reduced(choice); !ok) return tl::unexpected(ok.error());
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
-  const BasisKey key = basis_key(choice, across / along, across * along);
+  const BasisKey key = basis_key(choice, muscle, across / along, across * along);
   if (Basis* const found = find_basis(muscle, choice, key)) return cut(*found, choice.reduced.vectors);
   auto made = make_basis(muscle, choice, key);
   if (!made) return tl::unexpected(made.error());

@@ -49,7 +49,7 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
     const auto muscle = static_cast<Muscle>(m);
     if (find_shape(muscle, choice).first == nullptr) shapes.push_back({.muscle = muscle});
     if (choice.method != Method::reduced) continue;
-    for (const BasisKey& key : usual_bases(choice)) {
+    for (const BasisKey& key : usual_bases(choice, muscle)) {
       if (Basis* const found = find_basis(muscle, choice, key)) {
         cut(*found, choice.reduced.vectors);
         found->given = true;

@@ -17,7 +17,7 @@ void BasisOrders::Work::make() {
 }
 
 OrderedBasis BasisOrders::name_of(Muscle muscle, const LegMuscles& choice, const BellyLibrary::BasisKey& key) {
-  return {hash_of(basis_choice(choice)),
+  return {hash_of(basis_choice(choice, muscle)),
           static_cast<float>(key.ratio),
           static_cast<float>(key.product),
           static_cast<std::uint16_t>(muscle),
@@ -28,7 +28,7 @@ OrderedBasis BasisOrders::name_of(Muscle muscle, const LegMuscles& choice, const
 bool BasisOrders::ready(BellyLibrary& library, Muscle muscle, const LegMuscles& choice, const BellyScale<float>& scale,
                         std::uint32_t tick, bool order) {
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
-  const BellyLibrary::BasisKey key = BellyLibrary::basis_key(choice, across / along, across * along);
+  const BellyLibrary::BasisKey key = BellyLibrary::basis_key(choice, muscle, across / along, across * along);
   if (const auto* const found = library.find_basis(muscle, choice, key); found != nullptr && found->given) return true;
   OrderedBasis name = name_of(muscle, choice, key);
   const auto same = [&](const OrderedBasis& other) {

@@ -61,7 +61,7 @@ Result<void> save_file(const Simulation& simulation, const std::filesystem::path
   auto temporary = path;
   temporary += fmt::format(".{}.partial", ::getpid());
   const auto give_up = [&](const char* what) {
-    const auto error = refused(path, what, "choose a folder that exists, is writable and has space");
+    auto error = refused(path, what, "choose a folder that exists, is writable and has space");
     ::unlink(temporary.c_str());
     return error;
   };

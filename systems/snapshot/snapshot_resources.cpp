@@ -98,11 +98,11 @@ LegMuscles tissue_of(const LegMuscles& choice) {
   tissue.cells = choice.cells;
   return tissue;
 }
-LegMuscles driven(const LegMuscles& choice) {
+LegMuscles driven(const LegMuscles& choice, Muscle muscle) {
   LegMuscles alike = tissue_of(choice);
   alike.drive = choice.drive;
   alike.damping_per_s = choice.damping_per_s;
-  alike.foundation_hz = foundation_of(choice);
+  alike.foundation_hz = foundation_of(choice, muscle);
   return alike;
 }
 
@@ -114,7 +114,7 @@ Recipe recipe_of(ResourceKind kind, Muscle muscle, const LegMuscles& choice) {
   return recipe;
 }
 Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
-  LegMuscles alike = driven(made.choice);
+  LegMuscles alike = driven(made.choice, made.muscle);
   alike.stiffness_damping_s = made.choice.stiffness_damping_s;
   alike.method = made.choice.method == Method::icd ? Method::icd : Method::ecd;  // whose critical step it tells
   return recipe_of(kind, made.muscle, alike);
@@ -191,7 +191,7 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
       const ReducedBasis* basis = made.whole.get() == resource ? made.whole.get() : nullptr;
       for (const auto& cut : made.cut) basis = cut.get() == resource ? cut.get() : basis;
       if (basis == nullptr) continue;
-      LegMuscles alike = basis_choice(made.choice);
+      LegMuscles alike = basis_choice(made.choice, made.muscle);
       alike.reduced.vectors = basis->vectors;
       known = {recipe_of(ResourceKind::basis, made.muscle, alike), fingerprint(*basis)};
       known.recipe.vectors = basis->vectors;

@@ -1,0 +1,156 @@
+// Muscles stay where their lines are: beside each one drawn evenly along its line, whatever the method and the joints
+// do.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "engine/geometry.h"
+#include "systems/simulation.h"
+#include "systems/surfaces/surfaces.h"
+#include "tests/simulation/leg_muscles.h"
+
+namespace mobil::stray_test {
+using namespace geometry;
+
+constexpr BodyRequest somebody{.height_m = 1.75F, .mass_kg = 75};
+
+/// Both legs bent alike, degrees.
+Pose<float> bent(const Body& body, float hip, float knee, float ankle) {
+  using enum Segment;
+  Pose<float> pose = standing_pose(body);
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const std::size_t parent = index(segment_parent[s]);
+    if (s == parent) continue;
+    const auto is = [s](Segment r) {
+      return s == index(on_side(r, Side::right)) || s == index(on_side(r, Side::left));
+    };
+    const float by = is(thigh_right)     ? -hip
+                     : is(shank_right)   ? knee
+                     : is(patella_right) ? 0.9F * knee
+                     : is(foot_right)    ? -ankle
+                                         : 0.0F;
+    const float half = 0.5F * 0.0174532925F * by;
+    pose.rotation[s] = product(pose.rotation[parent], {std::sin(half), 0, 0, std::cos(half)});
+    pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
+  }
+  return pose;
+}
+
+/// What people show with one choice, by name of the piece.
+struct Shown {
+  Simulation simulation;
+  std::vector<Entity> people;
+  BodySurfaces surfaces;
+
+  explicit Shown(const LegMuscles& choice) {
+    SurfaceChoice drawn;
+    drawn.bones = false;
+    drawn.simulated = choice.muscles;
+    drawn.cells = choice.cells;
+    drawn.detail = 0.3;
+    surfaces = *bind_surfaces(*make_body(somebody), drawn);
+  }
+  std::vector<Vec3<float>> vertices(Entity person) const {
+    const Human human = *simulation.human(person);
+    std::vector<SurfaceMuscle> muscles;
+    for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+    std::vector<Vec3<float>> out(surfaces.vertices);
+    const SurfaceRequest one{.person = person,
+                             .muscles = muscles,
+                             .surfaces = &surfaces,
+                             .positions = {std::as_writable_bytes(std::span(out))}};
+    SurfaceWriter writer;
+    const auto done = writer.write(simulation.world(), {&one, 1});
+    EXPECT_TRUE(done) << done.error().message;
+    return out;
+  }
+};
+
+/// Keeps how far each piece's vertices ever were from where the line alone would have them, mm.
+using Farthest = std::map<std::string, double>;
+void keep(const Shown& shown, Entity person, const Shown& lines, Entity same, Farthest& farthest) {
+  const auto is = shown.vertices(person), should = lines.vertices(same);
+  for (const SurfacePart& part : shown.surfaces.part) {
+    double& most = farthest[part.name];
+    for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v)
+      most = std::max(most, 1000 * static_cast<double>(length(is[v] - should[v])));
+  }
+}
+
+void expect_within(const Farthest& farthest, double most_mm, const std::string& what) {
+  std::string worst;
+  double most = 0;
+  for (const auto& [name, mm] : farthest) {
+    EXPECT_LT(mm, most_mm) << name << " " << what;
+    if (mm > most) most = mm, worst = name;
+  }
+  std::printf("%s: %s is %.0f mm off, the others less\n", what.c_str(), worst.c_str(), most);
+}
+
+std::vector<LegMuscles> every_choice(Method method) {
+  std::vector<LegMuscles> all;
+  for (const MuscleSet& set : {muscle_groups(), muscle_members()})
+    all.push_back({.muscles = set, .method = method, .reduced = {.cells = {2, 2, 8}}});
+  return all;
+}
+
+/// At the ends of what joints allow and between, at rest.
+TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
+  for (const Method method : {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced}) {
+    for (const LegMuscles& choice : every_choice(method)) {
+      Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
+      Farthest farthest;
+      for (const float hip : {-20.0F, 45.0F, 115.0F}) {
+        for (const float knee : {0.0F, 65.0F, 130.0F}) {
+          for (const float ankle : {-40.0F, 0.0F, 20.0F}) {
+            std::array<Entity, 2> same;
+            for (Shown* one : {&shown, &lines}) {
+              const Entity person = *one->simulation.spawn_posed(somebody);
+              ASSERT_TRUE(one->simulation.set_pose(person, bent(*make_body(somebody), hip, knee, ankle)));
+              const auto added = one->simulation.add_leg_muscles(
+                  person, one == &shown ? choice : LegMuscles{.muscles = choice.muscles, .method = Method::none});
+              ASSERT_TRUE(added) << added.error().message;
+              one->simulation.tick();
+              same[one == &shown ? 0 : 1] = person;
+            }
+            keep(shown, same[0], lines, same[1], farthest);
+            ASSERT_TRUE(shown.simulation.despawn(same[0]));
+            ASSERT_TRUE(lines.simulation.despawn(same[1]));
+          }
+        }
+      }
+      const bool groups = choice.muscles == muscle_groups();
+      expect_within(farthest, 25, name(method) + (groups ? " groups" : " members"));
+    }
+  }
+}
+
+/// In a walk, where they swing as well.
+TEST(Stray, NoMuscleLeavesItsLineInAWalk) {
+  for (const Method method : {Method::ecd, Method::reduced}) {
+    for (const LegMuscles& choice : every_choice(method)) {
+      Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
+      const Entity person = *shown.simulation.spawn(somebody, {.speed_m_s = 1.4F});
+      const Entity same = *lines.simulation.spawn(somebody, {.speed_m_s = 1.4F});
+      ASSERT_TRUE(shown.simulation.add_leg_muscles(person, choice));
+      ASSERT_TRUE(lines.simulation.add_leg_muscles(same, {.muscles = choice.muscles, .method = Method::none}));
+      Farthest farthest;
+      for (int tick = 0; tick < 90; ++tick) {
+        shown.simulation.tick();
+        lines.simulation.tick();
+        if (tick % 3 == 0) keep(shown, person, lines, same, farthest);
+      }
+      const bool groups = choice.muscles == muscle_groups();
+      expect_within(farthest, 25, name(method) + (groups ? " groups" : " members") + " walking");
+    }
+  }
+}
+
+}  // namespace mobil::stray_test

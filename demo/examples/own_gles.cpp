@@ -50,8 +50,9 @@ int main(int arguments, char** argument) {
   std::vector<mobil::Vec3<float>> size;
   for (std::size_t i = 1; i < crowd.size(); ++i) {
     crowd[i].body = {.height_m = 1.6F + 0.006F * static_cast<float>(i), .mass_kg = static_cast<float>(55 + 7 * i % 40)};
-    crowd[i].x_m = static_cast<float>((i - 1) % 8) - 4;
-    crowd[i].z_m = static_cast<float>((i - 1) / 8) * 2 + 2;
+    const std::size_t column = (i - 1) % 8, row = (i - 1) / 8;
+    crowd[i].x_m = static_cast<float>(column) - 4;
+    crowd[i].z_m = static_cast<float>(row) * 2 + 2;
     size.push_back(mobil::far_scale(crowd[i].body.height_m, crowd[i].body.mass_kg));
   }
   std::vector<mobil::Entity> people(crowd.size());

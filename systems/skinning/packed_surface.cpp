@@ -11,7 +11,7 @@
 
 namespace mobil {
 
-using geometry::operator-, geometry::operator+, geometry::operator*;
+using namespace geometry;
 
 namespace {
 

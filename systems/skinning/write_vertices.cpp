@@ -226,11 +226,12 @@ void rigid(const RigidSurface& surface, const AffineMap& map, const VertexTarget
         Rows normal = transposed({{n.z.part[i], n.x.part[i], n.y.part[i], n.z.part[i]}});
         if (stretch != 1) normalise(1, normal);
         put(position, normal, first, count, packed, out, [&](std::size_t v) {
-          const auto& [d, handed] = surface.along[v];
+          const RigidAlong& of = surface.along[v];
+          const Vec3<float>& d = of.direction;
           const auto row = [&](int r) {
             return scaled.column[0][r] * d.x + scaled.column[1][r] * d.y + scaled.column[2][r] * d.z;
           };
-          return RigidAlong{{row(0), row(1), row(2)}, handed};
+          return RigidAlong{{row(0), row(1), row(2)}, of.handed};
         });
         continue;
       }

@@ -52,8 +52,8 @@ struct LegMuscles {
   bool inertia = false;            // gravity and the acceleration of the muscle's frame
   bool line_motion = false;        // lengthening speed and moment arms: component LineMotion
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: of single
-  /// muscles 7 Hz, on the shank 12, for what is long, thin and bent bows aside like a strut without where its end comes
-  /// nearer; of groups 7 Hz with inertia, where a belly would sag by its own length, and none otherwise.
+  /// muscles that are drawn by displacement 7 Hz, on the shank 12, for what is long, thin and bent bows aside like a
+  /// strut without; of groups 7 Hz with inertia, where a belly would sag by its own length, and none otherwise.
   std::optional<double> foundation_hz{};
   /// 81 nodes, the paper's choice for real time; meshes of {4, 4, 16}, {8, 8, 32} … have all its nodes.
   Cells cells = {2, 2, 8};

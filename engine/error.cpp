@@ -4,13 +4,28 @@
 
 namespace mobil {
 
-tl::unexpected<Error> fail(Status status) noexcept {
+namespace {
+
+Error error_of(const char* call, Status status) noexcept {
   Error error{{}, status};
   try {
-    error.message = status_text(status);
+    if (call != nullptr) error.message = std::string(call) + ": ";
+    error.message += status_text(status);
   } catch (const std::bad_alloc&) {
+    error.message.clear();
   }
-  return tl::unexpected<Error>(std::move(error));
+  return error;
+}
+
+}  // namespace
+
+tl::unexpected<Error> fail(Status status) noexcept {
+  return tl::unexpected<Error>(error_of(nullptr, status));
+}
+
+Result<void> result_of(const char* call, Status status) noexcept {
+  if (status == Status::ok) return {};
+  return tl::unexpected<Error>(error_of(call, status));
 }
 
 }  // namespace mobil

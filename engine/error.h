@@ -26,11 +26,8 @@ inline tl::unexpected<Error> fail(std::string message, Status status = Status::n
 /// With the status' own line, or none where there is no memory for it.
 tl::unexpected<Error> fail(Status status) noexcept;
 
-/// A status with its line.
-inline Result<void> result_of(Status status) {
-  if (status == Status::ok) return {};
-  return fail(status);
-}
+/// A status with its line, which names the call that was refused; without where there is no memory for it.
+Result<void> result_of(const char* call, Status status) noexcept;
 
 /// Whether it ended like that: simulation.despawn(person) == Status::ok.
 template <class T>

@@ -13,7 +13,7 @@ enum class Status : std::uint8_t {
   missing,        ///< it has no such component, field or tag
   already_there,  ///< it has that component, field or tag already
   wrong_width,    ///< the span is not as long as the field
-  not_valid,      ///< a value that is not finite or out of its range
+  not_valid,      ///< refused for what the message says: a value out of range, bytes that are damaged, too little room
   not_yours,      ///< a part or an entity that is the library's, where a host's is asked for
 };
 

@@ -83,7 +83,7 @@ Result<void> Simulation::destroy(Entity entity) {
   if (!place) return fail(Status::stale_entity);
   const auto one_of_ours = [&](const KeyPart& part) { return ours(part.id); };
   if (std::ranges::any_of(place.table->key(), one_of_ours)) return fail(Status::not_yours);
-  return result_of(world_->destroy(entity));
+  return result_of("destroy", world_->destroy(entity));
 }
 
 MuscleScene Simulation::muscle_scene() {
@@ -96,7 +96,9 @@ Result<void> Simulation::spawn(std::span<const SpawnRequest> people, std::span<E
         fmt::format("spawn: {} people, and room for the handles of {}; give as many", people.size(), entities.size()));
   }
   auto made = spawn_people(muscle_scene(), people, entities);
-  if (!made) return fail(fmt::format("spawn: person {}: {}", made.error().person, made.error().error.message));
+  if (!made)
+    return fail(fmt::format("spawn: person {}: {}", made.error().person, made.error().error.message),
+                made.error().error.status);
   return {};
 }
 
@@ -122,7 +124,7 @@ Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival
 }
 
 Result<void> Simulation::despawn(std::span<const Entity> people) {
-  return result_of(despawn_people(*world_, jobs_, people));
+  return result_of("despawn", despawn_people(*world_, jobs_, people));
 }
 
 Result<void> Simulation::despawn(Entity human) {
@@ -177,11 +179,11 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
 }
 
 Result<void> Simulation::add_forces(Entity human) {
-  return result_of(mobil::add_forces(*world_, human));
+  return result_of("add_forces", mobil::add_forces(*world_, human));
 }
 
 Result<void> Simulation::remove_forces(Entity human) {
-  return result_of(mobil::remove_forces(*world_, human));
+  return result_of("remove_forces", mobil::remove_forces(*world_, human));
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
@@ -193,7 +195,7 @@ Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choi
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
-  return result_of(mobil::remove_leg_muscles(*world_, jobs_, human));
+  return result_of("remove_leg_muscles", mobil::remove_leg_muscles(*world_, jobs_, human));
 }
 
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
@@ -247,7 +249,7 @@ Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
 Result<void> Simulation::restore(std::span<const std::byte> in) {
   const auto done =
       restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), in);
-  if (!done) return fail("restore: " + done.error().message);
+  if (!done) return fail("restore: " + done.error().message, done.error().status);
   work_->recent = {};
   tick_ = done->tick;
   clock_.set_remainder_units(done->remainder_units);

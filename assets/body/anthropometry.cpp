@@ -60,7 +60,7 @@ std::string wrong_limb(const BodyRequest& request) {
     const auto asked = static_cast<double>(request.limbs.*bone.length_m);
     const double usual = bone.fraction * static_cast<double>(request.height_m);
     if (asked == 0 || (asked >= least * usual && asked <= most * usual)) continue;
-    return fmt::format("body: a {} of {} m is outside {:.3f}–{:.3f} m at that height; choose one within, or 0",
+    return fmt::format("body: {} = {:.3f} m is outside {:.3f}–{:.3f} m at that height; choose one within, or 0",
                        bone.name, asked, least * usual, most * usual);
   }
   return {};

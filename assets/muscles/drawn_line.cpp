@@ -46,7 +46,7 @@ BellySpan belly_span(std::span<const LegSection> sections) {
     top = std::min(top, i);
     bottom = std::max(bottom, i);
   }
-  const LegFrame leg{{0, 0, 0}, published_leg::thigh_m, published_leg::shank_m, unit_m};
+  const LegFrame leg{{0, 0, 0}, published_leg::thigh_m, published_leg::shank_m, published_leg::thigh_m, unit_m};
   const auto middle = [&](int i) {
     const LegEllipse e = *leg_ellipse(sections, at(i));
     return leg_point(leg, at(i), e.lateral, e.anterior);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "assets/body/anthropometry.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -78,17 +79,21 @@ std::span<const LegSection> fibula_sections() {
 LegFrame leg_frame(const Body& body) {
   const Vec pelvis = to_double(body.joint_offset_m[index(Segment::pelvis)]);
   const Vec hip = pelvis + to_double(body.joint_offset_m[index(Segment::thigh_right)]);
-  return {hip, static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m),
-          static_cast<double>(body.request.height_m) / reference_height_mm};
+  const auto height = static_cast<double>(body.request.height_m), thigh = static_cast<double>(body.thigh_length_m);
+  const double above = has_own_limbs(body.request) ? fraction::thigh * height : thigh;
+  return {hip, thigh, static_cast<double>(body.shank_length_m), above, height / reference_height_mm};
 }
 
 Vec3<double> leg_point(const LegFrame& leg, double level, double lateral_mm, double anterior_mm) {
-  const double down = level < 1 ? level * leg.thigh_length : leg.thigh_length + (level - 1) * leg.shank_length;
+  const double down = level < 0   ? level * leg.above
+                      : level < 1 ? level * leg.thigh_length
+                                  : leg.thigh_length + (level - 1) * leg.shank_length;
   return leg.hip + Vec{-lateral_mm * leg.unit, -down, anterior_mm * leg.unit};
 }
 
 double leg_level(const LegFrame& leg, double height_m) {
   const double down = leg.hip.y - height_m;
+  if (down < 0) return down / leg.above;
   return down < leg.thigh_length ? down / leg.thigh_length : 1 + (down - leg.thigh_length) / leg.shank_length;
 }
 

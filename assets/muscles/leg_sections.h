@@ -31,7 +31,8 @@ std::span<const LegSection> fibula_sections();
 struct LegFrame {
   Vec3<double> hip;
   double thigh_length, shank_length;
-  double unit;  // metres per mm of the measured man
+  double above;  // what a level is long over the hip: the thigh of a leg in proportion
+  double unit;   // metres per mm of the measured man
 };
 LegFrame leg_frame(const Body& body);
 Vec3<double> leg_point(const LegFrame& leg, double level, double lateral_mm, double anterior_mm);

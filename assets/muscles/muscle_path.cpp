@@ -80,7 +80,13 @@ LegScale<double> leg_scale(double thigh_m, double shank_m) {
 }
 
 LegScale<double> leg_scale(const Body& body) {
-  return leg_scale(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
+  auto scale = leg_scale(static_cast<double>(body.thigh_length_m), static_cast<double>(body.shank_length_m));
+  // Bones of their own lengths are as thick as the height makes them, and pelvis and feet as large.
+  if (has_own_limbs(body.request)) {
+    const double usual_m = (fraction::thigh + fraction::shank) * static_cast<double>(body.request.height_m);
+    scale.across = usual_m / published_leg::leg_m;
+  }
+  return scale;
 }
 
 Vec bone_origin(LegBone bone, const LegFrames<double>& leg) {

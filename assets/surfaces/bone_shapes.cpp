@@ -26,6 +26,7 @@ Proportions proportions(const Body& body) {
   p.leg = leg_frame(body);
   p.leg.hip = {0, 0, 0};
   p.leg.thigh_length *= mm;
+  p.leg.above *= mm;
   p.leg.shank_length *= mm;
   p.leg.unit = 1;
   return p;

@@ -14,8 +14,8 @@ enum class Cloth : std::uint8_t { skin, shirt, trousers, shoes };
 inline constexpr std::size_t cloth_count = 4;
 Cloth cloth_of(Segment segment);
 
-/// Closed surfaces in the frames of their segments, m, wound outwards; some segments (kneecaps, toes' tips) have none.
-/// Joints are covered by shapes that reach into each other.
+/// Surfaces in the frames of their segments, m, wound outwards, closed but for a pinhole at either end; kneecaps have
+/// none. Joints are covered by shapes that reach into each other.
 std::vector<BoneSurface> make_figure_shapes(const Body& body);
 
 }  // namespace mobil

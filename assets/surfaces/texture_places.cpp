@@ -94,7 +94,7 @@ std::vector<TexturePlace> texture_places(std::span<const Vec3<float>> position, 
       const auto [at, out, way] = line.foot_of(to_double(position[v]));
       along[v] = at;
       const Vec ahead = orthogonal(to_double(front), way), aside = cross(way, ahead);
-      place[v].around = static_cast<float>(std::atan2(std::abs(dot(out, aside)), dot(out, ahead)) / std::numbers::pi);
+      place[v].around = static_cast<float>(std::atan2(dot(out, aside), dot(out, ahead)) / std::numbers::pi);
     }
     normalise(along);
   }
@@ -128,7 +128,7 @@ std::vector<AlongStencil> along_stencils(std::span<const std::uint32_t> triangle
       const std::uint32_t v = triangle[t + k], b = triangle[t + (k + 1) % 3], c = triangle[t + (k + 2) % 3];
       const auto apart = [&](std::uint32_t to) {
         return std::pair{static_cast<double>(place[to].along - place[v].along),
-                         static_cast<double>(place[to].around - place[v].around)};
+                         std::remainder(static_cast<double>(place[to].around - place[v].around), 2.0)};
       };
       const auto [b_along, b_around] = apart(b);
       const auto [c_along, c_around] = apart(c);
@@ -148,7 +148,7 @@ std::vector<AlongStencil> along_stencils(std::span<const std::uint32_t> triangle
   std::vector<AlongStencil> stencil(place.size());
   for (std::uint32_t v = 0; v < place.size(); ++v) {
     AlongStencil& own = stencil[v];
-    own.handed = turn[v] < 0 ? -1.0F : 1.0F;
+    own.handed = (turn[v] < 0) == (place[v].around < 0) ? 1.0F : -1.0F;
     for (std::size_t way = 0; way < 2; ++way) {
       const Best& from = best[v][way];
       const bool none = from.score < -1e299;

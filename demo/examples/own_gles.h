@@ -39,7 +39,8 @@ inline void open_context() {
     give_up("no OpenGL ES 3 driver; apt-get install libegl1 libgl1-mesa-dri has one");
   eglBindAPI(EGL_OPENGL_ES_API);
   const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, version);
-  if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) give_up("no context");
+  if (context == EGL_NO_CONTEXT || eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE)
+    give_up("no context");
   GLuint frame = 0, buffer[2] = {};
   glGenFramebuffers(1, &frame);
   glBindFramebuffer(GL_FRAMEBUFFER, frame);
@@ -67,12 +68,17 @@ vec4 seen(vec3 at) { vec3 from = at - vec3(0.5, 0.95, -1.9); return vec4(-1.2 * 
     const GLuint shader = glCreateShader(static_cast<GLenum>(kind));
     glShaderSource(shader, 1, &source, nullptr);
     glCompileShader(shader);
+    GLint compiled = GL_FALSE;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     char log[1024] = "";
     glGetShaderInfoLog(shader, sizeof log, nullptr, log);
-    if (log[0] != 0) give_up(log);
+    if (compiled == GL_FALSE) give_up(log);
     glAttachShader(program, shader);
   }
   glLinkProgram(program);
+  GLint linked = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &linked);
+  if (linked == GL_FALSE) give_up("the shaders do not fit together");
   return program;
 }
 
@@ -107,6 +113,7 @@ class Mesh {
     glBindBuffer(GL_ARRAY_BUFFER, vertices_);
     void* at = glMapBufferRange(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(bytes_),
                                 GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT);
+    if (at == nullptr) give_up("no memory for the vertices");
     return {static_cast<std::byte*>(at), bytes_};
   }
   void unmap() { glUnmapBuffer(GL_ARRAY_BUFFER); }
@@ -156,6 +163,7 @@ inline double save_picture(const char* path) {
   std::vector<unsigned char> pixel(4 * wide * high), row(3 * wide);
   glReadPixels(0, 0, wide, high, GL_RGBA, GL_UNSIGNED_BYTE, pixel.data());
   std::FILE* file = path == nullptr ? nullptr : std::fopen(path, "wb");
+  if (path != nullptr && file == nullptr) give_up("the picture cannot be written there");
   if (file != nullptr) std::fprintf(file, "P6\n%d %d\n255\n", wide, high);
   std::size_t drawn = 0;
   for (std::size_t y = high; y-- > 0;) {

@@ -12,8 +12,10 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
 namespace contact {
-/// A point of a sole bears nothing this high over the ground (m), or this fast; all of what it can when still.
-constexpr float high_m = 0.03F, still_m_s = 0.3F, moving_m_s = 1.2F;
+/// So high over the ground a point of a sole bears nothing.
+constexpr float high_m = 0.03F;
+/// Up to the first speed it bears all that it can, from the second on nothing.
+constexpr float still_m_s = 0.3F, moving_m_s = 1.2F;
 }  // namespace contact
 
 /// A vector in a vertical plane.
@@ -231,7 +233,7 @@ HWY_NOINLINE Contact contact_of(const Wide& height, const Pose<Lanes<float>>& be
   return {part, lowest};
 }
 
-/// The same of posed people, in a frame whose floor is the ground.
+/// Forces of the ground on posed people, in a frame whose floor is the ground.
 HWY_NOINLINE void posed_support(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                                 const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now,
                                 const Pose<Lanes<float>>& after, float apart_s, Support& out) {

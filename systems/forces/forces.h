@@ -27,8 +27,9 @@ void joint_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<flo
 
 /// The same of people whose host animates them, from three poses `apart_s` seconds apart: at the instant of the middle
 /// one, which `motion` is of, in the same frame; its floor, y = 0, is the ground. The total and the moments follow as
-/// above. What is known of no plan is seen: a foot bears as far as heel, ball or toes are near the ground (none 3 cm
-/// over it) and at rest (none faster than 1.2 m/s), within that as the motion balances best; the ground never pulls.
+/// above. There is no plan, so contact is taken from the poses: a foot bears as far as heel, ball or toes are near the
+/// ground (none 3 cm over it) and at rest (none faster than 1.2 m/s), within that as the motion balances best; the
+/// ground never pulls.
 void posed_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                   const Pose<Lanes<float>>& before, const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after,
                   float apart_s, GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments);

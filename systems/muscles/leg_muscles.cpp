@@ -242,7 +242,7 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
     new_ones.muscles.reset(m);
     stay.push_back(*own);
     auto belly = scene.library.belly(plan, choice, scene.time.tick_s);
-    if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message);
+    if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
     bellies.push_back(std::move(*belly));
   }
   NewRows rows(scene, 2 * size.size());
@@ -282,7 +282,7 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
   choice.reduced = method.reduced;
   const MusclePlan plan = *make_muscle_plan(*make_body(body_request(world, person)), muscle);
   const auto belly = scene.library.belly(plan, choice, scene.time.tick_s);
-  if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message);
+  if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
   change_muscles(world, scene.library, scene.work, {person, choice, true, scene.time}, {&*belly, 1}, {&own, 1});
   return {};
 }

@@ -41,6 +41,16 @@ Result<void> check_key(const TableKey& key, const World&) {
   return fail("the snapshot does not agree with itself (the parts of a person); give one that `save` made");
 }
 
+/// Forces have all of their parts, and those of walkers or of posed people.
+Result<void> check_forces_key(const TableKey& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const bool walks = has(type_id<Gait<float>>()), forces = has(type_id<GroundReaction<float>>());
+  const bool motion = has(type_id<BodyMotion<float>>()), past = has(type_id<PosedPast<float>>());
+  if (forces == has(type_id<JointMoments<float>>()) && motion == (forces && walks) && past == (forces && !walks))
+    return {};
+  return fail("the snapshot does not agree with itself (the forces of a person); give one that `save` made");
+}
+
 /// Every body is one that can live.
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   const std::uint32_t size = saved.column(table, type_id<BodySize<float>>());
@@ -83,12 +93,14 @@ Module forces_module() {
   return {.name = "forces",
           .parts = {component_part<BodyMotion>(), component_part<GroundReaction>(), component_part<JointMoments>(),
                     component_part<PosedPast>()},
-          .systems = [](ScheduleBuilder& systems) {
-            systems.add("motion", &walker_motion)
-                .add("forces", &joint_forces)
-                .add("posed forces", &press_posed)
-                .after("forces");
-          }};
+          .systems =
+              [](ScheduleBuilder& systems) {
+                systems.add("motion", &walker_motion)
+                    .add("forces", &joint_forces)
+                    .add("posed forces", &press_posed)
+                    .after("forces");
+              },
+          .check_key = &check_forces_key};
 }
 
 Module skeleton_module() {

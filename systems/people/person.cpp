@@ -176,7 +176,8 @@ void shift_people(World& world, float x_m, float z_m) {
 }
 
 Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
-  if (!is_person(world, person)) return fail(Status::stale_entity);
+  if (!is_person(world, person))
+    return fail("set_pose: that person is not there (a stale handle); spawn one first", Status::stale_entity);
   if (!is_posed(world, person))
     return fail("set_pose: this person walks; spawn_posed makes people whom the host poses", Status::missing);
   for (std::size_t s = 0; s < segment_count; ++s) {
@@ -192,7 +193,7 @@ Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
   }
   world.set(person, joint_angles(pose));
   world.set(person, sole_points(world.get<BodySize>(person)->height_m, pose));
-  return result_of(world.set(person, pose));
+  return result_of("set_pose", world.set(person, pose));
 }
 
 }  // namespace mobil

@@ -182,12 +182,13 @@ class Relevance {
   /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles
   /// refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
-  /// No more; muscles stay as they are.
+  /// No more; muscles stay as they are. Errors: a stale handle, somebody who is not managed (Status::missing).
   Result<void> release(Entity human);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
   /// refuses.
   Result<void> force(Entity human, Muscle muscle, const MuscleMethod& method);
+  /// Errors: a stale handle; Status::missing where the person, or that muscle, is not managed.
   Result<void> unforce(Entity human, Muscle muscle);
 
   /// Looks at a part of the crowd, and changes methods. Call it before each tick, or less often. Takes memory only as

@@ -186,15 +186,16 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
 
 Result<void> Relevance::release(Entity human) {
   World& world = world_of(simulation_);
-  if (const Status status = world.remove<Needs>(human); status != Status::ok) return fail(status);
-  return result_of(world.remove<Tiers>(human));
+  if (const Status status = world.remove<Needs>(human); status != Status::ok) return result_of("release", status);
+  return result_of("release", world.remove<Tiers>(human));
 }
 
 Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& method) {
   auto tiers = simulation_.world().get<Tiers>(human);
   const auto m = static_cast<std::uint32_t>(muscle);
   if (!tiers || m >= most_muscles || !bit_at(tiers->muscles, m))
-    return fail("force: that person, or that muscle of theirs, is not managed; manage it first", Status::missing);
+    return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
+                tiers ? Status::missing : tiers.error());
   if (auto done = simulation_.set_method(human, muscle, method); !done) return done;
   set_rung(tiers->rung, m, forced_rung);
   world_of(simulation_).set(human, *tiers);
@@ -209,7 +210,7 @@ Result<void> Relevance::unforce(Entity human, Muscle muscle) {
   const MuscleMethod method = simulation_.method(human, muscle);
   set_rung(tiers->rung, m, rung_of(method));
   set_bit(tiers->points, m, method.method != Method::none && method.reduced.control_points);
-  return result_of(world_of(simulation_).set(human, *tiers));
+  return result_of("unforce", world_of(simulation_).set(human, *tiers));
 }
 
 Result<Choice> Relevance::why(Entity human, Muscle muscle) const {

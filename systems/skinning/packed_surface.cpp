@@ -95,7 +95,7 @@ Result<void> check(const MuscleSurface& surface, std::uint32_t nodes) {
 
 template <class T>
 Result<T> named(const SurfaceMesh& mesh, Result<T> result) {
-  if (!result) return fail(fmt::format("surface '{}': {}", mesh.name, result.error().message));
+  if (!result) return fail(fmt::format("surface '{}': {}", mesh.name, result.error().message), result.error().status);
   return result;
 }
 

@@ -49,8 +49,9 @@ SurfaceEnd surface_end(const Body& body, Segment right_bone, const Vec3<float>& 
   return end;
 }
 
-/// Of points of the body that the surface was bound to; `lengths`: of this one's over that one's; `stretch`: of the
-/// bone's besides. What turns with the muscle goes along with its place on the bone and is not stretched itself.
+/// Of points of the body that the surface was bound to; `lengths`: of this one's over that one's; `stretch`: times
+/// this along the bone's own axis. What turns with the muscle goes along with its place on the bone and is not
+/// stretched itself.
 AffineMap end_map(const SurfaceEnd& end, Side side, RigidPose now, const Quat<float>& muscle_turn, float lengths,
                   float stretch) {
   RigidPose rest{lengths * end.bone_m[side], {0, 0, 0, 1}};

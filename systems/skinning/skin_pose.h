@@ -36,8 +36,8 @@ struct SurfaceRest {
 };
 SurfaceRest surface_rest(const MuscleSurface& surface, const Body& body);
 
-/// How much larger a body is than the one that a surface was bound to: all its lengths, the bones of origin and
-/// insertion along themselves besides, and its belly's mesh.
+/// How much larger a body is than the one that a surface was bound to: all its lengths, times this the bones
+/// of origin and insertion along their own axes, and its belly's mesh.
 struct SurfaceScale {
   float lengths = 1, origin = 1, insertion = 1;
   BellyScale<float> belly{1, 1};

@@ -97,7 +97,7 @@ Result<void> restore_file(Simulation& simulation, const std::filesystem::path& p
     at += static_cast<std::size_t>(got);
   }
   if (auto done = simulation.restore({bytes.get(), size}); !done)
-    return fail(fmt::format("{}: {}", path.string(), done.error().message));
+    return fail(fmt::format("{}: {}", path.string(), done.error().message), done.error().status);
   return {};
 }
 

@@ -28,6 +28,7 @@ Texture texture_of(const SurfaceMesh& mesh, std::vector<TexturePlace> place) {
   const auto there = [&](std::uint32_t v) { return v < place.size(); };
   if (mesh.triangle.size() % 3 != 0 || !std::ranges::all_of(mesh.triangle, there)) return {};
   auto along = along_stencils(mesh.triangle, place);
+  for (TexturePlace& one : place) one = folded(one);
   return {std::move(place), std::move(along)};
 }
 

@@ -73,7 +73,7 @@ struct SurfacePart {
 struct BodySurfaces {
   std::vector<SurfacePart> part;
   std::vector<std::uint32_t> index;   // three a triangle, of vertices of the whole body, wound outwards
-  std::vector<TexturePlace> texture;  // by vertex, where the choice was textured
+  std::vector<TexturePlace> texture;  // by vertex, folded, where the choice was textured
   std::uint32_t vertices = 0;
 
   // What follows is for SurfaceWriter.

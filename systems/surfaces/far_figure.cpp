@@ -35,9 +35,7 @@ FarFigure far_figure() {
 }
 
 Vec3<float> far_scale(float height_m, float mass_kg) {
-  const float size = height_m / far_body.height_m;
-  const float girth =
-      size * std::sqrt(mass_kg / (height_m * height_m) / (far_body.mass_kg / (far_body.height_m * far_body.height_m)));
+  const float size = height_m / far_body.height_m, girth = std::sqrt(mass_kg / far_body.mass_kg);
   return {girth, size, girth};
 }
 

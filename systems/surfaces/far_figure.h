@@ -26,8 +26,9 @@ struct FarFigure {
 /// Whom the mesh is drawn after.
 inline constexpr BodyRequest far_body = {.height_m = 1.75F, .mass_kg = 70};
 FarFigure far_figure();
-/// By how much someone's vertices are larger along x, y and z: as tall as they are, as wide as their mass makes them.
-/// (Normals, which this tilts a little, may be taken as they are.)
+/// By how much someone's vertices are larger along x, y and z: as tall as they are, as wide as their mass makes them,
+/// feet included. Normals, which this tilts a little, may be taken as they are. Limbs of their own are not known here:
+/// where they are longer there are gaps at the joints.
 Vec3<float> far_scale(float height_m, float mass_kg);
 
 }  // namespace mobil

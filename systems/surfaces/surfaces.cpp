@@ -68,6 +68,22 @@ Result<void> check_stream(const char* what, const VertexStream& stream, std::siz
   return {};
 }
 
+/// Whether any of a stream's vertices lies over any of another's. Streams in the same memory share a stride.
+bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b, std::size_t b_bytes,
+              std::size_t vertices) {
+  if (vertices == 0) return false;
+  const auto begin_a = reinterpret_cast<std::uintptr_t>(a.bytes.data());
+  const auto begin_b = reinterpret_cast<std::uintptr_t>(b.bytes.data());
+  const auto end_a = begin_a + (vertices - 1) * a.stride + a_bytes,
+             end_b = begin_b + (vertices - 1) * b.stride + b_bytes;
+  if (end_a <= begin_b || end_b <= begin_a) return false;
+  if (a.stride != b.stride) return true;
+  // How far the later one's slots begin behind the other's.
+  const bool a_first = begin_a <= begin_b;
+  const std::size_t behind = (a_first ? begin_b - begin_a : begin_a - begin_b) % a.stride;
+  return behind < (a_first ? a_bytes : b_bytes) || a.stride - behind < (a_first ? b_bytes : a_bytes);
+}
+
 Result<void> check_buffers(const SurfaceRequest& request) {
   if (request.surfaces == nullptr) return fail("no surfaces; bind_surfaces makes them");
   if (request.fit != nullptr && request.fit->belly.size() != request.surfaces->driver.size())
@@ -76,21 +92,20 @@ Result<void> check_buffers(const SurfaceRequest& request) {
     const char* name;
     const VertexStream& stream;
     std::size_t bytes;
+    bool needed;
   };
-  const std::array<Stream, 3> streams = {{{"positions", request.positions, vertex_bytes},
-                                          {"normals", request.normals, vertex_bytes},
-                                          {"tangents", request.tangents, tangent_bytes}}};
+  const std::array<Stream, 3> streams = {{{"positions", request.positions, vertex_bytes, true},
+                                          {"normals", request.normals, vertex_bytes, false},
+                                          {"tangents", request.tangents, tangent_bytes, false}}};
   const std::size_t vertices = request.surfaces->vertices;
-  for (const auto& [name, stream, bytes] : streams) {
-    if (stream.bytes.empty() && bytes == tangent_bytes) continue;
-    if (stream.bytes.empty() && &stream == &request.normals) continue;
-    if (auto done = check_stream(name, stream, vertices, bytes); !done) return done;
-    const auto begin = reinterpret_cast<std::uintptr_t>(stream.bytes.data());
-    for (const auto& [other_name, other, other_bytes] : streams) {
-      if (&other == &stream) break;
-      const auto at = reinterpret_cast<std::uintptr_t>(other.bytes.data());
-      if (!other.bytes.empty() && begin < at + other_bytes && at < begin + bytes)
-        return fail(fmt::format("{} lie over {}; {} bytes apart at least", name, other_name, other_bytes));
+  for (const Stream& one : streams) {
+    if (!one.needed && one.stream.bytes.empty()) continue;
+    if (auto done = check_stream(one.name, one.stream, vertices, one.bytes); !done) return done;
+    for (const Stream& other : streams) {
+      if (&other == &one) break;
+      if (!other.stream.bytes.empty() && lie_over(one.stream, one.bytes, other.stream, other.bytes, vertices))
+        return fail(fmt::format("{} lie over {}; put them into slots of their own, or into other memory", one.name,
+                                other.name));
     }
   }
   if (request.tangents.bytes.empty()) return {};

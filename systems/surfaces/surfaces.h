@@ -30,10 +30,11 @@ struct SurfaceMuscle {
   std::array<Entity, 2> entity;
 };
 
-/// Three floats a vertex: vertex v begins at byte v · stride. Nothing else in it is written, and nothing read.
+/// Three floats a vertex, of tangents four: vertex v begins at byte v · stride. Nothing else in it is written, and
+/// nothing read.
 struct VertexStream {
   std::span<std::byte> bytes;
-  std::size_t stride = 3 * sizeof(float);  // at least 12
+  std::size_t stride = 3 * sizeof(float);  // at least 12, of tangents 16
 };
 
 /// One person, with the surfaces of a body like theirs. Positions in m, world axes, from `origin_m`, which is
@@ -61,7 +62,8 @@ class SurfaceWriter {
   /// much longer as its line is. Takes memory only where there are more requests or larger surfaces than ever before.
   /// Errors, in one line that names the request, before anything is written: a stale person or muscle; a driving
   /// muscle that is not in the list, another person's, or of other cells than the surfaces were bound to; a stride
-  /// below 12, too small a buffer, normals that lie over positions.
+  /// or a buffer that is too small, streams that lie over each other, tangents without normals or of surfaces that are
+  /// not textured.
   Result<void> write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs = {});
 
  private:

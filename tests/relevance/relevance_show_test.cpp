@@ -192,6 +192,7 @@ RelevanceOptions options_of(bool inertia) {
   options.machine_factor = 1;
   options.stagger = 1;  // everybody begins as their references do
   options.switches = 100000;
+  options.switching_s = 1;
   options.leg_muscles.inertia = inertia;
   return options;
 }

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "assets/muscles/muscle_plan.h"
+#include "components/leg_frames.h"
 #include "engine/geometry.h"
 #include "systems/people/retarget.h"
 #include "systems/surfaces/surfaces.h"
@@ -123,6 +125,32 @@ TEST(Limbs, MusclesAreAtRestWhereTheirBonesAre) {
     }
     EXPECT_GT(most_mm, 50) << factor;
   }
+}
+
+/// Bones that are longer are no thicker, and pelvis and feet no larger: so are the places that muscles are fixed to.
+TEST(Limbs, WhatLiesAcrossABoneIsAsTheHeightHasIt) {
+  Simulation simulation;
+  const BodyRequest own = long_limbed(1.3F, 1.2F);
+  BodyRequest plain = own;
+  plain.limbs = {};
+  std::vector<LegScale<float>> scale;
+  std::vector<Human> humans;
+  for (const BodyRequest& body : {own, plain}) {
+    const Entity human = *simulation.spawn_posed(body);
+    ASSERT_TRUE(simulation.add_leg_muscles(human));
+    scale.push_back(*simulation.get<LegScale>(simulation.muscle(human, Muscle::hamstrings, Side::right)));
+    humans.push_back(*simulation.human(human));
+  }
+  EXPECT_NEAR(scale[0].across, scale[1].across, 1e-6F);
+  EXPECT_NEAR(scale[0].thigh, 1.3F * scale[1].thigh, 1e-5F);
+  EXPECT_NEAR(scale[0].shank, 1.2F * scale[1].shank, 1e-5F);
+  // Where the hamstrings begin is on the pelvis: as far from the hip in either body.
+  const auto from_hip = [](const Human& human) {
+    const Pose<float> pose = standing_pose(human.body);
+    const auto made = *make_muscle_plan(human.body, Muscle::hamstrings);
+    return length(made.start_m - to_double(pose.position_m[index(thigh_right)]));
+  };
+  EXPECT_NEAR(from_hip(humans[0]), from_hip(humans[1]), 0.02);
 }
 
 TEST(Limbs, TheCentreOfMassIsTheBodys) {

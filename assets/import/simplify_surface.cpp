@@ -9,26 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "assets/surfaces/surface_mesh.h"
+
 namespace mobil {
 namespace {
 
 Eigen::Vector3d at(const SurfaceMesh& mesh, std::uint32_t vertex) {
   const auto& p = mesh.position[vertex];
   return {p.x, p.y, p.z};
-}
-
-void drop_unused(SurfaceMesh& mesh) {
-  constexpr auto unused = ~std::uint32_t{0};
-  std::vector<std::uint32_t> moved(mesh.position.size(), unused);
-  for (const auto v : mesh.triangle) moved[v] = 0;
-  std::uint32_t kept = 0;
-  for (std::size_t v = 0; v < moved.size(); ++v) {
-    if (moved[v] == unused) continue;
-    mesh.position[kept] = mesh.position[v];
-    moved[v] = kept++;
-  }
-  mesh.position.resize(kept);
-  for (auto& v : mesh.triangle) v = moved[v];
 }
 
 /// Rotated so that the smallest index comes first: equal for triangles of the same corners and winding.

@@ -4,8 +4,8 @@
 
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
-#include <vector>
+
+#include "assets/surfaces/surface_mesh.h"
 
 namespace mobil {
 
@@ -21,15 +21,8 @@ SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
   constexpr float any_error = 1;  // of the mesh' extent
   light.triangle.resize(meshopt_simplify(light.triangle.data(), mesh.triangle.data(), mesh.triangle.size(), places,
                                          mesh.position.size(), stride, wanted, any_error, 0, nullptr));
-  constexpr auto unused = ~std::uint32_t{0};
-  std::vector<std::uint32_t> moved(mesh.position.size(), unused);
-  for (std::uint32_t& v : light.triangle) {
-    if (moved[v] == unused) {
-      moved[v] = static_cast<std::uint32_t>(light.position.size());
-      light.position.push_back(mesh.position[v]);
-    }
-    v = moved[v];
-  }
+  light.position = mesh.position;
+  drop_unused(light);
   return light;
 }
 

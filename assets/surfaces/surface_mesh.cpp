@@ -16,6 +16,20 @@ void append(SurfaceMesh& mesh, const SurfaceMesh& part) {
   for (const auto index : part.triangle) mesh.triangle.push_back(first + index);
 }
 
+void drop_unused(SurfaceMesh& mesh) {
+  constexpr auto unused = ~std::uint32_t{0};
+  std::vector<std::uint32_t> moved(mesh.position.size(), unused);
+  for (const auto v : mesh.triangle) moved[v] = 0;
+  std::uint32_t kept = 0;
+  for (std::size_t v = 0; v < moved.size(); ++v) {
+    if (moved[v] == unused) continue;
+    mesh.position[kept] = mesh.position[v];
+    moved[v] = kept++;
+  }
+  mesh.position.resize(kept);
+  for (auto& v : mesh.triangle) v = moved[v];
+}
+
 void scale(SurfaceMesh& mesh, double factor) {
   for (auto& p : mesh.position) p = to_float(factor * to_double(p));
 }

@@ -11,6 +11,9 @@ namespace mobil {
 /// Puts `part` beside what `mesh` holds already.
 void append(SurfaceMesh& mesh, const SurfaceMesh& part);
 
+/// Without the vertices that no triangle has; the others keep their order.
+void drop_unused(SurfaceMesh& mesh);
+
 /// Every position times `factor` (positive).
 void scale(SurfaceMesh& mesh, double factor);
 

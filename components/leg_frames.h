@@ -13,10 +13,18 @@ struct LegFrames {
   Quat<F> pelvis, thigh, shank, foot;
 };
 
+/// Where a leg is in the walk: the part of the gait cycle that is over since its own heel strike, 0 to 1; and the
+/// walk's speed over √(g · leg), 0 of who stands and of posed people.
+template <class F>
+struct LegClock {
+  F cycle, speed;
+};
+
 /// Both legs of a person, right first, as they are looked up by their muscles.
 struct LegPost {
   struct alignas(64) Leg {
     LegFrames<float> frames;
+    LegClock<float> clock;
   };
   Leg leg[2];
 };

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "components/activation.h"
 #include "components/muscle.h"
 
 namespace mobil {
@@ -51,6 +52,8 @@ struct LegMuscles {
   double stiffness_damping_s = 0;  // Rayleigh's β, 0–1
   bool inertia = false;            // gravity and the acceleration of the muscle's frame
   bool line_motion = false;        // lengthening speed and moment arms: component LineMotion
+  /// Muscles that pull: components Activation, Musculotendon. The tendon stretches, and the belly gets what it leaves.
+  ExcitationSource activation = ExcitationSource::none;
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: of single
   /// muscles that are drawn by displacement 7 Hz, on the shank 12, for what is long, thin and bent bows aside like a
   /// strut without; of groups 7 Hz with inertia, where a belly would sag by its own length, and none otherwise.
@@ -65,7 +68,7 @@ struct LegMuscles {
 };
 
 /// Whether a muscle of this choice has control points (NodalDisplacement); whether these are reported (BellyReport);
-/// and whether it feels its frame's motion (FrameLoad).
+/// whether it feels its frame's motion (FrameLoad); and whether it pulls (Activation).
 constexpr bool has_control_points(const LegMuscles& choice) {
   return choice.method != Method::none && (choice.method != Method::reduced || choice.reduced.control_points);
 }
@@ -75,6 +78,9 @@ constexpr bool is_reported(const LegMuscles& choice) {
 constexpr bool feels_frame(const LegMuscles& choice) {
   const bool moves = choice.method == Method::reduced && choice.reduced.moving;
   return choice.inertia && (moves || has_control_points(choice));
+}
+constexpr bool has_activation(const LegMuscles& choice) {
+  return choice.activation != ExcitationSource::none;
 }
 /// What the far end of its belly may do: held or sliding.
 constexpr FarEnd far_end_of(const LegMuscles& choice) {

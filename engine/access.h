@@ -3,7 +3,8 @@
 //
 //   const C<Lanes<float>>&   reads this block's component           C<Lanes<float>>&   writes it (and may read it)
 //   Field<const Tag>         reads this block's field               Field<Tag>         writes it (and may read it)
-//   Maybe<C>                 reads this block's component where the table has it; MaybeField<Tag> a field
+//   Maybe<C>                 reads this block's component where the table has it; MaybeField<const Tag> a field,
+//                            MaybeField<Tag> writes it (and may read it)
 //   Ahead<C>                 where the next block has it, to fetch what it names meanwhile
 //   Previous<C>              reads what the component was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
@@ -71,7 +72,7 @@ struct Maybe {
 /// A field that not every table has: null where it is missing.
 template <class Tag>
 struct MaybeField {
-  const float* data;
+  std::conditional_t<std::is_const_v<Tag>, const float*, float*> data;
 };
 
 /// Memory of this block's own until the system returns, 64-byte aligned, with anything in it: as many floats as the
@@ -297,9 +298,10 @@ struct Parameter<Ahead<C>> : AnywhereParameter {
 };
 
 template <class Tag>
-struct Parameter<MaybeField<Tag>> : ColumnParameter<Access::Mode::read, Tag> {
+struct Parameter<MaybeField<Tag>>
+    : ColumnParameter<std::is_const_v<Tag> ? Access::Mode::read : Access::Mode::write, std::remove_const_t<Tag>> {
   static bool bind(const World& world, const Table& table, Bound& bound) {
-    if (!Parameter<Field<const Tag>>::bind(world, table, bound)) bound.words = 0;
+    if (!Parameter<Field<Tag>>::bind(world, table, bound)) bound.words = 0;
     return true;
   }
   static MaybeField<Tag> make(const BlockView& view, const Bound& bound) {

@@ -198,6 +198,9 @@ Result<void> Simulation::remove_leg_muscles(Entity human) {
   return result_of("remove_leg_muscles", mobil::remove_leg_muscles(*world_, jobs_, human));
 }
 
+Result<void> Simulation::set_excitation(Entity human, Muscle muscle, Side side, float excitation) {
+  return named("set_excitation", mobil::set_excitation(*world_, human, muscle, side, excitation));
+}
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
   return named("set_method", mobil::set_method(muscle_scene(), human, muscle, method));
 }

@@ -206,6 +206,12 @@ class Simulation {
   /// Current method; Method::none if the person has no such muscle.
   MuscleMethod method(Entity human, Muscle muscle) const;
 
+  /// How hard a muscle is to pull from the next tick on, a share of the most that it can: for muscles chosen with
+  /// ExcitationSource::host, which begin at 0.01. It holds until it is set again; what lies outside 0.01 to 1 is taken
+  /// as that end. Activation follows within 10 to 80 ms (components/activation.h). Errors: a stale handle, a muscle
+  /// that is not there or not the host's to excite (Status::missing), a number that is not finite.
+  Result<void> set_excitation(Entity human, Muscle muscle, Side side, float excitation);
+
   /// Runs as many whole ticks as fit into the accumulated time.
   Ticks advance(double seconds);
   /// Runs one tick.

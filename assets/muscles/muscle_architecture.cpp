@@ -18,18 +18,16 @@ double cosine_deg(double angle) {
 
 MuscleParameters member_parameters(const Body& body, const MemberMuscle& member) {
   MuscleParameters made;
-  made.volume_m3 = member_volume_m3(body, member);
-  made.mass_kg = muscle_density_kg_m3 * made.volume_m3;
   made.muscle_tendon_m = member_length(member, leg_scale(body), anatomical_leg(body));
+  const MemberPlan plan = plan_member(body, member, made.muscle_tendon_m);
+  made.volume_m3 = plan.volume_m3;
+  made.mass_kg = muscle_density_kg_m3 * made.volume_m3;
   const double taller = static_cast<double>(body.request.height_m) / cadaver_stature_m;
   made.belly_m = taller * member.belly_m;
   made.fibre_m = taller * member.fibre_m;
   made.pennation_deg = member.pennation_deg;
-  const bool modelled = member.model_path_m > 0;
-  const double longer = modelled ? made.muscle_tendon_m / member.model_path_m : 1;
-  made.model_fibre_m = modelled ? longer * member.model_fibre_m : made.fibre_m;
-  made.tendon_m =
-      modelled ? longer * member.model_tendon_m : made.muscle_tendon_m - made.fibre_m * cosine_deg(made.pennation_deg);
+  made.model_fibre_m = plan.fibre_m;
+  made.tendon_m = plan.tendon_m;
   made.section_m2 = made.volume_m3 / made.belly_m;
   made.physiological_section_m2 = made.volume_m3 * cosine_deg(made.pennation_deg) / made.fibre_m;
   return made;

@@ -1,6 +1,6 @@
 #pragma once
 // How the muscles of the leg are built inside: fibres, pennation, belly and tendon in a body of ours, from the
-// published columns of the table. The simulation does not read these figures yet; `mobil body` writes them.
+// published columns of the table, as `mobil body` writes them. The simulation reads fibre and tendon (MemberPlan).
 //
 // Sources.
 //   Fibres, pennation, belly: Ward, Eng, Smallwood & Lieber: Are current measurements of lower extremity muscle
@@ -19,7 +19,7 @@
 
 namespace mobil {
 
-inline constexpr double cadaver_stature_m = 1.684, muscle_density_kg_m3 = 1060;
+inline constexpr double muscle_density_kg_m3 = 1060;
 
 /// A muscle of one leg of one body in the anatomical position. Of a group: sums of volume, mass and both sections, and
 /// means of the lengths and the angle by the members' volumes in the reference body.

@@ -191,13 +191,22 @@ double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& 
   return reference_volume_cm3(muscle) / all;
 }
 
-double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
-  const auto members = members_of(muscle);
+std::vector<double> member_lengths(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
   const BentLeg bent{scale, leg};
-  double all = 0, sum = 0;
-  for (const auto& m : members) all += reference_volume_cm3(m);
-  for (const auto& m : members) sum += reference_volume_cm3(m) / all * path_length(m, bent);
+  std::vector<double> lengths;
+  for (const auto& member : members_of(muscle)) lengths.push_back(path_length(member, bent));
+  return lengths;
+}
+
+double muscle_length(Muscle muscle, std::span<const double> member_m) {
+  const auto members = members_of(muscle);
+  double sum = 0;
+  for (std::size_t i = 0; i < members.size(); ++i) sum += member_weight(members, members[i]) * member_m[i];
   return sum;
+}
+
+double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg) {
+  return muscle_length(muscle, member_lengths(muscle, scale, leg));
 }
 
 }  // namespace mobil

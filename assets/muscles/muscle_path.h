@@ -45,8 +45,12 @@ std::vector<PathCorner> member_path(const MemberMuscle& muscle, const LegScale<d
                                     const LegFrames<double>& leg);
 /// Its length (m) in double: what the tick's kernel computes in lanes.
 double member_length(const MemberMuscle& muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
+/// Of each of a row's members, in its order.
+std::vector<double> member_lengths(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
 /// Volume-weighted mean of a muscle's members.
 double muscle_length(Muscle muscle, const LegScale<double>& scale, const LegFrames<double>& leg);
+/// The same of lengths that are known.
+double muscle_length(Muscle muscle, std::span<const double> member_m);
 /// The share of one of a row's members in its volume in the reference body: its weight in the mean.
 double member_weight(std::span<const MemberMuscle> members, const MemberMuscle& muscle);
 

@@ -52,6 +52,20 @@ double member_volume_m3(const Body& body, const MemberMuscle& member) {
   return 1e-6 * (static_cast<double>(body.composition.muscle_factor) * limb_part + member.offset_cm3);
 }
 
+MemberPlan plan_member(const Body& body, const MemberMuscle& member, double rest_length_m) {
+  MemberPlan plan{rest_length_m, member_volume_m3(body, member), 0, 0};
+  if (member.model_path_m > 0) {
+    const double longer = rest_length_m / member.model_path_m;
+    plan.fibre_m = longer * member.model_fibre_m;
+    plan.tendon_m = longer * member.model_tendon_m;
+    return plan;
+  }
+  const double pennation = member.pennation_deg * std::numbers::pi / 180;
+  plan.fibre_m = static_cast<double>(body.request.height_m) / cadaver_stature_m * member.fibre_m;
+  plan.tendon_m = rest_length_m - plan.fibre_m * std::cos(pennation);
+  return plan;
+}
+
 double bar_stiffness(const Material& material, double section_m2, double rest_length_m) {
   return material.young_pa * section_m2 / rest_length_m;
 }
@@ -78,11 +92,15 @@ Result<MusclePlan> make_muscle_plan(const Body& body, Muscle muscle) {
 
   MusclePlan plan;
   plan.muscle = muscle;
-  plan.rest_length_m = muscle_length(muscle, scale, leg);
+  const std::vector<double> member_m = member_lengths(muscle, scale, leg);
+  plan.rest_length_m = muscle_length(muscle, member_m);
   plan.belly_length_m = line.belly_m * along_scale(line, scale);
   const double start = line.start_m * along_scale(line, scale);
   plan.tendon_length_m = std::max(0.0, length(end - anchor) - start - plan.belly_length_m);
-  for (const auto& member : row.members) plan.volume_m3 += member_volume_m3(body, member);
+  for (std::size_t i = 0; i < row.members.size(); ++i) {
+    plan.member[i] = plan_member(body, row.members[i], member_m[i]);
+    plan.volume_m3 += plan.member[i].volume_m3;
+  }
   plan.section_m2 = plan.volume_m3 / plan.belly_length_m;
   plan.start_m = anchor + start * z;
   plan.rotation = muscle_rotation({0, 0, 0, 1}, z);

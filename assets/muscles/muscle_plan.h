@@ -1,6 +1,8 @@
 #pragma once
 // One muscle of one body: its size, its line at rest, its belly in the anatomical position.
 
+#include <array>
+
 #include "assets/muscles/muscle_path.h"
 #include "assets/muscles/muscle_table.h"
 #include "components/body.h"
@@ -10,6 +12,17 @@
 #include "engine/error.h"
 
 namespace mobil {
+
+/// Mean stature of those whose fibres were measured (muscle_architecture.h).
+inline constexpr double cadaver_stature_m = 1.684;
+
+/// One of a row's members in one body, as a fibre and a tendon in line (systems/activation/musculotendon.h).
+struct MemberPlan {
+  double rest_length_m = 0, volume_m3 = 0;  // of the path in the anatomical position; of the muscle
+  double fibre_m = 0, tendon_m = 0;         // optimal and slack, as the published model has them for that path
+};
+/// `rest_length_m`: of the member's path in the anatomical position.
+MemberPlan plan_member(const Body& body, const MemberMuscle& member, double rest_length_m);
 
 /// Right side; the left is its mirror image. Lengths m.
 struct MusclePlan {
@@ -31,6 +44,7 @@ struct MusclePlan {
   /// Size against the muscle's template (the reference body's).
   BellyScale<float> scale{};
   LegScale<float> leg_scale{};
+  std::array<MemberPlan, most_row_members> member{};  // in the row's order
 };
 
 /// Fails on a body without positive lengths or masses, in one line.

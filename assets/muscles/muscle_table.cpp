@@ -131,6 +131,8 @@ static_assert(std::all_of(groups.begin(), groups.end(),
                             return g.members.size() == 1 || g.drawn.towards < g.members.size();
                           }),
               "every group has members, and is drawn towards one of them");
+static_assert(std::all_of(groups.begin(), groups.end(),
+                          [](const MuscleRow& g) { return g.members.size() <= most_row_members; }));
 static_assert(groups.size() + std::size(members) <= most_muscles);
 
 /// Groups, then the members of those that have several.

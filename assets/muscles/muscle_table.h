@@ -78,7 +78,7 @@ struct MemberMuscle {
 
   /// Inside: see assets/muscles/muscle_architecture.h. `model_…`: gait2392's; 0 where it has none.
   double fibre_m, pennation_deg, belly_m;
-  double model_fibre_m = 0, model_tendon_m = 0, model_path_m = 0;
+  double model_fibre_m = 0, model_pennation_deg = 0, model_tendon_m = 0, model_path_m = 0;
 
   /// The muscle's shape as measured, upper end first, tendon included (the quadriceps down to the kneecap): see
   /// assets/muscles/leg_sections.h for what a section means.
@@ -128,6 +128,9 @@ struct MuscleRow {
   std::span<const MemberMuscle> members;
   DrawnLine drawn;
 };
+
+/// Members that a row has at most.
+inline constexpr std::size_t most_row_members = 4;
 
 /// All rows, numbered as Muscle: groups first, then the members of groups that have several.
 std::span<const MuscleRow> muscles();

@@ -59,6 +59,7 @@ Result<void> bench_machine(BenchRun& run);
 Result<void> bench_gait(BenchRun& run);
 Result<void> bench_kinematics(BenchRun& run);
 Result<void> bench_lines(BenchRun& run);
+Result<void> bench_activation(BenchRun& run);
 Result<void> bench_skinning(BenchRun& run);
 Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);

@@ -122,6 +122,12 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   add("line motion", "lengthening speed and moment arms (nothing to see)", "lines; LegMuscles::line_motion", us,
       systems);
   choice.line_motion = false;
+  choice.activation = ExcitationSource::phase;
+  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  if (!done) return tl::unexpected(done.error());
+  us = meter(named({"activation"}), &systems);
+  add("activation", "muscles pull as the walk asks, tendons stretch", "lines; LegMuscles::activation", us, systems);
+  choice.activation = ExcitationSource::none;
   done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "assets/files/output_file.h"
+#include "demo/gait_fit/excitation_fit.h"
 #include "demo/gait_fit/step_grid.h"
 #include "demo/gait_fit/step_quality.h"
 #include "demo/gait_fit/step_styles.h"
@@ -21,7 +22,7 @@ using namespace step_table;
 
 struct FitText {
   std::string out = "step_table.cpp";
-  bool styles = false;
+  bool styles = false, excitation = false;
   std::string without;
   std::size_t threads = 0;
 };
@@ -109,8 +110,17 @@ void print(const std::vector<StepNode>& nodes) {
 }
 
 Result<void> run_fit(const FitText& text) {
+  if (text.excitation && (text.styles || !text.without.empty()))
+    return fail("--excitation is a table of its own; give it without --styles and --without");
   if (text.styles && !text.without.empty())
     return fail("--styles and --without: styles change the table that this program has; give one of the two");
+  if (text.excitation) {
+    const auto fit = fit_excitation();
+    if (!fit) return tl::unexpected(fit.error());
+    if (auto done = write_file(text.out, fit->source); !done) return done;
+    fmt::print("correlation with what was measured\n{}look at {}\n", fit->quality, text.out);
+    return {};
+  }
   const auto reference = read_gait_reference({});
   if (!reference) return tl::unexpected(reference.error());
   FitData data{&*reference};
@@ -145,6 +155,7 @@ Subcommand gait_fit_command() {
   add_options(command,
               {{"--out", &text->out, "Source file to write"},
                {"--styles", &text->styles, "Write how this program's table changes with the manner of a walk instead"},
+               {"--excitation", &text->excitation, "Write how muscles are excited instead: a second"},
                {"--without", &text->without,
                 "slow, free or fast: leave this measured speed out and be judged by it all the same"},
                {"--threads", &text->threads, "0: as many as the machine has"}});

@@ -60,8 +60,20 @@ void add_muscle_rows(const Simulation& simulation, const Human& human, std::stri
     for (const HumanMuscle& own : human.muscles) {
       const Entity muscle = own.entity[side];
       const auto belly = simulation.get<BellyReport>(muscle);
-      table.add(simulation.time_s(), side, own.plan.muscle, *simulation.get<LineOfAction>(muscle),
-                *simulation.get<LineMotion>(muscle), belly ? std::optional(*belly) : std::nullopt, method);
+      MuscleTableRow row{simulation.time_s(),
+                         side,
+                         own.plan.muscle,
+                         method,
+                         *simulation.get<LineOfAction>(muscle),
+                         *simulation.get<LineMotion>(muscle),
+                         belly ? std::optional(*belly) : std::nullopt,
+                         {},
+                         {}};
+      if (table.pulls) {
+        row.activation = *simulation.get<Activation>(muscle);
+        row.pull = *simulation.get<Musculotendon>(muscle);
+      }
+      table.add(row);
     }
   }
 }
@@ -90,7 +102,7 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
 
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
                     const std::vector<ScriptedChange>& changes) {
-  Walked walked;
+  Walked walked{{}, MuscleTable(has_activation(options.muscles)), {}, {}, {}, {}};
   WalkOutcome& outcome = walked.outcome;
   outcome.gait = human.gait;
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));

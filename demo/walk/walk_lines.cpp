@@ -46,11 +46,14 @@ void for_each_muscle(const Simulation& simulation, const Human& human, F&& f) {
 
 std::vector<Vec3<float>> action_lines(const Simulation& simulation, const Human& human) {
   std::vector<Vec3<float>> ends;
-  for_each_muscle(simulation, human, [&](const MusclePlan& plan, Entity, Side side, const LineOfAction<float>& line) {
-    const float rest = static_cast<float>(plan.belly_length_m);
-    ends.push_back(to_world(line, side, {0, 0, 0}));
-    ends.push_back(to_world(line, side, {0, 0, rest + line.length_m - line.rest_length_m}));
-  });
+  for_each_muscle(simulation, human,
+                  [&](const MusclePlan& plan, Entity muscle, Side side, const LineOfAction<float>& line) {
+                    const float rest = static_cast<float>(plan.belly_length_m);
+                    ends.push_back(to_world(line, side, {0, 0, 0}));
+                    const auto pull = simulation.get<Musculotendon>(muscle);
+                    const float longer = pull ? pull->belly_m : line.length_m - line.rest_length_m;
+                    ends.push_back(to_world(line, side, {0, 0, rest + longer}));
+                  });
   return ends;
 }
 

@@ -13,6 +13,9 @@ namespace {
 constexpr std::string_view drives[] = {"displacement", "force"};         // in the order of Drive
 constexpr std::string_view views[] = {"stick", "wireframe", "surface"};  // of View
 
+// A program has no host that excites muscles.
+constexpr std::string_view walk_activations[] = {"none", "phase"};
+
 /// "groups", "members" and names of the table, separated by commas.
 Result<MuscleSet> read_muscles(const std::string& text) {
   MuscleSet set;
@@ -44,6 +47,9 @@ const char* const walk_muscles_help =
     "cheapest\n"
     "    that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the steps "
     "taken.\n"
+    "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in "
+    "line\n"
+    "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
     "Hz);\n"
     "    without it they move by the line's pull alone.\n";
@@ -69,6 +75,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--method", &text.method, "How muscles move: ecd, icd, caa, static, reduced or none, see below", muscles},
       {"--element", &text.element,
        "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles},
+      {"--activation", &text.activation,
+       "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; none", muscles},
       {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
       {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
       {"--view", &text.view, "stick (lines of action), wireframe (finite-element meshes) or surface", pictures},
@@ -137,6 +145,11 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto element = choose<Element>("--element", text.element, element_name);
   if (!element) return tl::unexpected(element.error());
   options.muscles.element = *element;
+  const auto activation = choose<ExcitationSource>("--activation", text.activation, walk_activations);
+  if (!activation) return tl::unexpected(activation.error());
+  options.muscles.activation = *activation;
+  if (has_activation(options.muscles) && options.muscles.drive == Drive::force)
+    return fail("--activation draws the belly's end to a place; leave --drive force out, or --activation");
   options.muscles.inertia = text.inertia;
   const auto view = choose<View>("--view", text.view, views);
   if (!view) return tl::unexpected(view.error());

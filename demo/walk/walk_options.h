@@ -35,8 +35,8 @@ struct WalkOptions {
 struct WalkText {
   BodyText body;
   std::string speed, step_length, step_frequency, seconds = "5";
-  std::string muscles = "groups", drive = "displacement", method = "ecd", element = "full", anatomy, view = "surface",
-              out = "out";
+  std::string muscles = "groups", drive = "displacement", method = "ecd", element = "full", activation = "none",
+              anatomy, view = "surface", out = "out";
   std::vector<std::string> set;
   std::string script;
   bool list_parameters = false, no_forces = false, members = false, inertia = false;

@@ -64,28 +64,38 @@ std::string method_label(const LegMuscles& muscles) {
   return fmt::format("{}{}", method, muscles.drive == Drive::force ? "_force" : "");
 }
 
-MuscleTable::MuscleTable()
+MuscleTable::MuscleTable(bool pulls_)
     : text(
           "time_s,side,group,line_length_m,rest_length_m,line_ratio,stiffness_n_per_m,force_n,belly_elongation_m,"
           "volume_ratio,kinetic_energy_j,strain_energy_j,method,end_residual_m,line_speed_m_s,"
-          "hip_flexion_arm_m,knee_flexion_arm_m,ankle_dorsiflexion_arm_m\n") {}
+          "hip_flexion_arm_m,knee_flexion_arm_m,ankle_dorsiflexion_arm_m"),
+      pulls(pulls_) {
+  if (pulls) text += ",excitation,activation,fibre_length_m,tendon_length_m,pennation_deg,muscle_force_n";
+  text += '\n';
+}
 
-void MuscleTable::add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line,
-                      const LineMotion<float>& motion, const std::optional<BellyReport<float>>& belly,
-                      std::string_view method) {
+void MuscleTable::add(const MuscleTableRow& row) {
   auto out = std::back_inserter(text);
-  fmt::format_to(out, "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f}", time_s, side_name[side], muscle_name(muscle),
-                 line.length_m, line.rest_length_m, line.length_m / line.rest_length_m, line.stiffness_n_per_m,
-                 line.force_n);
-  if (belly) {
+  const LineOfAction<float>& line = row.line;
+  fmt::format_to(out, "{:.6f},{},{},{:.6f},{:.6f},{:.6f},{:.4f},{:.6f}", row.time_s, side_name[row.side],
+                 muscle_name(row.muscle), line.length_m, line.rest_length_m, line.length_m / line.rest_length_m,
+                 line.stiffness_n_per_m, line.force_n);
+  if (const auto& belly = row.belly) {
+    const float end_m = pulls ? row.pull.belly_m : line.length_m - line.rest_length_m;
     fmt::format_to(out, ",{:.6f},{:.6f},{:.6e},{:.6e},{},{:.6f}", belly->elongation_m, belly->volume_ratio,
-                   belly->kinetic_energy_j, belly->strain_energy_j, method,
-                   belly->elongation_m - (line.length_m - line.rest_length_m));
+                   belly->kinetic_energy_j, belly->strain_energy_j, row.method, belly->elongation_m - end_m);
   } else {
-    fmt::format_to(out, ",,,,,{},", method);
+    fmt::format_to(out, ",,,,,{},", row.method);
   }
-  fmt::format_to(out, ",{:.6f},{:.6f},{:.6f},{:.6f}\n", motion.speed_m_s, motion.hip_flexion_arm_m,
-                 motion.knee_flexion_arm_m, motion.ankle_dorsiflexion_arm_m);
+  fmt::format_to(out, ",{:.6f},{:.6f},{:.6f},{:.6f}", row.motion.speed_m_s, row.motion.hip_flexion_arm_m,
+                 row.motion.knee_flexion_arm_m, row.motion.ankle_dorsiflexion_arm_m);
+  if (pulls) {
+    const auto& [excitation, activation] = row.activation;
+    const auto& [fibre, tendon, pennation, force, belly, slack] = row.pull;
+    fmt::format_to(out, ",{:.4f},{:.4f},{:.6f},{:.6f},{:.3f},{:.3f}", excitation, activation, fibre, tendon,
+                   pennation * degrees, force);
+  }
+  text += '\n';
 }
 
 }  // namespace mobil

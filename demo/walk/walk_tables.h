@@ -37,12 +37,26 @@ struct MotionTable {
 /// The method column: ecd, icd, caa, static, reduced or none; where the end is pulled ecd_force and so on.
 std::string method_label(const LegMuscles& muscles);
 
-/// muscles.csv under way. A muscle without a belly has empty cells for it.
+/// What a row of muscles.csv tells of one muscle.
+struct MuscleTableRow {
+  double time_s;
+  Side side;
+  Muscle muscle;
+  std::string_view method;
+  LineOfAction<float> line;
+  LineMotion<float> motion;
+  std::optional<BellyReport<float>> belly;
+  Activation<float> activation;  // this and the next where the table is about them
+  Musculotendon<float> pull;
+};
+
+/// muscles.csv under way, with what muscles that pull have besides or without. A muscle without a belly has empty cells
+/// for it.
 struct MuscleTable {
-  MuscleTable();
-  void add(double time_s, Side side, Muscle muscle, const LineOfAction<float>& line, const LineMotion<float>& motion,
-           const std::optional<BellyReport<float>>& belly, std::string_view method);
+  explicit MuscleTable(bool pulls);
+  void add(const MuscleTableRow& row);
   std::string text;
+  bool pulls;
 };
 
 }  // namespace mobil

@@ -69,7 +69,9 @@ std::vector<float> static_velocity(const StaticBelly& belly, const BellyLoad& lo
 BellyMotion stretched(const Belly& belly, const LineOfAction<float>& line, const BellyLoad& load) {
   const auto& [across, along] = belly.plan.scale;
   const float per_metre = load.far_end == FarEnd::held ? 1.0F : 1 / line.stiffness_n_per_m;
-  const float length = line.length_m - line.rest_length_m, speed = per_metre * (load.to - load.from) / load.tick_s;
+  // Where it is held, the line's lengthening or what its tendon leaves of that.
+  const float length = load.far_end == FarEnd::held ? load.to : line.length_m - line.rest_length_m;
+  const float speed = per_metre * (load.to - load.from) / load.tick_s;
   const std::size_t width = nodal_width(belly.shape->shape->mesh.cells);
   BellyMotion motion{std::vector<float>(width), std::vector<float>(width)};
   const float sideways = across / along;

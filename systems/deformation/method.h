@@ -23,6 +23,7 @@ struct MuscleKind {
   MuscleMethod method{};  // as it is
   FarEnd far_end = FarEnd::held;
   bool inertia = false, line_motion = false;  // effects
+  ExcitationSource activation = ExcitationSource::none;
   bool fading = false;                        // a change of method has left something over
   std::uint32_t steps = 1;                    // a tick
   Shared<LegMuscles> choice{};                // tissue and effects; muscles and method are as in a LegMuscles{}

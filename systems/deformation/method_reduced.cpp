@@ -54,7 +54,7 @@ void place_still(const Table& table, Shared<ReducedBasis> basis, TagValue<Reduce
 /// Of moving bellies and of static ones. (With several inputs the motion's participations are read.)
 void report(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
             const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
-            MaybeField<ReducedMotion> motion, MaybeField<ReducedState> state, Field<const ReducedShape> shape,
+            MaybeField<const ReducedMotion> motion, MaybeField<const ReducedState> state, Field<const ReducedShape> shape,
             Field<const NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
   const ControlPoints points{shape.data, const_cast<float*>(displacement.data)};  // read-only here
   report_reduced(read_only(*basis, scale, state.data, motion.data, frame.block), *control, points,

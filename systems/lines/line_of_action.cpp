@@ -25,14 +25,16 @@ HWY_INLINE WideVec unrolled(const Leg& leg, LegBone bone, const WideVec& at) {
 
 /// Writes line; the elongation L − L₀.
 Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-         LineOfAction<Lanes<float>>& line) {
+         LineOfAction<Lanes<float>>& line, Lanes<float>* member_m) {
   const Leg leg = load_leg(lines, scale, legs);
   Wide mean = wide(0.0F);
   WideVec target = leg.knee;
   for (std::size_t m = 0; m < lines.members.size(); ++m) {
     const MuscleLines::Member& member = lines.members[m];
     const WideVec end = path_end(leg, member);
-    mean = fma(wide(member.weight), path_length(leg, member, end), mean);
+    const Wide along = path_length(leg, member, end);
+    mean = fma(wide(member.weight), along, mean);
+    if (member_m != nullptr) store(along, member_m[m]);
     if (m != lines.towards) continue;
     target = lines.point < member.path.size()
                  ? unrolled(leg, member.path[lines.point].bone, place(leg, member.path[lines.point]))
@@ -71,9 +73,9 @@ HWY_INLINE void follow(const WideMask& first, const Wide& now, Lanes<float>& fro
 }  // namespace
 
 void act_on_end(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
+                FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end, Lanes<float>* member_m) {
   const WideMask first = load(line.length_m) <= wide(0.0F);
-  const Wide elongation = act(lines, scale, legs, line);
+  const Wide elongation = act(lines, scale, legs, line, member_m);
   if (far_end == FarEnd::held) {
     follow(first, elongation, end.from, end.to);
   } else {
@@ -201,8 +203,9 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 }
 
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                     FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
-  HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end);
+                     FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end,
+                     Lanes<float>* member_m) {
+  HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end, member_m);
 }
 
 }  // namespace mobil

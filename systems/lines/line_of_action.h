@@ -30,8 +30,11 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 /// L₀ (the tendon does not stretch), m; where it slides, to +k(L − L₀) along z, N. A line of length 0 has not been
 /// computed yet: then it begins where it ends.
 ///
+/// `member_m`, unless null: the length of each member's path, m.
+///
 /// Defined while no bone's long axis points along the line against its usual sense. A NaN stays in its lane.
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                     FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end);
+                     FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end,
+                     Lanes<float>* member_m = nullptr);
 
 }  // namespace mobil

@@ -141,7 +141,9 @@ class Block {
     RecentPoses recent;
     for (const MuscleEffect& effect : muscle_effects()) {
       if (!effect.wanted(group_.kind)) continue;
-      const std::vector<KeyPart> parts = effect.module().parts;
+      std::vector<KeyPart> parts;
+      effect.parts(group_.kind, parts);
+      std::erase_if(parts, [](const KeyPart& part) { return !has_column(part.kind); });
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         for (const Side side : {Side::right, Side::left}) {
           const Columns& of = group_.side[side];
@@ -151,14 +153,15 @@ class Block {
                         {},
                         all_.people[person(lane)],
                         side,
-                        *group_.kind.lines,
-                        size(lane).leg_scale,
+                        group_.kind,
+                        size(lane),
                         line,
                         all_.tick,
                         all_.tick_s,
                         recent},
                        values);
           for (const KeyPart& part : parts) scatter(values.find(part.id), part.value, *of.find(part.id), lane);
+          if (const auto end = values.get<EndDrive>()) put_row(*end, of.block<EndDrive>(b_), lane);
         }
       }
     }
@@ -238,10 +241,6 @@ void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector
 }
 
 }  // namespace
-
-MuscleSize size_of(const MusclePlan& plan) {
-  return {plan.scale, plan.leg_scale, static_cast<float>(plan.rest_length_m)};
-}
 
 tl::expected<void, NotMade> begin_muscles(World& world, BellyLibrary& library, const LegMuscles& choice,
                                           const MuscleTime& time, const Jobs& jobs, std::span<const Entity> people,

@@ -13,17 +13,10 @@
 #include "engine/jobs.h"
 #include "engine/world.h"
 #include "systems/muscles/belly_library.h"
+#include "systems/muscles/muscle_size.h"
 #include "systems/people/spawn.h"
 
 namespace mobil {
-
-/// Of a person's muscle what its rows say of its size.
-struct MuscleSize {
-  BellyScale<float> scale{};
-  LegScale<float> leg_scale{};
-  float rest_length_m = 0;
-};
-MuscleSize size_of(const MusclePlan& plan);
 
 /// The present tick, and what muscles share.
 struct MuscleTime {

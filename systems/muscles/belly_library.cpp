@@ -60,9 +60,12 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
 
 Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
-      choice.mass > Mass::consistent) {
-    return fail("a drive, method, element or mass is none of those named; take one of the enumerations' values");
+      choice.mass > Mass::consistent || choice.activation > ExcitationSource::host) {
+    return fail(
+        "a drive, method, element, mass or activation is none of those named; take one of the enumerations' values");
   }
+  if (has_activation(choice) && choice.drive == Drive::force)
+    return fail("activation draws the belly's end to a place; take Drive::displacement, or no activation");
   if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
     return fail(
         fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"

@@ -170,6 +170,7 @@ std::uint64_t BellyLibrary::find_maker() {
   small.cells = {1, 1, 2};
   if (const auto shape = make_shape(Muscle{}, small, nullptr)) {
     const BellyTemplate& made = **shape;
+    write(out, made.muscle, made.choice);
     write(out, made.shape->critical_steps, made.axial, made.stretch);
     if (const auto solver = make_belly_solver(*made.shape, Method::statics, Mass::lumped, 1))
       write(out, *solver, small.cells);

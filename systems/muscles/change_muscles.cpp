@@ -50,7 +50,9 @@ FirstLine present_line(const World& world, const OneChange& change) {
   const auto line = world.get<LineOfAction>(change.muscle);
   const auto end = world.get<EndDrive>(change.muscle);
   const FarEnd far_end = far_end_of(change.choice);
-  if (line && end && world.get<FarEnd>(change.muscle) == static_cast<std::uint64_t>(far_end)) {
+  const bool same_drive = world.get<FarEnd>(change.muscle) == static_cast<std::uint64_t>(far_end) &&
+                          world.has<Activation>(change.muscle) == has_activation(change.choice);
+  if (line && end && same_drive) {
     FirstLine present{*line, *end};
     present.line.stiffness_n_per_m = rest.stiffness_n_per_m;
     return present;
@@ -107,13 +109,15 @@ NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, co
   next.values.set(belly.plan.leg_scale);
   next.values.set(at.line);
   next.values.set(at.end);
+  const MuscleSize size = size_of(belly.plan);
   for (const MuscleEffect& effect : muscle_effects()) {
     if (!effect.wanted(kind)) continue;
-    effect.begin({world, change.muscle, change.human, change.side, *kind.lines, belly.plan.leg_scale, at.line,
-                  change.time.tick, tick_s, work.recent},
-                 next.values);
+    effect.begin(
+        {world, change.muscle, change.human, change.side, kind, size, at.line, change.time.tick, tick_s, work.recent},
+        next.values);
   }
-  BellyLoad load{kind.far_end, at.end.from, at.end.to, {}, tick_s};
+  const EndDrive<float> end = *next.values.get<EndDrive>();
+  BellyLoad load{kind.far_end, end.from, end.to, {}, tick_s};
   if (kind.inertia)
     load.frame =
         next.values.get<FrameLoad>().value_or(world.get<FrameLoad>(change.muscle).value_or(FrameLoad<float>{}));

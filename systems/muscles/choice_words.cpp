@@ -13,12 +13,12 @@ namespace {
 template <class Choice, class F>
 constexpr void each_field(Choice& choice, F&& f) {
   auto& [muscles, drive, method, reduced, material, element, mass, damping, stiffness_damping, inertia, line_motion,
-         foundation, cells, dt] = choice;
+         activation, foundation, cells, dt] = choice;
   auto& [vectors, moving, corrected, reduced_cells, control_points, reported] = reduced;
   auto& [density, young, poisson] = material;
   const auto all = [&f](auto&... field) { (f(field), ...); };
   all(muscles, drive, method, vectors, moving, corrected, reduced_cells, control_points, reported, density, young,
-      poisson, element, mass, damping, stiffness_damping, inertia, line_motion, foundation, cells, dt);
+      poisson, element, mass, damping, stiffness_damping, inertia, line_motion, foundation, cells, dt, activation);
 }
 
 constexpr Drive last_of(Drive) {
@@ -32,6 +32,9 @@ constexpr Element last_of(Element) {
 }
 constexpr Mass last_of(Mass) {
   return Mass::consistent;
+}
+constexpr ExcitationSource last_of(ExcitationSource) {
+  return ExcitationSource::host;
 }
 
 struct Writer {
@@ -100,8 +103,14 @@ std::optional<LegMuscles> choice_of(const ChoiceWords& words) {
 }
 
 std::uint64_t hash_of(const LegMuscles& choice) {
+  // Words that came later count where they are set, so that choices without them have the hash they always had.
+  constexpr std::size_t first_words = 27;
+  const ChoiceWords words = choice_words(choice);
   std::uint64_t hash = 1;
-  for (const std::uint64_t word : choice_words(choice)) hash = mix64((hash + 0x9e3779b97f4a7c15) ^ word);
+  for (std::size_t w = 0; w < words.size(); ++w) {
+    if (w < first_words || words[w] != 0)
+      hash = mix64((hash + 0x9e3779b97f4a7c15) ^ (w < first_words ? 0 : w << 32) ^ words[w]);
+  }
   return hash;
 }
 

@@ -17,6 +17,11 @@ bool wanted(const MuscleKind& kind) {
   return kind.inertia;
 }
 
+void parts(const MuscleKind&, std::vector<KeyPart>& to) {
+  to.push_back(component_part<FrameLoad>());
+  to.push_back(component_part<FrameHistory>());
+}
+
 /// The motion of the muscle's frame up to now, as far as it is known, as the ticks before would have recorded it.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<FrameHistory>(start.entity) && start.world.has<FrameLoad>(start.entity)) return;
@@ -24,7 +29,7 @@ void begin(const EffectStart& start, RowValues& values) {
   FrameHistory<Lanes<float>> history{};
   FrameLoad<Lanes<float>> load{};
   for (const Pose<float>& pose : start.recent.poses) {
-    const auto line = first_line(start.lines, start.leg_scale, FarEnd::held, {}, pose, start.side).line;
+    const auto line = first_line(*start.kind.lines, start.size.leg_scale, FarEnd::held, {}, pose, start.side).line;
     frame_motion(broadcast(line), history, load, start.tick_s);
   }
   values.set(first_lane(history));
@@ -34,6 +39,7 @@ void begin(const EffectStart& start, RowValues& values) {
 }  // namespace of_inertia
 }  // namespace
 
-constinit const MuscleEffect inertia_effect = {&of_inertia::module, &of_inertia::wanted, &of_inertia::begin};
+constinit const MuscleEffect inertia_effect = {&of_inertia::module, &of_inertia::wanted, &of_inertia::begin,
+                                               &of_inertia::parts};
 
 }  // namespace mobil

@@ -287,6 +287,24 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
   return {};
 }
 
+Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation) {
+  if (!is_person(world, person)) return not_there();
+  const Entity one = muscle_of(world, person, muscle, side);
+  if (!world.alive(one))
+    return fail("this person has no such muscle; choose one of those in add_leg_muscles", Status::missing);
+  const std::string name(muscle_name(muscle));
+  const auto source = static_cast<std::uint64_t>(ExcitationSource::host);
+  if (world.get<ExcitationSource>(one) != source)
+    return fail(name + ": the host does not excite it; choose ExcitationSource::host in add_leg_muscles",
+                Status::missing);
+  if (!std::isfinite(excitation))
+    return fail(name + ": the excitation is not a number; give one from 0 to 1", Status::not_valid);
+  Activation<float> row = *world.get<Activation>(one);
+  row.excitation = std::clamp(excitation, least_activation, most_activation);
+  world.set(one, row);
+  return {};
+}
+
 void move_muscles(World& world, Entity person, const Placing& way) {
   using geometry::operator+, geometry::operator-;
   for (const OwnMuscle& own : muscles_of(world, person)) {

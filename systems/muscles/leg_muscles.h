@@ -46,6 +46,7 @@ Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> pe
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person);
+Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation);
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method);
 
 /// A person's muscles go along, as if the world had been moved under them; or forget where their frames were, so that

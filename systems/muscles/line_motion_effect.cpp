@@ -25,12 +25,16 @@ bool wanted(const MuscleKind& kind) {
   return kind.line_motion;
 }
 
+void parts(const MuscleKind&, std::vector<KeyPart>& to) {
+  to.push_back(component_part<LineMotion>());
+}
+
 /// A line that has just begun does not lengthen yet.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<LineMotion>(start.entity)) return;
   LineMotion<Lanes<float>> motion{};
-  line_motion(start.lines, broadcast(start.leg_scale), leg_of(*start.world.get<Pose>(start.human), start.side),
-              broadcast(start.line), motion, start.tick_s);
+  line_motion(*start.kind.lines, broadcast(start.size.leg_scale),
+              leg_of(*start.world.get<Pose>(start.human), start.side), broadcast(start.line), motion, start.tick_s);
   values.set(first_lane(motion));
 }
 
@@ -38,6 +42,6 @@ void begin(const EffectStart& start, RowValues& values) {
 }  // namespace
 
 constinit const MuscleEffect line_motion_effect = {&of_line_motion::module, &of_line_motion::wanted,
-                                                   &of_line_motion::begin};
+                                                   &of_line_motion::begin, &of_line_motion::parts};
 
 }  // namespace mobil

@@ -1,8 +1,10 @@
 #include "systems/muscles/muscle_effect.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
+#include "systems/muscles/activation_effect.h"
 #include "systems/muscles/inertia_effect.h"
 #include "systems/muscles/line_motion_effect.h"
 
@@ -15,14 +17,12 @@ void RowValues::set(std::uint64_t part, const void* words, std::size_t count) {
 }
 
 const float* RowValues::find(std::uint64_t part) const {
-  for (const Value& value : values_) {
-    if (value.part == part) return &words_[value.first];
-  }
-  return nullptr;
+  const auto found = std::find_if(values_.rbegin(), values_.rend(), [&](const Value& v) { return v.part == part; });
+  return found == values_.rend() ? nullptr : &words_[found->first];
 }
 
 std::span<const MuscleEffect> muscle_effects() {
-  static const std::array all = {line_motion_effect, inertia_effect};
+  static const std::array all = {line_motion_effect, activation_effect, inertia_effect};
   return all;
 }
 

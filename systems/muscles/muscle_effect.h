@@ -15,11 +15,12 @@
 #include "engine/schedule.h"
 #include "engine/world.h"
 #include "systems/deformation/method.h"
+#include "systems/muscles/muscle_size.h"
 #include "systems/muscles/recent_poses.h"
 
 namespace mobil {
 
-/// Values that rows begin with, by part: whole rows of components and fields.
+/// Values that rows begin with, by part: whole rows of components and fields. Of a part set twice the last holds.
 class RowValues {
  public:
   template <template <class> class C>
@@ -57,8 +58,8 @@ struct EffectStart {
   const World& world;
   Entity entity, human;
   Side side;
-  const MuscleLines& lines;
-  const LegScale<float>& leg_scale;
+  const MuscleKind& kind;
+  const MuscleSize& size;
   const LineOfAction<float>& line;
   std::uint32_t tick;
   float tick_s;
@@ -69,8 +70,11 @@ struct MuscleEffect {
   /// Its systems, and every part that it puts on rows.
   Module (*module)();
   bool (*wanted)(const MuscleKind& kind);
-  /// The values that its parts begin with; those of a muscle that has them go on.
+  /// The values that its parts begin with; those of a muscle that has them go on. It may set what drives the belly's
+  /// end (EndDrive) too.
   void (*begin)(const EffectStart& start, RowValues& values);
+  /// Appends the parts that a muscle of that kind has of it.
+  void (*parts)(const MuscleKind& kind, std::vector<KeyPart>& parts);
 };
 
 std::span<const MuscleEffect> muscle_effects();

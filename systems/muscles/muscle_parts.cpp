@@ -17,8 +17,9 @@ namespace {
 
 void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
                   Shared<MuscleLines> lines, TagValue<FarEnd> far_end, const LegScale<Lanes<float>>& scale,
-                  LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end) {
-  lines_of_action(*lines, scale, legs_of(posts, owner, ahead), static_cast<FarEnd>(far_end.value), line, end);
+                  LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end, MaybeField<MemberLength> member) {
+  lines_of_action(*lines, scale, legs_of(posts, owner, ahead), static_cast<FarEnd>(far_end.value), line, end,
+                  reinterpret_cast<Lanes<float>*>(member.data));
 }
 
 void fade(float tick_s, Field<const NodalDisplacement> displacement, Field<const FadeStart> start,
@@ -45,16 +46,6 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   return fail("the snapshot does not agree with itself (the side of a muscle); give one that `save` made");
 }
 
-/// What each effect puts on a row.
-const std::vector<std::vector<KeyPart>>& effect_parts() {
-  static const std::vector<std::vector<KeyPart>> all = [] {
-    std::vector<std::vector<KeyPart>> of;
-    for (const MuscleEffect& effect : muscle_effects()) of.push_back(effect.module().parts);
-    return of;
-  }();
-  return all;
-}
-
 /// The kind that a key's tags and resources tell of; nothing where they tell of no muscle.
 std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
   const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
@@ -71,6 +62,10 @@ std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
   kind.far_end = static_cast<FarEnd>(far_end->value);
   kind.inertia = has(type_id<FrameLoad<float>>());
   kind.line_motion = has(type_id<LineMotion<float>>());
+  if (const KeyPart* const source = find_part(key, type_id<ExcitationSource>())) {
+    if (source->value < 1 || source->value >= excitation_source_name.size()) return std::nullopt;
+    kind.activation = static_cast<ExcitationSource>(source->value);
+  }
   kind.fading = has(type_id<Fade<float>>());
   shared(kind.choice);
   shared(kind.lines);
@@ -143,6 +138,7 @@ MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const Leg
   kind.far_end = far_end_of(choice);
   kind.inertia = feels_frame(choice);
   kind.line_motion = choice.line_motion;
+  kind.activation = choice.activation;
   kind.steps = belly.steps;
   const auto kept = library.choice(choice);
   kind.choice = world.share(kept, hash_of(*kept));
@@ -179,9 +175,8 @@ std::vector<KeyPart> muscle_parts(const MuscleKind& kind) {
       parts.push_back(key_part(FieldWidth<ShownDisplacement>{width}));
     }
   }
-  for (std::size_t e = 0; e < muscle_effects().size(); ++e) {
-    if (!muscle_effects()[e].wanted(kind)) continue;
-    parts.insert(parts.end(), effect_parts()[e].begin(), effect_parts()[e].end());
+  for (const MuscleEffect& effect : muscle_effects()) {
+    if (effect.wanted(kind)) effect.parts(kind, parts);
   }
   return parts;
 }

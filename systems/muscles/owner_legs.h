@@ -13,5 +13,7 @@ using LegsOfOwners = LookupPublished<LegPost>;
 /// leg that stands still at the origin.
 LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner,
                                 Ahead<MuscleOwner> ahead);
+/// Where these legs are in their walk.
+LegClock<Lanes<float>> clocks_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner);
 
 }  // namespace mobil

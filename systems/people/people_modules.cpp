@@ -12,6 +12,7 @@
 #include "components/leg_frames.h"
 #include "components/pose.h"
 #include "engine/snapshot.h"
+#include "systems/activation/excitation.h"
 #include "systems/forces/forces.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/body_motion.h"
@@ -25,6 +26,11 @@ namespace {
 
 void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
   post_legs(pose, posts.row);
+}
+
+void publish_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                    const GaitState<Lanes<float>>& state, Published<LegPost> posts) {
+  set_clocks(size, plan, state, posts.row);
 }
 
 /// A skeleton has all of its parts, and a walker all of those that gait and kinematics work on.
@@ -104,18 +110,21 @@ Module forces_module() {
 }
 
 Module skeleton_module() {
-  return {
-      .name = "skeleton",
-      .version = 2,
-      .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<LimbLengths>(),
-                component_part<Pose>(), component_part<JointAngles>(), component_part<Feet>(),
-                component_part<CentreOfMass>(), key_part(Publishes<LegPost>{})},
-      .systems =
-          [](ScheduleBuilder& systems) {
-            systems.add("leg frames", &publish_legs).add("limbs' mass", &move_mass_along_limbs).after("centre of mass");
-          },
-      .check_key = &check_key,
-      .check_rows = &check_rows};
+  return {.name = "skeleton",
+          .version = 2,
+          .parts = {component_part<BodySize>(), component_part<Physique>(), component_part<LimbLengths>(),
+                    component_part<Pose>(), component_part<JointAngles>(), component_part<Feet>(),
+                    component_part<CentreOfMass>(), key_part(Publishes<LegPost>{})},
+          .systems =
+              [](ScheduleBuilder& systems) {
+                systems.add("leg frames", &publish_legs)
+                    .add("leg clocks", &publish_clocks)
+                    .after("leg frames")
+                    .add("limbs' mass", &move_mass_along_limbs)
+                    .after("centre of mass");
+              },
+          .check_key = &check_key,
+          .check_rows = &check_rows};
 }
 
 }  // namespace mobil

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 
+#include "components/activation.h"
 #include "components/pose.h"
 #include "systems/skinning/place_vertices.h"
 #include "systems/skinning/write_vertices.h"
@@ -48,9 +49,8 @@ float stretch(const SurfaceFit& fit, Segment segment) {
   return 1;
 }
 
-/// Displacements of a belly at rest that is drawn out evenly to its line's length.
-void draw_out(const BodySurfaces::Driver& driver, const LineOfAction<float>& line, float* node) {
-  const float longer_m = line.length_m - line.rest_length_m;
+/// Displacements of a belly at rest that is drawn out evenly.
+void draw_out(const BodySurfaces::Driver& driver, float longer_m, float* node) {
   for (std::size_t n = 0; n < driver.nodes; ++n) {
     node[3 * n] = node[3 * n + 1] = 0;
     node[3 * n + 2] = longer_m * driver.along[n];
@@ -151,7 +151,9 @@ void SurfaceWriter::Work::write_side(std::size_t r, const BodySurfaces::Piece& p
   const auto line = read<LineOfAction<float>>(muscle.line, 0);
   float *places = scratch, *node = scratch + 4 * packed.places();
   if (muscle.node == nullptr) {
-    draw_out(request.surfaces->driver[piece.driver], line, node);
+    const float longer_m = muscle.pull == nullptr ? line.length_m - line.rest_length_m
+                                                  : read<Musculotendon<float>>(muscle.pull, 0).belly_m;
+    draw_out(request.surfaces->driver[piece.driver], longer_m, node);
   } else {
     for (std::size_t w = 0; w < 3 * std::size_t{packed.nodes}; ++w) node[w] = muscle.node[w * lane_count];
   }
@@ -195,6 +197,7 @@ Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& re
       if (own == request.muscles.end()) return fail(fmt::format("{} is not among the muscles", name));
       const auto owner = world.get<MuscleOwner>(own->entity[side]);
       line.line = lane_of<LineOfAction>(world, own->entity[side]);
+      line.pull = lane_of<Musculotendon>(world, own->entity[side]);
       if (!owner || line.line == nullptr)
         return fail(fmt::format("{} is not there (a stale handle)", name), Status::stale_entity);
       if (owner->index != request.person.index || owner->generation != request.person.generation || owner->side != side)

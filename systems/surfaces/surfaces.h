@@ -69,6 +69,7 @@ class SurfaceWriter {
  private:
   struct Line {
     const float* line = nullptr;  // a lane of LineOfAction
+    const float* pull = nullptr;  // and of Musculotendon; null: none
     const float* node = nullptr;  // and of control points; null: none
   };
   struct Resolved {

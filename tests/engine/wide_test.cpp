@@ -5,6 +5,7 @@
 #include <hwy/foreach_target.h>
 
 #include "engine/wide_curve-inl.h"
+#include "engine/wide_exp-inl.h"
 #include "engine/wide_geometry-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -16,6 +17,10 @@ void circular(const float* x, const float* y, float* s, float* c, float* angle, 
   store(wc, c);
   store(atan2(load(y), load(x)), angle);
   store(acos(load(y)), arc);
+}
+void exponential(const float* x, const float* y, float* e, float* l) {
+  store(exp(load(x)), e);
+  store(log(load(y)), l);
 }
 /// One result a row of `out`.
 void arithmetic(const float* a, const float* b, const float* c, float* out) {
@@ -69,6 +74,7 @@ HWY_AFTER_NAMESPACE();
 
 namespace mobil {
 HWY_EXPORT(circular);
+HWY_EXPORT(exponential);
 HWY_EXPORT(arithmetic);
 HWY_EXPORT(comparisons);
 HWY_EXPORT(gathered);
@@ -152,6 +158,33 @@ TEST(Wide, ArcTangentIsWithinThreeUlpsAndArcCosineWithinThreeOfOne) {
     }
     EXPECT_LT(worst, 3) << set;
     EXPECT_LT(worst_arc, 3 * ulp(1)) << set;
+  });
+}
+
+TEST(Wide, ExponentialAndLogarithmAreWithinFourUlps) {
+  for_each_instruction_set([](const char* set) {
+    Dice dice;
+    double near = 0, far = 0, logarithm = 0;
+    Lanes<float> e, l;
+    for (int block = 0; block < blocks; ++block) {
+      const Lanes<float> x = block % 2 == 0 ? dice.lanes(-2, 2) : dice.lanes(-87, 87);
+      Lanes<float> y = dice.of_any_size(100);
+      for (float& lane : y.lane) lane = std::fabs(lane);
+      HWY_DYNAMIC_DISPATCH(exponential)(x.lane, y.lane, e.lane, l.lane);
+      for (std::size_t i = 0; i < lane_count; ++i) {
+        keep(block % 2 == 0 ? near : far, ulps(e[i], std::exp(of(x[i]))));
+        const double exact = std::log(of(y[i]));
+        keep(logarithm, std::fabs(of(l[i]) - exact) / (ulp(1) + 1e-7 * std::fabs(exact)));
+      }
+    }
+    EXPECT_LT(near, 4) << set;
+    // Without fused multiply-add the reduction loses bits, the more the larger the argument.
+    EXPECT_LT(far, has_fused_multiply_add() ? 4 : 300) << set;
+    EXPECT_LT(logarithm, 2) << set;
+    const Lanes<float> beyond{{200, -200, 88, -88, 0}}, y1{{1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}};
+    HWY_DYNAMIC_DISPATCH(exponential)(beyond.lane, y1.lane, l.lane, e.lane);
+    EXPECT_TRUE(std::isfinite(l[0]) && l[1] > 0) << set;
+    EXPECT_EQ(l[4], 1) << set;
   });
 }
 

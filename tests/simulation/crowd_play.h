@@ -59,6 +59,7 @@ inline LegMuscles choice_of(std::uint64_t draw) {
     choice.drive = Drive::force;
   } else {
     choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
+    choice.activation = static_cast<ExcitationSource>(draw / 6 % excitation_source_name.size());
     if (choice.method == Method::ecd) choice.muscles.set(static_cast<std::size_t>(Muscle::quadriceps));
   }
   return choice;
@@ -177,6 +178,10 @@ class Crowd {
       EXPECT_TRUE(simulation_.change_leg_muscles(human, choice_of(how)));
     } else {
       EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % 9]));
+      if (simulation_.get<ExcitationSource>(hamstrings) == static_cast<std::uint64_t>(ExcitationSource::host)) {
+        const float level = static_cast<float>(how % 100) * 0.01F;
+        EXPECT_TRUE(simulation_.set_excitation(human, Muscle::hamstrings, Side::right, level));
+      }
     }
   }
 

@@ -13,6 +13,7 @@
  .pennation_deg = 11.6,
  .belly_m = 0.347,
  .model_fibre_m = 0.109,
+ .model_pennation_deg = 0,
  .model_tendon_m = 0.326,
  .model_path_m = 0.42020,
  .sections = {

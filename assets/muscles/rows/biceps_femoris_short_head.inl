@@ -13,6 +13,7 @@
  .pennation_deg = 12.3,
  .belly_m = 0.224,
  .model_fibre_m = 0.173,
+ .model_pennation_deg = 23,
  .model_tendon_m = 0.089,
  .model_path_m = 0.24625,
  .sections = {

@@ -13,6 +13,7 @@
  .pennation_deg = 12.0,
  .belly_m = 0.224,
  .model_fibre_m = 0.064,
+ .model_pennation_deg = 8,
  .model_tendon_m = 0.380,
  .model_path_m = 0.44706,
  .sections = {

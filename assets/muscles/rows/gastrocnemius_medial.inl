@@ -13,6 +13,7 @@
  .pennation_deg = 9.9,
  .belly_m = 0.269,
  .model_fibre_m = 0.060,
+ .model_pennation_deg = 17,
  .model_tendon_m = 0.390,
  .model_path_m = 0.45071,
  .sections = {

@@ -19,6 +19,7 @@
  .pennation_deg = 13.9,
  .belly_m = 0.363,
  .model_fibre_m = 0.114,
+ .model_pennation_deg = 5,
  .model_tendon_m = 0.310,
  .model_path_m = 0.41032,
  .sections = {

@@ -13,6 +13,7 @@
  .pennation_deg = 15.1,
  .belly_m = 0.293,
  .model_fibre_m = 0.080,
+ .model_pennation_deg = 15,
  .model_tendon_m = 0.359,
  .model_path_m = 0.41457,
  .sections = {

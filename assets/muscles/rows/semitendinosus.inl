@@ -15,6 +15,7 @@
  .pennation_deg = 12.9,
  .belly_m = 0.297,
  .model_fibre_m = 0.201,
+ .model_pennation_deg = 5,
  .model_tendon_m = 0.2555,
  .model_path_m = 0.46323,
  .sections = {

@@ -9,6 +9,7 @@
  .pennation_deg = 28.3,
  .belly_m = 0.405,
  .model_fibre_m = 0.050,
+ .model_pennation_deg = 25,
  .model_tendon_m = 0.250,
  .model_path_m = 0.29140,
  .sections = {

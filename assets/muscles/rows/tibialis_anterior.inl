@@ -16,6 +16,7 @@
  .pennation_deg = 9.6,
  .belly_m = 0.260,
  .model_fibre_m = 0.098,
+ .model_pennation_deg = 5,
  .model_tendon_m = 0.223,
  .model_path_m = 0.30379,
  .sections = {

@@ -22,6 +22,7 @@
  .pennation_deg = 4.5,
  .belly_m = 0.412,
  .model_fibre_m = 0.087,
+ .model_pennation_deg = 3,
  .model_tendon_m = 0.136,
  .model_path_m = 0.18205,
  .sections = {

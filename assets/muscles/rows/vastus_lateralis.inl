@@ -23,6 +23,7 @@
  .pennation_deg = 18.4,
  .belly_m = 0.273,
  .model_fibre_m = 0.084,
+ .model_pennation_deg = 5,
  .model_tendon_m = 0.157,
  .model_path_m = 0.20018,
  .sections = {

@@ -23,6 +23,7 @@
  .pennation_deg = 29.6,
  .belly_m = 0.439,
  .model_fibre_m = 0.089,
+ .model_pennation_deg = 5,
  .model_tendon_m = 0.126,
  .model_path_m = 0.17226,
  .sections = {

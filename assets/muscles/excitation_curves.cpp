@@ -1,0 +1,54 @@
+#include "assets/muscles/excitation_curves.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/activation.h"
+
+namespace mobil {
+namespace {
+
+// clang-format off
+constexpr ExcitationCurve curves[] = {
+#include "assets/muscles/excitation_curves.inl"
+};
+// clang-format on
+
+/// Which measured muscle a member is excited as: itself, its head or neighbour of one function.
+std::string_view measured_as(std::string_view muscle) {
+  if (muscle.starts_with("vastus")) return "vastus_medialis";
+  if (muscle.starts_with("gastrocnemius") || muscle == "plantaris") return "gastrocnemius_medial";
+  if (muscle.starts_with("semi") || muscle.starts_with("biceps_femoris")) return "biceps_femoris";
+  return muscle;
+}
+
+}  // namespace
+
+std::span<const ExcitationCurve> excitation_curves() {
+  return curves;
+}
+
+MemberExcitation member_excitation(const MemberMuscle& muscle) {
+  const auto* const curve = std::ranges::find(curves, measured_as(muscle.name), &ExcitationCurve::measured_muscle);
+  return {curve, muscle.name == "soleus" ? 0.05F : 0.02F};
+}
+
+double excitation(const MemberExcitation& of, double cycle, double speed) {
+  const double least = static_cast<double>(least_excitation_speed);
+  const double s = std::clamp(speed, least, static_cast<double>(most_excitation_speed));
+  const auto term = [&](std::size_t i) {
+    const auto& c = of.curve->terms[i];
+    return static_cast<double>(c[0]) + s * (static_cast<double>(c[1]) + s * static_cast<double>(c[2]));
+  };
+  double sum = term(0);
+  for (std::size_t k = 1; k <= excitation_harmonics; ++k) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(k) * cycle;
+    sum += term(2 * k - 1) * std::cos(angle) + term(2 * k) * std::sin(angle);
+  }
+  const double part = std::clamp(speed / least, 0.0, 1.0), standing = static_cast<double>(of.standing);
+  return std::clamp(standing + part * (static_cast<double>(excitation_scale) * sum - standing),
+                    static_cast<double>(least_activation), static_cast<double>(most_activation));
+}
+
+}  // namespace mobil

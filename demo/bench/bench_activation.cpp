@@ -1,0 +1,75 @@
+// Muscles that pull: excitation by the phase of the walk, activation, fibre and tendon.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/muscles/muscle_plan.h"
+#include "demo/bench/bench.h"
+#include "systems/activation/excitation.h"
+#include "systems/activation/musculotendon.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t most_blocks = 256;  // of sixteen muscles; in a quarter of a megabyte
+
+/// Sixteen muscles of one member.
+struct PullBlock {
+  MemberDesign<Lanes<float>> design;
+  MemberState<Lanes<float>> state;
+  Lanes<float> rest_m, length_m, excitation;
+  LegClock<Lanes<float>> clock;
+  Activation<Lanes<float>> activation;
+  Musculotendon<Lanes<float>> muscle;
+};
+
+void set_all(Lanes<float>& lanes, double x) {
+  std::ranges::fill(lanes.lane, static_cast<float>(x));
+}
+
+}  // namespace
+
+Result<void> bench_activation(BenchRun& run) {
+  const Muscle muscle = *find_muscle("gastrocnemius_medial");
+  const MemberPlan plan = make_muscle_plan(*make_body({}), muscle)->member[0];
+  const RowExcitation row = row_excitation(muscle);
+  constexpr float weight = 1, tick_s = 1.0F / 60;
+  std::vector<PullBlock> blocks(std::min(most_blocks, run.humans));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    PullBlock& block = blocks[b];
+    set_all(block.design.fibre_m, plan.fibre_m), set_all(block.design.tendon_m, plan.tendon_m);
+    set_all(block.design.height_m, 0.3 * plan.fibre_m), set_all(block.design.force_n, 1500);
+    set_all(block.rest_m, plan.rest_length_m), set_all(block.clock.speed, 0.45);
+    find_rest_bellies(1, &block.rest_m, &block.design);
+    for (std::size_t l = 0; l < lane_count; ++l)
+      block.clock.cycle[l] = static_cast<float>((b * lane_count + l) % 101) / 101.0F;
+    block.length_m = block.rest_m;
+    set_all(block.excitation, 0.1);
+    settle({1, &weight, &block.design, &block.length_m, &block.excitation, &block.state}, block.activation,
+           block.muscle);
+  }
+  const auto time = [&](const auto& work) {
+    return measure_short([&] {
+      for (PullBlock& block : blocks) work(block);
+    });
+  };
+  const Measured exciting = time([&](PullBlock& block) { excite(row, block.clock, &block.excitation); });
+  float sway = 0.01F;
+  const Measured pulling = time([&](PullBlock& block) {
+    sway = -sway;
+    for (std::size_t l = 0; l < lane_count; ++l) block.length_m[l] = block.rest_m[l] + sway * block.clock.cycle[l];
+    contract({1, &weight, &block.design, &block.length_m, &block.excitation, &block.state}, tick_s, block.activation,
+             block.muscle);
+  });
+  const double muscles = static_cast<double>(blocks.size() * lane_count);
+  run.add_time("activation.excitation.us_per_muscle_tick", exciting, muscles, 1e-6, "us").bound =
+      at_peak(run.machine, exciting.best_s / muscles);
+  run.add_time("activation.kernel.us_per_muscle_tick", pulling, muscles, 1e-6, "us").bound =
+      at_peak(run.machine, pulling.best_s / muscles);
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,32 @@
+#pragma once
+// From where legs are in their walk to how hard their muscles are asked to pull.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "assets/muscles/excitation_curves.h"
+#include "components/activation.h"
+#include "components/body.h"
+#include "components/gait.h"
+#include "components/lanes.h"
+#include "components/leg_frames.h"
+
+namespace mobil {
+
+/// How the members of a row are excited, in its order.
+struct RowExcitation {
+  std::array<MemberExcitation, most_row_members> member;
+  std::size_t members;
+};
+RowExcitation row_excitation(Muscle muscle);
+
+/// Excitations of sixteen muscles' members, 0.01 to 1, as assets/muscles/excitation_curves.h has them. Where
+/// the speed is no number, as of who stands; where the phase is none, the least.
+void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member);
+
+/// Both legs' clocks of sixteen walkers.
+void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                const GaitState<Lanes<float>>& state, LegPost* posts);
+
+}  // namespace mobil

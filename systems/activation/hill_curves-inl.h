@@ -1,0 +1,73 @@
+// What fibres and tendons of any muscle have in common, in sixteen lanes: the curves of De Groote, Kinney, Rao, Fregly:
+// Evaluation of direct collocation optimal control problem formulations for solving the muscle redundancy problem, Ann.
+// Biomed. Eng. 44, 2016, with the corrected constants of OpenSim's DeGrooteFregly2016Muscle. Include it as
+// engine/wide-inl.h says.
+
+#if defined(MOBIL_SYSTEMS_ACTIVATION_HILL_CURVES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_SYSTEMS_ACTIVATION_HILL_CURVES_INL_H_
+#undef MOBIL_SYSTEMS_ACTIVATION_HILL_CURVES_INL_H_
+#else
+#define MOBIL_SYSTEMS_ACTIVATION_HILL_CURVES_INL_H_
+#endif
+
+#include "engine/wide_exp-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+/// A curve's value and slope.
+struct CurvePoint {
+  Wide at, slope;
+};
+
+/// Active force by the fibre's length over its optimal one: three bells b₁ exp(−½ ((m − b₂)/(b₃ + b₄ m))²).
+MOBIL_WIDE_INLINE CurvePoint active_force(const Wide& m) {
+  constexpr float bell[3][4] = {
+      {0.815F, 1.055F, 0.162F, 0.063F}, {0.433F, 0.717F, -0.030F, 0.200F}, {0.1F, 1.0F, 0.353553391F, 0}};
+  CurvePoint sum{wide(0.0F), wide(0.0F)};
+  for (const auto& b : bell) {
+    const Wide width = wide(1.0F) / fma(m, wide(b[3]), wide(b[2]));
+    const Wide off = (m - b[1]) * width;
+    const Wide value = b[0] * exp(-0.5F * off * off);
+    sum.at = sum.at + value;
+    // d(off)/dm = (b₃ + b₂ b₄) width²
+    sum.slope = fnma(value * off, (b[2] + b[1] * b[3]) * width * width, sum.slope);
+  }
+  return sum;
+}
+
+/// Passive force of fibres longer than optimal: 1 at a strain of 0.6.
+MOBIL_WIDE_INLINE CurvePoint passive_force(const Wide& m) {
+  constexpr float shape = 4, strain = 0.6F, e4 = 54.59815F;
+  const Wide rising = exp((shape / strain) * (min(m, 2.0F) - 1.0F));
+  const WideMask slack = m <= 1.0F;
+  const Wide zero = wide(0.0F);
+  return {select(slack, zero, (rising - 1.0F) * (1 / (e4 - 1))),
+          select(slack, zero, rising * (shape / strain / (e4 - 1)))};
+}
+
+/// Active force by the fibre's speed over its fastest, shortening negative: 0 at −1, 1 at rest; no less than 0 beyond.
+MOBIL_WIDE_INLINE CurvePoint force_at_speed(const Wide& v) {
+  constexpr float d1 = -0.3211346127989808F, d2 = -8.149F, d3 = -0.374F, d4 = 0.8825327733249912F;
+  const Wide x = fma(v, wide(d2), wide(d3));
+  const Wide root = sqrt(fma(x, x, wide(1.0F)));
+  const Wide arsinh = copy_sign(log(abs(x) + root), x);
+  const Wide at = fma(arsinh, wide(d1), wide(d4)), zero = wide(0.0F);
+  const WideMask pulls = at > zero;
+  return {select(pulls, at, zero), select(pulls, wide(d1 * d2) / root, zero)};
+}
+
+/// Tendon: force over the isometric one by its length over the slack one, 1 at a strain of 4.9 %. A slack one resists
+/// with next to nothing, but so that its length is defined.
+inline constexpr float tendon_stiffness = 36.5665198F;  // ln 6 / 0.049
+MOBIL_WIDE_INLINE CurvePoint tendon_force(const Wide& t) {
+  const Wide rising = 0.2F * exp(tendon_stiffness * (min(t, 1.2F) - 1.0F));
+  const Wide at = rising - 0.2F;
+  const WideMask taut = at > -0.05F;
+  return {select(taut, at, wide(-0.05F)), select(taut, tendon_stiffness * rising, wide(0.0F))};
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

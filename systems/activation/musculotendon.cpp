@@ -1,0 +1,177 @@
+#include "systems/activation/musculotendon.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/activation/musculotendon.cpp"
+#include <hwy/foreach_target.h>
+
+#include "engine/wide_geometry-inl.h"
+#include "systems/activation/hill_curves-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+namespace {
+
+constexpr float fastest_per_s = 10, fibre_damping = 0.1F;
+constexpr int steps_from_nearby = 5, steps_from_anywhere = 24;
+
+/// One member: fibres of optimal length 1.
+struct Fibre {
+  Wide height, tendon;  // height and the tendon's slack length over the optimal length
+  Wide path;            // likewise
+  Wide activation;
+};
+
+HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
+  const Wide sine = of.height / m;
+  return sqrt(max(fnma(sine, sine, wide(1.0F)), wide(1e-6F)));
+}
+
+/// What is left over of the fibre's pull at that length, and its slope, which is positive; `rate` over the fastest
+/// speed per length.
+HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, const Wide& rate) {
+  const Wide speed = (m - before) * rate;
+  const CurvePoint active = active_force(m), passive = passive_force(m), by_speed = force_at_speed(speed);
+  const Wide cos = cosine(of, m);
+  const Wide along = m * cos;
+  const CurvePoint tendon = tendon_force((of.path - along) / of.tendon);
+  const Wide fibre = fma(of.activation * active.at, by_speed.at, fma(wide(fibre_damping), speed, passive.at));
+  const Wide stiffness = fma(of.activation, fma(active.slope, by_speed.at, active.at * by_speed.slope * rate),
+                             fma(wide(fibre_damping), rate, passive.slope));
+  const Wide sine2 = (wide(1.0F) - cos * cos);
+  // d cos α / dm = sin²α / (m cos α); d(m cos α)/dm = 1 / cos α
+  return {fma(fibre, cos, -tendon.at), fma(stiffness, cos, fibre * sine2 / along) + tendon.slope / (of.tendon * cos)};
+}
+
+/// Where the tendon passes on what fibres of that length would pull if they did not move: a step's first guess, for a
+/// tendon's force grows so fast with its length that Newton's steps from a stretched one are short.
+HWY_INLINE Wide balanced(const Fibre& of, const Wide& m) {
+  const Wide force = fma(of.activation, active_force(m).at, min(passive_force(m).at, 1.0F)) * cosine(of, m);
+  const Wide stretch = fma(log(fma(force, wide(5.0F), wide(1.0F))), wide(1 / tendon_stiffness), wide(1.0F));
+  const Wide along = fnma(of.tendon, stretch, of.path);
+  return sqrt(fma(along, along, of.height * of.height));
+}
+
+/// The fibre's length, from `before`.
+HWY_INLINE Wide solve(const Fibre& of, const Wide& before, const Wide& rate, int steps) {
+  const Wide zero = wide(0.0F);
+  Wide low = max(1.05F * of.height, wide(0.3F)), high = wide(1.8F);
+  const Wide guess = balanced(of, before);
+  Wide m = select((guess > low) & (guess < high), guess, 0.5F * (low + high));
+  for (int i = 0; i < steps; ++i) {
+    const CurvePoint left = pull(of, m, before, rate);
+    const WideMask too_long = left.at > zero;
+    high = select(too_long, m, high);
+    low = select(too_long, low, m);
+    const Wide next = m - left.at / left.slope;
+    m = select((next >= low) & (next <= high), next, 0.5F * (low + high));
+  }
+  return m;
+}
+
+HWY_INLINE Wide risen(const Wide& activation, const Wide& excitation, float tick_s) {
+  const Wide by = fma(activation, wide(1.5F), wide(0.5F));
+  const Wide per_s = select(excitation > activation, 100.0F / by, 25.0F * by);
+  const Wide part = wide(1.0F) - exp(-tick_s * per_s);
+  return fma(part, excitation - activation, activation);
+}
+
+/// What is no number is the least: so a lane gets well again.
+HWY_INLINE Wide within_range(const Wide& x) {
+  return select(x > wide(least_activation), min(x, most_activation), wide(least_activation));
+}
+
+struct Sums {
+  Wide excitation, activation, fibre, tendon, pennation, force, belly, slack;
+};
+
+HWY_INLINE void add(const MemberDesign<Lanes<float>>& design, const Fibre& fibre, const Wide& path, const Wide& m,
+                    float weight, Sums& to) {
+  const Wide share = wide(weight), optimal = load(design.fibre_m);
+  const Wide cos = cosine(fibre, m), length = optimal * m;
+  const Wide tendon = fnma(length, cos, path);
+  const Wide stretch = tendon / load(design.tendon_m);
+  to.activation = fma(share, fibre.activation, to.activation);
+  to.fibre = fma(share, length, to.fibre);
+  to.tendon = fma(share, tendon, to.tendon);
+  to.pennation = fma(share, atan2(fibre.height, m * cos), to.pennation);
+  to.force = fma(load(design.force_n), max(tendon_force(stretch).at, wide(0.0F)), to.force);
+  to.belly = fma(share, fma(length, cos, -load(design.rest_belly_m)), to.belly);
+  to.slack = to.slack + select(stretch < 1.0F, wide(1.0F), wide(0.0F));
+}
+
+HWY_INLINE Fibre fibre_of(const MemberDesign<Lanes<float>>& design, const Wide& path) {
+  const Wide over = wide(1.0F) / load(design.fibre_m);
+  return {over * load(design.height_m), over * load(design.tendon_m), over * path, wide(least_activation)};
+}
+
+/// `tick_s` 0: at rest.
+HWY_INLINE void contract_members(const MemberBlock& of, float tick_s, Activation<Lanes<float>>& activation,
+                                 Musculotendon<Lanes<float>>& muscle) {
+  const Wide zero = wide(0.0F);
+  Sums sum{zero, zero, zero, zero, zero, zero, zero, zero};
+  for (std::size_t i = 0; i < of.members; ++i) {
+    const Wide path = load(of.length_m[i]);
+    Fibre fibre = fibre_of(of.design[i], path);
+    const Wide excitation = within_range(load(of.excitation[i]));
+    const bool moves = tick_s > 0;
+    fibre.activation = moves ? within_range(risen(load(of.state[i].activation), excitation, tick_s)) : excitation;
+    const Wide rate = wide(moves ? 1 / (fastest_per_s * tick_s) : 0.0F);
+    const Wide m = solve(fibre, load(of.state[i].fibre), rate, moves ? steps_from_nearby : steps_from_anywhere);
+    store(fibre.activation, of.state[i].activation);
+    store(m, of.state[i].fibre);
+    sum.excitation = fma(wide(of.weight[i]), excitation, sum.excitation);
+    add(of.design[i], fibre, path, m, of.weight[i], sum);
+  }
+  store(sum.excitation, activation.excitation);
+  store(sum.activation, activation.activation);
+  store(sum.fibre, muscle.fibre_m);
+  store(sum.tendon, muscle.tendon_m);
+  store(sum.pennation, muscle.pennation_rad);
+  store(sum.force, muscle.force_n);
+  store(sum.belly, muscle.belly_m);
+  Lanes<float> slack;
+  store(sum.slack, slack);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) muscle.slack[lane] = static_cast<std::uint32_t>(slack[lane]);
+}
+
+}  // namespace
+
+void contract_all(const MemberBlock& of, float tick_s, Activation<Lanes<float>>& activation,
+                  Musculotendon<Lanes<float>>& muscle) {
+  contract_members(of, tick_s, activation, muscle);
+}
+
+void find_rests(std::size_t members, const Lanes<float>* length_m, MemberDesign<Lanes<float>>* design) {
+  for (std::size_t i = 0; i < members; ++i) {
+    const Wide path = load(length_m[i]);
+    const Fibre fibre = fibre_of(design[i], path);
+    const Wide m = solve(fibre, wide(1.0F), wide(0.0F), steps_from_anywhere);
+    store(load(design[i].fibre_m) * m * cosine(fibre, m), design[i].rest_belly_m);
+  }
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+namespace {
+HWY_EXPORT(contract_all);
+HWY_EXPORT(find_rests);
+}  // namespace
+
+void contract(const MemberBlock& of, float tick_s, Activation<Lanes<float>>& activation,
+              Musculotendon<Lanes<float>>& muscle) {
+  HWY_DYNAMIC_DISPATCH(contract_all)(of, tick_s, activation, muscle);
+}
+
+void settle(const MemberBlock& of, Activation<Lanes<float>>& activation, Musculotendon<Lanes<float>>& muscle) {
+  HWY_DYNAMIC_DISPATCH(contract_all)(of, 0, activation, muscle);
+}
+
+void find_rest_bellies(std::size_t members, const Lanes<float>* length_m, MemberDesign<Lanes<float>>* design) {
+  HWY_DYNAMIC_DISPATCH(find_rests)(members, length_m, design);
+}
+
+}  // namespace mobil
+#endif

@@ -1,0 +1,173 @@
+#include "systems/muscles/activation_effect.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "engine/rows.h"
+#include "systems/activation/excitation.h"
+#include "systems/activation/musculotendon.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/muscles/owner_legs.h"
+
+namespace mobil {
+namespace {
+namespace of_activation {
+
+constexpr std::uint32_t design_words = sizeof(MemberDesign<float>) / sizeof(float);
+constexpr std::uint32_t state_words = sizeof(MemberState<float>) / sizeof(float);
+using Excitations = std::array<Lanes<float>, most_row_members>;
+
+/// What all muscles of a row of the table share.
+struct RowMembers {
+  RowExcitation excitation;
+  std::array<float, most_row_members> weight{};
+};
+
+const RowMembers& row_members(Muscle muscle) {
+  static const std::vector<RowMembers> all = [] {
+    std::vector<RowMembers> rows;
+    for (std::size_t m = 0; m < muscles().size(); ++m) {
+      const auto members = members_of(static_cast<Muscle>(m));
+      RowMembers row{row_excitation(static_cast<Muscle>(m)), {}};
+      for (std::size_t i = 0; i < members.size(); ++i)
+        row.weight[i] = static_cast<float>(member_weight(members, members[i]));
+      rows.push_back(row);
+    }
+    return rows;
+  }();
+  return all[static_cast<std::size_t>(muscle)];
+}
+
+/// The columns of a block as their members'.
+MemberBlock block_of(const RowMembers& row, const float* design, const float* length, const Excitations& excitation,
+                     float* state) {
+  return {row.excitation.members,
+          row.weight.data(),
+          reinterpret_cast<const MemberDesign<Lanes<float>>*>(design),
+          reinterpret_cast<const Lanes<float>*>(length),
+          excitation.data(),
+          reinterpret_cast<MemberState<Lanes<float>>*>(state)};
+}
+
+void pull(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, TagValue<Muscle> muscle,
+          TagValue<ExcitationSource> source, Field<const MemberLength> length, Field<const MemberDesignField> design,
+          Field<MemberStateField> state, Activation<Lanes<float>>& activation, Musculotendon<Lanes<float>>& tendon,
+          EndDrive<Lanes<float>>& end, float tick_s) {
+  const RowMembers& row = row_members(static_cast<Muscle>(muscle.value));
+  Excitations excitation;
+  if (static_cast<ExcitationSource>(source.value) == ExcitationSource::phase) {
+    excite(row.excitation, clocks_of(posts, owner), excitation.data());
+  } else {
+    excitation.fill(activation.excitation);
+  }
+  contract(block_of(row, design.data, length.data, excitation, state.data), tick_s, activation, tendon);
+  end.to = tendon.belly_m;
+}
+
+Module module() {
+  return {.name = "activation",
+          .parts = {component_part<Activation>(), component_part<Musculotendon>(),
+                    key_part(TagValue<ExcitationSource>{}), key_part(FieldWidth<MemberLength>{}),
+                    key_part(FieldWidth<MemberDesignField>{}), key_part(FieldWidth<MemberStateField>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("activation", &pull).after("lines of action"); }};
+}
+
+bool wanted(const MuscleKind& kind) {
+  return kind.activation != ExcitationSource::none;
+}
+
+void parts(const MuscleKind& kind, std::vector<KeyPart>& to) {
+  const auto members = static_cast<std::uint32_t>(members_of(kind.muscle).size());
+  to.push_back(component_part<Activation>());
+  to.push_back(component_part<Musculotendon>());
+  to.push_back(key_part(TagValue<ExcitationSource>{static_cast<std::uint64_t>(kind.activation)}));
+  to.push_back(key_part(FieldWidth<MemberLength>{members}));
+  to.push_back(key_part(FieldWidth<MemberDesignField>{design_words * members}));
+  to.push_back(key_part(FieldWidth<MemberStateField>{state_words * members}));
+}
+
+/// A member at rest in the anatomical position. Pennation is that of the model that the fibre's length is of, of who is
+/// not in it the measured one; force 30 N/cm² of fibres (Zajac: Muscle and tendon, Crit. Rev. Biomed. Eng. 17, 1989),
+/// with which a leg's greatest moments are those of people; models with 60 have the smaller muscles of old donors.
+MemberDesign<Lanes<float>> design_of(const MemberMuscle& member, const MemberPlan& plan) {
+  constexpr double specific_force_pa = 30e4;
+  const double angle = member.model_path_m > 0 ? member.model_pennation_deg : member.pennation_deg;
+  const double height = plan.fibre_m * std::sin(angle * std::numbers::pi / 180);
+  return broadcast(MemberDesign<float>{static_cast<float>(plan.fibre_m), static_cast<float>(plan.tendon_m),
+                                       static_cast<float>(height), 0,
+                                       static_cast<float>(specific_force_pa * plan.volume_m3 / plan.fibre_m)});
+}
+
+Lanes<float> in_all_lanes(float x) {
+  Lanes<float> lanes;
+  std::ranges::fill(lanes.lane, x);
+  return lanes;
+}
+
+LegClock<Lanes<float>> present_clock(const World& world, Entity human, Side side) {
+  LegClock<Lanes<float>> clock{};
+  const auto plan = world.get<StepPlan>(human);
+  const auto state = world.get<GaitState>(human);
+  if (!plan || !state) return clock;
+  std::array<LegPost, lane_count> posts{};
+  set_clocks(broadcast(*world.get<BodySize>(human)), broadcast(*plan), broadcast(*state), posts.data());
+  return broadcast(posts[0].leg[side].clock);
+}
+
+/// The first lane of a block of members' words, as rows' fields have them.
+template <class T>
+std::vector<float> first_words(const T* block, std::size_t members) {
+  std::vector<float> words;
+  const auto* const lanes = reinterpret_cast<const Lanes<float>*>(block);
+  for (std::size_t w = 0; w < members * sizeof(T) / sizeof(Lanes<float>); ++w) words.push_back(lanes[w][0]);
+  return words;
+}
+
+/// At rest as hard as it is excited now, or, where the host will say, not at all.
+void begin(const EffectStart& start, RowValues& values) {
+  if (start.world.has<Activation>(start.entity)) return;
+  const auto members = members_of(start.kind.muscle);
+  const RowMembers& row = row_members(start.kind.muscle);
+  std::array<MemberDesign<Lanes<float>>, most_row_members> design;
+  std::array<MemberState<Lanes<float>>, most_row_members> state{};
+  std::array<Lanes<float>, most_row_members> length;
+  for (std::size_t i = 0; i < members.size(); ++i) {
+    design[i] = design_of(members[i], start.size.member[i]);
+    length[i] = in_all_lanes(static_cast<float>(start.size.member[i].rest_length_m));
+  }
+  find_rest_bellies(members.size(), length.data(), design.data());
+
+  auto line = broadcast(start.line);
+  EndDrive<Lanes<float>> end{};
+  lines_of_action(*start.kind.lines, broadcast(start.size.leg_scale),
+                  leg_of(*start.world.get<Pose>(start.human), start.side), start.kind.far_end, line, end,
+                  length.data());
+  Excitations excitation;
+  excitation.fill(in_all_lanes(least_activation));
+  if (start.kind.activation == ExcitationSource::phase)
+    excite(row.excitation, present_clock(start.world, start.human, start.side), excitation.data());
+  Activation<Lanes<float>> activation{};
+  Musculotendon<Lanes<float>> tendon{};
+  settle(block_of(row, design[0].fibre_m.lane, length[0].lane, excitation, state[0].activation.lane), activation,
+         tendon);
+
+  values.set(first_lane(activation));
+  values.set(first_lane(tendon));
+  values.set_field<MemberLength>(first_words(length.data(), members.size()));
+  values.set_field<MemberDesignField>(first_words(design.data(), members.size()));
+  values.set_field<MemberStateField>(first_words(state.data(), members.size()));
+  values.set(EndDrive<float>{tendon.belly_m[0], tendon.belly_m[0]});
+}
+
+}  // namespace of_activation
+}  // namespace
+
+constinit const MuscleEffect activation_effect = {&of_activation::module, &of_activation::wanted, &of_activation::begin,
+                                                  &of_activation::parts};
+
+}  // namespace mobil

@@ -1,0 +1,22 @@
+#pragma once
+// What rows of a person's muscle say of its size.
+
+#include <array>
+
+#include "assets/muscles/muscle_plan.h"
+#include "components/leg_frames.h"
+#include "components/muscle.h"
+
+namespace mobil {
+
+struct MuscleSize {
+  BellyScale<float> scale{};
+  LegScale<float> leg_scale{};
+  float rest_length_m = 0;
+  std::array<MemberPlan, most_row_members> member{};
+};
+inline MuscleSize size_of(const MusclePlan& plan) {
+  return {plan.scale, plan.leg_scale, static_cast<float>(plan.rest_length_m), plan.member};
+}
+
+}  // namespace mobil

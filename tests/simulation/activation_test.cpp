@@ -1,0 +1,192 @@
+// Muscles that pull, within a simulation: who asks for it, what drives it, and what it survives.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "components/activation.h"
+#include "tests/simulation/leg_muscles.h"
+#include "tests/simulation/people.h"
+
+namespace mobil::activation_test {
+namespace {
+
+LegMuscles pulling(ExcitationSource source, Method method = Method::none) {
+  LegMuscles choice;
+  choice.method = method;
+  choice.reduced.cells = {2, 2, 8};
+  choice.activation = source;
+  return choice;
+}
+
+Activation<float> activation(const Simulation& simulation, Entity human, std::string_view muscle, Side side) {
+  return *simulation.get<Activation>(simulation.muscle(human, *find_muscle(muscle), side));
+}
+Musculotendon<float> pull(const Simulation& simulation, Entity human, std::string_view muscle, Side side) {
+  return *simulation.get<Musculotendon>(simulation.muscle(human, *find_muscle(muscle), side));
+}
+
+void run(Simulation& simulation, int ticks) {
+  for (int i = 0; i < ticks; ++i) simulation.tick();
+}
+
+/// Neither the walk nor the lines know of it, and the others' rows are what they were.
+TEST(Activation, WhoDoesNotAskIsAsBefore) {
+  Simulation with, without;
+  const Entity asks = join_with(with, person(1), pulling(ExcitationSource::phase, Method::ecd));
+  const Entity does_not = join_with(with, person(2), pulling(ExcitationSource::none, Method::ecd));
+  const Entity same = join_with(without, person(1), pulling(ExcitationSource::none, Method::ecd));
+  const Entity alone = join_with(without, person(2), pulling(ExcitationSource::none, Method::ecd));
+  run(with, 100), run(without, 100);
+  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
+  const Entity one = with.muscle(asks, Muscle::triceps_surae, Side::right);
+  const Entity other = without.muscle(same, Muscle::triceps_surae, Side::right);
+  EXPECT_EQ(with.get<LineOfAction>(one)->length_m, without.get<LineOfAction>(other)->length_m);
+  EXPECT_FALSE(without.get<Musculotendon>(other));
+}
+
+/// The mesh's end is where the tendon leaves it, by every method.
+TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
+  for (const Method method : {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced}) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, person(3), pulling(ExcitationSource::phase, method));
+    float apart = 0, by_tendon = 0;
+    for (int tick = 0; tick < 90; ++tick) {
+      simulation.tick();
+      for (const OwnMuscle& own : simulation.muscles(human)) {
+        for (const Entity muscle : own.entity) {
+          const auto line = *simulation.get<LineOfAction>(muscle);
+          const float belly = simulation.get<Musculotendon>(muscle)->belly_m;
+          apart = std::max(apart, std::abs(simulation.get<BellyReport>(muscle)->elongation_m - belly));
+          by_tendon = std::max(by_tendon, std::abs(line.length_m - line.rest_length_m - belly));
+        }
+      }
+    }
+    EXPECT_LT(apart, 1e-6F) << name(method);
+    EXPECT_GT(by_tendon, 0.005F) << name(method);
+  }
+}
+
+TEST(Activation, FollowsTheHost) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn_posed({});
+  LegMuscles choice = pulling(ExcitationSource::host);
+  choice.muscles |= muscle_members();
+  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  run(simulation, 10);
+  const Muscle soleus = *find_muscle("soleus");
+  EXPECT_NEAR(activation(simulation, human, "soleus", Side::left).activation, 0.01F, 1e-6F);
+  const auto relaxed = pull(simulation, human, "soleus", Side::left);
+  EXPECT_NEAR(relaxed.belly_m, 0, 1e-5F) << "as in who stands";
+  ASSERT_TRUE(simulation.set_excitation(human, soleus, Side::left, 1));
+  run(simulation, 60);
+  EXPECT_NEAR(activation(simulation, human, "soleus", Side::left).activation, 1, 1e-4F);
+  EXPECT_NEAR(activation(simulation, human, "soleus", Side::right).activation, 0.01F, 1e-6F);
+  const auto pulls = pull(simulation, human, "soleus", Side::left);
+  EXPECT_LT(pulls.belly_m, relaxed.belly_m - 0.005F);
+  EXPECT_GT(pulls.tendon_m, relaxed.tendon_m + 0.005F);
+  EXPECT_GT(pulls.force_n, 1500);
+  EXPECT_GT(pulls.pennation_rad, relaxed.pennation_rad + 0.05F);
+  // A group's members all do.
+  ASSERT_TRUE(simulation.set_excitation(human, Muscle::quadriceps, Side::right, 7));
+  run(simulation, 60);
+  EXPECT_EQ(activation(simulation, human, "quadriceps", Side::right).excitation, 1);
+  EXPECT_GT(pull(simulation, human, "quadriceps", Side::right).force_n, 500) << "short, on a straight knee";
+}
+
+TEST(Activation, BadRequestsSayWhat) {
+  Simulation simulation;
+  const Entity walks = *simulation.spawn({}), hosted = *simulation.spawn({});
+  ASSERT_TRUE(simulation.add_leg_muscles(walks, pulling(ExcitationSource::phase)));
+  ASSERT_TRUE(simulation.add_leg_muscles(hosted, pulling(ExcitationSource::host)));
+  run(simulation, 3);
+  const std::uint64_t before = simulation.state_hash();
+  const auto says = [](const Result<void>& result, Status status, std::string_view what) {
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().status, status);
+    EXPECT_NE(result.error().message.find(what), std::string::npos) << result.error().message;
+  };
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  says(simulation.set_excitation(hosted, Muscle::hamstrings, Side::right, nan), Status::not_valid, "hamstrings");
+  says(simulation.set_excitation(walks, Muscle::hamstrings, Side::right, 1), Status::missing, "ExcitationSource::host");
+  says(simulation.set_excitation(hosted, *find_muscle("soleus"), Side::right, 1), Status::missing, "no such muscle");
+  says(simulation.set_excitation({}, Muscle::hamstrings, Side::right, 1), Status::stale_entity, "stale");
+  LegMuscles forced = pulling(ExcitationSource::phase);
+  forced.drive = Drive::force;
+  says(simulation.change_leg_muscles(walks, forced), Status::not_valid, "Drive::displacement");
+  EXPECT_EQ(simulation.state_hash(), before);
+}
+
+/// Method changes, snapshots, batches, other sources.
+TEST(Activation, StateGoesOn) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(4), pulling(ExcitationSource::phase, Method::reduced));
+  run(simulation, 33);
+  const auto before = pull(simulation, human, "triceps_surae", Side::right);
+  const auto excited = activation(simulation, human, "triceps_surae", Side::right);
+  ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, {Method::ecd}));
+  EXPECT_EQ(pull(simulation, human, "triceps_surae", Side::right).fibre_m, before.fibre_m);
+
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  run(simulation, 20);
+  const std::uint64_t later = simulation.state_hash();
+  Simulation other;
+  ASSERT_TRUE(other.restore(bytes));
+  run(other, 20);
+  EXPECT_EQ(other.state_hash(), later);
+
+  // The host takes over where the walk had it.
+  ASSERT_TRUE(simulation.restore(bytes));
+  LegMuscles hosted = pulling(ExcitationSource::host, Method::reduced);
+  ASSERT_TRUE(simulation.change_leg_muscles(human, hosted));
+  EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).activation, excited.activation);
+  run(simulation, 5);
+  EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).excitation, excited.excitation);
+  // Without, the line's length is the belly's again.
+  ASSERT_TRUE(simulation.change_leg_muscles(human, pulling(ExcitationSource::none, Method::statics)));
+  run(simulation, 2);
+  const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const auto line = *simulation.get<LineOfAction>(muscle);
+  EXPECT_NEAR(simulation.get<BellyReport>(muscle)->elongation_m, line.length_m - line.rest_length_m, 1e-6F);
+}
+
+TEST(Activation, LeftIsRightHalfACycleLater) {
+  Simulation simulation({.tick_s = 1.0 / 64});
+  // Two steps a second: 64 ticks a cycle.
+  const auto human = simulation.spawn({}, {.speed_m_s = 1.4F, .step_frequency_hz = 2.0F});
+  ASSERT_TRUE(human);
+  ASSERT_TRUE(simulation.add_leg_muscles(*human, pulling(ExcitationSource::phase)));
+  run(simulation, 256);
+  const auto right = pull(simulation, *human, "triceps_surae", Side::right);
+  const auto excited = activation(simulation, *human, "triceps_surae", Side::right);
+  run(simulation, 32);
+  const auto left = pull(simulation, *human, "triceps_surae", Side::left);
+  EXPECT_NEAR(left.force_n, right.force_n, 0.02F * right.force_n + 1);
+  EXPECT_NEAR(activation(simulation, *human, "triceps_surae", Side::left).activation, excited.activation, 0.01F);
+}
+
+/// The phase is that of the walk: at a heel strike of its own a leg's tibialis is strongly excited, its calf is not.
+TEST(Activation, IsInStepWithTheFeet) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({}, {.speed_m_s = 1.3F});
+  ASSERT_TRUE(simulation.add_leg_muscles(human, pulling(ExcitationSource::phase)));
+  run(simulation, 120);
+  for (int tick = 0; tick < 120; ++tick) {
+    simulation.tick();
+    const Feet<float> feet = *simulation.get<Feet>(human);
+    for (const Side side : {Side::right, Side::left}) {
+      const float cycle = feet.phase[side];
+      const float calf = activation(simulation, human, "triceps_surae", side).excitation;
+      const float shin = activation(simulation, human, "tibialis_anterior", side).excitation;
+      if (cycle < 0.03F) {
+        EXPECT_GT(shin, 2 * calf) << cycle;
+      } else if (cycle > 0.35F && cycle < 0.45F) {
+        EXPECT_GT(calf, 3 * shin) << cycle;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mobil::activation_test

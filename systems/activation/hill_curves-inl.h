@@ -20,19 +20,25 @@ struct CurvePoint {
   Wide at, slope;
 };
 
-/// Active force by the fibre's length over its optimal one: three bells b₁ exp(−½ ((m − b₂)/(b₃ + b₄ m))²).
+/// b₁ exp(−½ ((m − b₂) · `over`)²), `over` = 1/(b₃ + b₄ m), added.
+HWY_INLINE void add_bell(const Wide& m, const float (&b)[4], const Wide& over, CurvePoint& sum) {
+  const Wide off = (m - b[1]) * over;
+  const Wide value = b[0] * exp(-0.5F * off * off);
+  sum.at = sum.at + value;
+  sum.slope = fnma(value * off, (b[2] + b[1] * b[3]) * over * over, sum.slope);  // d off / dm = (b₃ + b₂ b₄) over²
+}
+
+/// Active force by the fibre's length over its optimal one: three bells.
 MOBIL_WIDE_INLINE CurvePoint active_force(const Wide& m) {
-  constexpr float bell[3][4] = {
-      {0.815F, 1.055F, 0.162F, 0.063F}, {0.433F, 0.717F, -0.030F, 0.200F}, {0.1F, 1.0F, 0.353553391F, 0}};
+  constexpr float wide_bell[4] = {0.815F, 1.055F, 0.162F, 0.063F}, low_bell[4] = {0.433F, 0.717F, -0.030F, 0.200F},
+                  even_bell[4] = {0.1F, 1.0F, 0.353553391F, 0};
+  const Wide first = fma(m, wide(wide_bell[3]), wide(wide_bell[2])),
+             second = fma(m, wide(low_bell[3]), wide(low_bell[2]));
+  const Wide both = wide(1.0F) / (first * second);  // one division for two
   CurvePoint sum{wide(0.0F), wide(0.0F)};
-  for (const auto& b : bell) {
-    const Wide width = wide(1.0F) / fma(m, wide(b[3]), wide(b[2]));
-    const Wide off = (m - b[1]) * width;
-    const Wide value = b[0] * exp(-0.5F * off * off);
-    sum.at = sum.at + value;
-    // d(off)/dm = (b₃ + b₂ b₄) width²
-    sum.slope = fnma(value * off, (b[2] + b[1] * b[3]) * width * width, sum.slope);
-  }
+  add_bell(m, wide_bell, both * second, sum);
+  add_bell(m, low_bell, both * first, sum);
+  add_bell(m, even_bell, wide(1 / even_bell[2]), sum);
   return sum;
 }
 

@@ -12,18 +12,20 @@ namespace mobil::HWY_NAMESPACE {
 namespace {
 
 constexpr float fastest_per_s = 10, fibre_damping = 0.1F;
-constexpr int steps_from_nearby = 5, steps_from_anywhere = 24;
+constexpr int steps_from_nearby = 4, steps_from_anywhere = 24;
 
 /// One member: fibres of optimal length 1.
 struct Fibre {
-  Wide height, tendon;  // height and the tendon's slack length over the optimal length
-  Wide path;            // likewise
+  Wide height, tendon, path;  // height, the tendon's slack length and the path's over the optimal length
+  Wide over_tendon;           // 1 / tendon
   Wide activation;
 };
 
-HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
-  const Wide sine = of.height / m;
+HWY_INLINE Wide cosine(const Wide& sine) {
   return sqrt(max(fnma(sine, sine, wide(1.0F)), wide(1e-6F)));
+}
+HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
+  return cosine(of.height / m);
 }
 
 /// What is left over of the fibre's pull at that length, and its slope, which is positive; `rate` over the fastest
@@ -31,15 +33,14 @@ HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
 HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, const Wide& rate) {
   const Wide speed = (m - before) * rate;
   const CurvePoint active = active_force(m), passive = passive_force(m), by_speed = force_at_speed(speed);
-  const Wide cos = cosine(of, m);
-  const Wide along = m * cos;
-  const CurvePoint tendon = tendon_force((of.path - along) / of.tendon);
+  const Wide over_m = wide(1.0F) / m, cos = cosine(of.height * over_m), over_cos = wide(1.0F) / cos;
+  const CurvePoint tendon = tendon_force(fnma(m, cos, of.path) * of.over_tendon);
   const Wide fibre = fma(of.activation * active.at, by_speed.at, fma(wide(fibre_damping), speed, passive.at));
   const Wide stiffness = fma(of.activation, fma(active.slope, by_speed.at, active.at * by_speed.slope * rate),
                              fma(wide(fibre_damping), rate, passive.slope));
-  const Wide sine2 = (wide(1.0F) - cos * cos);
-  // d cos α / dm = sin²α / (m cos α); d(m cos α)/dm = 1 / cos α
-  return {fma(fibre, cos, -tendon.at), fma(stiffness, cos, fibre * sine2 / along) + tendon.slope / (of.tendon * cos)};
+  // d cos α / dm = (1 / cos α − cos α) / m; d(m cos α)/dm = 1 / cos α
+  const Wide turning = fibre * (over_cos - cos) * over_m;
+  return {fma(fibre, cos, -tendon.at), fma(stiffness, cos, fma(tendon.slope * of.over_tendon, over_cos, turning))};
 }
 
 /// Where the tendon passes on what fibres of that length would pull if they did not move: a step's first guess, for a
@@ -100,8 +101,8 @@ HWY_INLINE void add(const MemberDesign<Lanes<float>>& design, const Fibre& fibre
 }
 
 HWY_INLINE Fibre fibre_of(const MemberDesign<Lanes<float>>& design, const Wide& path) {
-  const Wide over = wide(1.0F) / load(design.fibre_m);
-  return {over * load(design.height_m), over * load(design.tendon_m), over * path, wide(least_activation)};
+  const Wide optimal = load(design.fibre_m), slack = load(design.tendon_m), over = wide(1.0F) / optimal;
+  return {over * load(design.height_m), over * slack, over * path, optimal / slack, wide(least_activation)};
 }
 
 /// `tick_s` 0: at rest.

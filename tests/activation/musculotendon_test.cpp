@@ -85,8 +85,8 @@ TEST(Musculotendon, IsWhatDoublePrecisionSays) {
       force_off = std::max(force_off, std::abs(double{one.muscle.force_n[0]} / of.force_n - force));
     }
   }
-  EXPECT_LT(fibre_off, 2e-5) << "of its optimal length";
-  EXPECT_LT(force_off, 2e-4) << "of its isometric force";
+  EXPECT_LT(fibre_off, 1e-3) << "of its optimal length";
+  EXPECT_LT(force_off, 2e-3) << "of its isometric force";
 }
 
 /// Maganaris & Paul, J. Biomech. 35, 2002: gastrocnemius' tendon 11.1 ± 3.1 mm, 4.9 ± 1 % at the most it can.

@@ -54,6 +54,9 @@ struct LegMuscles {
   bool line_motion = false;        // lengthening speed and moment arms: component LineMotion
   /// Muscles that pull: components Activation, Musculotendon. The tendon stretches, and the belly gets what it leaves.
   ExcitationSource activation = ExcitationSource::none;
+  /// Control points are where tissue at finite strain has them (nearly incompressible, short and thick where it pulls),
+  /// not where linear statics do; the method's vibration goes on about that. Left out: where there is activation.
+  std::optional<bool> finite_shape{};
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: of single
   /// muscles that are drawn by displacement 7 Hz, on the shank 12, for what is long, thin and bent bows aside like a
   /// strut without; of groups 7 Hz with inertia, where a belly would sag by its own length, and none otherwise.
@@ -81,6 +84,10 @@ constexpr bool feels_frame(const LegMuscles& choice) {
 }
 constexpr bool has_activation(const LegMuscles& choice) {
   return choice.activation != ExcitationSource::none;
+}
+/// Whether its control points are those of finite strain.
+constexpr bool has_finite_shape(const LegMuscles& choice) {
+  return has_control_points(choice) && choice.finite_shape.value_or(has_activation(choice));
 }
 /// What the far end of its belly may do: held or sliding.
 constexpr FarEnd far_end_of(const LegMuscles& choice) {

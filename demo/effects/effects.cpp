@@ -162,6 +162,24 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   add("control points", fmt::format("81 points a muscle to draw from (of {})", rungs[shown_rung].name),
       "a muscle that is simulated; ReducedChoice::control_points", std::max(us, 0.0), systems);
 
+  tell("finite shape");
+  const double points_us = us;
+  choice.method = Method::none;
+  choice.finite_shape = true;
+  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  if (!done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  settle();
+  us = meter(named({"finite shape, reduced"}), &systems) - points_us;  // it places them too
+  add("finite shape", "bellies keep their volume, and are thick where they pull",
+      "control points; LegMuscles::finite_shape", std::max(us, 0.0), systems);
+  choice.finite_shape.reset();
+  choice.method = Method::none;
+  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  if (!done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, true); !done) return tl::unexpected(done.error());
+  settle();
+
   tell("surfaces");
   const Human human = *simulation.human(people.front());
   const auto figure = make_figure(simulation, human, std::nullopt);

@@ -10,6 +10,7 @@
 
 #include "demo/effects/accuracy_measure.h"
 #include "demo/effects/effects.h"
+#include "demo/effects/finite_tables.h"
 #include "demo/effects/relevance_show.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
@@ -21,7 +22,7 @@ constexpr std::size_t most_humans = 100000, least_shown = 100;
 
 struct EffectsCommand {
   std::size_t humans = 300, crowd = 0;
-  std::string json;
+  std::string json, shapes;
   bool measure = false;
 };
 
@@ -57,6 +58,7 @@ Result<void> measure_table() {
 int run_effects(const EffectsCommand& text) {
   if (text.humans < 1 || text.humans > most_humans)
     return exit_status_of("effects", fail(fmt::format("--humans {}: give 1 to {}", text.humans, most_humans)));
+  if (!text.shapes.empty()) return exit_status_of("effects", write_finite_tables(text.shapes));
   if (text.measure) return exit_status_of("effects", measure_table());
   if (text.crowd == 0) return exit_status_of("effects", list_effects(text));
   if (text.crowd < least_shown || text.crowd > most_humans)
@@ -95,7 +97,9 @@ Subcommand effects_command() {
       "methods\n"
       "changed at random. Exit status 1 where a bound did not hold. --measure prints the table of errors and costs "
       "that\n"
-      "choices are made by, as systems/relevance/accuracy_table.cpp has it: minutes.\n"
+      "choices are made by, as systems/relevance/accuracy_table.cpp has it: minutes. --shapes DIR solves the shapes "
+      "of\n"
+      "all muscles at finite strain and writes them as assets/finite/tables has them: minutes.\n"
       "\nExamples: mobil effects\n"
       "          mobil effects --json effects.json\n"
       "          mobil effects --crowd 10000";
@@ -105,7 +109,8 @@ Subcommand effects_command() {
                      {.name = "--measure",
                       .target = &text->measure,
                       .help = "Print the accuracy table, measured anew",
-                      .excludes = "--crowd"}};
+                      .excludes = "--crowd"},
+                     {"--shapes", &text->shapes, "Folder to write the tables of finite strain to, made anew"}};
   command.run = [text] { return run_effects(*text); };
   return command;
 }

@@ -60,6 +60,7 @@ Result<void> paper_weight(PaperRun& run);
 Result<void> paper_step_length(PaperRun& run);
 Result<void> paper_quadriceps(PaperRun& run);
 Result<void> paper_stature(PaperRun& run);
+Result<void> paper_contraction(PaperRun& run);
 Result<void> paper_anatomy(PaperRun& run);
 
 }  // namespace mobil

@@ -38,6 +38,8 @@ constexpr std::array entries = {
     Entry{"quadriceps", "How does a walker's quadriceps deform, at other steps too? (svg, csv, png)",
           &paper_quadriceps},
     Entry{"stature", "What if the person is taller or thinner? (svg, csv, png)", &paper_stature},
+    Entry{"contraction", "muscles that pull: activation, fibres and tendons; relaxed and contracted (svg, csv, png)",
+          &paper_contraction},
     Entry{"anatomy", "real meshes beside built-in ones over a cycle (png; needs --anatomy)", &paper_anatomy, true},
 };
 

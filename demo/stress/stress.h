@@ -58,6 +58,8 @@ Result<void> stress_energy_double(StressRun& run);
 Result<void> stress_denormals(StressRun& run);
 Result<void> stress_nan(StressRun& run);
 Result<void> stress_explosion(StressRun& run);
+Result<void> stress_excitation(StressRun& run);
+Result<void> stress_contraction(StressRun& run);
 Result<void> stress_requests(StressRun& run);
 Result<void> stress_tables(StressRun& run);
 Result<void> stress_hitch(StressRun& run);

@@ -56,6 +56,8 @@ constexpr std::array stresses = {
     Stress{"denormals", "a ring that dies away below the smallest normal number", &stress_denormals},
     Stress{"nan", "not-a-number and infinity in every input of a block", &stress_nan},
     Stress{"explosion", "one exploding lane beside fifteen sound ones", &stress_explosion},
+    Stress{"excitation", "muscles excited by no numbers, on and off, and for minutes", &stress_excitation},
+    Stress{"contraction", "squats at full activation, and another method in every tick", &stress_contraction},
     Stress{"requests", "not-a-number and infinity in what people are asked to be and to do", &stress_requests},
     Stress{"tables", "not-a-number and infinity in files and options", &stress_tables},
     Stress{"hitch", "a frame of two seconds", &stress_hitch},

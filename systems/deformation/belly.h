@@ -8,6 +8,7 @@
 #include "assets/fem/axial_stiffness.h"
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
+#include "assets/finite/finite_shape.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_belly.h"
@@ -24,7 +25,8 @@ struct BellyTemplate {
   std::shared_ptr<const MuscleTemplate> shape;
   std::shared_ptr<const MuscleLines> lines;
   AxialStiffness axial;
-  StaticStretch stretch;  // of the template's own size
+  StaticStretch stretch;                      // of the template's own size
+  std::shared_ptr<const FiniteShape> finite;  // made when first asked for
 };
 
 /// What muscles of one choice and about one size share. Those of alike ones share a table.
@@ -34,6 +36,7 @@ struct SharedBelly {
   std::shared_ptr<const BellySolver> solver;   // of ICD, CAA and static
   std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; else null
   std::shared_ptr<const ReducedBasis> basis;   // of reduced
+  std::shared_ptr<const FiniteShape> finite;   // of who shows finite strain
 
   friend bool operator==(const SharedBelly&, const SharedBelly&) = default;
 };

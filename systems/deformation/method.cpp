@@ -20,4 +20,8 @@ const DeformationMethod* deformation_method(Method method) {
   return nullptr;
 }
 
+BellyMotion stretched_at_rest(const NextBelly& next) {
+  return stretched(next.belly, next.line, next.load);
+}
+
 }  // namespace mobil

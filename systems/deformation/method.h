@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "assets/finite/finite_shape.h"
 #include "components/leg_muscles.h"
 #include "engine/module.h"
 #include "engine/schedule.h"
@@ -24,13 +25,14 @@ struct MuscleKind {
   FarEnd far_end = FarEnd::held;
   bool inertia = false, line_motion = false;  // effects
   ExcitationSource activation = ExcitationSource::none;
-  bool fading = false;                        // a change of method has left something over
-  std::uint32_t steps = 1;                    // a tick
-  Shared<LegMuscles> choice{};                // tissue and effects; muscles and method are as in a LegMuscles{}
+  bool fading = false;          // a change of method has left something over
+  std::uint32_t steps = 1;      // a tick
+  Shared<LegMuscles> choice{};  // tissue and effects; muscles and method are as in a LegMuscles{}
   Shared<MuscleLines> lines{};
   Shared<MuscleTemplate> shape{};  // whose nodes are the control points; null without
   Shared<BellySolver> solver{};    // null where the method has none
   Shared<ReducedBasis> basis{};    // of reduced, else null
+  Shared<FiniteShape> finite{};    // of who shows finite strain, else null
 };
 
 /// The belly that a muscle is about to become. `load` is the last tick's.
@@ -66,9 +68,14 @@ struct DeformationMethod {
   /// Under its line's length and what loads it, so that it does not ring: at rest, or, where it `moves`, at the speed
   /// that its loads have.
   Beginning (*begin)(const NextBelly& next, bool moves);
+  /// The static answer to what drives its end alone, and how that moves.
+  BellyMotion (*at_rest)(const NextBelly& next);
   /// Going on from what was shown; `keeps`: the state of the reduced belly stays as it is.
   Beginning (*go_on)(const NextBelly& next, const PastBelly& past, bool keeps);
 };
+
+/// `at_rest` of methods that displace nodes: the template's shape, drawn out.
+BellyMotion stretched_at_rest(const NextBelly& next);
 
 /// One a Method, but for Method::none.
 std::span<const DeformationMethod> deformation_methods();

@@ -34,9 +34,16 @@ bool streamed(const Table& table, std::uint32_t words) {
   return std::size_t{table.row_count()} * words * sizeof(float) > kept_bytes;
 }
 
+/// Finite shapes place control points once more: before them only who reports needs these.
+bool is_replaced(const Table& table) {
+  return find_part(table.key(), type_id<FiniteShape>()) != nullptr &&
+         find_part(table.key(), type_id<BellyReport<float>>()) == nullptr;
+}
+
 void place(const Table& table, Shared<ReducedBasis> basis, const BellyScale<Lanes<float>>& scale,
            const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedState> state,
            Field<const ReducedShape> shape, Field<NodalDisplacement> displacement) {
+  if (is_replaced(table)) return;
   ReducedBlock block = read_only(*basis, scale, state.data, nullptr, frame.block);
   block.next_state = state.next;
   place_control_points(block, {shape.data, displacement.data, streamed(table, displacement.words), shape.next},
@@ -46,6 +53,7 @@ void place(const Table& table, Shared<ReducedBasis> basis, const BellyScale<Lane
 void place_still(const Table& table, Shared<ReducedBasis> basis, TagValue<ReducedStatic>,
                  const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
                  Field<const ReducedShape> shape, Field<NodalDisplacement> displacement) {
+  if (is_replaced(table)) return;
   place_static(read_only(*basis, scale, nullptr, nullptr, frame.block),
                {shape.data, displacement.data, streamed(table, displacement.words), shape.next},
                {basis->options.far_end, end});
@@ -54,8 +62,9 @@ void place_still(const Table& table, Shared<ReducedBasis> basis, TagValue<Reduce
 /// Of moving bellies and of static ones. (With several inputs the motion's participations are read.)
 void report(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
             const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
-            MaybeField<const ReducedMotion> motion, MaybeField<const ReducedState> state, Field<const ReducedShape> shape,
-            Field<const NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+            MaybeField<const ReducedMotion> motion, MaybeField<const ReducedState> state,
+            Field<const ReducedShape> shape, Field<const NodalDisplacement> displacement,
+            BellyReport<Lanes<float>>& report) {
   const ControlPoints points{shape.data, const_cast<float*>(displacement.data)};  // read-only here
   report_reduced(read_only(*basis, scale, state.data, motion.data, frame.block), *control, points,
                  {basis->options.far_end, end}, tick_s, report);
@@ -198,6 +207,10 @@ Beginning begin(const NextBelly& next, bool moves) {
   return from;
 }
 
+BellyMotion at_rest(const NextBelly& next) {
+  return reduced_motion(*next.belly.basis, *next.belly.motions, next.load, {});
+}
+
 Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
   Beginning from;
   if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, past.shown);
@@ -214,6 +227,6 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
 
 constinit const DeformationMethod reduced_method = {
     Method::reduced,       &of_reduced::reduced_module, &of_reduced::reduced_parts, &of_reduced::recognise,
-    &of_reduced::computed, &of_reduced::begin,          &of_reduced::go_on};
+    &of_reduced::computed, &of_reduced::begin,          &of_reduced::at_rest,       &of_reduced::go_on};
 
 }  // namespace mobil

@@ -71,6 +71,6 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool) {
 
 constinit const DeformationMethod static_method = {
     Method::statics,      &of_static::static_module, &of_static::static_parts, &of_static::recognise,
-    &of_static::computed, &of_static::begin,         &of_static::go_on};
+    &of_static::computed, &of_static::begin,         &stretched_at_rest,       &of_static::go_on};
 
 }  // namespace mobil

@@ -86,6 +86,7 @@ constinit const DeformationMethod explicit_method = {Method::ecd,
                                                      &of_stepped::recognise<Method::ecd>,
                                                      &of_stepped::computed,
                                                      &of_stepped::begin,
+                                                     &stretched_at_rest,
                                                      &of_stepped::go_on};
 constinit const DeformationMethod implicit_method = {Method::icd,
                                                      &of_stepped::implicit_module,
@@ -93,6 +94,7 @@ constinit const DeformationMethod implicit_method = {Method::icd,
                                                      &of_stepped::recognise<Method::icd>,
                                                      &of_stepped::computed,
                                                      &of_stepped::begin,
+                                                     &stretched_at_rest,
                                                      &of_stepped::go_on};
 constinit const DeformationMethod newmark_method = {Method::caa,
                                                     nullptr,
@@ -100,6 +102,7 @@ constinit const DeformationMethod newmark_method = {Method::caa,
                                                     &of_stepped::recognise<Method::caa>,
                                                     &of_stepped::computed,
                                                     &of_stepped::begin,
+                                                    &stretched_at_rest,
                                                     &of_stepped::go_on};
 
 }  // namespace mobil

@@ -6,11 +6,13 @@
 #include <utility>
 
 #include "assets/reduction/reduced_bellies.h"
+#include "components/fade.h"
 #include "components/pose.h"
 #include "engine/access.h"
 #include "engine/rows.h"
 #include "systems/deformation/deformation.h"
 #include "systems/lines/line_of_action.h"
+#include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
 
@@ -191,7 +193,7 @@ class Block {
     if (group_.kind.shape.resource == nullptr) return {};
     for (const Side side : {Side::right, Side::left}) {
       auto* const displacement = group_.side[side].field<NodalDisplacement>(b_);
-      if (basis != nullptr && !group_.kind.inertia) {
+      if (basis != nullptr && !group_.kind.inertia && group_.kind.finite.resource == nullptr) {
         place_at_rest(*basis, bellies, group_.side[side].block<EndDrive>(b_).to, displacement->lane);
       } else {
         begin_one_by_one(*method, bellies, side);
@@ -211,12 +213,33 @@ class Block {
       BellyLoad load{group_.kind.far_end, end.from, end.to, {}, all_.tick_s};
       if (group_.kind.inertia) load.frame = row_of(of.block<FrameLoad>(b_), lane);
       const auto line = row_of(of.block<LineOfAction>(b_), lane);
-      const Beginning from = method.begin({belly, all_.choice, line, load}, false);
+      const NextBelly next{belly, all_.choice, line, load};
+      Beginning from = method.begin(next, false);
+      if (group_.kind.finite.resource != nullptr) show_shape(next, of, lane, from);
       scatter(from.displacement.data(), from.displacement.size(), displacement, lane);
     }
+    park(displacement);
+    if (const Column* const shown = of.find(type_id<ShownDisplacement>())) park(*shown);
+  }
+
+  /// Lanes without a row are copies of the first.
+  void park(const Column& column) const {
     for (std::size_t lane = count_; lane < lane_count; ++lane) {
-      for (std::size_t w = 0; w < displacement.words; ++w)
-        displacement.block(b_)[w][lane] = displacement.block(b_)[w][0];
+      for (std::size_t w = 0; w < column.words; ++w) column.block(b_)[w][lane] = column.block(b_)[w][0];
+    }
+  }
+
+  /// At finite strain: in place of `from`, or beside it.
+  void show_shape(const NextBelly& next, const Columns& of, std::size_t lane, Beginning& from) const {
+    const bool pulls = of.find(type_id<Activation<float>>()) != nullptr;
+    const float activation = pulls ? of.block<Activation>(b_).activation[lane] : 0;
+    std::vector<float> shown = from.displacement;
+    const BellyMotion offset = shape_offset(next, activation);
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] += offset.displacement[i];
+    if (const Column* const apart = of.find(type_id<ShownDisplacement>())) {
+      scatter(shown.data(), shown.size(), *apart, lane);
+    } else {
+      from.displacement = std::move(shown);
     }
   }
 

@@ -66,6 +66,8 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   }
   if (has_activation(choice) && choice.drive == Drive::force)
     return fail("activation draws the belly's end to a place; take Drive::displacement, or no activation");
+  if (has_finite_shape(choice) && choice.drive == Drive::force)
+    return fail("finite shapes are those of a belly whose end is held; take Drive::displacement, or no finite_shape");
   if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
     return fail(
         fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
@@ -174,6 +176,14 @@ Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles
   return templates_.back().get();
 }
 
+std::shared_ptr<const FiniteShape> BellyLibrary::finite_shape(const BellyTemplate& shape) {
+  const auto own = std::ranges::find(templates_, &shape, &std::unique_ptr<BellyTemplate>::get);
+  std::shared_ptr<const FiniteShape>& made = (*own)->finite;
+  if (made == nullptr)
+    made = std::make_shared<const FiniteShape>(make_finite_shape(shape.muscle, shape.shape->mesh, shape.stretch));
+  return made;
+}
+
 Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTemplate& shape, Method method, Mass mass,
                                                                 double dt_s, const BellyScale<float>& scale) {
   // The operator over S depends on S / l and, where there is mass in it, on S·l; ICD's is the mass alone.
@@ -205,6 +215,7 @@ Result<SharedBelly> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice
   if (!made) return tl::unexpected(made.error());
   belly.shape = *made;
   if (choice.method == Method::none) return belly;
+  if (has_finite_shape(choice)) belly.finite = finite_shape(**made);
   if (choice.method == Method::reduced) {
     auto along = basis(muscle, choice, scale);
     if (!along) return tl::unexpected(along.error());

@@ -80,6 +80,7 @@ class BellyLibrary {
   };
 
   Result<const BellyTemplate*> shape(Muscle muscle, const LegMuscles& choice);
+  std::shared_ptr<const FiniteShape> finite_shape(const BellyTemplate& shape);
   /// The template, or null; and one that differs in what the tissue itself does not depend on, or null.
   std::pair<const BellyTemplate*, const BellyTemplate*> find_shape(Muscle muscle, const LegMuscles& choice) const;
   static Result<std::unique_ptr<BellyTemplate>> make_shape(Muscle muscle, const LegMuscles& choice,

@@ -7,6 +7,7 @@
 
 #include "components/fade.h"
 #include "systems/deformation/deformation.h"
+#include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
 
@@ -64,8 +65,28 @@ FirstLine present_line(const World& world, const OneChange& change) {
   return first;
 }
 
-/// What the belly begins with. Empty throughout where all goes on as it is.
-Beginning beginning(const World& world, MuscleWork& work, const OneChange& change, const NextBelly& next) {
+/// What is shown of a muscle now, and how that moves, `computed` being what its method says.
+BellyMotion shown_motion(const World& world, const OneChange& change, const MuscleKind& was, const NextBelly& next,
+                         const BellyMotion& computed) {
+  BellyMotion shown = computed;
+  const auto tick_s = static_cast<float>(change.time.tick_s);
+  if (was.finite.resource != nullptr && next.belly.finite != nullptr) {
+    const auto pulls = world.get<Activation>(change.muscle);
+    const BellyMotion offset = shape_offset(next, pulls ? pulls->activation : 0);
+    for (std::size_t i = 0; i < shown.velocity.size(); ++i) shown.velocity[i] += offset.velocity[i];
+  }
+  if (was.fading) add_fade(world, change.muscle, tick_s, shown);
+  if (was.finite.resource == nullptr) return shown;
+  std::vector<float> now = field_of<ShownDisplacement>(world, change.muscle);
+  if (now.empty()) now = field_of<NodalDisplacement>(world, change.muscle);
+  if (!now.empty()) shown.displacement = std::move(now);
+  return shown;
+}
+
+/// What the belly begins with; `offset`: what it will show beside what its method computes, or nothing. Empty
+/// throughout where all goes on as it is.
+Beginning beginning(const World& world, MuscleWork& work, const OneChange& change, const NextBelly& next,
+                    const BellyMotion& offset) {
   const DeformationMethod* const method = deformation_method(next.choice.method);
   if (method == nullptr) return {};
   const auto tick_s = static_cast<float>(change.time.tick_s);
@@ -76,27 +97,42 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   auto computed = deformation_method(was->method.method)->computed(world, change.muscle, tick_s, work.last);
   if (!computed) return method->begin(next, true);
   PastBelly past;
-  past.shown = past.computed = std::move(*computed);
+  past.shown = shown_motion(world, change, *was, next, *computed);
+  past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(change.muscle);
-  if (was->fading) add_fade(world, change.muscle, tick_s, past.shown);
+  for (std::size_t i = 0; i < offset.displacement.size(); ++i) {
+    past.shown.displacement[i] -= offset.displacement[i];
+    past.shown.velocity[i] -= offset.velocity[i];
+  }
   const bool keeps = next.choice.reduced.moving && world.has<ReducedState>(change.muscle) &&
                      was->basis.resource == next.belly.basis.get();
   return method->go_on(next, past, keeps);
 }
 
-void set_belly(const Beginning& from, const Belly& belly, RowValues& values) {
+/// `offset`, where it is not empty, lies on top of what the method computes: in place, or beside it.
+void set_belly(const Beginning& from, const Belly& belly, const BellyMotion& offset, const MuscleKind& kind,
+               RowValues& values) {
   values.set(belly.plan.scale);
-  values.set_field<NodalDisplacement>(from.displacement);
+  std::vector<float> shown = from.displacement;
+  for (std::size_t i = 0; i < shown.size() && !offset.displacement.empty(); ++i) shown[i] += offset.displacement[i];
+  values.set_field<NodalDisplacement>(shows_apart(kind) ? from.displacement : shown);
   values.set_field<NodalVelocity>(from.velocity);
   values.set_field<ReducedState>(from.state);
   values.set_field<ReducedMotion>(belly.motion);
   values.set_field<ReducedShape>(belly.rest_shape);
-  if (from.fade.empty()) return;
-  values.set(Fade<float>{0});
-  values.set_field<FadeStart>(from.fade);
-  std::vector<float> shown(from.displacement.size());
-  for (std::size_t i = 0; i < shown.size(); ++i) shown[i] = from.displacement[i] + from.fade[i];
-  values.set_field<ShownDisplacement>(shown);
+  if (!from.fade.empty()) {
+    values.set(Fade<float>{0});
+    values.set_field<FadeStart>(from.fade);
+    for (std::size_t i = 0; i < shown.size(); ++i) shown[i] += from.fade[i];
+  }
+  if (!from.fade.empty() || shows_apart(kind)) values.set_field<ShownDisplacement>(shown);
+}
+
+float next_activation(const World& world, const OneChange& change, const RowValues& values) {
+  if (!has_activation(change.choice)) return 0;
+  if (const auto begins = values.get<Activation>()) return begins->activation;
+  const auto row = world.get<Activation>(change.muscle);
+  return row ? row->activation : 0;
 }
 
 NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, const OneChange& change) {
@@ -121,9 +157,14 @@ NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, co
   if (kind.inertia)
     load.frame =
         next.values.get<FrameLoad>().value_or(world.get<FrameLoad>(change.muscle).value_or(FrameLoad<float>{}));
-  const Beginning from = beginning(world, work, change, {belly, change.choice, at.line, load});
+  const NextBelly next_belly{belly, change.choice, at.line, load};
+  BellyMotion offset;
+  if (kind.finite.resource != nullptr) offset = shape_offset(next_belly, next_activation(world, change, next.values));
+  Beginning from = beginning(world, work, change, next_belly, offset);
   kind.fading = !from.fade.empty();
-  set_belly(from, belly, next.values);
+  if (from.displacement.empty() && shows_apart(kind))
+    from.displacement = field_of<NodalDisplacement>(world, change.muscle);
+  set_belly(from, belly, offset, kind, next.values);
   for (const KeyPart& part : muscle_parts(kind)) {
     next.parts.push_back({part, has_column(part.kind) ? next.values.find(part.id) : nullptr});
   }

@@ -13,12 +13,13 @@ namespace {
 template <class Choice, class F>
 constexpr void each_field(Choice& choice, F&& f) {
   auto& [muscles, drive, method, reduced, material, element, mass, damping, stiffness_damping, inertia, line_motion,
-         activation, foundation, cells, dt] = choice;
+         activation, finite_shape, foundation, cells, dt] = choice;
   auto& [vectors, moving, corrected, reduced_cells, control_points, reported] = reduced;
   auto& [density, young, poisson] = material;
   const auto all = [&f](auto&... field) { (f(field), ...); };
   all(muscles, drive, method, vectors, moving, corrected, reduced_cells, control_points, reported, density, young,
-      poisson, element, mass, damping, stiffness_damping, inertia, line_motion, foundation, cells, dt, activation);
+      poisson, element, mass, damping, stiffness_damping, inertia, line_motion, foundation, cells, dt, activation,
+      finite_shape);
 }
 
 constexpr Drive last_of(Drive) {
@@ -48,6 +49,7 @@ struct Writer {
     put(value.has_value());
     (*this)(value.value_or(0));
   }
+  constexpr void operator()(const std::optional<bool>& value) { put(value ? 1U + *value : 0U); }
   constexpr void operator()(const Cells& cells) {
     for (const std::uint32_t count : cells) put(count);
   }
@@ -73,6 +75,10 @@ struct Reader {
     const bool there = take(1) != 0;
     const double number = std::bit_cast<double>(words[next++]);
     if (there) value = number;
+  }
+  void operator()(std::optional<bool>& value) {
+    const std::uint64_t word = take(2);
+    if (word != 0) value = word == 2;
   }
   void operator()(Cells& cells) {
     for (std::uint32_t& count : cells) (*this)(count);

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "systems/muscles/activation_effect.h"
+#include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/inertia_effect.h"
 #include "systems/muscles/line_motion_effect.h"
 
@@ -22,7 +23,7 @@ const float* RowValues::find(std::uint64_t part) const {
 }
 
 std::span<const MuscleEffect> muscle_effects() {
-  static const std::array all = {line_motion_effect, activation_effect, inertia_effect};
+  static const std::array all = {line_motion_effect, activation_effect, inertia_effect, finite_shape_effect};
   return all;
 }
 

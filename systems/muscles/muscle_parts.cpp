@@ -9,6 +9,7 @@
 #include "systems/deformation/fade.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/choice_words.h"
+#include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/owner_legs.h"
 
@@ -22,9 +23,10 @@ void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ah
                   reinterpret_cast<Lanes<float>*>(member.data));
 }
 
-void fade(float tick_s, Field<const NodalDisplacement> displacement, Field<const FadeStart> start,
+void fade(const Table& table, float tick_s, Field<const NodalDisplacement> displacement, Field<const FadeStart> start,
           Fade<Lanes<float>>& since, Field<ShownDisplacement> shown) {
-  fade_out(displacement.data, start.data, displacement.words, since, shown.data, tick_s);
+  const float* const before = shows_apart(table.key()) ? shown.data : displacement.data;
+  fade_out(before, start.data, displacement.words, since, shown.data, tick_s);
 }
 
 Result<void> check_key(const TableKey& key, const World& world) {
@@ -72,6 +74,7 @@ std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
   shared(kind.shape);
   shared(kind.solver);
   shared(kind.basis);
+  shared(kind.finite);
   if (kind.lines.resource == nullptr || kind.choice.resource == nullptr) return std::nullopt;
   kind.method.method = Method::none;
   for (const DeformationMethod& method : deformation_methods()) {
@@ -86,6 +89,9 @@ bool fits_together(const MuscleKind& kind) {
   const auto* basis = kind.basis.resource;
   if (kind.steps < 1 || kind.steps > most_steps) return false;
   if (shape != nullptr && shape->options.far_end != kind.far_end) return false;
+  const auto* finite = kind.finite.resource;
+  if (finite != nullptr && (shape == nullptr || finite->cells != shape->mesh.cells || kind.far_end != FarEnd::held))
+    return false;
   if (basis == nullptr) return true;
   return basis->options.far_end == kind.far_end && (!basis->options.frame_loads || kind.inertia) &&
          (shape == nullptr || basis->options.control_cells == shape->mesh.cells);
@@ -117,7 +123,7 @@ Module fade_module() {
   return {
       .name = "fade",
       .parts = {component_part<Fade>(), key_part(FieldWidth<FadeStart>{}), key_part(FieldWidth<ShownDisplacement>{})},
-      .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade); }};
+      .systems = [](ScheduleBuilder& systems) { systems.add("fade", &fade).after("finite shape"); }};
 }
 
 std::vector<Module> muscle_modules() {
@@ -146,6 +152,7 @@ MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const Leg
   if (has_control_points(choice)) kind.shape = world.share(belly.shape->shape);
   if (belly.solver != nullptr) kind.solver = world.share(belly.solver);
   if (belly.basis != nullptr) kind.basis = world.share(belly.basis);
+  if (belly.finite != nullptr) kind.finite = world.share(belly.finite);
   return kind;
 }
 
@@ -172,8 +179,8 @@ std::vector<KeyPart> muscle_parts(const MuscleKind& kind) {
     if (kind.fading) {
       parts.push_back(component_part<Fade>());
       parts.push_back(key_part(FieldWidth<FadeStart>{2 * width}));
-      parts.push_back(key_part(FieldWidth<ShownDisplacement>{width}));
     }
+    if (kind.fading || shows_apart(kind)) parts.push_back(key_part(FieldWidth<ShownDisplacement>{width}));
   }
   for (const MuscleEffect& effect : muscle_effects()) {
     if (effect.wanted(kind)) effect.parts(kind, parts);

@@ -26,7 +26,7 @@ struct SavedModule {
 };
 
 /// `named`: a module's, by names.
-enum class ResourceKind : std::uint32_t { unknown, choice, shape, lines, solver, basis, named };
+enum class ResourceKind : std::uint32_t { unknown, choice, shape, lines, solver, basis, finite, named };
 
 /// What a shared resource is made from, in one form: what it does not depend on is as in a LegMuscles{}. Of a choice of
 /// muscles `choice` is the resource itself; its `muscle` is most_muscles: any.

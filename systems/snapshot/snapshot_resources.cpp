@@ -90,6 +90,17 @@ std::uint64_t fingerprint(const ReducedBasis& basis) {
   return print.hash();
 }
 
+std::uint64_t fingerprint(const FiniteShape& shape) {
+  Fingerprint print;
+  for (const auto* values : {&shape.vector, &shape.even, &shape.stretch}) print.add(*values);
+  for (const auto& vector : shape.coefficient) {
+    for (const auto& amount : vector) {
+      for (const float c : amount) print.add(static_cast<double>(c));
+    }
+  }
+  return print.hash();
+}
+
 /// Only what the tissue depends on, and who is driven how.
 LegMuscles tissue_of(const LegMuscles& choice) {
   LegMuscles tissue;
@@ -156,6 +167,8 @@ std::uint64_t resource_type(const Recipe& recipe) {
       return type_id<BellySolver>();
     case ResourceKind::basis:
       return type_id<ReducedBasis>();
+    case ResourceKind::finite:
+      return type_id<FiniteShape>();
     default:
       return 0;
   }
@@ -173,6 +186,8 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
     for (const auto& made : library.templates_) {
       if (made->shape.get() == resource) {
         known = {shape_recipe(ResourceKind::shape, *made), fingerprint(*made->shape)};
+      } else if (made->finite.get() == resource) {
+        known = {shape_recipe(ResourceKind::finite, *made), fingerprint(*made->finite)};
       } else if (made->lines.get() == resource) {
         known = {recipe_of(ResourceKind::lines, made->muscle, tissue_of(made->choice)), fingerprint(*made->lines)};
       }
@@ -264,6 +279,9 @@ Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary
       return {};
     case ResourceKind::lines:
       world.share((*shape)->lines);
+      return {};
+    case ResourceKind::finite:
+      world.share(library.finite_shape(**shape));
       return {};
     case ResourceKind::solver: {
       if (!sound(across) || !sound(along) || recipe.method > static_cast<std::uint32_t>(Method::none) ||

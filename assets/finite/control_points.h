@@ -1,0 +1,38 @@
+#pragma once
+// A fine mesh's displacement as that of a few control points, whose trilinear cells are what is shown: the nearest to
+// it in the mean over the belly's mass that keeps the volume which the cells enclose.
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/finite/finite_belly.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+struct ControlMesh {
+  HexahedralMesh mesh;     // of the control cells, at rest
+  Eigen::MatrixXd moment;  // control points × fine nodes: ∫ρN of one times the other's, kg
+  Eigen::MatrixXd mass;    // control points squared, kg
+  Eigen::MatrixXd inner;   // Cholesky's factor of `mass` without both ends
+};
+
+/// Fails where the belly's mesh has not all nodes of the control cells, or those have one layer.
+Result<ControlMesh> make_control_mesh(const FiniteBelly& belly, const Cells& cells);
+
+/// Displacement of the control points, three a point, m, nearest to `displacement_m`, that of all nodes of the belly;
+/// both ends as they are there.
+std::vector<double> nearest_points(const ControlMesh& points, const std::vector<double>& displacement_m);
+
+/// Moves the points between the ends as little as is needed, in the mean over mass, so that their cells enclose `ratio`
+/// times the volume at rest. Fails where eight of Newton's steps do not get there.
+Result<void> keep_volume(const ControlMesh& points, std::vector<double>& displacement_m, double ratio = 1);
+
+/// Volume that the control points' cells enclose, over that at rest.
+double enclosed_volume(const HexahedralMesh& mesh, const std::vector<double>& displacement_m);
+
+/// Those of a finer mesh's nodes that are control points: three displacements each.
+std::vector<double> sampled_points(const Cells& fine, const Cells& control, const std::vector<double>& displacement_m);
+
+}  // namespace mobil

@@ -1,0 +1,34 @@
+#pragma once
+// A muscle's static shapes at finite strain (assets/finite/shape_table.h) as a tick reads them: over the control points
+// of a template's mesh, beside what linear statics would show in their place.
+
+#include <array>
+#include <vector>
+
+#include "assets/fem/axial_stiffness.h"
+#include "assets/fem/hexahedral_mesh.h"
+#include "assets/finite/shape_amounts.h"
+#include "components/muscle.h"
+
+namespace mobil {
+
+/// Immutable. Components are three a control point, node-major; m at the template's size.
+struct FiniteShape {
+  Cells cells{};
+  float length_m = 0;          // of the template's belly at rest
+  std::vector<float> vector;   // `shape_vectors` numbers a component
+  std::vector<float> even;     // of a belly drawn out evenly by 1 m: the part of the length, along z alone
+  std::vector<float> stretch;  // of the linear belly drawn out by 1 m, statically
+  /// By vector, amount and power of ln r.
+  std::array<std::array<std::array<float, shape_ratio_terms>, shape_amount_count>, shape_vectors> coefficient{};
+};
+
+/// What tables say of: shortenings and slendernesses beyond are as at these ends.
+inline constexpr float least_shortening = -0.2F, most_shortening = 0.25F, least_slenderness = 0.8F,
+                       most_slenderness = 1.26F;
+
+/// For the control points of `mesh`, a template's. Tables have 3×3×9 points; between them a section's are quadratic,
+/// and along the belly a cubic goes through the nearest four.
+FiniteShape make_finite_shape(Muscle muscle, const HexahedralMesh& mesh, const StaticStretch& stretch);
+
+}  // namespace mobil

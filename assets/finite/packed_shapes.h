@@ -1,0 +1,32 @@
+#pragma once
+// A shape table as it is kept in source: vectors in 16 bits.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "assets/finite/shape_table.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// Numbers of a vector: three at each of the 63 points between the ends of 2×2×8 cells.
+inline constexpr std::size_t packed_numbers = 189;
+
+/// `vector[v]`: in units of `unit_m[v]`. `coefficient[v]`: of C₀, of C₁, of C₂.
+struct PackedShapes {
+  std::array<float, shape_vectors> unit_m;
+  std::array<std::array<std::int16_t, packed_numbers>, shape_vectors> vector;
+  std::array<std::array<float, shape_amount_count * shape_ratio_terms>, shape_vectors> coefficient;
+};
+
+/// Fails unless the table has six vectors over 2×2×8 cells.
+Result<PackedShapes> pack_shapes(const ShapeTable& table);
+
+ShapeTable unpack_shapes(const PackedShapes& packed);
+
+/// The initialiser of a PackedShapes, in lines of at most 120 columns; floats to five digits.
+std::string initialiser(const PackedShapes& packed);
+
+}  // namespace mobil

@@ -1,0 +1,86 @@
+#include "assets/finite/shape_tables.h"
+
+#include <iterator>
+#include <utility>
+
+#include "assets/finite/packed_shapes.h"
+#include "assets/muscles/muscle_plan.h"
+#include "assets/muscles/muscle_table.h"
+#include "assets/surfaces/muscle_cage.h"
+
+namespace mobil {
+namespace {
+
+// In the order of muscles().
+// clang-format off
+constexpr PackedShapes tables[] = {
+#include "assets/finite/tables/hamstrings.inl"
+,
+#include "assets/finite/tables/quadriceps.inl"
+,
+#include "assets/finite/tables/triceps_surae.inl"
+,
+#include "assets/finite/tables/tibialis_anterior.inl"
+,
+#include "assets/finite/tables/semimembranosus.inl"
+,
+#include "assets/finite/tables/semitendinosus.inl"
+,
+#include "assets/finite/tables/biceps_femoris_long_head.inl"
+,
+#include "assets/finite/tables/biceps_femoris_short_head.inl"
+,
+#include "assets/finite/tables/rectus_femoris.inl"
+,
+#include "assets/finite/tables/vastus_medialis.inl"
+,
+#include "assets/finite/tables/vastus_intermedius.inl"
+,
+#include "assets/finite/tables/vastus_lateralis.inl"
+,
+#include "assets/finite/tables/gastrocnemius_medial.inl"
+,
+#include "assets/finite/tables/gastrocnemius_lateral.inl"
+,
+#include "assets/finite/tables/soleus.inl"
+,
+#include "assets/finite/tables/plantaris.inl"
+};
+// clang-format on
+static_assert(std::size(tables) == caged_muscles);
+
+// The mesh that control points are of; and what shapes are extrapolated from (shape_samples.h says how near).
+constexpr Cells control_cells = {2, 2, 8}, coarse_cells = {4, 4, 16}, fine_cells = {6, 6, 24};
+
+}  // namespace
+
+ShapeTable shape_table(Muscle muscle) {
+  return unpack_shapes(tables[static_cast<std::size_t>(muscle)]);
+}
+
+HexahedralMesh finite_mesh(Muscle muscle, const Cells& cells) {
+  return *bend_block(cells, muscle_cage(muscle), reference_belly_m(muscle),
+                     belly_grading);  // a template's: it is sound
+}
+
+SampledBelly sampled_belly(Muscle muscle) {
+  const double foundation_hz = muscle_row(muscle).drawn.along == LegBone::shank ? 12 : 7;
+  return {finite_mesh(muscle, coarse_cells),
+          finite_mesh(muscle, fine_cells),
+          {},
+          static_foundation_factor * foundation_hz,
+          control_cells};
+}
+
+Result<ShapeTable> make_shape_table(Muscle muscle) {
+  const SampledBelly belly = sampled_belly(muscle);
+  std::vector<ShapeSample> samples;
+  for (const double ratio : sampled_ratios) {
+    auto some = shape_samples(belly, ratio, sampled_shortenings, sampled_activations);
+    if (!some) return tl::unexpected(some.error());
+    samples.insert(samples.end(), std::move_iterator(some->begin()), std::move_iterator(some->end()));
+  }
+  return fit_shape_table(samples, finite_mesh(muscle, control_cells), shape_vectors);
+}
+
+}  // namespace mobil

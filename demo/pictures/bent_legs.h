@@ -1,0 +1,17 @@
+#pragma once
+// A posed body with both legs bent: for pictures and hard cases.
+
+#include "components/body.h"
+#include "components/pose.h"
+
+namespace mobil {
+
+/// Degrees; all 0: the anatomical position.
+struct LegBend {
+  float hip_flexion = 0, knee_flexion = 0, dorsiflexion = 0;
+};
+
+/// The pelvis stays where the body stands.
+Pose<float> with_bent_legs(const Body& body, const LegBend& bend);
+
+}  // namespace mobil

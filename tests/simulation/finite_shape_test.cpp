@@ -1,0 +1,204 @@
+// What is shown of bellies at finite strain: it keeps its volume, whatever the method, and goes on through changes.
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+
+#include "components/activation.h"
+#include "tests/simulation/leg_muscles.h"
+#include "tests/simulation/people.h"
+
+namespace mobil::finite_shape_test {
+namespace {
+
+LegMuscles finite(Method method, ExcitationSource source = ExcitationSource::phase) {
+  LegMuscles choice;
+  choice.method = method;
+  choice.reduced.cells = {4, 4, 16};
+  choice.reduced.moving = false;
+  choice.activation = source;
+  choice.finite_shape = true;
+  return choice;
+}
+
+void run(Simulation& simulation, int ticks) {
+  for (int i = 0; i < ticks; ++i) simulation.tick();
+}
+
+/// Largest |volume − 1| that is shown of a person's muscles.
+double volume_off(const Simulation& simulation, Entity human) {
+  double worst = 0;
+  for (const Entity muscle : muscles_of(simulation, human))
+    worst = std::max(worst, std::abs(static_cast<double>(simulation.get<BellyReport>(muscle)->volume_ratio) - 1));
+  return worst;
+}
+
+TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
+  Simulation with, without;
+  const Entity asks = join_with(with, person(1), finite(Method::ecd));
+  const Entity does_not = join_with(with, person(2), {});
+  const Entity alone = join_with(without, person(2), {});
+  run(with, 60), run(without, 60);
+  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
+  // The method knows nothing of it either.
+  LegMuscles linear = finite(Method::ecd);
+  linear.finite_shape = false;
+  Simulation plain;
+  const Entity same = join_with(plain, person(1), linear);
+  run(plain, 60);
+  const Entity one = with.muscle(asks, Muscle::hamstrings, Side::left);
+  const Entity other = plain.muscle(same, Muscle::hamstrings, Side::left);
+  EXPECT_EQ(with.get<BellyReport>(one)->kinetic_energy_j, plain.get<BellyReport>(other)->kinetic_energy_j);
+  EXPECT_NE(displacement(with, one), displacement(plain, other));
+}
+
+/// Without vibration within 1 %, single muscles and groups, as they walk; linear statics lose up to ten times that.
+TEST(FiniteShape, KeepsItsVolumeInAWalk) {
+  for (const Method method : {Method::reduced, Method::statics}) {
+    Simulation simulation;
+    LegMuscles choice = finite(method);
+    choice.muscles |= muscle_members();
+    const Entity human = join_with(simulation, person(5), choice);
+    LegMuscles linear = choice;
+    linear.finite_shape = false;
+    const Entity other = join_with(simulation, person(5), linear);
+    double ours = 0, theirs = 0;
+    for (int tick = 0; tick < 70; ++tick) {
+      simulation.tick();
+      ours = std::max(ours, volume_off(simulation, human));
+      theirs = std::max(theirs, volume_off(simulation, other));
+    }
+    EXPECT_LT(ours, 0.012) << name(method);
+    EXPECT_GT(theirs, 3 * ours) << name(method);
+  }
+}
+
+/// By all methods alike but for their vibration, which dies away when the leg is still.
+TEST(FiniteShape, IsTheSameByEveryMethod) {
+  std::vector<std::vector<float>> shown;
+  for (const Method method : {Method::statics, Method::reduced, Method::ecd, Method::caa, Method::icd}) {
+    Simulation simulation;
+    const Entity human = *simulation.spawn_posed({});
+    LegMuscles choice = finite(method, ExcitationSource::host);
+    choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
+    choice.damping_per_s = 40;
+    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.5F));
+    run(simulation, 240);
+    shown.push_back(displacement(simulation, simulation.muscle(human, Muscle::triceps_surae, Side::right)));
+  }
+  for (const auto& other : shown) {
+    double apart = 0, most = 0;
+    for (std::size_t i = 0; i < other.size(); ++i) {
+      apart = std::max(apart, std::abs(static_cast<double>(other[i] - shown.front()[i])));
+      most = std::max(most, std::abs(static_cast<double>(shown.front()[i])));
+    }
+    EXPECT_GT(most, 0.004);
+    EXPECT_LT(apart, 0.05 * most);
+  }
+}
+
+/// Thicker where it pulls, and the more the harder.
+TEST(FiniteShape, BulgesAsItPulls) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn_posed({});
+  LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
+  choice.muscles = MuscleSet{};
+  const Muscle soleus = *find_muscle("soleus");
+  choice.muscles.set(static_cast<std::size_t>(soleus));
+  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  const Entity muscle = simulation.muscle(human, soleus, Side::right);
+  const auto& mesh = simulation.world().shared<MuscleTemplate>(muscle)->mesh;
+  const BellyScale<float> scale = *simulation.get<BellyScale>(muscle);
+  const auto area = [&](bool moved) {  // of its middle section
+    const auto u = displacement(simulation, muscle);
+    const auto at = [&](std::uint32_t i, std::uint32_t j) {
+      const std::uint32_t n = node_index(mesh.cells, i, j, 4);
+      const auto of = [&](double rest, std::size_t c) {
+        return static_cast<double>(scale.across) * rest + (moved ? static_cast<double>(u[3 * n + c]) : 0);
+      };
+      return std::array{of(mesh.node[n].x, 0), of(mesh.node[n].y, 1)};
+    };
+    double sum = 0;
+    for (std::uint32_t j = 0; j < 2; ++j) {
+      for (std::uint32_t i = 0; i < 2; ++i) {
+        const auto p = at(i, j), q = at(i + 1, j), r = at(i + 1, j + 1), s = at(i, j + 1);
+        sum += 0.5 * ((r[0] - p[0]) * (s[1] - q[1]) - (s[0] - q[0]) * (r[1] - p[1]));
+      }
+    }
+    return sum;
+  };
+  double before = 0.99;
+  for (const float level : {0.05F, 0.3F, 1.0F}) {
+    ASSERT_TRUE(simulation.set_excitation(human, soleus, Side::right, level));
+    run(simulation, 60);
+    const double grown = area(true) / area(false);
+    EXPECT_GT(grown, before + 0.005) << level;
+    before = grown;
+  }
+}
+
+/// What is shown goes on through a change of method or of the effect itself.
+TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
+  const auto method = [](Method to, bool moving) {
+    return MuscleMethod{to, {.vectors = 12, .moving = moving, .cells = {4, 4, 16}}};
+  };
+  Simulation simulation;
+  LegMuscles choice = finite(Method::ecd);
+  choice.muscles = MuscleSet(3);
+  const Entity human = join_with(simulation, person(6), choice);
+  run(simulation, 40);
+  const std::array changes = {method(Method::reduced, true),  method(Method::statics, true),
+                              method(Method::reduced, false), method(Method::caa, true),
+                              method(Method::ecd, true),      method(Method::reduced, true)};
+  const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::right);
+  for (const MuscleMethod& to : changes) {
+    run(simulation, 7);
+    const auto before = displacement(simulation, muscle);
+    ASSERT_TRUE(simulation.set_method(human, Muscle::quadriceps, to));
+    const auto at_once = displacement(simulation, muscle);
+    double apart = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      apart = std::max(apart, std::abs(static_cast<double>(at_once[i] - before[i])));
+    EXPECT_LT(apart, 2e-5) << name(to.method);
+    simulation.tick();
+    const auto after = displacement(simulation, muscle);
+    double step = 0;
+    for (std::size_t i = 0; i < before.size(); ++i)
+      step = std::max(step, std::abs(static_cast<double>(after[i] - before[i])));
+    EXPECT_LT(step, 0.006) << name(to.method) << ": a tick's way";
+  }
+}
+
+TEST(FiniteShape, SurvivesSnapshots) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(7), finite(Method::ecd));
+  const Entity reduced = join_with(simulation, person(8), finite(Method::reduced));
+  run(simulation, 20);
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  run(simulation, 10);
+  Simulation other;
+  ASSERT_TRUE(other.restore(bytes));
+  run(other, 10);
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+  for (const Entity one : {human, reduced}) {
+    const Entity a = simulation.muscle(one, Muscle::hamstrings, Side::right);
+    const Entity b = other.muscle(one, Muscle::hamstrings, Side::right);
+    EXPECT_EQ(displacement(simulation, a), displacement(other, b));
+  }
+}
+
+TEST(FiniteShape, TheForceDrivenEndIsRefused) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({});
+  LegMuscles choice;
+  choice.drive = Drive::force;
+  choice.finite_shape = true;
+  const auto added = simulation.add_leg_muscles(human, choice);
+  ASSERT_FALSE(added);
+  EXPECT_NE(added.error().message.find("Drive::displacement"), std::string::npos) << added.error().message;
+}
+
+}  // namespace
+}  // namespace mobil::finite_shape_test

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "assets/finite/shape_tables.h"
 #include "assets/muscles/muscle_plan.h"
 #include "demo/bench/bench.h"
 #include "systems/activation/excitation.h"
 #include "systems/activation/musculotendon.h"
+#include "systems/deformation/finite_shape.h"
 
 namespace mobil {
 namespace {
@@ -28,6 +30,26 @@ struct PullBlock {
 
 void set_all(Lanes<float>& lanes, double x) {
   std::ranges::fill(lanes.lane, static_cast<float>(x));
+}
+
+/// The shape at finite strain over what a method computed, of sixteen muscles whose points lie in a cache.
+Result<void> bench_shape(BenchRun& run) {
+  const Muscle muscle = *find_muscle("gastrocnemius_medial");
+  const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
+  StaticStretch linear;
+  linear.displacement.resize(3 * mesh.node.size());
+  const FiniteShape shape = make_finite_shape(muscle, mesh, linear);
+  BellyScale<Lanes<float>> scale;
+  Lanes<float> end, activation;
+  set_all(scale.across, 1.02), set_all(scale.along, 0.99), set_all(end, -0.01), set_all(activation, 0.3);
+  std::vector<Lanes<float>> points(3 * mesh.node.size());
+  const ShapeBlock block{shape, scale, end, &activation};
+  const Measured adding = measure_short([&] {
+    for (int i = 0; i < 64; ++i) add_shape(block, blend_of(block), true, points[0].lane, points[0].lane);
+  });
+  run.add_time("activation.finite_shape.us_per_muscle_tick", adding, 64.0 * lane_count, 1e-6, "us").bound =
+      at_peak(run.machine, adding.best_s / (64.0 * lane_count));
+  return {};
 }
 
 }  // namespace
@@ -69,7 +91,7 @@ Result<void> bench_activation(BenchRun& run) {
       at_peak(run.machine, exciting.best_s / muscles);
   run.add_time("activation.kernel.us_per_muscle_tick", pulling, muscles, 1e-6, "us").bound =
       at_peak(run.machine, pulling.best_s / muscles);
-  return {};
+  return bench_shape(run);
 }
 
 }  // namespace mobil

@@ -60,7 +60,7 @@ Result<ShownWalk> standing(const LegBend& bend, float level) {
 
 Result<Image> leg(const ShownWalk& shown, const Camera& camera) {
   const Actor actor{&shown, 0, {}, Actor::Bones::right_leg, Actor::Muscles::right};
-  return take_picture({camera, 230, 400, false}, {&actor, 1});
+  return take_picture({camera, 260, 440, false}, {&actor, 1});
 }
 
 /// Calf from behind and thigh from the front, each relaxed and contracted; push-off, linear and contracting.
@@ -69,8 +69,8 @@ Result<Image> legs(const CycleRequest& push_off) {
     LegBend bend;
     Camera camera;
   };
-  const std::array views = {View{{0, 0, -25}, camera_at({-0.09F, 0.33F, 0}, 0.56F, -70, 4)},
-                            View{{0, 0, 0}, camera_at({-0.09F, 0.70F, 0}, 0.62F, 60, 4)}};
+  const std::array views = {View{{0, 0, -25}, camera_at({-0.09F, 0.35F, 0}, 0.44F, -75, 4)},
+                            View{{0, 0, 0}, camera_at({-0.10F, 0.70F, 0}, 0.54F, 60, 4)}};
   std::vector<Image> row;
   for (const View& view : views) {
     for (const float level : {0.0F, 1.0F}) {
@@ -86,7 +86,7 @@ Result<Image> legs(const CycleRequest& push_off) {
     if (!pulls) request.muscles->activation = ExcitationSource::none;
     const auto walk = walk_cycle(request);
     if (!walk) return tl::unexpected(walk.error());
-    auto image = leg(walk->shown, camera_at({-0.09F, 0.42F, -0.30F}, 0.62F, -30, 4));
+    auto image = leg(walk->shown, camera_at({-0.09F, 0.42F, -0.24F}, 0.46F, -30, 4));
     if (!image) return image;
     row.push_back(std::move(*image));
   }
@@ -145,7 +145,8 @@ Result<std::vector<MuscleCurves>> stride() {
 PlotFigure plot(const std::vector<MuscleCurves>& curves) {
   PlotFigure figure;
   figure.title = "Muscles that contract, over the right leg's cycle";
-  figure.footnote = "Excitation: EMG of Bovi et al. 2011, scaled. Lengths beside those at heel strike.";
+  figure.footnote =
+      "Excitation: EMG of Bovi et al. 2011, scaled. Calf: gastrocnemius medialis, lengths beside those at heel strike.";
   figure.columns = 3;
   PlotPanel activation = cycle_panel("activation", "share of the most"),
             force = cycle_panel("force on the tendon", "N");
@@ -156,10 +157,10 @@ PlotFigure plot(const std::vector<MuscleCurves>& curves) {
     activation.lines.push_back(line(curves[m].activation, series_colour[m], shown_muscles[m].label));
     force.lines.push_back(line(curves[m].force_n, series_colour[m], shown_muscles[m].label));
   }
-  PlotPanel lengths = cycle_panel("gastrocnemius medialis", "mm");
+  PlotPanel lengths = cycle_panel("calf", "mm");
   lengths.own_legend = true;
   const MuscleCurves& calf = curves[2];
-  for (const auto& [curve, colour, label] : {std::tuple{&calf.line_mm, ours_colour, "muscle and tendon"},
+  for (const auto& [curve, colour, label] : {std::tuple{&calf.line_mm, ours_colour, "both"},
                                              {&calf.tendon_mm, first_colour, "tendon"},
                                              {&calf.fibre_mm, second_colour, "fibres"}})
     lengths.lines.push_back(line(*curve, colour, label, curve->front()));

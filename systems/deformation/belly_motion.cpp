@@ -52,7 +52,8 @@ void solve_static(const StaticBelly& belly, const BellyLoad& load, int solutions
 std::vector<float> static_velocity(const StaticBelly& belly, const BellyLoad& load,
                                    const std::vector<float>& displacement) {
   constexpr float least = 1e-6F;  // of what drives the far face, m or N, that a shape in proportion to it is scaled by
-  const bool scales = std::abs(load.to) > least;
+  // To what is ten times as large a shape is not scaled up: what a solution has left over would grow as much.
+  const bool scales = std::abs(load.to) > std::max(least, 0.1F * std::abs(load.from));
   std::vector<float> before = displacement;
   if (scales) {
     for (float& u : before) u *= load.from / load.to;

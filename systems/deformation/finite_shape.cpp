@@ -45,26 +45,44 @@ void blend_all(const ShapeBlock& block, ShapeBlend& blend) {
   store(moved - within, blend.beyond_m);
 }
 
+/// Of an end, which moves as one.
+HWY_INLINE void move_end(std::size_t first, std::size_t count, const Wide& along, const float* computed, float* shown) {
+  for (std::size_t at = first * lane_count; at < (first + count) * lane_count; at += 3 * lane_count) {
+    for (std::size_t c = 0; c < 2 * lane_count; c += lane_count) store(load(computed + at + c), shown + at + c);
+    store(load(computed + at + 2 * lane_count) + along, shown + at + 2 * lane_count);
+  }
+}
+
+/// Of a point between the ends along one axis: `vector` times the row's numbers, and the belly drawn out by `drawn_m`.
+HWY_INLINE void move_point(const float* row, const Wide* vector, float drawn, const Wide& drawn_m,
+                           const float* computed, float* shown) {
+  Wide sum = fma(wide(row[0]), vector[0], load(computed));
+  for (std::size_t v = 1; v < shape_vectors; ++v) sum = fma(wide(row[v]), vector[v], sum);
+  store(fma(wide(drawn), drawn_m, sum), shown);
+}
+
 void add_all(const ShapeBlock& block, const ShapeBlend& blend, bool in_place_of_linear, const float* computed,
              float* shown) {
   const FiniteShape& shape = block.shape;
   const Wide along = load(block.scale.along), across = load(block.scale.across);
-  Wide vector[shape_vectors];
-  for (std::size_t v = 0; v < shape_vectors; ++v) vector[v] = load(blend.vector[v]);
-  const Wide within = load(blend.within_m), aside = within * (across / along);
+  Wide aside_vector[shape_vectors], along_vector[shape_vectors];
+  for (std::size_t v = 0; v < shape_vectors; ++v) {
+    aside_vector[v] = across * load(blend.vector[v]);
+    along_vector[v] = along * load(blend.vector[v]);
+  }
+  const Wide within = load(blend.within_m), aside = within * (across / along), none = wide(0.0F);
   const float linear = in_place_of_linear ? 1.0F : 0.0F;
-  const std::size_t components = shape.even.size();
-  for (std::size_t c = 0; c < components; c += 3) {
+  const std::size_t plane = 3 * std::size_t{plane_nodes(shape.cells)}, far = plane * shape.cells[2];
+  move_end(0, plane, none, computed, shown);
+  for (std::size_t c = plane; c < far; c += 3) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const float* const row = &shape.vector[(c + axis) * shape_vectors];
-      Wide sum = wide(row[0]) * vector[0];
-      for (std::size_t v = 1; v < shape_vectors; ++v) sum = fma(wide(row[v]), vector[v], sum);
-      const std::size_t at = (c + axis) * lane_count;
-      const Wide drawn = wide(shape.even[c + axis] - linear * shape.stretch[c + axis]);
-      const Wide base = fma(drawn, axis == 2 ? within : aside, load(computed + at));
-      store(fma(sum, axis == 2 ? along : across, base), shown + at);
+      const std::size_t i = c + axis, at = i * lane_count;
+      const float drawn = shape.even[i] - linear * shape.stretch[i];
+      move_point(&shape.vector[i * shape_vectors], axis == 2 ? along_vector : aside_vector, drawn,
+                 axis == 2 ? within : aside, computed + at, shown + at);
     }
   }
+  move_end(far, plane, (1 - linear) * within, computed, shown);
 }
 
 void find_volume(const MuscleTemplate& control, const BellyScale<Lanes<float>>& scale, const float* shown,

@@ -43,10 +43,14 @@ struct NextBelly {
   const BellyLoad& load;
 };
 
-/// What a muscle was: what its method computed, what it showed, and whether its control points were placed.
+/// What a muscle was: what its method computed, what it showed, whether its control points were placed, and whether a
+/// change before this one still faded. What fades is no motion of the belly: handed over as such from change to change it
+/// would grow.
 struct PastBelly {
   BellyMotion computed, shown;
-  bool seen = false;
+  bool seen = false, fading = false;
+
+  const BellyMotion& motion() const { return fading ? computed : shown; }
 };
 
 /// What a belly begins with: displacement and velocity of its control points, the state of a reduced one, and what

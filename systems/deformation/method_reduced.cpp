@@ -213,7 +213,7 @@ BellyMotion at_rest(const NextBelly& next) {
 
 Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
   Beginning from;
-  if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, past.shown);
+  if (next.choice.reduced.moving && !keeps) from.state = reduced_state(next.belly, next.load, past.motion());
   if (!has_control_points(next.choice)) return from;
   BellyMotion after =
       keeps ? past.computed : reduced_motion(*next.belly.basis, *next.belly.motions, next.load, from.state);

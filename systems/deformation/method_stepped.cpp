@@ -62,7 +62,9 @@ Beginning begin(const NextBelly& next, bool moves) {
 }
 
 Beginning go_on(const NextBelly&, const PastBelly& past, bool) {
-  return {past.shown.displacement, past.shown.velocity, {}, {}};
+  Beginning from{past.motion().displacement, past.motion().velocity, {}, {}};
+  if (past.fading && past.seen) from.fade = fade_between(past.shown, past.computed);
+  return from;
 }
 
 Module explicit_module() {

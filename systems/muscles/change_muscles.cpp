@@ -100,6 +100,7 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   past.shown = shown_motion(world, change, *was, next, *computed);
   past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(change.muscle);
+  past.fading = was->fading;
   for (std::size_t i = 0; i < offset.displacement.size(); ++i) {
     past.shown.displacement[i] -= offset.displacement[i];
     past.shown.velocity[i] -= offset.velocity[i];

@@ -437,4 +437,22 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
   EXPECT_LT(4 * bytes["reduced 12 unseen"], bytes["ecd"]);
 }
 
+/// What fades is no motion: handed over from change to change it grew until it was no number, within a quarter of a
+/// second.
+TEST(Switching, InEveryTickStaysStable) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(2), {.reduced = {.cells = {2, 2, 8}}});
+  constexpr std::array order = {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced};
+  for (int tick = 0; tick < 240; ++tick) {
+    for (std::size_t g = 0; g < muscle_group_count; ++g) {
+      const Method to = order[(static_cast<std::size_t>(tick) + g) % order.size()];
+      ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(g), {to, {.cells = {2, 2, 8}}}));
+    }
+    simulation.tick();
+    for (const Entity muscle : muscles_of(simulation, human)) {
+      for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.15F) << tick;
+    }
+  }
+}
+
 }  // namespace mobil::simulation_method_test

@@ -31,6 +31,7 @@ LegMuscles CrowdScene::first_muscles() const {
   LegMuscles choice;
   choice.inertia = request_.effects.inertia;
   choice.line_motion = request_.effects.line_motion;
+  if (request_.effects.activation) choice.activation = ExcitationSource::phase;
   const RungLadder ladder(accuracy_table());
   const float limit_m = static_cast<float>(request_.tolerance_m) / RelevanceOptions{}.margin;
   std::array<std::size_t, rung_count> wanted{};

@@ -9,6 +9,7 @@
 
 #include "assets/fem/muscle_template.h"
 #include "assets/files/output_file.h"
+#include "demo/muscle/muscle_contraction.h"
 #include "demo/muscle/muscle_options.h"
 #include "demo/muscle/muscle_run.h"
 #include "demo/program/commands.h"
@@ -28,6 +29,8 @@ constexpr const char* help_footer =
     "          step, no error of the step, and hardly any cost; what the vectors cannot show is missing.\n"
     "Lumped and consistent mass bracket the true beat from below and above; they draw together as cells get smaller.\n"
     "\n"
+    "Example: how the calf contracts\n"
+    "  mobil muscle --activation 1 --of soleus --out soleus.csv\n"
     "Example: a sideways nudge of 1 mN for 0.1 s, and how three methods ring after it:\n"
     "  printf 'time_s,force_x_n,force_y_n,force_z_n\\n0,0,0,0\\n0.05,.001,0,0\\n0.1,0,0,0\\n' > nudge.csv\n"
     "  mobil muscle --load nudge.csv --dt 2ms --out ecd.csv\n"
@@ -51,7 +54,19 @@ std::string summary(const MuscleRequest& request, const MuscleRun& result, doubl
       wall_s, result.peak_m, result.peak_time_s, request.out.string());
 }
 
+int contraction(const MuscleText& text) {
+  const auto request = read_contraction(text.activation, text.of, text.seconds, text.out);
+  if (!request) return complain("muscle", request.error().message);
+  const auto made = contract_muscle(*request);
+  if (!made) return complain("muscle", made.error().message);
+  if (auto ok = write_file(request->out, made->csv); !ok)
+    return complain("muscle", fmt::format("--out {}", ok.error().message));
+  fmt::print("{}written        {}\n", made->summary, request->out.string());
+  return 0;
+}
+
 int muscle(const MuscleText& text) {
+  if (!text.activation.empty()) return contraction(text);
   const auto request = read_muscle_request(text);
   if (!request) return complain("muscle", request.error().message);
   const auto start = std::chrono::steady_clock::now();
@@ -83,7 +98,7 @@ Subcommand muscle_command() {
   Subcommand command{.name = "muscle",
                      .about =
                          "Deform one block of muscle: the face z = 0 fixed, a uniform traction on the far face, at "
-                         "rest at t = 0"};
+                         "rest at t = 0; or contract a real one"};
   command.footer = help_footer;
   command.options = muscle_options(*text);
   command.last_stands = false;

@@ -211,7 +211,7 @@ Result<Stepping> choose_step(const MuscleText& text, const MuscleTemplate& muscl
 }  // namespace
 
 std::vector<Option> muscle_options(MuscleText& text) {
-  const char *block = "Block", *time = "Time", *load = "Load and result";
+  const char *block = "Block", *time = "Time", *load = "Load and result", *contraction = "Contraction";
   return {
       {"--cells", &text.cells, "Elements along x, y, z, 1 to 256 each", block},
       {"--cell-size", &text.cell_size, "Edge of a cubic element, 0.0001 to 1 m", block},
@@ -249,7 +249,12 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--glb", &text.glb,
        "Of reduced: the block as GLB, its vectors as morph targets whose weights are the reduced coordinates; with up "
        "to 8 vectors every viewer shows it",
-       load}};
+       load},
+      {"--activation", &text.activation,
+       "In place of a block: excite a muscle of somebody who stands, 0 to 1, from a tenth to six tenths of --seconds; "
+       "--out gets fibre, tendon, force and section",
+       contraction},
+      {"--of", &text.of, "Which muscle, by its name in mobil body", contraction}};
 }
 
 /// Vectors of the block itself, so that 32 of them come close to its full model.

@@ -22,6 +22,7 @@ struct MuscleText {
   std::string method = "ecd", mass, dt, seconds = "1", precision = "single", damping = "0", stiffness_damping = "0",
               foundation = "0", vectors = "16";
   std::string load, gravity = "0,0,0", out = "disp.csv", glb;
+  std::string activation, of = "gastrocnemius_medial";  // activation: of a real muscle in place of a block
 };
 
 struct MuscleRequest {

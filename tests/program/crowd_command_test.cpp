@@ -58,7 +58,7 @@ TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
                   {"--near x", {"--near x"}},
                   {"--budget 0", {"--budget"}},
                   {"--budget 1 --effects none", {"--budget", "add muscles"}},
-                  {"--effects wings", {"'wings'", "muscles, forces, inertia, line-motion"}},
+                  {"--effects wings", {"'wings'", "muscles, forces, inertia, line-motion, activation"}},
                   {"--effects inertia", {"add muscles"}},
                   {"--effects ''", {"--effects", "empty"}},
                   {"--report missing/crowd.json", {"--report", "no folder missing"}},

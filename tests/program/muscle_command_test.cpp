@@ -159,4 +159,23 @@ TEST(MuscleCommand, HelpShowsTheMethodsAndAnExampleThatRuns) {
   EXPECT_TRUE(std::filesystem::exists(folder.path / "damped.csv"));
 }
 
+TEST(MuscleCommand, ContractsARealMuscle) {
+  const TemporaryFolder folder;
+  const Ran ran = run_mobil("muscle --activation 1 --of soleus --out calf.csv", folder.path);
+  ASSERT_EQ(ran.status, 0) << ran.err;
+  EXPECT_NE(ran.out.find("soleus"), std::string::npos) << ran.out;
+  const Csv csv(folder.path / "calf.csv");
+  ASSERT_EQ(csv.rows.size(), 480U);
+  EXPECT_LT(csv.number(40, "muscle_force_n"), 50);
+  EXPECT_GT(csv.number(280, "muscle_force_n"), 1000);
+  EXPECT_LT(csv.number(479, "activation"), 0.05);
+  for (std::size_t r = 0; r < csv.rows.size(); ++r) {
+    EXPECT_NEAR(csv.number(r, "volume_ratio"), 1, 0.01) << r;
+    EXPECT_NEAR(csv.number(r, "line_m"), csv.number(0, "line_m"), 1e-6) << r;
+  }
+  EXPECT_GT(csv.number(280, "middle_section_ratio"), 1.02);
+  expect_refused("--activation 1.5", {"--activation", "0 to 1"});
+  expect_refused("--activation 1 --of sartorius", {"--of", "'sartorius'", "soleus"});
+}
+
 }  // namespace mobil::muscle_command_test

@@ -9,6 +9,7 @@
 
 #include "assets/files/output_file.h"
 #include "demo/frontier/frontier.h"
+#include "demo/frontier/frontier_finite.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 
@@ -17,10 +18,22 @@ namespace {
 
 struct FrontierText {
   std::string out = "out", loads = "both";
-  bool short_form = false, long_form = false, check = false;
+  bool short_form = false, long_form = false, check = false, finite = false;
 };
 
+Result<void> run_finite(const std::string& out) {
+  if (auto made = make_output_folder(out); !made) return made;
+  const auto muscles = measure_finite(&show_part);
+  show("");
+  if (!muscles) return tl::unexpected(muscles.error());
+  const std::filesystem::path file = std::filesystem::path(out) / "finite.csv";
+  if (auto done = write_file(file, finite_csv(*muscles)); !done) return done;
+  fmt::print("{}\nwritten {}\n", finite_text(*muscles), file.string());
+  return {};
+}
+
 Result<void> run_frontier(const FrontierText& text) {
+  if (text.finite) return run_finite(text.out);
   if (text.short_form && text.long_form) return fail("--short and --long are both asked for; give one of them");
   if (auto made = make_output_folder(text.out); !made) return made;
   FrontierRequest request = text.long_form ? long_frontier() : short_frontier();
@@ -66,6 +79,8 @@ Subcommand frontier_command() {
       {"--check", &text->check,
        "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for each muscle and "
        "kind of load"},
+      {"--finite", &text->finite,
+       "Instead: how far what is shown is from tissue that keeps its volume and pulls (finite.csv), a minute"},
       {"--out", &text->out, "Folder for frontier.csv, .svg and .json, made if missing"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };

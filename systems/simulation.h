@@ -192,8 +192,9 @@ class Simulation {
   /// Other muscles, or the same otherwise, from the next tick on: critical steps and substeps are computed anew. Those
   /// that stay keep their handles; of them displacement and velocity stay while the cells do (velocities are taken as
   /// they are, be they half a step back or not; from static on they begin with zero); other cells begin at rest.
-  /// Inertia that begins under way lets the bellies sag. Every choice not made before is set up and kept. Errors: as
-  /// above, and muscles that are not there; nothing has changed.
+  /// Where activation begins or ends, the belly's end is elsewhere at once: the belly follows statically, and what is
+  /// shown fades to it. Inertia that begins under way lets the bellies sag. Every choice not made before is set up and
+  /// kept. Errors: as above, and muscles that are not there; nothing has changed.
   Result<void> change_leg_muscles(Entity human, const LegMuscles& choice);
   /// Errors: a stale handle, or there are none (Status::missing).
   Result<void> remove_leg_muscles(Entity human);
@@ -207,9 +208,10 @@ class Simulation {
   MuscleMethod method(Entity human, Muscle muscle) const;
 
   /// How hard a muscle is to pull from the next tick on, a share of the most that it can: for muscles chosen with
-  /// ExcitationSource::host, which begin at 0.01. It holds until it is set again; what lies outside 0.01 to 1 is taken
-  /// as that end. Activation follows within 10 to 80 ms (components/activation.h). Errors: a stale handle, a muscle
-  /// that is not there or not the host's to excite (Status::missing), a number that is not finite.
+  /// ExcitationSource::host, which begin at 0.01, or where another source left them. It holds until it is set again;
+  /// what lies outside 0.01 to 1 is taken as that end. Activation follows with 5 to 20 ms, or 20 to 78 when it falls.
+  /// Errors: a stale handle, a muscle that is not there or not the host's to excite (Status::missing), a number that is
+  /// not finite.
   Result<void> set_excitation(Entity human, Muscle muscle, Side side, float excitation);
 
   /// Runs as many whole ticks as fit into the accumulated time.

@@ -5,8 +5,9 @@
 // approach, Gait Posture 33, 2011; twenty young people at five speeds (assets/reference/bovi2011_emg.csv), each a share
 // of what that muscle's signal was at most in any of the tasks. What share of the most that the muscle can that is, is
 // not published: `excitation_scale` is chosen so that the plantarflexors' and knee extensors' moments that follow are
-// of the measured ones' size (tests/activation/leg_moments_test.cpp). Muscles that were not measured are excited as
-// their neighbour: `measured_muscle`. Standing tone: soleus 0.05, others 0.02, which has no source.
+// as large as the walk's own, which is fitted to measured ones (tests/activation/leg_moments_test.cpp). Muscles that
+// were not measured are excited as their neighbour: `measured_muscle`. Standing tone: soleus 0.05, others 0.02, which
+// has no source.
 
 #include <array>
 #include <span>
@@ -24,7 +25,7 @@ using ExcitationTerms = std::array<std::array<float, 3>, excitation_terms>;
 
 inline constexpr float excitation_scale = 2.4F;
 
-/// The speeds that the curves are fitted to lie between these. Below the first they pass to the standing tone in
+/// The speeds that the curves are fitted to begin and end at these. Below the first they pass to the standing tone in
 /// proportion to speed; beyond the second they are as there.
 inline constexpr float least_excitation_speed = 0.27F, most_excitation_speed = 0.61F;
 

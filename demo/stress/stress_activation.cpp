@@ -82,8 +82,8 @@ Result<void> stress_excitation(StressRun& run) {
   }
   run.add({"excitations that are no numbers", "of them taken", Promise::at_most, 0, "each is refused",
            static_cast<double>(asked - refused)});
-  run.add({"", "words of the world changed", Promise::at_most, 0, "a refusal changes nothing",
-           static_cast<double>(different_words(before, world_words(simulation)))});
+  run.add({"excitations that are no numbers", "words of the world changed", Promise::at_most, 0,
+           "a refusal changes nothing", static_cast<double>(different_words(before, world_words(simulation)))});
 
   Worst worst;
   const int ticks = run.quick ? 600 : 3600;
@@ -95,10 +95,10 @@ Result<void> stress_excitation(StressRun& run) {
   }
   run.add({"excitation 0, 1, 0, 1 … from tick to tick", "control points' displacement, m", Promise::at_most, 0.1,
            "twice what these walks show", worst.moved_m});
-  run.add({"", "volume shown off rest", Promise::at_most, 0.06,
+  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "volume shown off rest", Promise::at_most, 0.06,
            "the explicit method's vibration on top of a shape that keeps it within 0.6 %", worst.volume_off});
-  run.add({"", "end of the mesh off what the tendon leaves, m", Promise::at_most, 1e-5, "single precision",
-           worst.end_off_m});
+  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "end of the mesh off what the tendon leaves, m",
+           Promise::at_most, 1e-5, "single precision", worst.end_off_m});
 
   Simulation still;
   const auto stands = still.spawn_posed({});
@@ -122,7 +122,8 @@ Result<void> stress_excitation(StressRun& run) {
   for (std::size_t m = 0; m < at_first.size(); ++m) Worst::keep(crept, std::abs(belly(m) - at_first[m]));
   run.add({fmt::format("{} minutes of tetanus", minutes), "bellies creep, m", Promise::at_most, 1e-6,
            "a steady pull is steady", crept});
-  run.add({"", "volume shown off rest", Promise::at_most, 0.01, "the tables' promise", held.volume_off});
+  run.add({fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", Promise::at_most, 0.01,
+           "the tables' promise", held.volume_off});
   return {};
 }
 
@@ -165,8 +166,8 @@ Result<void> stress_contraction(StressRun& run) {
   }
   run.add({"squats at full activation, every method", "control points' displacement, m", Promise::at_most, 0.25,
            "lines lengthen by up to 0.2 m", steady.moved_m});
-  run.add({"", "force, N", Promise::at_least, 0, "tendons do not push", least_force_n,
-           fmt::format("{} times a member's tendon was slack", slack)});
+  run.add({"squats at full activation, every method", "force, N", Promise::at_least, 0, "tendons do not push",
+           least_force_n, fmt::format("{} times a member's tendon was slack", slack)});
   run.add(
       {"", "volume shown off rest", Promise::at_most, 0.08, "vibration on top of what keeps it", steady.volume_off});
   run.add({"another method in every tick", "control points' displacement, m", Promise::at_most, 0.25,

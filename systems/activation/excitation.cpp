@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "systems/activation/excitation.cpp"
 #include <hwy/foreach_target.h>
 
+#include "assets/body/anthropometry.h"
 #include "engine/wide-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -36,17 +37,23 @@ void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, L
   }
 }
 
+/// Of the legs that stand.
+void find_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                 const GaitState<Lanes<float>>& state, LegClock<Lanes<float>>& clock) {
+  constexpr auto leg_g = static_cast<float>(9.81 * fraction::hip_height);
+  const Wide part = load(state.time_s) / load(plan.duration_s), from = load(plan.from.speed_m_s);
+  store(part * 0.5F, clock.cycle);
+  store(fma(load(plan.to.speed_m_s) - from, part, from) / sqrt(load(size.height_m) * leg_g), clock.speed);
+}
+
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <cmath>
-
-#include "assets/body/anthropometry.h"
-
 namespace mobil {
 namespace {
 HWY_EXPORT(excite_all);
+HWY_EXPORT(find_clocks);
 }  // namespace
 
 RowExcitation row_excitation(Muscle muscle) {
@@ -61,15 +68,12 @@ void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes
 
 void set_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, LegPost* posts) {
-  constexpr auto leg_g = static_cast<float>(9.81 * fraction::hip_height);
+  LegClock<Lanes<float>> stance;
+  HWY_DYNAMIC_DISPATCH(find_clocks)(size, plan, state, stance);
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const float part = state.time_s[lane] / plan.duration_s[lane];
-    const float from = plan.from.speed_m_s[lane], to = plan.to.speed_m_s[lane];
-    const float speed = (from + (to - from) * part) / std::sqrt(leg_g * size.height_m[lane]);
-    for (const Side side : {Side::right, Side::left}) {
-      const bool stance = state.stance_side[lane] == side;
-      posts[lane].leg[side].clock = {0.5F * part + (stance ? 0.0F : 0.5F), speed};
-    }
+    const std::uint32_t side = state.stance_side[lane];
+    posts[lane].leg[side & 1U].clock = {stance.cycle[lane], stance.speed[lane]};
+    posts[lane].leg[~side & 1U].clock = {stance.cycle[lane] + 0.5F, stance.speed[lane]};
   }
 }
 

@@ -12,7 +12,15 @@ namespace mobil::HWY_NAMESPACE {
 namespace {
 
 constexpr float fastest_per_s = 10, fibre_damping = 0.1F;
+constexpr float slow_rate = 9;  // a ninetieth of a second
 constexpr int steps_from_nearby = 4, steps_from_anywhere = 24;
+
+/// Of force over speed, where that is 0: 0.32113 · 8.149 / √(1 + 0.374²).
+constexpr float slope_at_rest = 2.4511F;
+
+HWY_INLINE Wide clamp_between(const Wide& x, const Wide& low, const Wide& high) {
+  return min(max(x, low), high);
+}
 
 /// One member: fibres of optimal length 1.
 struct Fibre {
@@ -28,7 +36,8 @@ HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
   return cosine(of.height / m);
 }
 
-/// What is left over of the fibre's pull at that length, and its slope, which is positive; `rate` over the fastest
+/// What is left over of the fibre's pull at that length, and its slope, which is positive but on the falling side of
+/// active force at rest: there the bracket decides. `rate` over the fastest
 /// speed per length.
 HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, const Wide& rate) {
   const Wide speed = (m - before) * rate;
@@ -43,21 +52,24 @@ HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, c
   return {fma(fibre, cos, -tendon.at), fma(stiffness, cos, fma(tendon.slope * of.over_tendon, over_cos, turning))};
 }
 
-/// Where the tendon passes on what fibres of that length would pull if they did not move: a step's first guess, for a
-/// tendon's force grows so fast with its length that Newton's steps from a stretched one are short.
-HWY_INLINE Wide balanced(const Fibre& of, const Wide& m) {
-  const Wide force = fma(of.activation, active_force(m).at, min(passive_force(m).at, 1.0F)) * cosine(of, m);
+/// The fibre's length, from `before`. It moves toward where the tendon would pass on what it pulls with now, and the
+/// farther, the stiffer the tendon is against what its speed costs (in a long tick, all the way): the first guess.
+/// Newton's steps from a stretched tendon, whose force grows so fast with its length, would be short ones.
+HWY_INLINE Wide solve(const Fibre& of, const Wide& before, float rate_per_length, int steps) {
+  const Wide zero = wide(0.0F), rate = wide(rate_per_length);
+  Wide low = max(1.05F * of.height, wide(0.3F)), high = wide(1.8F);
+  const Wide from = select((before > low) & (before < high), before, 0.5F * (low + high));
+  const Wide active = of.activation * active_force(from).at, cos = cosine(of, from);
+  const Wide force = fma(cos, active, cos * min(passive_force(from).at, 1.0F));
   const Wide stretch = fma(log(fma(force, wide(5.0F), wide(1.0F))), wide(1 / tendon_stiffness), wide(1.0F));
   const Wide along = fnma(of.tendon, stretch, of.path);
-  return sqrt(fma(along, along, of.height * of.height));
-}
-
-/// The fibre's length, from `before`.
-HWY_INLINE Wide solve(const Fibre& of, const Wide& before, const Wide& rate, int steps) {
-  const Wide zero = wide(0.0F);
-  Wide low = max(1.05F * of.height, wide(0.3F)), high = wide(1.8F);
-  const Wide guess = balanced(of, before);
-  Wide m = select((guess > low) & (guess < high), guess, 0.5F * (low + high));
+  const Wide balanced = clamp_between(sqrt(fma(along, along, of.height * of.height)), low, high);
+  const Wide tendon = tendon_force(fnma(from, cos, of.path) * of.over_tendon).at;
+  // What the speed costs a length, by the slope of fibres that do not move; what the tendon gains on the whole way.
+  const Wide costs = rate * fma(active, wide(slope_at_rest), wide(fibre_damping)) * abs(balanced - from);
+  const Wide gains = abs(tendon - force);
+  const bool slow = rate_per_length < slow_rate;
+  Wide m = slow ? balanced : fma(gains / max(gains + costs, wide(1e-9F)), balanced - from, from);
   for (int i = 0; i < steps; ++i) {
     const CurvePoint left = pull(of, m, before, rate);
     const WideMask too_long = left.at > zero;
@@ -116,7 +128,7 @@ HWY_INLINE void contract_members(const MemberBlock& of, float tick_s, Activation
     const Wide excitation = within_range(load(of.excitation[i]));
     const bool moves = tick_s > 0;
     fibre.activation = moves ? within_range(risen(load(of.state[i].activation), excitation, tick_s)) : excitation;
-    const Wide rate = wide(moves ? 1 / (fastest_per_s * tick_s) : 0.0F);
+    const float rate = moves ? 1 / (fastest_per_s * tick_s) : 0;
     const Wide m = solve(fibre, load(of.state[i].fibre), rate, moves ? steps_from_nearby : steps_from_anywhere);
     store(fibre.activation, of.state[i].activation);
     store(m, of.state[i].fibre);
@@ -146,7 +158,7 @@ void find_rests(std::size_t members, const Lanes<float>* length_m, MemberDesign<
   for (std::size_t i = 0; i < members; ++i) {
     const Wide path = load(length_m[i]);
     const Fibre fibre = fibre_of(design[i], path);
-    const Wide m = solve(fibre, wide(1.0F), wide(0.0F), steps_from_anywhere);
+    const Wide m = solve(fibre, wide(1.0F), 0, steps_from_anywhere);
     store(load(design[i].fibre_m) * m * cosine(fibre, m), design[i].rest_belly_m);
   }
 }

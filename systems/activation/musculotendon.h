@@ -6,9 +6,10 @@
 //
 //   (a f_L(m) f_V(v) + f_P(m) + 0.1 v) cos α = f_T(t),   fibre · cos α + tendon = length of the path
 //
-// The speed is the difference over the tick, so the step is implicit and stable for ticks of any length. Four Newton
-// steps always, from where fibres that do not move would be, each within a bracket that shrinks as bisection's does:
-// 1.05 of the height or 0.3 of the optimal length, to 1.8 of it.
+// The speed is the difference over the tick, so the step is implicit and stable for ticks of any length; up to 1/30 s
+// it is solved within 0.1 % of the fibre. Four Newton steps always, from where fibres that do not move would be, as far
+// as they can get there; each within a bracket that shrinks as bisection's does: 1.05 of the height or 0.3 of the
+// optimal length, to 1.8 of it.
 
 #include <cstddef>
 

@@ -26,7 +26,8 @@ struct ShapeBlend {
 ShapeBlend blend_of(const ShapeBlock& block);
 
 /// `shown` = `computed` + shape, three a control point × 16 (they may be the same). `in_place_of_linear`: less the
-/// linear static answer to `within_m`, which is in `computed`. A NaN stays in its lane.
+/// linear static answer to `within_m`, which is in `computed`, as a body of the template's slenderness has it. A NaN
+/// stays in its lane.
 void add_shape(const ShapeBlock& block, const ShapeBlend& blend, bool in_place_of_linear, const float* computed,
                float* shown);
 

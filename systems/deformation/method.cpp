@@ -21,7 +21,16 @@ const DeformationMethod* deformation_method(Method method) {
 }
 
 BellyMotion stretched_at_rest(const NextBelly& next) {
-  return stretched(next.belly, next.line, next.load);
+  BellyMotion motion = stretched(next.belly, next.line, next.load);
+  if (next.belly.finite == nullptr) return motion;
+  const auto& [across, along] = next.belly.plan.scale;
+  const float speed = (next.load.to - next.load.from) / next.load.tick_s;
+  for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
+    const float share = next.belly.finite->stretch[i] * (i % 3 == 2 ? 1 : across / along);
+    motion.displacement[i] = next.load.to * share;
+    motion.velocity[i] = speed * share;
+  }
+  return motion;
 }
 
 }  // namespace mobil

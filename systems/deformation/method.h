@@ -43,14 +43,14 @@ struct NextBelly {
   const BellyLoad& load;
 };
 
-/// What a muscle was: what its method computed, what it showed, whether its control points were placed, and whether a
-/// change before this one still faded. What fades is no motion of the belly: handed over as such from change to change it
-/// would grow.
+/// What a muscle was: what its method computed, what it showed, and whether its control points were placed. `apart`:
+/// what it showed was no motion of the belly, for a change before this one still faded, or the shape of finite strain
+/// or the end's place came or went. Handed over as motion that would ring, and grow from change to change.
 struct PastBelly {
   BellyMotion computed, shown;
-  bool seen = false, fading = false;
+  bool seen = false, apart = false;
 
-  const BellyMotion& motion() const { return fading ? computed : shown; }
+  const BellyMotion& motion() const { return apart ? computed : shown; }
 };
 
 /// What a belly begins with: displacement and velocity of its control points, the state of a reduced one, and what
@@ -78,7 +78,8 @@ struct DeformationMethod {
   Beginning (*go_on)(const NextBelly& next, const PastBelly& past, bool keeps);
 };
 
-/// `at_rest` of methods that displace nodes: the template's shape, drawn out.
+/// `at_rest` of methods that displace nodes: the template's shape drawn out, with finite strain the one that it
+/// replaces.
 BellyMotion stretched_at_rest(const NextBelly& next);
 
 /// One a Method, but for Method::none.

@@ -63,7 +63,7 @@ Beginning begin(const NextBelly& next, bool moves) {
 
 Beginning go_on(const NextBelly&, const PastBelly& past, bool) {
   Beginning from{past.motion().displacement, past.motion().velocity, {}, {}};
-  if (past.fading && past.seen) from.fade = fade_between(past.shown, past.computed);
+  if (past.apart && past.seen) from.fade = fade_between(past.shown, past.computed);
   return from;
 }
 

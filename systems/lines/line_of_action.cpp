@@ -98,6 +98,8 @@ HWY_INLINE void turn(hn::Vec<Four> (&v)[4]) {
 
 constexpr std::size_t leg_words = sizeof(LegFrames<float>) / sizeof(float);
 static_assert(sizeof(LegPost::Leg) >= 4 * ((leg_words + 3) / 4) * sizeof(float));
+// Copied in fours, a leg's frames leave zeros in its clock: who does not walk stands.
+static_assert(offsetof(LegPost::Leg, clock) == 4 * leg_words && leg_words % 4 == 1);
 
 void take_rows(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs) {
   const Four d;

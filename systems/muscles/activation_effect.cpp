@@ -70,6 +70,7 @@ void pull(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, TagValue<M
 }
 
 Module module() {
+  row_members(Muscle{});  // made here, not in a tick
   return {.name = "activation",
           .parts = {component_part<Activation>(), component_part<Musculotendon>(),
                     key_part(TagValue<ExcitationSource>{}), key_part(FieldWidth<MemberLength>{}),

@@ -146,7 +146,7 @@ class Block {
       std::vector<KeyPart> parts;
       effect.parts(group_.kind, parts);
       std::erase_if(parts, [](const KeyPart& part) { return !has_column(part.kind); });
-      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      for (std::size_t lane = 0; lane < count_; ++lane) {
         for (const Side side : {Side::right, Side::left}) {
           const Columns& of = group_.side[side];
           RowValues values;
@@ -165,6 +165,10 @@ class Block {
           for (const KeyPart& part : parts) scatter(values.find(part.id), part.value, *of.find(part.id), lane);
           if (const auto end = values.get<EndDrive>()) put_row(*end, of.block<EndDrive>(b_), lane);
         }
+      }
+      for (const Columns& of : group_.side) {
+        for (const KeyPart& part : parts) park(*of.find(part.id));
+        park(*of.find(type_id<EndDrive<float>>()));
       }
     }
   }

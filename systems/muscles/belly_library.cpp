@@ -179,8 +179,11 @@ Result<const BellyTemplate*> BellyLibrary::shape(Muscle muscle, const LegMuscles
 std::shared_ptr<const FiniteShape> BellyLibrary::finite_shape(const BellyTemplate& shape) {
   const auto own = std::ranges::find(templates_, &shape, &std::unique_ptr<BellyTemplate>::get);
   std::shared_ptr<const FiniteShape>& made = (*own)->finite;
-  if (made == nullptr)
-    made = std::make_shared<const FiniteShape>(make_finite_shape(shape.muscle, shape.shape->mesh, shape.stretch));
+  if (made == nullptr) {
+    const MuscleTemplate& of = *shape.shape;
+    made = std::make_shared<const FiniteShape>(
+        make_finite_shape(shape.muscle, of.mesh, static_stretch(of.terms, 1, 1, of.options.foundation_hz)));
+  }
   return made;
 }
 

@@ -83,6 +83,17 @@ BellyMotion shown_motion(const World& world, const OneChange& change, const Musc
   return shown;
 }
 
+/// The far end is elsewhere at once, because its tendon stretches now or no longer does: the belly follows statically.
+void move_end(const World& world, const OneChange& change, const NextBelly& next, BellyMotion& motion) {
+  const auto was = world.get<EndDrive>(change.muscle);
+  if (!was || next.load.far_end != FarEnd::held) return;
+  BellyLoad jump = next.load;
+  jump.frame.reset();
+  jump.from = jump.to = next.load.to - was->to;
+  const BellyMotion moved = deformation_method(next.choice.method)->at_rest({next.belly, next.choice, next.line, jump});
+  for (std::size_t i = 0; i < motion.displacement.size(); ++i) motion.displacement[i] += moved.displacement[i];
+}
+
 /// What the belly begins with; `offset`: what it will show beside what its method computes, or nothing. Empty
 /// throughout where all goes on as it is.
 Beginning beginning(const World& world, MuscleWork& work, const OneChange& change, const NextBelly& next,
@@ -93,14 +104,18 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   const auto was = muscle_kind(world, change.muscle);
   const auto cells = was ? cells_of(*was) : std::nullopt;
   if (!cells || *cells != next.choice.cells) return method->begin(next, change.goes_on);
-  if (!change.goes_on && !was->fading && is_full(next.choice.method) && is_full(was->method.method)) return {};
+  const bool end_changes = (was->activation != ExcitationSource::none) != has_activation(next.choice);
+  const bool finite_changes = (was->finite.resource == nullptr) != (next.belly.finite == nullptr);
+  const bool same_sight = !was->fading && !end_changes && !finite_changes;
+  if (!change.goes_on && same_sight && is_full(next.choice.method) && is_full(was->method.method)) return {};
   auto computed = deformation_method(was->method.method)->computed(world, change.muscle, tick_s, work.last);
   if (!computed) return method->begin(next, true);
   PastBelly past;
   past.shown = shown_motion(world, change, *was, next, *computed);
   past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(change.muscle);
-  past.fading = was->fading;
+  past.apart = was->fading || finite_changes || end_changes;
+  if (end_changes) move_end(world, change, next, past.computed);
   for (std::size_t i = 0; i < offset.displacement.size(); ++i) {
     past.shown.displacement[i] -= offset.displacement[i];
     past.shown.velocity[i] -= offset.velocity[i];

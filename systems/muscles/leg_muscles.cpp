@@ -9,6 +9,7 @@
 #include "components/fade.h"
 #include "engine/each.h"
 #include "engine/geometry.h"
+#include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/person.h"
 
@@ -371,7 +372,12 @@ void end_fades(World& world, float tick_s, MuscleWork& work) {
     }
   }
   for (const Entity muscle : work.faded) {
-    world.remove_parts(muscle, {type_id<Fade<float>>(), type_id<FadeStart>(), type_id<ShownDisplacement>()});
+    const auto place = world.find(muscle);
+    if (place && shows_apart(place.table->key())) {
+      world.remove_parts(muscle, {type_id<Fade<float>>(), type_id<FadeStart>()});
+    } else {
+      world.remove_parts(muscle, {type_id<Fade<float>>(), type_id<FadeStart>(), type_id<ShownDisplacement>()});
+    }
   }
 }
 

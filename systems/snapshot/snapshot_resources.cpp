@@ -241,12 +241,12 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
     return fail(
         "the snapshot shares a named resource that no module here has; give it the modules that it was made with");
   if (auto made = make(saved.recipe, world, library); !made)
-    return fail("the snapshot needs a muscle's mesh, solver or basis that cannot be made again: " +
+    return fail("the snapshot needs a muscle's mesh, solver, basis or shape that cannot be made again: " +
                 made.error().message);
   learn(world, library, modules);
   if (const auto there = find()) return *there;
   return fail(
-      fmt::format("a mesh, solver or basis of {} comes out otherwise here than where the snapshot was made;"
+      fmt::format("a mesh, solver, basis or shape of {} comes out otherwise here than where the snapshot was made;"
                   " restore it with the program that made it, on a machine of the same kind",
                   saved.recipe.muscle < muscles().size() ? muscle_name(static_cast<Muscle>(saved.recipe.muscle))
                                                          : std::string_view("a muscle")));

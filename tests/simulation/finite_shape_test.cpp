@@ -170,6 +170,85 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
   }
 }
 
+/// A fade that is over leaves the shape, and rows that snapshots know.
+TEST(FiniteShape, GoesOnAfterAFade) {
+  Simulation simulation;
+  LegMuscles choice = finite(Method::ecd);
+  choice.muscles = MuscleSet(1);
+  const Entity changed = join_with(simulation, person(6), choice);
+  choice.method = Method::statics;
+  const Entity always = join_with(simulation, person(6), choice);
+  run(simulation, 20);
+  ASSERT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::statics}));
+  run(simulation, 30);
+  const auto shown = [&](Entity human) {
+    return displacement(simulation, simulation.muscle(human, Muscle::hamstrings, Side::right));
+  };
+  const auto one = shown(changed), other = shown(always);
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_NEAR(one[i], other[i], 2e-5F);
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  const auto restored = simulation.restore(bytes);
+  EXPECT_TRUE(restored) << restored.error().message;
+  EXPECT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::ecd}));
+}
+
+/// Who is looked at again begins with the belly's own motion, not with the shape's place as one.
+TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
+  const MuscleMethod seen{Method::reduced, {.vectors = 12, .cells = {4, 4, 16}}};
+  MuscleMethod unseen = seen;
+  unseen.reduced.vectors = 4;
+  unseen.reduced.control_points = unseen.reduced.reported = false;
+  for (const MuscleMethod& to : {seen, MuscleMethod{Method::ecd}, MuscleMethod{Method::caa}}) {
+    Simulation simulation;
+    const Entity human = *simulation.spawn_posed({});
+    LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
+    choice.reduced = unseen.reduced;
+    choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
+    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.8F));
+    run(simulation, 240);
+    ASSERT_TRUE(simulation.set_method(human, Muscle::triceps_surae, to));
+    const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+    const auto at_once = displacement(simulation, muscle);
+    double most = 0;
+    for (int tick = 0; tick < 30; ++tick) {
+      simulation.tick();
+      const auto now = displacement(simulation, muscle);
+      for (std::size_t i = 0; i < now.size(); ++i)
+        most = std::max(most, std::abs(static_cast<double>(now[i] - at_once[i])));
+    }
+    EXPECT_LT(most, 6e-4) << name(to.method);
+  }
+}
+
+/// Turned on and off under way, for all methods.
+TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
+  for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced}) {
+    Simulation simulation;
+    LegMuscles pulls = finite(method);
+    pulls.muscles = MuscleSet(4);
+    LegMuscles linear = pulls;
+    linear.activation = ExcitationSource::none;
+    linear.finite_shape = false;
+    const Entity human = join_with(simulation, person(6), linear);
+    run(simulation, 40);
+    const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+    for (const LegMuscles& next : {pulls, linear, pulls}) {
+      const auto before = displacement(simulation, muscle);
+      ASSERT_TRUE(simulation.change_leg_muscles(human, next));
+      simulation.tick();
+      const auto after = displacement(simulation, muscle);
+      double step = 0;
+      for (std::size_t i = 0; i + 27 < before.size(); ++i)  // but for the end, which is where the tendon leaves it
+        step = std::max(step, std::abs(static_cast<double>(after[i] - before[i])));
+      EXPECT_LT(step, 0.006) << name(method) << ": a tick's way";
+      run(simulation, 25);
+      for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.08F);
+    }
+  }
+}
+
 TEST(FiniteShape, SurvivesSnapshots) {
   Simulation simulation;
   const Entity human = join_with(simulation, person(7), finite(Method::ecd));

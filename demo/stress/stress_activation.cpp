@@ -168,8 +168,8 @@ Result<void> stress_contraction(StressRun& run) {
            "lines lengthen by up to 0.2 m", steady.moved_m});
   run.add({"squats at full activation, every method", "force, N", Promise::at_least, 0, "tendons do not push",
            least_force_n, fmt::format("{} times a member's tendon was slack", slack)});
-  run.add(
-      {"", "volume shown off rest", Promise::at_most, 0.08, "vibration on top of what keeps it", steady.volume_off});
+  run.add({"squats at full activation, every method", "volume shown off rest", Promise::at_most, 0.08,
+           "vibration on top of what keeps it", steady.volume_off});
   run.add({"another method in every tick", "control points' displacement, m", Promise::at_most, 0.25,
            "lines lengthen by up to 0.2 m", flickering.moved_m});
   return {};

@@ -43,7 +43,8 @@ struct Point {
 Eigen::RowVectorXd amounts(const Point& point) {
   Eigen::RowVectorXd row(3 * excitation_terms);
   for (std::size_t i = 0; i < excitation_terms; ++i) {
-    const double angle = 2 * std::numbers::pi * static_cast<double>((i + 1) / 2) * point.cycle;
+    const std::size_t harmonic = (i + 1) / 2;
+    const double angle = 2 * std::numbers::pi * static_cast<double>(harmonic) * point.cycle;
     const double wave = i % 2 == 1 ? std::cos(angle) : i == 0 ? 1 : std::sin(angle);
     for (int power = 0; power < 3; ++power)
       row[static_cast<Eigen::Index>(3 * i) + power] = wave * std::pow(point.speed, power);

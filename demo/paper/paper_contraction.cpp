@@ -134,6 +134,7 @@ Result<std::vector<MuscleCurves>> stride() {
   });
   if (!walked) return tl::unexpected(walked.error());
   std::vector<MuscleCurves> curves;
+  curves.reserve(rows.size());
   for (const Rows& own : rows) {
     curves.push_back({sample_cycle(phases, own.activation), sample_cycle(phases, own.line),
                       sample_cycle(phases, own.fibre), sample_cycle(phases, own.tendon),

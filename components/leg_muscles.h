@@ -23,6 +23,9 @@ struct ReducedChoice {
   bool control_points = true;
   /// Whether BellyReport is written, which takes more than half as long as placing the control points.
   bool reported = true;
+  /// Whether what moves is stiffened and damped by how hard the muscle pulls (LegMuscles::activation): its frequency
+  /// rises from some 7 to 15 Hz and more, and it rings for a third of the time.
+  bool tuned = false;
 
   friend bool operator==(const ReducedChoice&, const ReducedChoice&) = default;
 };
@@ -33,9 +36,16 @@ struct MuscleMethod {
   ReducedChoice reduced{};  // of Method::reduced
 };
 
+/// Whether its tension stiffens it.
+constexpr bool is_tuned(const MuscleMethod& method) {
+  return method.method == Method::reduced && method.reduced.moving && method.reduced.tuned;
+}
+
 /// Alike in all that the method depends on.
-inline bool same_method(const MuscleMethod& a, const MuscleMethod& b) {
-  return a.method == b.method && (a.method != Method::reduced || a.reduced == b.reduced);
+inline bool same_method(const MuscleMethod& a, MuscleMethod b) {
+  if (a.method != b.method || a.method != Method::reduced) return a.method == b.method;
+  if (is_tuned(a) == is_tuned(b)) b.reduced.tuned = a.reduced.tuned;
+  return a.reduced == b.reduced;
 }
 
 /// How leg muscles deform. Every choice is a matter of which parts a muscle has (systems/deformation/muscle_kind.h).
@@ -84,6 +94,9 @@ constexpr bool feels_frame(const LegMuscles& choice) {
 }
 constexpr bool has_activation(const LegMuscles& choice) {
   return choice.activation != ExcitationSource::none;
+}
+constexpr bool is_tuned(const LegMuscles& choice) {
+  return is_tuned(MuscleMethod{choice.method, choice.reduced});
 }
 /// Whether its control points are those of finite strain.
 constexpr bool has_finite_shape(const LegMuscles& choice) {

@@ -156,6 +156,7 @@ struct Substeps {};
 struct SolvedSteps {};
 struct StaticSteps {};
 struct ReducedStatic {};
+struct ReducedTuned {};
 struct ScratchFloats {};
 
 }  // namespace mobil

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "assets/finite/finite_sections.h"
+
 namespace mobil {
 namespace {
 
@@ -18,63 +20,18 @@ constexpr double converged_share = 1e-5;  // of the length: a step of Newton's; 
 constexpr double longest_share = 0.05;
 constexpr double least_load = 1.0 / 64;
 
-Corners corners_of(const FiniteBelly& belly, const FiniteElement& element, const std::vector<double>& u) {
-  Corners at;
-  for (std::size_t a = 0; a < 8; ++a) {
-    const std::size_t n = element.node[a];
-    const auto& x = belly.mesh.node[n];
-    at[a] = {x.x + u[3 * n], x.y + u[3 * n + 1], x.z + u[3 * n + 2]};
-  }
-  return at;
-}
-
 double foundation_per_kg(const FiniteBelly& belly) {
   const double circular = 2 * std::numbers::pi * belly.foundation_hz;
   return circular * circular;
 }
 
-/// The forces that are out of balance on the nodes that move (in scratch.residual_n, negated), and the tangent with
-/// `stiffening` times the shear stiffness on its diagonal. `pull_m`: how far the insertion face is yet to go, to first
-/// order.
+/// The forces that are out of balance (in scratch.residual_n, negated), and the tangent: elements and foundation.
 void assemble_sections(const FiniteBelly& belly, const FiniteState& state, double stiffening, double pull_m,
                        FiniteScratch& scratch) {
   const std::size_t plane = plane_nodes(belly.mesh.cells), layers = belly.mesh.cells[2];
   const std::size_t rows = 3 * plane;
-  const Activity activity{pulling_activation(belly.tissue, state.shortening, state.activation), 1 - state.shortening};
-  scratch.residual_n.setZero();
-  clear(scratch.chain);
-  const double shear = stiffening * belly.tissue.shear_pa;
-  Corners force;
-  ElementTangent tangent;
-  const auto moves = [&](std::size_t section) { return section > 0 && section < layers; };
-  for (std::size_t e = 0; e < belly.elements.size(); ++e) {
-    const FiniteElement& element = belly.elements[e];
-    element_force(element, belly.tissue, activity, corners_of(belly, element, state.displacement_m), force, &tangent);
-    for (std::size_t a = 0; a < 8; ++a) {
-      const std::size_t section = element.node[a] / plane;
-      if (!moves(section)) continue;
-      const auto row = static_cast<Index>(3 * (element.node[a] % plane));
-      const Index at = static_cast<Index>((section - 1) * rows) + row;
-      for (std::size_t d = 0; d < 3; ++d) scratch.residual_n[at + static_cast<Index>(d)] -= force[a][d];
-      for (std::size_t b = 0; b < 8; ++b) {
-        const auto& block = tangent[packed_pair(a, b)];
-        const auto entry = [&](std::size_t r, std::size_t c) { return a >= b ? block[3 * r + c] : block[3 * c + r]; };
-        const std::size_t other = element.node[b] / plane;
-        if (other == layers) {
-          for (std::size_t r = 0; r < 3; ++r) scratch.residual_n[at + static_cast<Index>(r)] -= entry(r, 2) * pull_m;
-          continue;
-        }
-        if (!moves(other) || other > section) continue;
-        auto& into = other == section ? scratch.chain.own[section - 1] : scratch.chain.below[other - 1];
-        const auto column = static_cast<Index>(3 * (element.node[b] % plane));
-        for (std::size_t c = 0; c < 3; ++c) {
-          double* const to = &into(row, column + static_cast<Index>(c));
-          for (std::size_t r = 0; r < 3; ++r) to[r] += entry(r, c);
-          if (a == b) to[c] += shear * element.stretch[packed_pair(a, a)];
-        }
-      }
-    }
-  }
+  assemble_elements(belly, activity_of(belly, state.shortening, state.activation), state.displacement_m, stiffening,
+                    pull_m, scratch);
   const double per_kg = foundation_per_kg(belly);
   if (per_kg == 0) return;
   const auto means = section_means(belly, state);
@@ -118,14 +75,14 @@ void move_nodes(const FiniteBelly& belly, const FiniteScratch& scratch, double s
     state.displacement_m[i] = from_m[i] + share * scratch.step_m[static_cast<Index>(i - first)];
   }
   for (std::size_t i = last; i < from_m.size(); i += 3) {
-    state.displacement_m[i + 2] = -state.shortening * belly.length_m;
+    state.displacement_m[i + 2] = end_of(belly, state.shortening);
   }
 }
 
 /// Newton's method at a load; whether it converged. `state` has that load and the shape of another.
 bool converge(const FiniteBelly& belly, FiniteScratch& scratch, FiniteState& state) {
   const std::size_t last = 3 * std::size_t{first_insertion_node(belly.mesh.cells)};
-  double pull_m = -state.shortening * belly.length_m - state.displacement_m[last + 2];
+  double pull_m = end_of(belly, state.shortening) - state.displacement_m[last + 2];
   std::vector<double> from = state.displacement_m;
   double before = 0, share = 1;
   for (std::size_t i = 0; i < most_iterations; ++i) {

@@ -7,9 +7,9 @@
 #include <cstddef>
 #include <vector>
 
+#include "assets/fem/finite_element.h"
+#include "assets/fem/finite_tissue.h"
 #include "assets/fem/hexahedral_mesh.h"
-#include "assets/finite/finite_element.h"
-#include "assets/finite/finite_tissue.h"
 #include "assets/finite/section_chain.h"
 #include "engine/error.h"
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "assets/fem/finite_tissue.h"
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/finite/finite_belly.h"
-#include "assets/finite/finite_tissue.h"
 #include "engine/error.h"
 
 namespace mobil {

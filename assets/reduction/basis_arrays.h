@@ -18,6 +18,7 @@ void each_array(Basis& basis, bool has_turned, F&& f) {
   const std::size_t ends = o.far_end == FarEnd::free ? 3 : 1;
   for (auto* const square : {&basis.a, &basis.b, &basis.c}) f(*square, n * n);
   f(basis.foundation, braced ? n * n : 0);
+  f(basis.tension, n * n);
   for (auto* const lift : {&basis.lift_a, &basis.lift_b, &basis.lift_c, &basis.lift_mass}) f(*lift, held * n);
   f(basis.lift_foundation, braced ? held * n : 0);
   f(basis.traction, (1 - held) * ends * n);
@@ -29,6 +30,7 @@ void each_array(Basis& basis, bool has_turned, F&& f) {
   auto& turned = basis.turned;
   for (auto* const square : {&turned.vector, &turned.a, &turned.b, &turned.c}) f(*square, has_turned ? n * n : 0);
   f(turned.foundation, has_turned && braced ? n * n : 0);
+  f(turned.tension, has_turned ? n * n : 0);
 }
 
 /// The same of its single numbers: f(number).

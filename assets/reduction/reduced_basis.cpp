@@ -11,6 +11,7 @@
 #include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"
 #include "assets/reduction/reduced_operators.h"
+#include "assets/reduction/reduced_tension.h"
 #include "assets/reduction/reduced_training.h"
 #include "assets/reduction/symmetric_eigen.h"
 
@@ -60,10 +61,15 @@ Result<void> check_options(const Cells& cells, const ReducedOptions& o) {
 
 /// Products of the vectors (ψ first, where there is one) with themselves and with the loads.
 struct Projected {
-  MatrixXd mass, a, b, c, foundation, frame, traction;
+  MatrixXd mass, a, b, c, foundation, tension, frame, traction;
 };
 
-Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, const ReducedOptions& o,
+HexahedralMesh widened(HexahedralMesh mesh, double ratio) {
+  for (auto& node : mesh.node) node.x *= ratio, node.y *= ratio;
+  return mesh;
+}
+
+Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, double shear_pa, const ReducedOptions& o,
                   const Columns& fields) {
   const auto squared = [&](const OperatorMix& mix) { return inner(fields, applied(terms, mix, fields)); };
   Projected p{inner(fields, mass_times(terms, fields)),
@@ -71,6 +77,7 @@ Projected project(const HexahedralMesh& mesh, const StiffnessTerms& terms, const
               squared({0, 1, 0, 0, 0}),
               squared({0, 0, 1, 0, 0}),
               {},
+              tension_stiffness(widened(mesh, o.middle_ratio), shear_pa, fields) / (o.middle_ratio * o.middle_ratio),
               {},
               {}};
   if (o.foundation_hz > 0) p.foundation = squared({0, 0, 0, 1, 0});
@@ -89,6 +96,7 @@ void extrapolate(Projected& fine, const Projected& coarse) {
   one(fine.b, coarse.b);
   one(fine.c, coarse.c);
   one(fine.foundation, coarse.foundation);
+  one(fine.tension, coarse.tension);
   one(fine.frame, coarse.frame);
   one(fine.traction, coarse.traction);
 }
@@ -111,7 +119,7 @@ void make_orthonormal(Projected& p, Columns& fields, Index lifts) {
     turn.col(kept) = v / std::sqrt(square);
   }
   const MatrixXd used = turn.leftCols(kept);
-  for (MatrixXd* const m : {&p.mass, &p.a, &p.b, &p.c, &p.foundation}) {
+  for (MatrixXd* const m : {&p.mass, &p.a, &p.b, &p.c, &p.foundation, &p.tension}) {
     if (m->size() > 0) *m = used.transpose() * *m * used;
   }
   for (MatrixXd* const m : {&p.frame, &p.traction}) {
@@ -245,14 +253,15 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
   const Index lifts = options.far_end == FarEnd::held ? 1 : 0;
   auto fields = trained_vectors({fine, *terms, options, basis.foundation_1_s2}, lifts);
   if (!fields) return tl::unexpected(fields.error());
-  Projected p = project(fine, *terms, options, *fields);
+  const double shear_pa = material.young_pa / (2 * (1 + material.poisson));
+  Projected p = project(fine, *terms, shear_pa, options, *fields);
   if (options.corrected) {
     const HexahedralMesh coarse = every_other(fine);
     const auto coarse_terms = assemble(coarse, material, element);
     if (!coarse_terms) {
       return fail(fmt::format("correction by every other node: {}; leave it out", coarse_terms.error().message));
     }
-    extrapolate(p, project(coarse, *coarse_terms, options, every_other(fine.cells, *fields)));
+    extrapolate(p, project(coarse, *coarse_terms, shear_pa, options, every_other(fine.cells, *fields)));
   }
   make_orthonormal(p, *fields, lifts);
   const Index count = fields->cols() - lifts;
@@ -266,6 +275,7 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
   basis.a = own(p.a);
   basis.b = own(p.b);
   basis.c = own(p.c);
+  basis.tension = own(p.tension);
   if (p.foundation.size() > 0) basis.foundation = own(p.foundation);
   if (p.frame.size() > 0) basis.frame = row_major(p.frame.bottomRows(count));
   if (p.traction.size() > 0) basis.traction = row_major(p.traction);
@@ -342,6 +352,7 @@ ReducedBasis::Turned turned_of(const ReducedBasis& basis) {
   turn(basis.b, turned.b);
   turn(basis.c, turned.c);
   turn(basis.foundation, turned.foundation);
+  turn(basis.tension, turned.tension);
   return turned;
 }
 
@@ -358,7 +369,7 @@ ReducedBasis truncated(const ReducedBasis& basis, std::uint32_t vectors) {
     }
     numbers.resize(rows * kept);
   };
-  for (auto* const square : {&cut.a, &cut.b, &cut.c, &cut.foundation}) take(*square, few, all, few);
+  for (auto* const square : {&cut.a, &cut.b, &cut.c, &cut.foundation, &cut.tension}) take(*square, few, all, few);
   for (auto* const row : {&cut.lift_a, &cut.lift_b, &cut.lift_c, &cut.lift_foundation, &cut.lift_mass}) {
     take(*row, 1, all, few);
   }

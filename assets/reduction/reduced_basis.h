@@ -61,6 +61,9 @@ struct ReducedBasis {
   std::vector<double> a, b, c;     // VᵀAV …, N×N, N/m
   std::vector<double> foundation;  // VᵀP·M₁·PV (P picks x and y), N×N; empty without a foundation
   double foundation_1_s2 = 0;      // ω_f²
+  /// Stiffness of fibres at full activation over the mass, times l² (reduced_tension.h): VᵀGV of a body of the middle
+  /// ratio over r², N×N, m²/s²; bodies of the range differ from it as little as their fibres' directions do.
+  std::vector<double> tension;
 
   // Held far face: VᵀAψ …, VᵀP·M₁·Pψ and VᵀM₁ψ, N each; ψᵀAψ …, ψᵀP·M₁·Pψ, ψᵀM₁ψ. Else empty and 0.
   std::vector<double> lift_a, lift_b, lift_c, lift_foundation, lift_mass;
@@ -78,10 +81,10 @@ struct ReducedBasis {
   std::vector<double> control_weight;  // kg, one a node
   std::vector<double> fit;
 
-  /// The motions of the body in the middle (a row each, over V), and what A, B, C and F are along them: nearly diagonal
-  /// for all bodies of the range. By `truncated`.
+  /// The motions of the body in the middle (a row each, over V), and what A, B, C, F and the tension are along them:
+  /// nearly diagonal for all bodies of the range. By `truncated`.
   struct Turned {
-    std::vector<double> vector, a, b, c, foundation;  // N×N
+    std::vector<double> vector, a, b, c, foundation, tension;  // N×N
   } turned;
 };
 

@@ -2,49 +2,23 @@
 //   m·(q̈ + α·q̇) + m·h·(ẅ + α·ẇ) + K·q + k·w = loads.
 // q + h·w is what the mass sees move. K/m = E·Ω²·Eᵀ makes of z = Eᵀ·(q + h·w)
 //   z̈ + α·ż + Ω²·z = Ω²·(P·w + …),   P = Eᵀh − Ω⁻²·Eᵀk/m,   P = Ω⁻²·Eᵀ(load per unit)/m of the others,
-// so that at rest q = E·(z − Eᵀh·w) = −K⁻¹·k·w + K⁻¹·loads. The force on a held far face at rest is ψᵀ(stiffness·u −
-// loads): per metre ψᵀKψ − kᵀK⁻¹k, per load kᵀK⁻¹·VᵀL − ψᵀL.
+// so that at rest q = E·(z − Eᵀh·w) = −K⁻¹·k·w + K⁻¹·loads. Of tuned bellies K is that of `tuned_activation` but for
+// w's static answer, whose K and k have no tension. The force on a held far face at rest is ψᵀ(stiffness·u − loads):
+// per metre ψᵀKψ − kᵀK⁻¹k, per load kᵀK⁻¹·VᵀL − ψᵀL.
 #include "assets/reduction/reduced_bellies.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "assets/reduction/reduced_bellies.cpp"
 #include <hwy/foreach_target.h>
-#include <hwy/highway.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
+
+#include "assets/reduction/double_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace {
-namespace hn = hwy::HWY_NAMESPACE;
-
-// Multiplications and additions are never fused here: the same bits with and without that instruction.
-using Tag = hn::CappedTag<double, 8>;
-using V = hn::Vec<Tag>;
-constexpr std::size_t width = hn::MaxLanes(Tag{});
-constexpr std::size_t most = most_vectors;
-
-HWY_INLINE V all(double x) {
-  return hn::Set(Tag{}, x);
-}
-HWY_INLINE V load(const double* p) {
-  return hn::Load(Tag{}, p);
-}
-HWY_INLINE void store(V v, double* p) {
-  hn::Store(v, Tag{}, p);
-}
-HWY_INLINE V mul(V a, V b) {
-  return hn::Mul(a, b);
-}
-HWY_INLINE V add(V a, V b) {
-  return hn::Add(a, b);
-}
-HWY_INLINE V sub(V a, V b) {
-  return hn::Sub(a, b);
-}
-
 /// A symmetric matrix, its upper half, and its eigenvectors to be, a row each.
 struct Eigen {
   double *a, *e;
@@ -154,6 +128,24 @@ void sort(Eigen& x, std::size_t n) {
   }
 }
 
+/// rhs ← K⁻¹·rhs, K's lower half row by row in `k`, which is spoilt (Cholesky).
+void solve_in_place(double* k, std::size_t n, V* rhs) {
+  const auto at = [&](std::size_t i, std::size_t j) { return k + (i * n + j) * width; };
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      V sum = load(at(i, j));
+      for (std::size_t c = 0; c < j; ++c) sum = sub(sum, mul(load(at(i, c)), load(at(j, c))));
+      store(i == j ? hn::Sqrt(sum) : hn::Div(sum, load(at(j, j))), at(i, j));
+    }
+    for (std::size_t c = 0; c < i; ++c) rhs[i] = sub(rhs[i], mul(load(at(i, c)), rhs[c]));
+    rhs[i] = hn::Div(rhs[i], load(at(i, i)));
+  }
+  for (std::size_t i = n; i-- > 0;) {
+    for (std::size_t c = i + 1; c < n; ++c) rhs[i] = sub(rhs[i], mul(load(at(c, i)), rhs[c]));
+    rhs[i] = hn::Div(rhs[i], load(at(i, i)));
+  }
+}
+
 void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, ReducedBellies& to) {
   const std::size_t n = basis.vectors, even = n + n % 2;
   const bool held = !basis.lift_mass.empty(), braced = !basis.foundation.empty(), framed = !basis.frame.empty();
@@ -168,7 +160,9 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
   const double* const pb = warm ? turned.b.data() : basis.b.data();
   const double* const pc = warm ? turned.c.data() : basis.c.data();
   const double* const pf = warm ? turned.foundation.data() : basis.foundation.data();
-  to.scratch.resize(2 * even * even);
+  const double* const pt = warm ? turned.tension.data() : basis.tension.data();
+  const V slender = hn::Div(all(1), mul(along, along)), tone = mul(all(tuned_activation), slender);
+  to.scratch.resize(3 * even * even);
   Eigen x{to.scratch[0].lane, to.scratch[even * even].lane, even};
   for (std::size_t i = 0; i < even; ++i) {
     for (std::size_t j = i; j < even; ++j) {
@@ -177,6 +171,7 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
         const std::size_t at = i * n + j;
         k = add(add(mul(a, all(pa[at])), mul(b, all(pb[at]))), mul(c, all(pc[at])));
         if (braced) k = add(k, mul(brace, all(pf[at])));
+        if (to.tuned) k = add(k, mul(tone, all(pt[at])));
       }
       store(k, x.at(i, j));
     }
@@ -197,13 +192,28 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
     energy = add(add(mul(a, all(basis.lift_energy_a)), mul(b, all(basis.lift_energy_b))),
                  add(mul(c, all(basis.lift_energy_c)), mul(brace, all(basis.lift_energy_foundation))));
   }
+  V answer[most];  // of tuned bellies: K⁻¹·k
+  if (to.tuned && held) {
+    double* const factor = to.scratch[2 * even * even].lane;
+    for (std::size_t i = 0; i < n; ++i) {
+      answer[i] = pull[i];
+      for (std::size_t j = 0; j <= i; ++j) {
+        const std::size_t at = i * n + j;
+        V k = add(add(mul(a, all(basis.a[at])), mul(b, all(basis.b[at]))), mul(c, all(basis.c[at])));
+        if (braced) k = add(k, mul(brace, all(basis.foundation[at])));
+        store(k, factor + at * width);
+      }
+    }
+    solve_in_place(factor, n, answer);
+    for (std::size_t i = 0; i < n; ++i) energy = sub(energy, mul(pull[i], answer[i]));
+  }
   for (std::size_t k = 0; k < inputs; ++k) reaction[k] = all(0);
   V field[frame_inputs];  // what a body's size does to the field that each number stands for
   for (std::size_t k = 0; k < frame_inputs; ++k) field[k] = k < 3 ? all(1) : k % 3 == 2 ? along : across;
   for (std::size_t j = 0; j < n; ++j) {
     const V value = load(x.at(j, j));
     store(hn::Sqrt(value), &to.omega_1_s(j).lane[lane]);
-    V share = all(0), tied = all(0), p[3 + frame_inputs];
+    V share = all(0), tied = all(0), moved = all(0), taut = all(0), p[3 + frame_inputs];
     for (std::size_t k = 0; k < inputs; ++k) p[k] = all(0);
     for (std::size_t i = 0; i < n; ++i) {
       const V e = load(x.row(j, i));
@@ -211,6 +221,7 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
       if (held) {
         share = add(share, mul(e, all(basis.lift_mass[i])));
         tied = add(tied, mul(e, pull[i]));
+        if (to.tuned) moved = add(moved, mul(e, answer[i]));
       } else {
         for (std::size_t k = 0; k < ends; ++k) p[k] = add(p[k], mul(e, all(basis.traction[i * ends + k])));
       }
@@ -218,11 +229,19 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
         p[k] = add(p[k], mul(e, all(basis.frame[i * frame_inputs + k - ends])));
       }
     }
+    for (std::size_t i = 0; to.tuned && i < n; ++i) {
+      V along_row = all(0);
+      for (std::size_t k = 0; k < n; ++k)
+        along_row = add(along_row, mul(load(x.row(j, k)), all(basis.tension[i * n + k])));
+      taut = add(taut, mul(load(x.row(j, i)), along_row));
+    }
+    store(mul(taut, slender), &to.tension_1_s2(j).lane[lane]);
     store(share, &to.lift_share(j).lane[lane]);
     if (held) {
-      p[0] = sub(share, hn::Div(tied, value));
+      if (!to.tuned) moved = hn::Div(tied, value);
+      p[0] = sub(share, moved);
       kinetic = sub(kinetic, mul(share, share));
-      energy = sub(energy, hn::Div(mul(tied, tied), value));
+      if (!to.tuned) energy = sub(energy, hn::Div(mul(tied, tied), value));
     } else {
       for (std::size_t k = 0; k < ends; ++k) p[k] = hn::Div(p[k], mul(mass, value));
     }
@@ -240,112 +259,6 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
     }
   }
   for (std::size_t k = 0; k < inputs; ++k) store(reaction[k], &to.reaction(k).lane[lane]);
-}
-
-/// Sine and cosine of 0 ≤ x < 1e6 to some 1e-15: π/2 in three parts, Taylor's series.
-HWY_INLINE void sin_cos(V x, V& sine, V& cosine) {
-  const V quadrant = hn::Floor(add(mul(x, all(0.6366197723675814)), all(0.5)));
-  V r = sub(x, mul(quadrant, all(0x1.921fb54400000p+0)));
-  r = sub(r, mul(quadrant, all(0x1.0b4611a600000p-34)));
-  r = sub(r, mul(quadrant, all(0x1.3198a2e037073p-69)));
-  const V square = mul(r, r);
-  V s = all(0), c = all(0);
-  double factorial = 355687428096000.0;  // 17!
-  for (int k = 17; k > 1; k -= 2) {      // down to 3! and 2!
-    s = sub(all(1 / factorial), mul(square, s));
-    factorial /= k;
-    c = sub(all(1 / factorial), mul(square, c));
-    factorial /= k - 1;
-  }
-  s = sub(r, mul(mul(r, square), s));
-  c = sub(all(1), mul(square, c));
-  const V turn = sub(quadrant, mul(all(4), hn::Floor(mul(quadrant, all(0.25)))));
-  const auto odd = hn::Or(hn::Eq(turn, all(1)), hn::Eq(turn, all(3)));
-  const V s0 = hn::IfThenElse(odd, c, s), c0 = hn::IfThenElse(odd, s, c);
-  sine = hn::IfThenElse(hn::Ge(turn, all(2)), hn::Neg(s0), s0);
-  cosine = hn::IfThenElse(hn::Or(hn::Eq(turn, all(1)), hn::Eq(turn, all(2))), hn::Neg(c0), c0);
-}
-
-HWY_INLINE void store_floats(V v, float* to) {
-  const hn::Rebind<float, Tag> floats;
-  hn::StoreU(hn::DemoteTo(floats, v), floats, to);
-}
-
-/// Of motions that swing; the others are made over again.
-void swings(const ReducedBellies& bellies, double half, double tick_s, double decay, std::size_t stride,
-            float* motion) {
-  for (std::size_t j = 0; j < bellies.vectors; ++j) {
-    float* const to = motion + j * stride * lane_count;
-    for (std::size_t lane = 0; lane < bellies.count; lane += width) {
-      const V omega = load(&bellies.omega_1_s(j).lane[lane]);
-      const V square = hn::Max(sub(mul(omega, omega), all(half * half)), all(0)), swing = hn::Sqrt(square);
-      const V angle = mul(swing, all(tick_s));
-      V sine, cosine;
-      sin_cos(angle, sine, cosine);
-      sine = hn::IfThenElse(hn::Gt(angle, all(1e-8)), hn::Div(sine, swing), all(tick_s));
-      sine = mul(all(decay), sine);
-      cosine = mul(all(decay), cosine);
-      store_floats(add(cosine, mul(all(half), sine)), to + lane);
-      store_floats(mul(omega, sine), to + lane_count + lane);
-      store_floats(hn::Div(all(2 * half), omega), to + 2 * lane_count + lane);
-    }
-  }
-}
-
-void shapes(const ReducedBellies& of, double damping_per_s, float* to) {
-  const std::size_t n = of.vectors, inputs = of.inputs;
-  const auto put = [&to](V v, std::size_t lane) HWY_ATTR { store_floats(v, to + lane); };
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j, to += lane_count) {
-      for (std::size_t l = 0; l < of.count; l += width) {
-        const V unit = inputs == 1 ? load(&of.participation(j, 0).lane[l]) : all(1);
-        put(mul(load(&of.eigenvector(j, i).lane[l]), hn::Div(unit, load(&of.omega_1_s(j).lane[l]))), l);
-      }
-    }
-    for (std::size_t k = 0; k < inputs; ++k, to += lane_count) {
-      for (std::size_t l = 0; l < of.count; l += width) {
-        V rest = all(0);
-        for (std::size_t j = 0; j < n; ++j) {
-          V p = load(&of.participation(j, k).lane[l]);
-          if (k == 0) p = sub(p, load(&of.lift_share(j).lane[l]));
-          rest = add(rest, mul(load(&of.eigenvector(j, i).lane[l]), p));
-        }
-        put(rest, l);
-      }
-    }
-  }
-  const auto copy = [&](const Lanes<double>& from, double by) HWY_ATTR {
-    for (std::size_t l = 0; l < of.count; l += width) put(mul(load(&from.lane[l]), all(by)), l);
-    to += lane_count;
-  };
-  for (std::size_t j = 0; j < n; ++j) copy(of.omega_1_s(j), 1);
-  for (std::size_t j = 0; j < n; ++j) copy(of.participation(j, 0), 1);
-  for (std::size_t k = 0; k < inputs; ++k) copy(of.reaction(k), 1);
-  copy(of.lift_mass_kg(), damping_per_s);
-}
-
-void rest(const ReducedBasis& basis, const ReducedBellies& of, const Lanes<float>& input, float* to) {
-  const std::size_t n = of.vectors, rows = 3 * basis.control_weight.size();
-  for (std::size_t l = 0; l < of.count; l += width) {
-    alignas(64) double driven[width];
-    for (std::size_t i = 0; i < width; ++i) driven[i] = static_cast<double>(input[l + i]);
-    const V w = load(driven);
-    V q[most];
-    for (std::size_t i = 0; i < n; ++i) {
-      q[i] = all(0);
-      for (std::size_t j = 0; j < n; ++j) {
-        const V p = sub(load(&of.participation(j, 0).lane[l]), load(&of.lift_share(j).lane[l]));
-        q[i] = add(q[i], mul(load(&of.eigenvector(j, i).lane[l]), p));
-      }
-      q[i] = mul(q[i], w);
-    }
-    const float* shape = basis.shape.data();
-    for (std::size_t row = 0; row < rows; ++row, shape += n + 1) {
-      V sum = mul(all(static_cast<double>(shape[0])), w);
-      for (std::size_t i = 0; i < n; ++i) sum = add(sum, mul(all(static_cast<double>(shape[i + 1])), q[i]));
-      store_floats(sum, to + row * lane_count + l);
-    }
-  }
 }
 
 void solve_all(const ReducedBasis& basis, const Lanes<double>& across, const Lanes<double>& along, std::size_t count,
@@ -366,25 +279,6 @@ namespace mobil {
 namespace {
 
 HWY_EXPORT(solve_all);
-HWY_EXPORT(swings);
-HWY_EXPORT(shapes);
-HWY_EXPORT(rest);
-
-/// A float's upper sixteen bits, rounded to the nearest: eight digits.
-std::uint32_t upper_half(double x) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(x));
-  return (bits + 0x7FFFU + (bits >> 16 & 1U)) >> 16;
-}
-
-/// Of a motion that creeps home: a and b.
-void creep(double omega, double half, double tick_s, float& a, float& b) {
-  const double apart = std::sqrt(half * half - omega * omega);
-  const double slow = std::exp(-omega * omega / (half + apart) * tick_s);
-  const double fast = std::expm1(-2 * apart * tick_s);  // of the slow one, less 1
-  const double cosine = slow * (1 + fast / 2), sine = slow * (apart * tick_s > 1e-8 ? -fast / (2 * apart) : tick_s);
-  a = static_cast<float>(cosine + half * sine);
-  b = static_cast<float>(omega * sine);
-}
 
 }  // namespace
 
@@ -407,7 +301,7 @@ Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale
   bellies.count = static_cast<std::uint32_t>(bodies.size());
   HWY_DYNAMIC_DISPATCH(solve_all)(basis, across, along, bodies.size(), bellies);
   for (std::size_t lane = 0; lane < bodies.size(); ++lane) {
-    if (bellies.omega_1_s(0)[lane] > 0) continue;
+    if (bellies.omega_1_s(0)[lane] > 0 && std::isfinite(bellies.participation(0, 0)[lane])) continue;
     return fail(fmt::format("{} vectors of a mesh of {}x{}x{} cells are too many for a stiffness above 0{}; take fewer",
                             basis.vectors, basis.cells[0], basis.cells[1], basis.cells[2],
                             basis.options.corrected ? " with the mesh's error extrapolated away" : ""));
@@ -428,59 +322,17 @@ ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane) {
   ReducedBelly one;
   one.vectors = bellies.vectors;
   one.inputs = bellies.inputs;
+  one.tuned = bellies.tuned;
   for (std::size_t j = 0; j < one.vectors; ++j) {
     one.omega_1_s[j] = bellies.omega_1_s(j)[lane];
     one.lift_share[j] = bellies.lift_share(j)[lane];
+    one.tension_1_s2[j] = bellies.tension_1_s2(j)[lane];
     for (std::size_t i = 0; i < one.vectors; ++i) one.eigenvector[i][j] = bellies.eigenvector(j, i)[lane];
     for (std::size_t k = 0; k < one.inputs; ++k) one.participation[j][k] = bellies.participation(j, k)[lane];
   }
   for (std::size_t k = 0; k < one.inputs; ++k) one.reaction[k] = bellies.reaction(k)[lane];
   one.lift_mass_kg = bellies.lift_mass_kg()[lane];
   return one;
-}
-
-void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion) {
-  const std::size_t inputs = bellies.inputs;
-  const std::size_t stride = reduced_motion_width(bellies.vectors, inputs == 1 ? 1 : bellies.inputs) / bellies.vectors;
-  const double half = damping_per_s / 2;
-  HWY_DYNAMIC_DISPATCH(swings)(bellies, half, tick_s, std::exp(-half * tick_s), stride, motion);
-  const std::size_t ends = inputs > frame_inputs ? inputs - frame_inputs : inputs;
-  for (std::size_t j = 0; j < bellies.vectors; ++j) {
-    float* to = motion + j * stride * lane_count;
-    for (std::size_t lane = 0; lane < bellies.count; ++lane) {
-      float &a = to[lane], &b = to[lane_count + lane];
-      const float g = to[2 * lane_count + lane];
-      const double omega = bellies.omega_1_s(j)[lane];
-      if (omega * omega < half * half) creep(omega, half, tick_s, a, b);
-      // An undamped motion must not grow by how its numbers round.
-      const auto growth = [g](double x, double y) { return x * (x - static_cast<double>(g) * y) + y * y; };
-      while (growth(static_cast<double>(a), static_cast<double>(b)) > 1) {
-        a = std::nextafter(a, 0.0F);
-        b = std::nextafter(b, 0.0F);
-      }
-    }
-    if (inputs == 1) continue;
-    to += 3 * lane_count;
-    for (std::size_t k = 0; k < ends; ++k, to += lane_count) {
-      for (std::size_t lane = 0; lane < bellies.count; ++lane)
-        to[lane] = static_cast<float>(bellies.participation(j, k)[lane]);
-    }
-    for (std::size_t k = ends; k < inputs; k += 2, to += lane_count) {
-      for (std::size_t lane = 0; lane < bellies.count; ++lane) {
-        to[lane] = std::bit_cast<float>(upper_half(bellies.participation(j, k + 1)[lane]) << 16 |
-                                        upper_half(bellies.participation(j, k)[lane]));
-      }
-    }
-  }
-}
-
-void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* shape) {
-  HWY_DYNAMIC_DISPATCH(shapes)(bellies, damping_per_s, shape);
-}
-
-void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,
-                   float* displacement) {
-  HWY_DYNAMIC_DISPATCH(rest)(basis, bellies, input, displacement);
 }
 
 }  // namespace mobil

@@ -14,25 +14,29 @@
 
 namespace mobil {
 
-/// What ReducedBelly (reduced_belly.h) has of one body, of sixteen; lanes past the bodies hold whatever.
+/// What ReducedBelly (reduced_belly.h) has of one body, of sixteen; lanes past the bodies hold whatever. Whoever asks
+/// says beforehand whether they are `tuned`.
 struct ReducedBellies {
   std::uint32_t vectors = 0, inputs = 0, count = 0;
+  bool tuned = false;
   std::vector<Lanes<double>> words{}, scratch{};
 
   using Column = Lanes<double>;
   void resize(std::uint32_t all_vectors, std::uint32_t all_inputs) {
     vectors = all_vectors;
     inputs = all_inputs;
-    words.resize(std::size_t{vectors} * (2 + vectors + inputs) + inputs + 1);
+    words.resize(std::size_t{vectors} * (3 + vectors + inputs) + inputs + 1);
   }
   Column& omega_1_s(std::size_t motion) { return words[motion]; }
   Column& lift_share(std::size_t motion) { return words[vectors + motion]; }
+  Column& tension_1_s2(std::size_t motion) { return words[2 * vectors + motion]; }
   Column& eigenvector(std::size_t motion, std::size_t vector) { return words[eigenvector_at(motion, vector)]; }
   Column& participation(std::size_t motion, std::size_t input) { return words[participation_at(motion, input)]; }
   Column& reaction(std::size_t input) { return words[participation_at(vectors, input)]; }
   Column& lift_mass_kg() { return words.back(); }
   const Column& omega_1_s(std::size_t motion) const { return words[motion]; }
   const Column& lift_share(std::size_t motion) const { return words[vectors + motion]; }
+  const Column& tension_1_s2(std::size_t motion) const { return words[2 * vectors + motion]; }
   const Column& eigenvector(std::size_t motion, std::size_t vector) const {
     return words[eigenvector_at(motion, vector)];
   }
@@ -43,10 +47,10 @@ struct ReducedBellies {
   const Column& lift_mass_kg() const { return words.back(); }
 
  private:
-  std::size_t eigenvector_at(std::size_t motion, std::size_t vector) const { return (2 + motion) * vectors + vector; }
+  std::size_t eigenvector_at(std::size_t motion, std::size_t vector) const { return (3 + motion) * vectors + vector; }
   /// Reactions stand behind the last motion's.
   std::size_t participation_at(std::size_t motion, std::size_t input) const {
-    return (2 + std::size_t{vectors}) * vectors + motion * inputs + input;
+    return (3 + std::size_t{vectors}) * vectors + motion * inputs + input;
   }
 };
 
@@ -59,12 +63,5 @@ Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale
 Result<void> solve_bellies(const ReducedBasis& basis, std::span<const BellyScale<float>> bodies,
                            ReducedBellies& bellies);
 ReducedBelly belly_of(const ReducedBellies& bellies, std::size_t lane);
-
-/// Numbers that the kernels take, laid out as systems/deformation/reduced.h says: word w of lane l at [16·w + l].
-void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion);
-void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* shape);
-/// Displacements of the control points at rest under the first input, of bellies that have no other.
-void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,
-                   float* displacement);
 
 }  // namespace mobil

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "assets/reduction/reduced_bellies.h"
+#include "assets/reduction/reduced_rows.h"
 #include "components/lanes.h"
 
 namespace mobil {
@@ -56,9 +56,10 @@ void show(const ReducedBasis& basis, double w, const double* q, std::span<float>
 
 }  // namespace
 
-Result<ReducedBelly> make_reduced_belly(const ReducedBasis& basis, double across, double along) {
+Result<ReducedBelly> make_reduced_belly(const ReducedBasis& basis, double across, double along, bool tuned) {
   const BellyScale<double> scale{across, along};
   ReducedBellies one;
+  one.tuned = tuned;
   if (auto solved = solve_bellies(basis, {&scale, 1}, one); !solved) return tl::unexpected(solved.error());
   return belly_of(one, 0);
 }

@@ -3,15 +3,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <utility>
 #include <vector>
 
 #include "assets/body/anthropometry.h"
 #include "assets/finite/shape_tables.h"
 #include "assets/muscles/muscle_plan.h"
+#include "assets/reduction/reduced_rows.h"
 #include "demo/bench/bench.h"
 #include "systems/activation/excitation.h"
 #include "systems/activation/musculotendon.h"
 #include "systems/deformation/finite_shape.h"
+#include "systems/deformation/reduced.h"
 
 namespace mobil {
 namespace {
@@ -49,6 +53,52 @@ Result<void> bench_shape(BenchRun& run) {
   });
   run.add_time("activation.finite_shape.us_per_muscle_tick", adding, 64.0 * lane_count, 1e-6, "us").bound =
       at_peak(run.machine, adding.best_s / (64.0 * lane_count));
+  return {};
+}
+
+/// Twelve motions of bellies that vibrate, and what it takes more that tension stiffens them.
+Result<void> bench_tuned(BenchRun& run) {
+  const Muscle muscle = *find_muscle("gastrocnemius_medial");
+  const auto basis = make_reduced_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {});
+  if (!basis) return tl::unexpected(basis.error());
+  constexpr float tick_s = 1.0F / 60;
+  constexpr std::size_t blocks = 64;  // in a quarter of a megabyte
+  BellyScale<Lanes<float>> scale;
+  set_all(scale.across, 1), set_all(scale.along, 1);
+  const std::size_t motion = reduced_motion_width(basis->vectors, basis->inputs);
+  const std::size_t state = reduced_state_width(basis->vectors);
+  EndDrive<Lanes<float>> end;
+  set_all(end.from, 0), set_all(end.to, 1e-3);
+  Lanes<float> activation;
+  set_all(activation, 0.3);
+  std::array<double, 2> us{};
+  for (const bool tuned : {false, true}) {
+    ReducedBellies bellies;
+    bellies.tuned = tuned;
+    const std::vector<BellyScale<float>> bodies(lane_count, {1, 1});
+    if (auto solved = solve_bellies(*basis, bodies, bellies); !solved) return solved;
+    std::vector<Lanes<float>> motions(blocks * motion), states(blocks * state);
+    for (std::size_t b = 0; b < blocks; ++b) write_motions(bellies, 8, double{tick_s}, motions[b * motion].lane);
+    const Measured moving = measure_short([&] {
+      std::swap(end.from, end.to);
+      for (std::size_t b = 0; b < blocks; ++b) {
+        const ReducedBlock block{*basis, scale, states[b * state].lane, motions[b * motion].lane};
+        if (tuned) {
+          deform_tuned(block, {FarEnd::held, end}, activation, tick_s);
+        } else {
+          deform_reduced(block, {FarEnd::held, end}, tick_s);
+        }
+      }
+    });
+    us[tuned] = 1e6 * moving.best_s / (blocks * lane_count);
+    run.add_time(fmt::format("activation.{}.us_per_muscle_tick", tuned ? "tuned" : "untuned"), moving,
+                 blocks * lane_count, 1e-6, "us");
+  }
+  BenchResult& more = run.results.emplace_back();
+  more.name = "activation.tuned_more.us_per_muscle_tick";
+  more.value = us[1] - us[0];
+  more.unit = "us";
+  more.bound = "of twelve motions; " + at_peak(run.machine, 1e-6 * more.value);
   return {};
 }
 
@@ -91,7 +141,8 @@ Result<void> bench_activation(BenchRun& run) {
       at_peak(run.machine, exciting.best_s / muscles);
   run.add_time("activation.kernel.us_per_muscle_tick", pulling, muscles, 1e-6, "us").bound =
       at_peak(run.machine, pulling.best_s / muscles);
-  return bench_shape(run);
+  if (auto done = bench_shape(run); !done) return done;
+  return bench_tuned(run);
 }
 
 }  // namespace mobil

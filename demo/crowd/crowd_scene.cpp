@@ -43,6 +43,7 @@ LegMuscles CrowdScene::first_muscles() const {
   const MuscleMethod method = rung_method(most, request_.all_seen);
   choice.method = method.method;
   choice.reduced = method.reduced;
+  choice.reduced.tuned = request_.effects.tuned;
   return choice;
 }
 

@@ -131,10 +131,10 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
 
-  const auto set_all = [&](std::size_t rung, bool points) {
+  const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
     return everybody([&](Entity human) -> Result<void> {
       for (std::size_t g = 0; g < muscle_group_count; ++g) {
-        if (auto set = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points)); !set)
+        if (auto set = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, tuned)); !set)
           return set;
       }
       return {};
@@ -173,7 +173,19 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   us = meter(named({"finite shape, reduced"}), &systems) - points_us;  // it places them too
   add("finite shape", "bellies keep their volume, and are thick where they pull",
       "control points; LegMuscles::finite_shape", std::max(us, 0.0), systems);
+  choice.finite_shape = false;
+  choice.activation = ExcitationSource::phase;
+  choice.method = Method::none;
+  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  if (!done) return tl::unexpected(done.error());
+  if (done = set_all(shown_rung, false, true); !done) return tl::unexpected(done.error());
+  settle();
+  us = meter(deforms, &systems) - moving_us;
+  add("tuned", fmt::format("who pulls is shaken less, and for a shorter time (of {})", rungs[shown_rung].name),
+      "activation; ReducedChoice::tuned", std::max(us, 0.0), systems);
+
   choice.finite_shape.reset();
+  choice.activation = ExcitationSource::none;
   choice.method = Method::none;
   done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());

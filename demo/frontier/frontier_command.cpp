@@ -6,10 +6,13 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "assets/files/output_file.h"
+#include "assets/muscles/muscle_table.h"
 #include "demo/frontier/frontier.h"
 #include "demo/frontier/frontier_finite.h"
+#include "demo/frontier/frontier_shaken.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 
@@ -23,12 +26,17 @@ struct FrontierText {
 
 Result<void> run_finite(const std::string& out) {
   if (auto made = make_output_folder(out); !made) return made;
-  const auto muscles = measure_finite(&show_part);
+  const auto shapes = measure_finite(&show_part);
+  if (!shapes) return tl::unexpected(shapes.error());
+  std::vector<Muscle> all;
+  for (std::size_t m = 0; m < muscles().size(); ++m) all.push_back(static_cast<Muscle>(m));
+  const auto shaken = measure_shaken(all, &show_part);
   show("");
-  if (!muscles) return tl::unexpected(muscles.error());
-  const std::filesystem::path file = std::filesystem::path(out) / "finite.csv";
-  if (auto done = write_file(file, finite_csv(*muscles)); !done) return done;
-  fmt::print("{}\nwritten {}\n", finite_text(*muscles), file.string());
+  if (!shaken) return tl::unexpected(shaken.error());
+  const std::filesystem::path folder = out;
+  if (auto done = write_file(folder / "finite.csv", finite_csv(*shapes)); !done) return done;
+  if (auto done = write_file(folder / "shaken.csv", shaken_csv(*shaken)); !done) return done;
+  fmt::print("{}\n{}\nwritten {}: finite.csv shaken.csv\n", finite_text(*shapes), shaken_text(*shaken), out);
   return {};
 }
 
@@ -80,7 +88,9 @@ Subcommand frontier_command() {
        "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for each muscle and "
        "kind of load"},
       {"--finite", &text->finite,
-       "Instead: how far what is shown is from tissue that keeps its volume and pulls (finite.csv), a minute"},
+       "Instead: how far what is shown is from tissue that keeps its volume and pulls and moves as it does "
+       "(finite.csv, shaken.csv), three "
+       "minutes"},
       {"--out", &text->out, "Folder for frontier.csv, .svg and .json, made if missing"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };

@@ -65,6 +65,45 @@ Result<void> excite_all(Simulation& simulation, Entity human, float level) {
   return {};
 }
 
+/// Stiffness that goes up and down as fast as activation can, at any rate: what shakes must not be pumped up by it.
+Result<void> stress_tuned(StressRun& run) {
+  Worst walking, standing;
+  double kinetic_mj = 0;
+  for (const int apart : {1, 2, 3, 5, 8}) {
+    Simulation simulation;
+    LegMuscles choice = hosted(Method::reduced);
+    choice.reduced.tuned = true;
+    choice.inertia = true;
+    const auto walker = simulation.spawn({}, {.speed_m_s = 1.8F});
+    if (!walker) return tl::unexpected(walker.error());
+    const auto stands = simulation.spawn_posed({});
+    if (!stands) return tl::unexpected(stands.error());
+    for (const Entity human : {*walker, *stands}) {
+      if (auto added = simulation.add_leg_muscles(human, choice); !added) return added;
+    }
+    const int ticks = run.quick ? 300 : 3600;
+    for (int tick = 0; tick < ticks; ++tick) {
+      const float level = tick / apart % 2 == 0 ? 1.0F : 0.0F;
+      for (const Entity human : {*walker, *stands}) {
+        if (auto done = excite_all(simulation, human, level); !done) return done;
+      }
+      simulation.tick();
+      walking.look(simulation, *walker);
+      standing.look(simulation, *stands);
+    }
+    for (const OwnMuscle& own : simulation.muscles(*stands))
+      Worst::keep(kinetic_mj, 1e3 * double{simulation.get<BellyReport>(own.entity[Side::left])->kinetic_energy_j});
+  }
+  constexpr const char* name = "tension on and off at 60, 30, 20, 12 and 7.5 times a second";
+  run.add({name, "control points' displacement walking, m", Promise::at_most, 0.1, "twice what these walks show",
+           walking.moved_m});
+  run.add({name, "control points' displacement standing, m", Promise::at_most, 0.03, "twice what a contraction takes",
+           standing.moved_m});
+  run.add(
+      {name, "kinetic energy of who stands, mJ", Promise::at_most, 30, "twice what a contraction brings", kinetic_mj});
+  return {};
+}
+
 }  // namespace
 
 Result<void> stress_excitation(StressRun& run) {
@@ -124,7 +163,7 @@ Result<void> stress_excitation(StressRun& run) {
            "a steady pull is steady", crept});
   run.add({fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", Promise::at_most, 0.01,
            "the tables' promise", held.volume_off});
-  return {};
+  return stress_tuned(run);
 }
 
 Result<void> stress_contraction(StressRun& run) {

@@ -50,6 +50,7 @@ const char* const walk_muscles_help =
     "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in "
     "line\n"
     "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them.\n"
+    "  --tuned: of --method reduced; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
     "Hz);\n"
     "    without it they move by the line's pull alone.\n";
@@ -77,6 +78,8 @@ std::vector<Option> walk_options(WalkText& text) {
        "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles},
       {"--activation", &text.activation,
        "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; none", muscles},
+      {"--tuned", &text.tuned, "Tension stiffens and damps vibration; with --activation phase, --method reduced",
+       muscles},
       {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
       {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
       {"--view", &text.view, "stick (lines of action), wireframe (finite-element meshes) or surface", pictures},
@@ -150,6 +153,9 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.muscles.activation = *activation;
   if (has_activation(options.muscles) && options.muscles.drive == Drive::force)
     return fail("--activation draws the belly's end to a place; leave --drive force out, or --activation");
+  options.muscles.reduced.tuned = text.tuned;
+  if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::reduced))
+    return fail("--tuned is of reduced muscles that pull: add --activation phase --method reduced, or leave it out");
   options.muscles.inertia = text.inertia;
   const auto view = choose<View>("--view", text.view, views);
   if (!view) return tl::unexpected(view.error());

@@ -39,7 +39,7 @@ struct WalkText {
               anatomy, view = "surface", out = "out";
   std::vector<std::string> set;
   std::string script;
-  bool list_parameters = false, no_forces = false, members = false, inertia = false;
+  bool list_parameters = false, no_forces = false, members = false, tuned = false, inertia = false;
   bool frames = false, video = false, stereo = false;
 };
 

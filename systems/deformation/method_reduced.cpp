@@ -12,11 +12,13 @@ namespace mobil {
 namespace {
 namespace of_reduced {
 
-void move(Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
-          const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Field<const ReducedMotion> motion,
-          Field<ReducedState> state) {
-  deform_reduced({*basis, scale, state.data, motion.data, frame.block, state.next, motion.next},
-                 {basis->options.far_end, end}, tick_s);
+void move(const Table& table, Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
+          const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Maybe<Activation> activation,
+          Field<const ReducedMotion> motion, Field<ReducedState> state) {
+  const ReducedBlock block{*basis, scale, state.data, motion.data, frame.block, state.next, motion.next};
+  const FarFaceDrive drive(basis->options.far_end, end);
+  if (find_part(table.key(), type_id<ReducedTuned>()) == nullptr) return deform_reduced(block, drive, tick_s);
+  deform_tuned(block, drive, activation.block->activation, tick_s);
 }
 
 /// A block whose state is only read here.
@@ -74,7 +76,7 @@ Module reduced_module() {
   return {.name = "deformation, reduced",
           .parts = {key_part(Shared<ReducedBasis>{}), key_part(FieldWidth<ReducedState>{}),
                     key_part(FieldWidth<ReducedMotion>{}), key_part(FieldWidth<ReducedShape>{}),
-                    key_part(TagValue<ReducedStatic>{})},
+                    key_part(TagValue<ReducedStatic>{}), key_part(TagValue<ReducedTuned>{})},
           .systems = [](ScheduleBuilder& systems) {
             systems.add("deformation, reduced", &move)
                 .add("control points", &place)
@@ -98,6 +100,7 @@ void reduced_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {
   } else {
     parts.push_back(key_part(TagValue<ReducedStatic>{1}));
   }
+  if (is_tuned(kind.method)) parts.push_back(key_part(TagValue<ReducedTuned>{1}));
   const bool reported = choice.control_points && choice.reported;
   if (choice.moving || (reported && basis.inputs > 1)) {  // there the report reads participations
     field(ReducedMotion{}, reduced_motion_width(basis.vectors, basis.inputs));
@@ -111,7 +114,7 @@ bool recognise(const TableKey& key, MuscleKind& kind) {
   const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
   kind.method = {Method::reduced,
                  {basis.vectors, !has(type_id<ReducedStatic>()), basis.options.corrected, basis.cells,
-                  has(type_id<ReducedShape>()), has(type_id<BellyReport<float>>())}};
+                  has(type_id<ReducedShape>()), has(type_id<BellyReport<float>>()), has(type_id<ReducedTuned>())}};
   return true;
 }
 
@@ -145,6 +148,11 @@ Inputs inputs_of(const BellyLoad& load, std::uint32_t count) {
     set(next++, from->z, to->z);
   }
   return inputs;
+}
+
+/// Of bellies that stand, where they are tuned.
+double damping_of(const ReducedBelly& belly, const ReducedBasis& basis) {
+  return belly.tuned ? tuned_damping_per_s(tuned_activation) : basis.options.damping_per_s;
 }
 
 /// Motions at the speed of their static answers: behind these by as much as damping holds them back, or right there.
@@ -185,8 +193,11 @@ BellyMotion reduced_motion(const ReducedBasis& basis, const ReducedBelly& belly,
 std::optional<BellyMotion> computed(const World& world, Entity muscle, float tick_s, LastReducedBelly& last) {
   const BellyScale<float> scale = *world.get<BellyScale>(muscle);
   const auto* basis = world.shared<ReducedBasis>(muscle);
-  if (last.basis != basis || last.scale.across != scale.across || last.scale.along != scale.along) {
+  const bool tuned = world.get<ReducedTuned>(muscle).has_value();
+  if (last.basis != basis || last.scale.across != scale.across || last.scale.along != scale.along ||
+      last.belly.tuned != tuned) {
     ReducedBellies one;
+    one.tuned = tuned;
     if (!solve_bellies(*basis, {&scale, 1}, one)) return std::nullopt;  // cannot happen: the same was solved before
     last = {basis, scale, belly_of(one, 0)};
   }
@@ -197,9 +208,9 @@ Beginning begin(const NextBelly& next, bool moves) {
   Beginning from;
   const ReducedBasis& basis = *next.belly.basis;
   if (next.choice.reduced.moving) {
-    from.state =
-        moves ? state_with_loads(*next.belly.motions, inputs_of(next.load, basis.inputs), basis.options.damping_per_s)
-              : std::vector<float>(reduced_state_width(basis.vectors));
+    from.state = moves ? state_with_loads(*next.belly.motions, inputs_of(next.load, basis.inputs),
+                                          damping_of(*next.belly.motions, basis))
+                       : std::vector<float>(reduced_state_width(basis.vectors));
   }
   if (has_control_points(next.choice)) {
     from.displacement = reduced_motion(basis, *next.belly.motions, next.load, from.state).displacement;

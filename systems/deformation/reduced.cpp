@@ -8,7 +8,9 @@
 
 #include <array>
 
+#include "assets/reduction/reduced_belly.h"
 #include "engine/wide-inl.h"
+#include "engine/wide_exp-inl.h"
 #include "systems/deformation/reduced-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -56,6 +58,79 @@ void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_
     }
     swing(state, motion, sum);
     motion = participation;
+  }
+}
+
+/// Activation, and what all motions of a tuned belly have of it in this tick.
+struct Tuning {
+  Wide activation, half, decay;  // α/2, e^(−αh/2)
+};
+
+HWY_INLINE Wide tuned_square(const float* motion, const Wide& activation) {
+  return fma(activation, load(motion + 2 * lane_count), load(motion + lane_count));
+}
+
+/// No motion is damped to where it creeps.
+HWY_INLINE Tuning tuning(const float* motion, std::size_t vectors, std::size_t width, const Wide& activation,
+                         float tick_s) {
+  Wide least = tuned_square(motion, activation);
+  for (std::size_t j = 1; j < vectors; ++j)
+    least = min(least, tuned_square(motion + j * width * lane_count, activation));
+  constexpr auto slack = static_cast<float>(tuned_damping_per_s(0) / 2);
+  constexpr auto taut = static_cast<float>(tuned_damping_per_s(1) / 2);
+  const Wide half = min(fma(activation, wide(taut - slack), wide(slack)), 0.95F * sqrt(least));
+  return {activation, half, exp(wide(-tick_s) * half)};
+}
+
+/// One tuned motion over a tick in which the end's displacement has its place in rest move by `end_moved`, and the
+/// frame's loads would have it at `from` and `to` without what tension adds.
+HWY_INLINE void swing_tuned(float* state, const float* motion, const Tuning& tuning, float tick_s,
+                            const Wide& end_moved, const Wide& from, const Wide& to) {
+  const Wide inverse = load(motion), square = tuned_square(motion, tuning.activation);
+  const Wide own =
+      fma(load(motion + 2 * lane_count), wide(static_cast<float>(tuned_activation)), load(motion + lane_count));
+  const Wide flexibility = 1.0F / square, held = 1.0F - own * flexibility;
+  const Wide swing = sqrt(fnma(tuning.half, tuning.half, square));
+  Wide sine, cosine;
+  sin_cos(swing * tick_s, sine, cosine);
+  sine = tuning.decay * sine / swing;
+  const Wide a = fma(tuning.decay, cosine, tuning.half * sine);
+  const Wide rate = fnma(held, to - from, end_moved + (to - from)) * (1.0F / tick_s);
+  const Wide lag = 2.0F * tuning.half * flexibility * rate;
+  const Wide y = fma(held, from, fma(inverse, load(state), lag)), v = load(state + lane_count) - rate;
+  const Wide next_y = fma(a, y, sine * v), next_v = fnma(square * sine, y, fnma(2.0F * tuning.half, sine, a) * v);
+  store(own * inverse * fnma(held, to, next_y - lag), state);
+  store(next_v + rate, state + lane_count);
+}
+
+void tuned_tick(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& active, float tick_s) {
+  const ReducedInputs inputs = reduced_inputs(end, block.frame);
+  const std::size_t vectors = block.basis.vectors, full = full_inputs(inputs.count);
+  const std::size_t width = inputs.count == 1 ? 3 : 3 + full + (inputs.count - full) / 2;
+  float* state = block.state;
+  const float* motion = block.motion;
+  const Tuning all = tuning(motion, vectors, width, load(active), tick_s);
+  const Wide none = wide(0.0F), first_moved = load(*inputs.to[0]) - load(*inputs.from[0]);
+  Ahead states(block.next_state, vectors, 2, 2), motions(block.next_motion, vectors, width, width);
+  for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += width * lane_count) {
+    states.fetch_some(2);
+    motions.fetch_some(width);
+    if (inputs.count == 1) {
+      swing_tuned(state, motion, all, tick_s, first_moved, none, none);
+      continue;
+    }
+    const float* participation = motion + 3 * lane_count;
+    Wide end_moved = load(participation) * first_moved, from = none, to = none;
+    participation += lane_count;
+    for (std::size_t i = 1; i < full; ++i, participation += lane_count) {
+      end_moved = fma(load(participation), load(*inputs.to[i]) - load(*inputs.from[i]), end_moved);
+    }
+    for (std::size_t i = full; i < inputs.count; i += 2, participation += lane_count) {
+      const WidePair pair = load_pair(participation);
+      from = fma(pair.odd, load(*inputs.from[i + 1]), fma(pair.even, load(*inputs.from[i]), from));
+      to = fma(pair.odd, load(*inputs.to[i + 1]), fma(pair.even, load(*inputs.to[i]), to));
+    }
+    swing_tuned(state, motion, all, tick_s, end_moved, from, to);
   }
 }
 
@@ -167,12 +242,17 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 namespace {
 HWY_EXPORT(deform_tick);
+HWY_EXPORT(tuned_tick);
 HWY_EXPORT(place_moving);
 HWY_EXPORT(place_at_rest);
 }  // namespace
 
 void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
   HWY_DYNAMIC_DISPATCH(deform_tick)(block, end, tick_s);
+}
+
+void deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation, float tick_s) {
+  HWY_DYNAMIC_DISPATCH(tuned_tick)(block, end, activation, tick_s);
 }
 
 void place_control_points(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end) {

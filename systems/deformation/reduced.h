@@ -6,6 +6,14 @@
 //   b = e^(−αh/2)·ω·sin(ω_d·h)/ω_d,   a = e^(−αh/2)·(cos(ω_d·h) + (α/2)·sin(ω_d·h)/ω_d),   ω_d² = ω² − α²/4
 // (hyperbolic where ω_d² < 0). Three numbers a motion are all that a tick reads besides its state. Unconditionally
 // stable, without period error.
+//
+// Of tuned bellies fibres that pull stiffen and damp the motions. With activation A over the tick
+//   ω'² = ω² + (A − A₀)·γ,   α = 16 + 60·A,   z̈ + α·ż + ω'²·(z − s_end) = ω²·s_frame,
+// A₀ = tuned_activation, γ = tension_1_s2: what the end's displacement makes of a belly at rest stays, under the loads
+// of the frame it gives way less. X = ω·(z − s) is kept as it is without tension, so that it is placed alike; each
+// tick swings what is left of z when its place in rest, s_end + (ω²/ω'²)·s_frame, is taken away. (Wakeling and Nigg, J.
+// Appl. Physiol. 90, 2001: frequency and damping of vibrations rise with force. 16 gives 7 Hz a share of critical
+// damping of 0.18, 16 + 60 gives 15 Hz 0.4; no source measures them.)
 
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_belly.h"
@@ -22,7 +30,8 @@ namespace mobil {
 /// `motion` (reduced_motion_width): of each motion a, b, g and, with several inputs, its P (a₀ b₀ g₀ P₀₀ P₀₁ … a₁ …):
 /// those of the ends as they are, those of the frame's loads two a word, as upper halves of floats, the even one in the
 /// word's lower half. (Memory is what a tick waits for; that they are 0.2 % off at most is so of swings alone, for the
-/// place in rest is in `shape`.) With one input P is left to `shape`.
+/// place in rest is in `shape`.) With one input P is left to `shape`. Of tuned bellies 1/ω, ω² − A₀·γ and γ take
+/// the places of a, b and g.
 struct ReducedBlock {
   const ReducedBasis& basis;
   const BellyScale<Lanes<float>>& scale;
@@ -36,6 +45,14 @@ struct ReducedBlock {
 
 /// One tick of a block. A lane's NaN stays in its lane. No heap.
 void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
+
+/// α of tuned bellies.
+constexpr double tuned_damping_per_s(double activation) {
+  return 16 + 60 * activation;
+}
+
+/// The same of a block of tuned bellies, which pull as hard as `activation` says, 0.01 to 1.
+void deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation, float tick_s);
 
 /// Where the control points are at the tick's end: `displacement`, three a node in m, muscle's frame, as in BellyBlock
 /// (the origin face's are written too: zero).
@@ -63,7 +80,7 @@ void place_static(const ReducedBlock& block, const ControlPoints& points, const 
 /// points are. Reaction: of a held face the force that moves it, by the lift's virtual work; else what pulls (of a mesh
 /// without end both are the elastic force at the face). Strain energy includes the foundation's, so that both energies'
 /// sum is constant in free undamped motion. A null state is that of a static belly; with several inputs `motion` is
-/// read all the same.
+/// read all the same. Of tuned bellies the tension's part of reaction and strain energy is left out where they move.
 void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
                     const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
 

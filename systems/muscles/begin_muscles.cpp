@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "assets/reduction/reduced_bellies.h"
+#include "assets/reduction/reduced_rows.h"
 #include "components/fade.h"
 #include "components/pose.h"
 #include "engine/access.h"
@@ -186,6 +186,7 @@ class Block {
       put_row(scale[lane], group_.both.block<BellyScale>(b_), lane);
     }
     ReducedBellies bellies;
+    bellies.tuned = is_tuned(group_.kind.method);
     const ReducedBasis* const basis = group_.kind.basis.resource;
     if (basis != nullptr) {
       if (auto solved = solve_bellies(*basis, {scale.data(), count_}, bellies); !solved) return solved;

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "assets/reduction/reduced_bellies.h"
+#include "assets/reduction/reduced_rows.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "systems/deformation/deformation.h"
 #include "systems/lines/line_of_action.h"
@@ -68,6 +68,10 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
     return fail("activation draws the belly's end to a place; take Drive::displacement, or no activation");
   if (has_finite_shape(choice) && choice.drive == Drive::force)
     return fail("finite shapes are those of a belly whose end is held; take Drive::displacement, or no finite_shape");
+  if (is_tuned(choice) && !has_activation(choice)) {
+    return fail(
+        "tuned bellies are as stiff as their muscle pulls: choose LegMuscles::activation too, or leave tuned out");
+  }
   if (choice.muscles.none() || (choice.muscles >> muscles().size()).any()) {
     return fail(
         fmt::format("the muscles chosen must be some of the table's {} rows; take muscle_groups(),"
@@ -251,6 +255,7 @@ Result<Belly> BellyLibrary::belly(const MusclePlan& plan, const LegMuscles& choi
   if (choice.method != Method::reduced) return belly;
   const ReducedBasis& basis = *belly.basis;
   ReducedBellies one;
+  one.tuned = is_tuned(choice);
   if (auto solved = solve_bellies(basis, {&plan.scale, 1}, one); !solved) return tl::unexpected(solved.error());
   const double damping = basis.options.damping_per_s;
   std::vector<Lanes<float>> words(

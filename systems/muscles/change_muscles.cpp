@@ -121,7 +121,7 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
     past.shown.velocity[i] -= offset.velocity[i];
   }
   const bool keeps = next.choice.reduced.moving && world.has<ReducedState>(change.muscle) &&
-                     was->basis.resource == next.belly.basis.get();
+                     was->basis.resource == next.belly.basis.get() && is_tuned(was->method) == is_tuned(next.choice);
   return method->go_on(next, past, keeps);
 }
 

@@ -91,6 +91,7 @@ bool fits_together(const MuscleKind& kind) {
   if (shape != nullptr && shape->options.far_end != kind.far_end) return false;
   const auto* finite = kind.finite.resource;
   if (kind.activation != ExcitationSource::none && kind.far_end != FarEnd::held) return false;
+  if (is_tuned(kind.method) && kind.activation == ExcitationSource::none) return false;
   if (finite != nullptr && (shape == nullptr || finite->cells != shape->mesh.cells || kind.far_end != FarEnd::held))
     return false;
   if (basis == nullptr) return true;

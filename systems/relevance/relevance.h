@@ -90,7 +90,8 @@ struct RelevanceOptions {
   std::optional<double> machine_factor{};
   /// Seconds that the last tick's deformation took; left out: of Simulation::report() what deforms.
   std::function<double(const Simulation&)> measured_s{};
-  /// Of people who get muscles by being managed: all but muscles and method, which are chosen.
+  /// Of people who get muscles by being managed: all but muscles and method, which are chosen. `reduced.tuned`: what
+  /// moves is tuned, of everybody whose muscles pull.
   LegMuscles leg_muscles{};
   /// Makes bases that methods lack while ticks go on; with none they are made in the update that takes them up. Until
   /// `making_ticks` after it was first called for a method is not taken up, and the next coarser one serves: what was
@@ -136,8 +137,8 @@ struct Choice {
   std::string text;
 };
 
-/// A rung as Simulation takes it.
-MuscleMethod rung_method(std::size_t rung, bool control_points);
+/// A rung as Simulation takes it; `tuned`: where its bellies move, tension stiffens them.
+MuscleMethod rung_method(std::size_t rung, bool control_points, bool tuned = false);
 
 /// Whether a module's systems are part of what a budget is for: bellies, their control points, and what fades after
 /// changes of method.
@@ -231,6 +232,7 @@ class Relevance {
   void plan_budget();
   void carry_out(RelevanceReport& report);
   void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
+  MuscleMethod method_of(const Switch& one, std::uint32_t rung) const;
   bool change(const Switch& one, RelevanceReport& report);
   bool at_hand(const Switch& one, std::uint32_t rung, bool order);
   std::uint32_t wanted(const Needs<float>& needs) const;

@@ -65,11 +65,11 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
 
 }  // namespace
 
-MuscleMethod rung_method(std::size_t rung, bool control_points) {
+MuscleMethod rung_method(std::size_t rung, bool control_points, bool tuned) {
   const Rung& of = rungs[rung];
   MuscleMethod method{of.method, {}};
   if (of.method == Method::reduced) {
-    method.reduced = {of.vectors, of.moving, true, of.cells, control_points, false};
+    method.reduced = {of.vectors, of.moving, true, of.cells, control_points, false, tuned};
   }
   return method;
 }
@@ -127,7 +127,7 @@ Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
     if (!called[r]) continue;
     if (progress) progress(done++, calls);
     LegMuscles choice = options_.leg_muscles;
-    const MuscleMethod method = rung_method(r, true);
+    const MuscleMethod method = rung_method(r, true, options_.leg_muscles.reduced.tuned);
     choice.muscles = scene_.muscles;
     choice.method = method.method;
     choice.reduced = method.reduced;

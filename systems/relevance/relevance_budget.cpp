@@ -94,6 +94,14 @@ void Relevance::carry_out(RelevanceReport& report) {
   report.waiting = cheaper_.size() + dearer_.size() - report.switched - report.refused;
 }
 
+/// Tuned where that is asked for and the muscle pulls.
+MuscleMethod Relevance::method_of(const Switch& one, std::uint32_t rung) const {
+  const bool tuned = options_.leg_muscles.reduced.tuned &&
+                     simulation_.get<Activation>(
+                         muscle_of(simulation_.world(), one.human, static_cast<Muscle>(one.muscle), Side::right));
+  return rung_method(rung, one.points, tuned);
+}
+
 /// Whether what a rung shares is there, or time has come for it.
 bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
   if (options_.background.run == nullptr || rungs[rung].method != Method::reduced) return true;
@@ -101,7 +109,7 @@ bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
   const auto muscle = static_cast<Muscle>(one.muscle);
   auto choice = choice_of(world, one.human);
   if (!choice) return true;  // set_method says so
-  const MuscleMethod method = rung_method(rung, one.points);
+  const MuscleMethod method = method_of(one, rung);
   choice->method = method.method;
   choice->reduced = method.reduced;
   const auto plan = make_muscle_plan(*make_body(body_request(world, one.human)), muscle);
@@ -122,7 +130,7 @@ bool Relevance::change(const Switch& one, RelevanceReport& report) {
     rung = *cheaper;
     if (rung == now || ladder_.error_m(of, rung) >= ladder_.error_m(of, now)) return false;
   }
-  const auto done = simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), rung_method(rung, one.points));
+  const auto done = simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), method_of(one, rung));
   if (done) {
     RungCase before = of;
     before.points = bit_at(tiers.points, one.muscle);

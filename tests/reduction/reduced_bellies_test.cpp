@@ -11,7 +11,7 @@
 
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/reduction/reduced_basis.h"
-#include "assets/reduction/reduced_bellies.h"
+#include "assets/reduction/reduced_rows.h"
 #include "tests/reduction/scalar_belly.h"
 
 namespace mobil::reduced_bellies_test {

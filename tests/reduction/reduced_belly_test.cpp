@@ -13,9 +13,9 @@
 
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/reduction/reduced_basis.h"
-#include "assets/reduction/reduced_bellies.h"
 #include "assets/reduction/reduced_belly.h"
 #include "assets/reduction/reduced_eigen.h"
+#include "assets/reduction/reduced_rows.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/fem/oracle.h"
 

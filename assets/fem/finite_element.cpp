@@ -1,4 +1,4 @@
-#include "assets/finite/finite_element.h"
+#include "assets/fem/finite_element.h"
 
 #include <fmt/format.h>
 

@@ -9,8 +9,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "assets/fem/finite_tissue.h"
 #include "assets/fem/hexahedral_mesh.h"
-#include "assets/finite/finite_tissue.h"
 #include "engine/error.h"
 
 namespace mobil {

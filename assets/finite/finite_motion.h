@@ -1,0 +1,33 @@
+#pragma once
+// How one belly moves at finite strain, in double: what vibration along a few linear motions is held against.
+
+#include <array>
+#include <vector>
+
+#include "assets/finite/finite_belly.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// Three numbers a node: m, m/s, m/s²; and the acceleration that last acted on all mass.
+struct FiniteMotion {
+  std::vector<double> displacement_m, velocity_m_s, acceleration_m_s2;
+  std::array<double, 3> pushed_m_s2{};
+};
+
+/// What acts on it over a step, as at the step's end. The insertion face is where the shortening (over the length) has
+/// it, the origin face stays. `foundation_hz`: each node is held sideways by (2πf)² times its mass, as linear bellies
+/// are; FiniteBelly's own foundation takes no part. `acceleration_m_s2`: of gravity and the frame, on all mass.
+struct FiniteStep {
+  double time_s = 0, damping_per_s = 0, foundation_hz = 0, shortening = 0, activation = 0;
+  std::array<double, 3> acceleration_m_s2{};
+};
+
+FiniteMotion motion_at_rest(const FiniteBelly& belly);
+
+/// Newmark's scheme with Hilber, Hughes and Taylor's damping of what a step cannot follow (α = −0.1; Earthquake Eng.
+/// Struct. Dyn. 5, 1977), lumped mass. Second order in the step. `motion` is unchanged where that fails: a step of
+/// which Newton's method does not converge.
+Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const FiniteStep& step, FiniteMotion& motion);
+
+}  // namespace mobil

@@ -1,0 +1,15 @@
+#pragma once
+// Numbers that the kernels of reduced bellies take, of up to sixteen bodies, laid out as systems/deformation/reduced.h
+// says: word w of lane l at [16·w + l].
+
+#include "assets/reduction/reduced_bellies.h"
+
+namespace mobil {
+
+void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion);
+void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* shape);
+/// Displacements of the control points at rest under the first input, of bellies that have no other.
+void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,
+                   float* displacement);
+
+}  // namespace mobil

@@ -1,0 +1,151 @@
+// Bellies that tension stiffens and damps, in people.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "components/activation.h"
+#include "tests/simulation/leg_muscles.h"
+#include "tests/simulation/people.h"
+
+namespace mobil::tuned_people_test {
+namespace {
+
+LegMuscles pulling(bool tuned, bool inertia = true) {
+  LegMuscles choice;
+  choice.method = Method::reduced;
+  choice.reduced.cells = {4, 4, 16};
+  choice.reduced.tuned = tuned;
+  choice.activation = ExcitationSource::phase;
+  choice.inertia = inertia;
+  choice.muscles = MuscleSet(3);
+  return choice;
+}
+
+void run(Simulation& simulation, int ticks) {
+  for (int i = 0; i < ticks; ++i) simulation.tick();
+}
+
+double apart(const std::vector<float>& a, const std::vector<float>& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) most = std::max(most, std::abs(double{a[i]} - double{b[i]}));
+  return most;
+}
+
+TEST(TunedPeople, WithoutActivationItIsRefused) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({});
+  LegMuscles choice = pulling(true);
+  choice.activation = ExcitationSource::none;
+  const auto added = simulation.add_leg_muscles(human, choice);
+  ASSERT_FALSE(added);
+  EXPECT_NE(added.error().message.find("LegMuscles::activation"), std::string::npos) << added.error().message;
+  choice.reduced.tuned = false;
+  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  const auto before = simulation.state_hash();
+  MuscleMethod tuned{Method::reduced, choice.reduced};
+  tuned.reduced.tuned = true;
+  EXPECT_FALSE(simulation.set_method(human, Muscle::quadriceps, tuned));
+  EXPECT_EQ(simulation.state_hash(), before);
+  tuned.reduced.moving = false;  // nothing that tension could stiffen
+  EXPECT_TRUE(simulation.set_method(human, Muscle::quadriceps, tuned));
+}
+
+TEST(TunedPeople, WhoDoesNotAskIsAsBefore) {
+  Simulation with, without;
+  join_with(with, person(1), pulling(true));
+  const Entity does_not = join_with(with, person(2), pulling(false));
+  const Entity alone = join_with(without, person(2), pulling(false));
+  run(with, 60), run(without, 60);
+  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
+}
+
+/// How far a jolt throws the calf of someone who stands, and what is left of it a quarter of a second later.
+struct Shaken {
+  double most_m = 0, left_m = 0;
+};
+
+Shaken shaken(bool tuned, float level) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn_posed({});
+  LegMuscles choice = pulling(tuned);
+  choice.activation = ExcitationSource::host;
+  choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
+  EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
+  EXPECT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, level));
+  run(simulation, 180);
+  const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const auto rest = displacement(simulation, muscle);
+  Pose<float> pose = *simulation.get<Pose>(human);
+  for (auto& at : pose.position_m) at.x += 0.01F;  // 1 cm in a tick, and back
+  EXPECT_TRUE(simulation.set_pose(human, pose));
+  simulation.tick();
+  for (auto& at : pose.position_m) at.x -= 0.01F;
+  EXPECT_TRUE(simulation.set_pose(human, pose));
+  Shaken all;
+  for (int tick = 0; tick < 25; ++tick) {
+    simulation.tick();
+    const double now = apart(displacement(simulation, muscle), rest);
+    all.most_m = std::max(all.most_m, now);
+    if (tick >= 15) all.left_m = std::max(all.left_m, now);
+  }
+  return all;
+}
+
+TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
+  const Shaken plain = shaken(false, 1), relaxed = shaken(true, 0), pulls = shaken(true, 1);
+  EXPECT_LT(relaxed.left_m / relaxed.most_m, 0.7 * plain.left_m / plain.most_m);
+  EXPECT_LT(pulls.most_m, 0.8 * relaxed.most_m);
+  EXPECT_LT(pulls.left_m, 0.05 * pulls.most_m);
+  EXPECT_NEAR(shaken(false, 0).most_m / plain.most_m, 1, 0.1) << "without, nothing but the shape tells who pulls";
+}
+
+TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {
+  for (const bool inertia : {false, true}) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, person(6), pulling(false, inertia));
+    const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::right);
+    run(simulation, 30);
+    double usual_m = 0, changed_m = 0;  // a tick's way
+    const auto tick = [&](double& most_m) {
+      const auto before = displacement(simulation, muscle);
+      simulation.tick();
+      most_m = std::max(most_m, apart(displacement(simulation, muscle), before));
+    };
+    for (int change = 0; change < 24; ++change) {
+      for (int i = 0; i < 7; ++i) tick(usual_m);
+      const auto before = displacement(simulation, muscle);
+      MuscleMethod to{Method::reduced, pulling(change % 2 == 0).reduced};
+      ASSERT_TRUE(simulation.set_method(human, Muscle::quadriceps, to));
+      EXPECT_LT(apart(displacement(simulation, muscle), before), 2e-5) << change;
+      tick(changed_m);
+    }
+    EXPECT_LT(changed_m, 1.1 * usual_m) << "inertia " << inertia;
+  }
+}
+
+TEST(TunedPeople, SurviveSnapshots) {
+  Simulation simulation;
+  const Entity human = join_with(simulation, person(7), pulling(true));
+  join_with(simulation, person(8), pulling(true, false));
+  run(simulation, 20);
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  run(simulation, 10);
+  Simulation other;
+  const auto restored = other.restore(bytes);
+  ASSERT_TRUE(restored) << restored.error().message;
+  run(other, 10);
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+  // and who goes on by another method does so from the same place
+  const MuscleMethod to{Method::reduced, pulling(false).reduced};
+  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to));
+  ASSERT_TRUE(other.set_method(human, Muscle::hamstrings, to));
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+}
+
+}  // namespace
+}  // namespace mobil::tuned_people_test

@@ -12,7 +12,7 @@
 #include "assets/muscles/muscle_table.h"
 #include "demo/frontier/frontier.h"
 #include "demo/frontier/frontier_finite.h"
-#include "demo/frontier/frontier_shaken.h"
+#include "demo/frontier/frontier_living.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 
@@ -30,13 +30,14 @@ Result<void> run_finite(const std::string& out) {
   if (!shapes) return tl::unexpected(shapes.error());
   std::vector<Muscle> all;
   for (std::size_t m = 0; m < muscles().size(); ++m) all.push_back(static_cast<Muscle>(m));
-  const auto shaken = measure_shaken(all, &show_part);
+  const auto living = measure_living(all, &show_part);
   show("");
-  if (!shaken) return tl::unexpected(shaken.error());
+  if (!living) return tl::unexpected(living.error());
   const std::filesystem::path folder = out;
   if (auto done = write_file(folder / "finite.csv", finite_csv(*shapes)); !done) return done;
-  if (auto done = write_file(folder / "shaken.csv", shaken_csv(*shaken)); !done) return done;
-  fmt::print("{}\n{}\nwritten {}: finite.csv shaken.csv\n", finite_text(*shapes), shaken_text(*shaken), out);
+  if (auto done = write_file(folder / "living.csv", living_csv(*living)); !done) return done;
+  if (auto done = write_file(folder / "living.svg", svg(living_figure(*living))); !done) return done;
+  fmt::print("{}\n{}\nwritten {}: finite.csv living.csv living.svg\n", finite_text(*shapes), living_text(*living), out);
   return {};
 }
 
@@ -88,9 +89,9 @@ Subcommand frontier_command() {
        "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for each muscle and "
        "kind of load"},
       {"--finite", &text->finite,
-       "Instead: how far what is shown is from tissue that keeps its volume and pulls and moves as it does "
-       "(finite.csv, shaken.csv), three "
-       "minutes"},
+       "Instead: what accuracy costs where muscles pull and are shaken, against tissue that keeps its volume "
+       "(finite.csv, "
+       "living.csv, living.svg): four minutes"},
       {"--out", &text->out, "Folder for frontier.csv, .svg and .json, made if missing"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };

@@ -144,10 +144,10 @@ TEST(Musculotendon, NotANumberStaysInItsLaneAndGoes) {
     Muscle1::set(bad.path, optimal_path(of)), Muscle1::set(bad.excitation, 0.6);
     if (tick == 1) bad.path[3] = nan, bad.excitation[5] = nan, bad.state.fibre[7] = nan, bad.state.activation[9] = nan;
     contract(bad.block(), usual_tick_s, bad.activation, bad.muscle);
-    for (const std::size_t lane : {0, 1, 2, 4, 6, 8, 15})
+    for (const std::size_t lane : {0U, 1U, 2U, 4U, 6U, 8U, 15U})
       ASSERT_EQ(std::memcmp(&good.muscle.force_n[lane], &bad.muscle.force_n[lane], 4), 0);
   }
-  for (const std::size_t lane : {3, 5, 7, 9}) {
+  for (const std::size_t lane : {3U, 5U, 7U, 9U}) {
     EXPECT_TRUE(std::isfinite(bad.muscle.force_n[lane])) << lane;
     EXPECT_NEAR(bad.muscle.force_n[lane], good.muscle.force_n[lane], 0.2F * good.muscle.force_n[lane] + 1) << lane;
   }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "assets/muscles/muscle_table.h"
-#include "demo/frontier/frontier_shaken.h"
+#include "demo/frontier/frontier_living.h"
 
 namespace mobil::finite_motion_test {
 namespace {
@@ -69,16 +69,24 @@ TEST(FiniteMotion, AStepThatIsTooLongChangesNothing) {
   EXPECT_EQ(apart(motion.displacement_m, motion_at_rest(belly).displacement_m), 0);
 }
 
-/// What tension changes of a shaken muscle is most of what a linear one gets wrong.
+/// What shape and tension change of a shaken muscle that pulls is most of what a linear one gets wrong.
 TEST(FiniteMotion, TunedBelliesAreShakenAsTissueIs) {
   const Muscle row[] = {*find_muscle("rectus_femoris")};
-  const auto found = measure_shaken(row, [](std::string_view, double) {});
+  const auto found = measure_living(row, [](std::string_view, double) {});
   ASSERT_TRUE(found) << found.error().message;
-  const ShakenError &plain = found->front().ways[0], &tuned = found->front().ways[1];
-  EXPECT_GT(plain.all, 1.2);
-  EXPECT_GT(plain.across, 0.7);
-  EXPECT_LT(tuned.all, 0.25);
-  EXPECT_LT(tuned.across, 0.15);
+  const auto way = [&](std::string_view name) {
+    const auto& ways = found->front().ways;
+    const auto at = std::ranges::find(ways, name, &LivingError::way);
+    EXPECT_NE(at, ways.end()) << name;
+    return *at;
+  };
+  const LivingError plain = way("reduced-12"), tuned = way("reduced-12, tuned, finite shape");
+  EXPECT_GT(plain.jolts_all, 1.2);
+  EXPECT_GT(plain.jolts_across, 0.7);
+  EXPECT_LT(tuned.jolts_all, 0.25);
+  EXPECT_LT(tuned.jolts_across, 0.15);
+  EXPECT_LT(tuned.across, 0.4 * way("ecd, 81 nodes").across);
+  EXPECT_LT(tuned.all, 0.4 * plain.all);
 }
 
 }  // namespace

@@ -19,12 +19,12 @@ constexpr int most_iterations_a_step = 14;
 constexpr double settled_m = 1e-7, longest_m = 0.01;
 
 /// Forces that hold the nodes between the faces: elements' and foundation's; their tangent is left in scratch.chain.
-VectorXd holding_force(const FiniteBelly& belly, const FiniteStep& step, const std::vector<double>& displacement_m,
-                       FiniteScratch& scratch) {
-  assemble_elements(belly, activity_of(belly, step.shortening, step.activation), displacement_m, 0, 0, scratch);
+VectorXd holding_force(const FiniteBelly& belly, const Activity& activity, double foundation_hz,
+                       const std::vector<double>& displacement_m, FiniteScratch& scratch) {
+  assemble_elements(belly, activity, displacement_m, 0, 0, scratch);
   VectorXd force = -scratch.residual_n;
   const std::size_t plane = plane_nodes(belly.mesh.cells);
-  const double circular = 2 * std::numbers::pi * step.foundation_hz;
+  const double circular = 2 * std::numbers::pi * foundation_hz;
   for (std::size_t n = plane; n < first_insertion_node(belly.mesh.cells); ++n) {
     const double stiffness = circular * circular * belly.node_mass_kg[n];
     for (std::size_t d = 0; d < 2; ++d) {
@@ -40,7 +40,7 @@ VectorXd holding_force(const FiniteBelly& belly, const FiniteStep& step, const s
 
 FiniteMotion motion_at_rest(const FiniteBelly& belly) {
   const std::vector<double> none(3 * belly.mesh.node.size());
-  return {none, none, none, {}};
+  return {none, none, none, 0, 0, {}};
 }
 
 Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const FiniteStep& step, FiniteMotion& motion) {
@@ -49,8 +49,9 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
   const auto rows = static_cast<Eigen::Index>(last - first);
   const double h = step.time_s;
   FiniteMotion next = motion;
-  // (Activation is a step's own: the force at its start is that of the fibres as they pull now.)
-  const VectorXd before = holding_force(belly, step, motion.displacement_m, scratch);
+  const VectorXd before = holding_force(belly, activity_of(belly, motion.shortening, motion.activation),
+                                        step.foundation_hz, motion.displacement_m, scratch);
+  const Activity activity = activity_of(belly, step.shortening, step.activation);
   for (std::size_t i = last; i < next.displacement_m.size(); i += 3)
     next.displacement_m[i + 2] = end_of(belly, step.shortening);
   const auto predicted = [&](std::size_t i) {
@@ -65,7 +66,7 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
   const double inertia =
       1 / (newmark_beta * h * h) / (1 + hht) + step.damping_per_s * newmark_gamma / (newmark_beta * h);
   for (int iteration = 0; iteration < most_iterations_a_step; ++iteration) {
-    const VectorXd now = holding_force(belly, step, next.displacement_m, scratch);
+    const VectorXd now = holding_force(belly, activity, step.foundation_hz, next.displacement_m, scratch);
     VectorXd change(rows);
     for (Eigen::Index row = 0; row < rows; ++row) {
       const auto i = first + static_cast<std::size_t>(row);
@@ -88,6 +89,8 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
       next.displacement_m[i] += share * change[static_cast<Eigen::Index>(i - first)];
     if (longest > settled_m) continue;
     for (std::size_t i = first; i < last; ++i) follow(i);
+    next.shortening = step.shortening;
+    next.activation = step.activation;
     next.pushed_m_s2 = step.acceleration_m_s2;
     motion = std::move(next);
     return {};

@@ -9,9 +9,10 @@
 
 namespace mobil {
 
-/// Three numbers a node: m, m/s, m/s²; and the acceleration that last acted on all mass.
+/// Three numbers a node: m, m/s, m/s²; and what acted on it at the end of the last step.
 struct FiniteMotion {
   std::vector<double> displacement_m, velocity_m_s, acceleration_m_s2;
+  double shortening = 0, activation = 0;
   std::array<double, 3> pushed_m_s2{};
 };
 

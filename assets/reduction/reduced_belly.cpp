@@ -15,10 +15,12 @@ ReducedBellies block_of(const ReducedBelly& belly) {
   ReducedBellies block;
   block.resize(belly.vectors, belly.inputs);
   block.count = 1;
+  block.tuned = belly.tuned;
   const auto fill = [](Lanes<double>& column, double x) { std::fill_n(column.lane, lane_count, x); };
   for (std::size_t j = 0; j < belly.vectors; ++j) {
     fill(block.omega_1_s(j), belly.omega_1_s[j]);
     fill(block.lift_share(j), belly.lift_share[j]);
+    fill(block.tension_1_s2(j), belly.tension_1_s2[j]);
     for (std::size_t i = 0; i < belly.vectors; ++i) fill(block.eigenvector(j, i), belly.eigenvector[i][j]);
     for (std::size_t k = 0; k < belly.inputs; ++k) fill(block.participation(j, k), belly.participation[j][k]);
   }

@@ -6,7 +6,9 @@
 
 namespace mobil {
 
+/// `motion`: reduced_motion_width() words. Of tuned bellies neither damping nor tick is read: a tick makes both.
 void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion);
+/// `shape`: reduced_shape_width() words; the damping goes into the drag that is reported.
 void write_shapes(const ReducedBellies& bellies, double damping_per_s, float* shape);
 /// Displacements of the control points at rest under the first input, of bellies that have no other.
 void place_at_rest(const ReducedBasis& basis, const ReducedBellies& bellies, const Lanes<float>& input,

@@ -46,10 +46,10 @@ Result<CrowdEffects> read_effects(const std::string& text) {
     }
     chosen.*found->on = true;
   }
+  if (chosen.tuned && !(chosen.activation && chosen.muscles))
+    return fail(fmt::format("--effects '{}': tuned muscles are as stiff as they pull; add muscles,activation", text));
   if ((chosen.inertia || chosen.line_motion || chosen.activation) && !chosen.muscles)
     return fail(fmt::format("--effects '{}': inertia, line-motion and activation are of muscles; add muscles", text));
-  if (chosen.tuned && !chosen.activation)
-    return fail(fmt::format("--effects '{}': tuned muscles are as stiff as they pull; add activation", text));
   return chosen;
 }
 

@@ -33,8 +33,8 @@ std::vector<LivingWay> living_ways();
 /// Where the control points are at the end of each tick: three displacements a point, m.
 using LivingPoints = std::vector<std::vector<double>>;
 
-/// A belly of the muscle's template size over `loads`, the first of which it is at rest under. Fails as the library
-/// does.
+/// A belly of the muscle's template size over `loads`, that of the first tick's end first; it begins at rest, unloaded.
+/// Fails as the library does.
 Result<LivingPoints> living_points_of(Muscle muscle, const LivingWay& way, std::span<const LivingLoad> loads,
                                       BellyLibrary& library);
 

@@ -68,7 +68,7 @@ Result<void> excite_all(Simulation& simulation, Entity human, float level) {
 /// Stiffness that goes up and down as fast as activation can, at any rate: what shakes must not be pumped up by it.
 Result<void> stress_tuned(StressRun& run) {
   Worst walking, standing;
-  double kinetic_mj = 0;
+  double grown = 0;
   for (const int apart : {1, 2, 3, 5, 8}) {
     Simulation simulation;
     LegMuscles choice = hosted(Method::reduced);
@@ -82,6 +82,7 @@ Result<void> stress_tuned(StressRun& run) {
       if (auto added = simulation.add_leg_muscles(human, choice); !added) return added;
     }
     const int ticks = run.quick ? 300 : 3600;
+    std::array<double, 2> most_j{};  // in the first second, and later
     for (int tick = 0; tick < ticks; ++tick) {
       const float level = tick / apart % 2 == 0 ? 1.0F : 0.0F;
       for (const Entity human : {*walker, *stands}) {
@@ -90,17 +91,20 @@ Result<void> stress_tuned(StressRun& run) {
       simulation.tick();
       walking.look(simulation, *walker);
       standing.look(simulation, *stands);
+      for (const OwnMuscle& own : simulation.muscles(*stands)) {
+        for (const Entity muscle : own.entity)
+          Worst::keep(most_j[tick >= 60], double{simulation.get<BellyReport>(muscle)->kinetic_energy_j});
+      }
     }
-    for (const OwnMuscle& own : simulation.muscles(*stands))
-      Worst::keep(kinetic_mj, 1e3 * double{simulation.get<BellyReport>(own.entity[Side::left])->kinetic_energy_j});
+    Worst::keep(grown, most_j[1] / most_j[0]);
   }
   constexpr const char* name = "tension on and off at 60, 30, 20, 12 and 7.5 times a second";
   run.add({name, "control points' displacement walking, m", Promise::at_most, 0.1, "twice what these walks show",
            walking.moved_m});
   run.add({name, "control points' displacement standing, m", Promise::at_most, 0.03, "twice what a contraction takes",
            standing.moved_m});
-  run.add(
-      {name, "kinetic energy of who stands, mJ", Promise::at_most, 30, "twice what a contraction brings", kinetic_mj});
+  run.add({name, "kinetic energy of who stands after the first second, over that in it", Promise::at_most, 1,
+           "what pumps would grow; the first contraction is the largest", grown});
   return {};
 }
 

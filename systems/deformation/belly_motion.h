@@ -24,6 +24,7 @@ struct BellyLoad {
   float from = 0, to = 0;  // EndDrive's
   std::optional<FrameLoad<float>> frame{};
   float tick_s = 0;
+  float activation = 0;  // of who begins: what tension makes of a tuned belly's rest
 };
 /// Of a muscle with or without a belly.
 BellyLoad load_of(const World& world, Entity muscle, float tick_s);

@@ -1,5 +1,6 @@
 #include "systems/deformation/method_reduced.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -150,11 +151,6 @@ Inputs inputs_of(const BellyLoad& load, std::uint32_t count) {
   return inputs;
 }
 
-/// Of bellies that stand, where they are tuned.
-double damping_of(const ReducedBelly& belly, const ReducedBasis& basis) {
-  return belly.tuned ? tuned_damping_per_s(tuned_activation) : basis.options.damping_per_s;
-}
-
 /// Motions at the speed of their static answers: behind these by as much as damping holds them back, or right there.
 std::vector<float> state_with_loads(const ReducedBelly& belly, const Inputs& inputs, double damping_per_s) {
   std::vector<float> state(reduced_state_width(belly.vectors));
@@ -168,6 +164,40 @@ std::vector<float> state_with_loads(const ReducedBelly& belly, const Inputs& inp
     state[2 * j + 1] = static_cast<float>(rate);
   }
   return state;
+}
+
+/// The same of a tuned belly whose muscle pulls; or at rest, where it does not move.
+std::vector<float> tuned_state(const ReducedBelly& belly, const Inputs& inputs, double activation, bool moves) {
+  const auto square = [&](std::size_t j) {
+    return belly.omega_1_s[j] * belly.omega_1_s[j] + (activation - tuned_activation) * belly.tension_1_s2[j];
+  };
+  double least = square(0);
+  for (std::size_t j = 1; j < belly.vectors; ++j) least = std::min(least, square(j));
+  const double damping = std::min(tuned_damping_per_s(activation), 1.9 * std::sqrt(least));
+  const std::size_t ends = inputs.count > frame_inputs ? inputs.count - frame_inputs : inputs.count;
+  std::vector<float> state(reduced_state_width(belly.vectors));
+  for (std::size_t j = 0; j < belly.vectors; ++j) {
+    const double omega = belly.omega_1_s[j], give = omega * omega / square(j);
+    double rate = inputs.count == 1 ? inputs.rate[0] : 0, frame = 0;
+    for (std::size_t i = 0; inputs.count > 1 && i < inputs.count; ++i) {
+      rate += belly.participation[j][i] * (i < ends ? 1 : give) * inputs.rate[i];
+      if (i >= ends) frame += belly.participation[j][i] * inputs.value[i];
+    }
+    if (!moves) rate = 0;
+    state[2 * j] = static_cast<float>(omega * ((give - 1) * frame - damping / square(j) * rate));
+    state[2 * j + 1] = static_cast<float>(rate);
+  }
+  return state;
+}
+
+/// What a belly begins with: at rest, or at the speed of its static answers.
+std::vector<float> first_state(const ReducedBelly& belly, const ReducedBasis& basis, const BellyLoad& load,
+                               bool moves) {
+  const Inputs inputs = inputs_of(load, basis.inputs);
+  if (belly.tuned)
+    return tuned_state(belly, inputs, std::max(double{load.activation}, double{least_activation}), moves);
+  if (moves) return state_with_loads(belly, inputs, basis.options.damping_per_s);
+  return std::vector<float>(reduced_state_width(belly.vectors));
 }
 
 /// The state that goes on from `motion`.
@@ -207,11 +237,7 @@ std::optional<BellyMotion> computed(const World& world, Entity muscle, float tic
 Beginning begin(const NextBelly& next, bool moves) {
   Beginning from;
   const ReducedBasis& basis = *next.belly.basis;
-  if (next.choice.reduced.moving) {
-    from.state = moves ? state_with_loads(*next.belly.motions, inputs_of(next.load, basis.inputs),
-                                          damping_of(*next.belly.motions, basis))
-                       : std::vector<float>(reduced_state_width(basis.vectors));
-  }
+  if (next.choice.reduced.moving) from.state = first_state(*next.belly.motions, basis, next.load, moves);
   if (has_control_points(next.choice)) {
     from.displacement = reduced_motion(basis, *next.belly.motions, next.load, from.state).displacement;
   }

@@ -10,8 +10,9 @@
 // Of tuned bellies fibres that pull stiffen and damp the motions. With activation A over the tick
 //   ω'² = ω² + (A − A₀)·γ,   α = 16 + 60·A,   z̈ + α·ż + ω'²·(z − s_end) = ω²·s_frame,
 // A₀ = tuned_activation, γ = tension_1_s2: what the end's displacement makes of a belly at rest stays, under the loads
-// of the frame it gives way less. X = ω·(z − s) is kept as it is without tension, so that it is placed alike; each
-// tick swings what is left of z when its place in rest, s_end + (ω²/ω'²)·s_frame, is taken away. (Wakeling and Nigg, J.
+// of the frame it gives way less. α is at most 1.9 times a belly's lowest ω'. Kept is X = ω·(z − s), ω and s those of A₀,
+// so that it is placed alike whatever A; each tick swings what is left of z when its place in rest, s_end +
+// (ω²/ω'²)·s_frame, is taken away. (Wakeling and Nigg, J.
 // Appl. Physiol. 90, 2001: frequency and damping of vibrations rise with force. 16 gives 7 Hz a share of critical
 // damping of 0.18, 16 + 60 gives 15 Hz 0.4; no source measures them.)
 
@@ -26,7 +27,7 @@ namespace mobil {
 /// Sixteen bellies of one basis; every field holds that many floats × 16, sixteen lanes at each, aligned to 64 bytes.
 ///
 /// `state` (reduced_state_width): X and W of each motion (X₀ W₀ X₁ W₁ …); with one input both over P. All zero is a
-/// belly at rest under whatever loads it, about to be moved.
+/// belly at rest under whatever loads it, about to be moved; a tuned one that the frame loads only where A is A₀.
 /// `motion` (reduced_motion_width): of each motion a, b, g and, with several inputs, its P (a₀ b₀ g₀ P₀₀ P₀₁ … a₁ …):
 /// those of the ends as they are, those of the frame's loads two a word, as upper halves of floats, the even one in the
 /// word's lower half. (Memory is what a tick waits for; that they are 0.2 % off at most is so of swings alone, for the
@@ -46,7 +47,7 @@ struct ReducedBlock {
 /// One tick of a block. A lane's NaN stays in its lane. No heap.
 void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
 
-/// α of tuned bellies.
+/// α of tuned bellies, 1/s, where no motion is so slow that it would creep.
 constexpr double tuned_damping_per_s(double activation) {
   return 16 + 60 * activation;
 }
@@ -80,7 +81,8 @@ void place_static(const ReducedBlock& block, const ControlPoints& points, const 
 /// points are. Reaction: of a held face the force that moves it, by the lift's virtual work; else what pulls (of a mesh
 /// without end both are the elastic force at the face). Strain energy includes the foundation's, so that both energies'
 /// sum is constant in free undamped motion. A null state is that of a static belly; with several inputs `motion` is
-/// read all the same. Of tuned bellies the tension's part of reaction and strain energy is left out where they move.
+/// read all the same. Of tuned bellies that move reaction and strain energy are those of the tension of A₀, and the
+/// drag in the reaction is that of the basis's damping.
 void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
                     const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
 

@@ -68,14 +68,20 @@ struct Group {
 
 constexpr std::uint64_t alike_on_both_sides[] = {type_id<LegScale<float>>(), type_id<BellyScale<float>>(),
                                                  type_id<ReducedMotion>(), type_id<ReducedShape>()};
-/// Velocities, states and reports begin with zeros.
+/// Velocities, states and reports begin with zeros; but for the states of tuned bellies whose frame's loads have them
+/// at rest elsewhere than without tension.
 constexpr std::uint64_t zero_at_first[] = {type_id<NodalVelocity>(), type_id<ReducedState>(),
                                            type_id<BellyReport<float>>()};
+
+bool begins_with_state(const MuscleKind& kind) {
+  return kind.inertia && is_tuned(kind.method);
+}
 
 void make_room(Group& group) {
   group.parts = muscle_parts(group.kind);
   for (const KeyPart& part : group.parts) {
-    if (!has_column(part.kind) || std::ranges::count(zero_at_first, part.id) != 0) continue;
+    const bool own_state = part.id == type_id<ReducedState>() && begins_with_state(group.kind);
+    if (!has_column(part.kind) || (!own_state && std::ranges::count(zero_at_first, part.id) != 0)) continue;
     if (std::ranges::count(alike_on_both_sides, part.id) != 0) {
       group.both.add(part, group.blocks());
     } else {
@@ -195,7 +201,7 @@ class Block {
         write_motions(bellies, damping, static_cast<double>(all_.tick_s), motion->lane);
       if (auto* const shape = group_.both.field<ReducedShape>(b_)) write_shapes(bellies, damping, shape->lane);
     }
-    if (group_.kind.shape.resource == nullptr) return {};
+    if (group_.kind.shape.resource == nullptr && !begins_with_state(group_.kind)) return {};
     for (const Side side : {Side::right, Side::left}) {
       auto* const displacement = group_.side[side].field<NodalDisplacement>(b_);
       if (basis != nullptr && !group_.kind.inertia && group_.kind.finite.resource == nullptr) {
@@ -209,7 +215,9 @@ class Block {
 
   void begin_one_by_one(const DeformationMethod& method, const ReducedBellies& bellies, Side side) const {
     const Columns& of = group_.side[side];
-    const Column& displacement = *of.find(type_id<NodalDisplacement>());
+    const Column *const displacement = of.find(type_id<NodalDisplacement>()), *const state =
+                                                                                  of.find(type_id<ReducedState>());
+    const bool pulls = of.find(type_id<Activation<float>>()) != nullptr;
     for (std::size_t lane = 0; lane < count_; ++lane) {
       Belly belly{group_.common, {}, {}, {}, {}};
       belly.plan.scale = size(lane).scale;
@@ -217,14 +225,17 @@ class Block {
       const auto end = row_of(of.block<EndDrive>(b_), lane);
       BellyLoad load{group_.kind.far_end, end.from, end.to, {}, all_.tick_s};
       if (group_.kind.inertia) load.frame = row_of(of.block<FrameLoad>(b_), lane);
+      if (pulls) load.activation = of.block<Activation>(b_).activation[lane];
       const auto line = row_of(of.block<LineOfAction>(b_), lane);
       const NextBelly next{belly, all_.choice, line, load};
       Beginning from = method.begin(next, false);
       if (group_.kind.finite.resource != nullptr) show_shape(next, of, lane, from);
-      scatter(from.displacement.data(), from.displacement.size(), displacement, lane);
+      if (displacement != nullptr) scatter(from.displacement.data(), from.displacement.size(), *displacement, lane);
+      if (state != nullptr) scatter(from.state.data(), from.state.size(), *state, lane);
     }
-    park(displacement);
-    if (const Column* const shown = of.find(type_id<ShownDisplacement>())) park(*shown);
+    for (const Column* const column : {displacement, state, of.find(type_id<ShownDisplacement>())}) {
+      if (column != nullptr) park(*column);
+    }
   }
 
   /// Lanes without a row are copies of the first.
@@ -236,10 +247,8 @@ class Block {
 
   /// At finite strain: in place of `from`, or beside it.
   void show_shape(const NextBelly& next, const Columns& of, std::size_t lane, Beginning& from) const {
-    const bool pulls = of.find(type_id<Activation<float>>()) != nullptr;
-    const float activation = pulls ? of.block<Activation>(b_).activation[lane] : 0;
     std::vector<float> shown = from.displacement;
-    const BellyMotion offset = shape_offset(next, activation);
+    const BellyMotion offset = shape_offset(next, next.load.activation);
     for (std::size_t i = 0; i < shown.size(); ++i) shown[i] += offset.displacement[i];
     if (const Column* const apart = of.find(type_id<ShownDisplacement>())) {
       scatter(shown.data(), shown.size(), *apart, lane);

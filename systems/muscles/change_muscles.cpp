@@ -173,9 +173,10 @@ NextMuscle next_muscle(World& world, BellyLibrary& library, MuscleWork& work, co
   if (kind.inertia)
     load.frame =
         next.values.get<FrameLoad>().value_or(world.get<FrameLoad>(change.muscle).value_or(FrameLoad<float>{}));
+  load.activation = next_activation(world, change, next.values);
   const NextBelly next_belly{belly, change.choice, at.line, load};
   BellyMotion offset;
-  if (kind.finite.resource != nullptr) offset = shape_offset(next_belly, next_activation(world, change, next.values));
+  if (kind.finite.resource != nullptr) offset = shape_offset(next_belly, load.activation);
   Beginning from = beginning(world, work, change, next_belly, offset);
   kind.fading = !from.fade.empty();
   if (from.displacement.empty() && shows_apart(kind))

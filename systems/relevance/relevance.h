@@ -90,8 +90,8 @@ struct RelevanceOptions {
   std::optional<double> machine_factor{};
   /// Seconds that the last tick's deformation took; left out: of Simulation::report() what deforms.
   std::function<double(const Simulation&)> measured_s{};
-  /// Of people who get muscles by being managed: all but muscles and method, which are chosen. `reduced.tuned`: what
-  /// moves is tuned, of everybody whose muscles pull.
+  /// Of people who get muscles by being managed: all but muscles and method, which are chosen. `reduced.tuned`: of
+  /// everybody whose muscles pull what moves is tuned, from the next change of its method on.
   LegMuscles leg_muscles{};
   /// Makes bases that methods lack while ticks go on; with none they are made in the update that takes them up. Until
   /// `making_ticks` after it was first called for a method is not taken up, and the next coarser one serves: what was

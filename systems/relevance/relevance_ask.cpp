@@ -127,7 +127,7 @@ Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
     if (!called[r]) continue;
     if (progress) progress(done++, calls);
     LegMuscles choice = options_.leg_muscles;
-    const MuscleMethod method = rung_method(r, true, options_.leg_muscles.reduced.tuned);
+    const MuscleMethod method = rung_method(r, true);
     choice.muscles = scene_.muscles;
     choice.method = method.method;
     choice.reduced = method.reduced;

@@ -155,5 +155,20 @@ TEST(TunedBelly, WhatALaneGetsDoesNotDependOnTheOthers) {
   }
 }
 
+TEST(TunedBelly, AloneItsNumbersAreThoseOfTheBlock) {
+  const ReducedBasis& basis = basis_of(true);
+  const BellyScale<float> body{1.1F, 1};
+  const std::size_t width = reduced_motion_width(basis.vectors, basis.inputs);
+  ReducedBellies block;
+  block.tuned = true;
+  ASSERT_TRUE(solve_bellies(basis, std::span(&body, 1), block));
+  std::vector<Lanes<float>> words(width);
+  write_motions(block, 8, 1.0 / 60, words[0].lane);
+  std::vector<float> own(width);
+  write_motion(belly_of(block, 0), 8, 1.0 / 60, own);
+  for (std::size_t w = 0; w < width; ++w)
+    EXPECT_EQ(std::bit_cast<std::uint32_t>(own[w]), std::bit_cast<std::uint32_t>(words[w][0])) << w;
+}
+
 }  // namespace
 }  // namespace mobil::tuned_belly_test

@@ -20,16 +20,18 @@ LegMuscles muscles_of_kind(int kind) {
   choice.method = kind == 0 ? Method::none : kind == 3 ? Method::ecd : Method::reduced;
   choice.reduced.cells = {2, 2, 8};
   choice.reduced.vectors = 6;
-  choice.reduced.control_points = kind != 1;
+  choice.reduced.control_points = kind != 1 && kind != 7;
   choice.reduced.moving = kind != 4;
   choice.drive = kind == 4 ? Drive::force : Drive::displacement;
+  choice.reduced.tuned = choice.inertia = kind >= 6;
+  if (kind >= 6) choice.activation = ExcitationSource::phase;
   return choice;
 }
 
 SpawnRequest request(int i) {
   const Person of = person(i);
   SpawnRequest made{of.body, of.gait, 0, 0, 0, {}};
-  if (i % 6 != 5) made.muscles = muscles_of_kind(i % 6);
+  if (i % 8 != 5) made.muscles = muscles_of_kind(i % 8);
   return made;
 }
 
@@ -195,12 +197,12 @@ TEST(SpawnBatch, PreparingChangesNobodysBits) {
   for (const int kind : {2, 3}) {
     Simulation simulation({.threads = 2});
     ASSERT_TRUE(simulation.prepare(muscles_of_kind(kind)));
-    std::vector<SpawnRequest> people = {request(kind), request(6 + kind), request(12 + kind)};
+    std::vector<SpawnRequest> people = {request(kind), request(8 + kind), request(16 + kind)};
     std::vector<Entity> made(people.size());
     ASSERT_TRUE(simulation.spawn(people, made));
     for (int t = 0; t < 3; ++t) simulation.tick();
     for (int i = 0; i < 3; ++i) {
-      EXPECT_EQ(hash_human(simulation, made[static_cast<std::size_t>(i)]), hash_alone(6 * i + kind));
+      EXPECT_EQ(hash_human(simulation, made[static_cast<std::size_t>(i)]), hash_alone(8 * i + kind));
     }
   }
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/activation.h"
+#include "systems/deformation/belly_motion.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
 
@@ -101,6 +102,31 @@ TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
   EXPECT_LT(pulls.most_m, 0.8 * relaxed.most_m);
   EXPECT_LT(pulls.left_m, 0.05 * pulls.most_m);
   EXPECT_NEAR(shaken(false, 0).most_m / plain.most_m, 1, 0.1) << "without, nothing but the shape tells who pulls";
+}
+
+/// Tension holds up what gravity draws down: whoever joins hangs as their muscles pull.
+TEST(TunedPeople, WhoJoinsIsAtRest) {
+  for (const bool seen : {true, false}) {
+    Simulation simulation;
+    LegMuscles choice = pulling(true);
+    choice.activation = ExcitationSource::host;
+    choice.finite_shape = false;
+    choice.reduced.control_points = seen;
+    choice.reduced.reported = seen;
+    const Entity human = *simulation.spawn_posed({});
+    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::left);
+    const auto before = field_of<ReducedState>(simulation.world(), muscle);
+    run(simulation, 20);
+    const auto after = field_of<ReducedState>(simulation.world(), muscle);
+    double most = 0, off = 0;
+    for (std::size_t i = 0; i < after.size(); ++i) {
+      most = std::max(most, std::abs(double{before[i]}));
+      off = std::max(off, std::abs(double{after[i]} - double{before[i]}));
+    }
+    EXPECT_GT(most, 1e-3) << seen;
+    EXPECT_LT(off, 2e-3 * most) << seen;
+  }
 }
 
 TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {

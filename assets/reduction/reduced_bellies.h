@@ -14,8 +14,8 @@
 
 namespace mobil {
 
-/// What ReducedBelly (reduced_belly.h) has of one body, of sixteen; lanes past the bodies hold whatever. Whoever asks
-/// says beforehand whether they are `tuned`.
+/// What ReducedBelly (reduced_belly.h) has of one body, of sixteen. Lanes past `count` hold no numbers of use. The
+/// caller sets `tuned` before solve_bellies.
 struct ReducedBellies {
   std::uint32_t vectors = 0, inputs = 0, count = 0;
   bool tuned = false;

@@ -184,7 +184,7 @@ void write_tensions(const ReducedBellies& bellies, std::size_t stride, float* mo
 
 void write_motions(const ReducedBellies& bellies, double damping_per_s, double tick_s, float* motion) {
   const std::size_t inputs = bellies.inputs;
-  const std::size_t stride = reduced_motion_width(bellies.vectors, bellies.inputs) / bellies.vectors;
+  const std::size_t stride = reduced_motion_width(1, bellies.inputs);
   if (bellies.tuned) {
     write_tensions(bellies, stride, motion);
   } else {

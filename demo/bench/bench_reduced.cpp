@@ -74,7 +74,7 @@ class ReducedCrowd {
         head_width_(shape.frame ? 4 + 2 * frame_inputs : 4),
         words_(head_width_ + state_width_ + motion_width_ + shape_width_ + node_width_),
         pages_(blocks * words_ * lane_count, huge_pages) {
-    const std::size_t each = reduced_motion_width(basis_.vectors, basis_.inputs) / basis_.vectors;
+    const std::size_t each = reduced_motion_width(1, basis_.inputs);
     for (std::size_t b = 0; b < blocks; ++b) {
       Columns column = columns(b);
       std::ranges::fill(column.end->to.lane, 1e-4F);

@@ -35,7 +35,7 @@ void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_
   float* state = block.state;
   const float* motion = block.motion;
   const std::size_t full = full_inputs(inputs.count);
-  const std::size_t width = inputs.count == 1 ? 3 : 3 + full + (inputs.count - full) / 2;
+  const std::size_t width = reduced_motion_width(1, static_cast<std::uint32_t>(inputs.count));
   Ahead states(block.next_state, vectors, 2, 2), motions(block.next_motion, vectors, width, width);
   if (inputs.count == 1) {
     for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count) {
@@ -106,7 +106,7 @@ HWY_INLINE void swing_tuned(float* state, const float* motion, const Tuning& tun
 void tuned_tick(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& active, float tick_s) {
   const ReducedInputs inputs = reduced_inputs(end, block.frame);
   const std::size_t vectors = block.basis.vectors, full = full_inputs(inputs.count);
-  const std::size_t width = inputs.count == 1 ? 3 : 3 + full + (inputs.count - full) / 2;
+  const std::size_t width = reduced_motion_width(1, static_cast<std::uint32_t>(inputs.count));
   float* state = block.state;
   const float* motion = block.motion;
   const Tuning all = tuning(motion, vectors, width, load(active), tick_s);

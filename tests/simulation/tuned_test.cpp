@@ -104,7 +104,7 @@ TEST(TunedPeople, WhoPullsIsShakenLessAndForAShorterTime) {
   EXPECT_NEAR(shaken(false, 0).most_m / plain.most_m, 1, 0.1) << "without, nothing but the shape tells who pulls";
 }
 
-/// Tension holds up what gravity draws down: whoever joins hangs as their muscles pull.
+/// Tension stiffens a belly against gravity, so a new one begins where its own activation has it at rest.
 TEST(TunedPeople, WhoJoinsIsAtRest) {
   for (const bool seen : {true, false}) {
     Simulation simulation;

@@ -138,8 +138,8 @@ struct StepPlan {
   /// The other foot from toe-off to heel strike, by the part of the swing: its pitch and its ankle's place relative to
   /// the stance foothold, without the bumps of its shape.
   Quintic<F> swing_pitch, swing_forward_m, swing_up_m, swing_out_m;
-  /// What the other foot's ankle has beside those bumps where its swing is integrated forward (style: forward_swing), as
-  /// 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, u the part of the swing.
+  /// What the other foot's ankle has beside those bumps where its swing is integrated forward (style: forward_swing),
+  /// as 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, u the part of the swing.
   F swing_by_forward_m[other_way_count], swing_by_up_m[other_way_count];
   /// Where the strikes differ the hips go another way by 64 u³(1 − u)³ times Legendre polynomials of 2u − 1, u the part
   /// of the step's time: forward, and toward the stance foot.

@@ -23,10 +23,12 @@ struct ReducedChoice {
   bool control_points = true;
   /// Whether BellyReport is written, which takes more than half as long as placing the control points.
   bool reported = true;
-  /// Whether what moves is stiffened and damped by how hard the muscle pulls (LegMuscles::activation). The slowest motion
-  /// of a belly that fascia holds at 7 Hz rises from 4 or 5 Hz to 13 or 15 at full activation; damping is 16 to 76 1/s
-  /// instead of LegMuscles::damping_per_s.
+  /// Whether what moves is stiffened and damped by how hard the muscle pulls (LegMuscles::activation). The slowest
+  /// motion of a belly that fascia holds at 7 Hz rises from 4 or 5 Hz to 13 or 15 at full activation; damping is 16 to
+  /// 76 1/s instead of LegMuscles::damping_per_s.
   bool tuned = false;
+  /// Whether control points are where linear statics has them, even where LegMuscles::finite_shape says otherwise.
+  bool linear_shape = false;
 
   friend bool operator==(const ReducedChoice&, const ReducedChoice&) = default;
 };
@@ -42,10 +44,12 @@ constexpr bool is_tuned(const MuscleMethod& method) {
   return method.method == Method::reduced && method.reduced.moving && method.reduced.tuned;
 }
 
-/// Alike in all that the method depends on.
+/// Alike in all that the method depends on. Whose control points are linear anyway is alike with and without
+/// ReducedChoice::linear_shape: of such a muscle Simulation::method answers with what it was chosen as.
 inline bool same_method(const MuscleMethod& a, MuscleMethod b) {
   if (a.method != b.method || a.method != Method::reduced) return a.method == b.method;
   if (is_tuned(a) == is_tuned(b)) b.reduced.tuned = a.reduced.tuned;
+  if (!a.reduced.control_points) b.reduced.linear_shape = a.reduced.linear_shape;
   return a.reduced == b.reduced;
 }
 
@@ -70,7 +74,8 @@ struct LegMuscles {
   std::optional<bool> finite_shape{};
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: of single
   /// muscles that are drawn by displacement 7 Hz, on the shank 12, for what is long, thin and bent bows aside like a
-  /// strut without; of groups 7 Hz with inertia, where a belly would sag by its own length, and none otherwise.
+  /// strut without; of groups that pull the same; of others 7 Hz with inertia, where a belly would sag by its own
+  /// length, and none otherwise.
   std::optional<double> foundation_hz{};
   /// 81 nodes, the paper's choice for real time; meshes of {4, 4, 16}, {8, 8, 32} … have all its nodes.
   Cells cells = {2, 2, 8};
@@ -101,7 +106,8 @@ constexpr bool is_tuned(const LegMuscles& choice) {
 }
 /// Whether its control points are those of finite strain.
 constexpr bool has_finite_shape(const LegMuscles& choice) {
-  return has_control_points(choice) && choice.finite_shape.value_or(has_activation(choice));
+  const bool linear = choice.method == Method::reduced && choice.reduced.linear_shape;
+  return has_control_points(choice) && !linear && choice.finite_shape.value_or(has_activation(choice));
 }
 /// What the far end of its belly may do: held or sliding.
 constexpr FarEnd far_end_of(const LegMuscles& choice) {

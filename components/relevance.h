@@ -26,14 +26,18 @@ inline constexpr std::array<std::string_view, 4> view_name = {"seen", "near", "o
 
 /// What was decided for one person. `rung` and `goal`: four bits a muscle, muscle m in word m / 8, of what runs and of
 /// what is to (they differ while a switch waits); `points` and `goal_points`: a bit a muscle, whether control points
-/// are placed. `tolerance_m` is what was asked when it was last decided; `relative_size` how much larger than the
-/// table's an error of this person's is (size and margin); `speed_step` of the table (accuracy by speed).
+/// are placed; `effects`: bits of TierEffect. `tolerance_m` is what was asked when it was last decided; `relative_size`
+/// how much larger than the table's an error of this person's is (size and margin); `speed_step` of the table (accuracy
+/// by speed).
 template <class F>
 struct Tiers {
   Whole<F> rung[most_muscles / 8], goal[most_muscles / 8];
   Whole<F> points, goal_points;
-  Whole<F> view, muscles, speed_step, inertia;
+  Whole<F> view, muscles, speed_step, effects;
   F tolerance_m, relative_size;
 };
+/// Which of the table's ladders and figures are a person's: of muscles with inertia; of muscles that pull, unless
+/// LegMuscles::finite_shape has been switched off for them.
+enum TierEffect : std::uint32_t { tier_inertia = 1, tier_living = 2 };
 
 }  // namespace mobil

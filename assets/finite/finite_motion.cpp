@@ -36,6 +36,11 @@ VectorXd holding_force(const FiniteBelly& belly, const Activity& activity, doubl
   return force;
 }
 
+double pushed_m_s2(const FinitePush& push, const Vec3<double>& at, std::size_t d) {
+  const auto& row = push.gradient_s2[d];
+  return push.constant_m_s2[d] + row[0] * at.x + row[1] * at.y + row[2] * at.z;
+}
+
 }  // namespace
 
 FiniteMotion motion_at_rest(const FiniteBelly& belly) {
@@ -71,11 +76,12 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
     for (Eigen::Index row = 0; row < rows; ++row) {
       const auto i = first + static_cast<std::size_t>(row);
       const double mass = belly.node_mass_kg[i / 3];
+      const Vec3<double>& at = belly.mesh.node[i / 3];
       follow(i);
       const double now_n =
-          mass * (step.acceleration_m_s2[i % 3] - step.damping_per_s * next.velocity_m_s[i]) - now[row];
+          mass * (pushed_m_s2(step.push, at, i % 3) - step.damping_per_s * next.velocity_m_s[i]) - now[row];
       const double before_n =
-          mass * (motion.pushed_m_s2[i % 3] - step.damping_per_s * motion.velocity_m_s[i]) - before[row];
+          mass * (pushed_m_s2(motion.push, at, i % 3) - step.damping_per_s * motion.velocity_m_s[i]) - before[row];
       change[row] = now_n - (hht * before_n + mass * next.acceleration_m_s2[i]) / (1 + hht);
       const auto own = static_cast<Eigen::Index>((i - first) % first);
       scratch.chain.own[(i - first) / first](own, own) += inertia * mass;
@@ -91,7 +97,7 @@ Result<void> advance(const FiniteBelly& belly, FiniteScratch& scratch, const Fin
     for (std::size_t i = first; i < last; ++i) follow(i);
     next.shortening = step.shortening;
     next.activation = step.activation;
-    next.pushed_m_s2 = step.acceleration_m_s2;
+    next.push = step.push;
     motion = std::move(next);
     return {};
   }

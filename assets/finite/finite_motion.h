@@ -9,19 +9,26 @@
 
 namespace mobil {
 
+/// What gravity and the frame's motion do to a mass at rest position x: constant + gradient·x (components/muscle.h,
+/// FrameLoad).
+struct FinitePush {
+  std::array<double, 3> constant_m_s2{};
+  std::array<std::array<double, 3>, 3> gradient_s2{};
+};
+
 /// Three numbers a node: m, m/s, m/s²; and what acted on it at the end of the last step.
 struct FiniteMotion {
   std::vector<double> displacement_m, velocity_m_s, acceleration_m_s2;
   double shortening = 0, activation = 0;
-  std::array<double, 3> pushed_m_s2{};
+  FinitePush push;
 };
 
 /// What acts on it over a step, as at the step's end. The insertion face is where the shortening (over the length) has
 /// it, the origin face stays. `foundation_hz`: each node is held sideways by (2πf)² times its mass, as linear bellies
-/// are; FiniteBelly's own foundation takes no part. `acceleration_m_s2`: of gravity and the frame, on all mass.
+/// are; FiniteBelly's own foundation takes no part.
 struct FiniteStep {
   double time_s = 0, damping_per_s = 0, foundation_hz = 0, shortening = 0, activation = 0;
-  std::array<double, 3> acceleration_m_s2{};
+  FinitePush push;
 };
 
 FiniteMotion motion_at_rest(const FiniteBelly& belly);

@@ -12,13 +12,18 @@
 
 namespace mobil {
 
-/// Both legs' hamstrings of people who begin with the paper's method; `rounds` times there and back.
-Result<void> bench_relevance(BenchRun& run) {
-  constexpr std::size_t people = 64;
+namespace {
+
+constexpr std::size_t people = 64;
+
+/// Both legs' hamstrings of people, pulling or not, who begin with the ladder's dearest rung; `rounds` times there and
+/// back.
+Result<void> bench_ladder(BenchRun& run, bool living) {
   Simulation simulation;
   std::vector<Entity> walkers;
   LegMuscles choice;
   choice.muscles = MuscleSet(1);
+  if (living) choice.activation = ExcitationSource::phase;
   for (std::size_t i = 0; i < people; ++i) {
     const auto walker = simulation.spawn({}, {.speed_m_s = 1 + 0.01F * static_cast<float>(i)});
     if (!walker) return tl::unexpected(walker.error());
@@ -27,13 +32,15 @@ Result<void> bench_relevance(BenchRun& run) {
   }
   const auto all_to = [&](std::size_t rung) -> Result<void> {
     for (const Entity walker : walkers) {
-      if (auto done = simulation.set_method(walker, Muscle::hamstrings, rung_method(rung, true)); !done) return done;
+      if (auto done = simulation.set_method(walker, Muscle::hamstrings, rung_method(rung, true, living)); !done)
+        return done;
     }
     return {};
   };
+  const Ladder& ladder = rungs_of(living);
   const std::size_t full = rung_count - 1;
   for (std::size_t rung = 0; rung < rung_count; ++rung) {
-    const bool fine = rungs[rung].cells[2] > ReducedChoice{}.cells[2];
+    const bool fine = ladder[rung].cells[2] > ReducedChoice{}.cells[2];
     if (run.quick && fine) continue;  // its basis takes a second to make
     const std::size_t from = rung == full ? 0 : full;
     if (auto done = all_to(rung); !done) return done;  // what it shares is made
@@ -46,10 +53,18 @@ Result<void> bench_relevance(BenchRun& run) {
       wall_s.push_back(wall_now_s() - start_s);
     }
     const Measured time{*std::min_element(wall_s.begin(), wall_s.end()), median(wall_s)};
-    run.add_time("relevance.us_per_switch." + std::string(rungs[rung].name), time, people, 1e-6, "us").bound =
-        "both legs; to " + std::string(rungs[rung].name) + " from " + std::string(rungs[from].name);
+    const std::string name(living && rung == 0 ? "living-none" : ladder[rung].name);
+    run.add_time("relevance.us_per_switch." + name, time, people, 1e-6, "us").bound =
+        "both legs; to " + std::string(ladder[rung].name) + " from " + std::string(ladder[from].name);
   }
   return {};
+}
+
+}  // namespace
+
+Result<void> bench_relevance(BenchRun& run) {
+  if (auto done = bench_ladder(run, false); !done) return done;
+  return bench_ladder(run, true);
 }
 
 }  // namespace mobil

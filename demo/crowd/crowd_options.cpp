@@ -28,10 +28,11 @@ struct NamedEffect {
   std::string_view name;
   bool CrowdEffects::*on;
 };
-constexpr NamedEffect effects[] = {
-    {"muscles", &CrowdEffects::muscles},       {"forces", &CrowdEffects::forces},
-    {"inertia", &CrowdEffects::inertia},       {"line-motion", &CrowdEffects::line_motion},
-    {"activation", &CrowdEffects::activation}, {"tuned", &CrowdEffects::tuned}};
+constexpr NamedEffect effects[] = {{"muscles", &CrowdEffects::muscles},
+                                   {"forces", &CrowdEffects::forces},
+                                   {"inertia", &CrowdEffects::inertia},
+                                   {"line-motion", &CrowdEffects::line_motion},
+                                   {"activation", &CrowdEffects::activation}};
 
 Result<CrowdEffects> read_effects(const std::string& text) {
   CrowdEffects chosen{.muscles = false};
@@ -40,14 +41,11 @@ Result<CrowdEffects> read_effects(const std::string& text) {
     const auto found = std::ranges::find(effects, name, &NamedEffect::name);
     if (found == std::end(effects)) {
       return fail(fmt::format(
-          "--effects '{}': '{}' is none of muscles, forces, inertia, line-motion, activation, tuned; or give none "
-          "alone",
-          text, name));
+          "--effects '{}': '{}' is none of muscles, forces, inertia, line-motion, activation; or give none alone", text,
+          name));
     }
     chosen.*found->on = true;
   }
-  if (chosen.tuned && !(chosen.activation && chosen.muscles))
-    return fail(fmt::format("--effects '{}': tuned muscles are as stiff as they pull; add muscles,activation", text));
   if ((chosen.inertia || chosen.line_motion || chosen.activation) && !chosen.muscles)
     return fail(fmt::format("--effects '{}': inertia, line-motion and activation are of muscles; add muscles", text));
   return chosen;
@@ -64,8 +62,8 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--seed", &text.seed, "Who they are and what they do", crowd},
       {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", crowd},
       {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", crowd},
-      {"--effects", &text.effects,
-       "LIST of muscles, forces, inertia, line-motion, activation, tuned; or none: they only walk", muscles},
+      {"--effects", &text.effects, "LIST of muscles, forces, inertia, line-motion, activation; or none: they only walk",
+       muscles},
       {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", muscles},
       {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", muscles},
       {"--near-tolerance", &text.near_tolerance, "The same of those", muscles},

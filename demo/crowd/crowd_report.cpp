@@ -22,8 +22,8 @@ std::size_t peak_bytes() {
   return 0;
 }
 
-std::string rung_label(std::size_t rung) {
-  return rung < rung_count ? std::string(rungs[rung].name) : "other";
+std::string rung_label(const CrowdRun& run, std::size_t rung) {
+  return rung < rung_count ? std::string(rungs_of(run.living)[rung].name) : "other";
 }
 
 Json options_json(const CrowdOptions& options) {
@@ -38,7 +38,7 @@ Json options_json(const CrowdOptions& options) {
   for (const auto& [name, on] :
        {std::pair("muscles", crowd.effects.muscles), std::pair("forces", crowd.effects.forces),
         std::pair("inertia", crowd.effects.inertia), std::pair("line-motion", crowd.effects.line_motion),
-        std::pair("activation", crowd.effects.activation), std::pair("tuned", crowd.effects.tuned)}) {
+        std::pair("activation", crowd.effects.activation)}) {
     if (on) json["effects"].push_back(name);
   }
   json["churn_per_s"] = crowd.churn_per_s;
@@ -65,7 +65,7 @@ std::string crowd_live_line(const CrowdRun& run, std::size_t of) {
   std::string line = fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms  missed {}", run.ticks.size(), of,
                                  percentile_ms(run.ticks, 0.5), percentile_ms(run.ticks, 0.99), run.missed);
   for (std::size_t r = 0; r < run.muscles_by_rung.size(); ++r) {
-    if (run.muscles_by_rung[r] > 0) line += fmt::format("  {} {}", rung_label(r), run.muscles_by_rung[r]);
+    if (run.muscles_by_rung[r] > 0) line += fmt::format("  {} {}", rung_label(run, r), run.muscles_by_rung[r]);
   }
   return line;
 }
@@ -89,7 +89,7 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
   }
   text += "\nmuscles:";
   for (std::size_t r = 0; r < run.muscles_by_rung.size(); ++r) {
-    if (run.muscles_by_rung[r] > 0) text += fmt::format(" {} {}", run.muscles_by_rung[r], rung_label(r));
+    if (run.muscles_by_rung[r] > 0) text += fmt::format(" {} {}", run.muscles_by_rung[r], rung_label(run, r));
   }
   text += fmt::format("\n{} came, {} left; {} turned, {} changed speed, {} muscles changed method\n", run.spawned,
                       run.despawned, run.turned, run.changed_speed, 2 * run.switched);
@@ -108,7 +108,7 @@ std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const Cro
   json["humans"] = scene.walkers().size();
   json["muscles_by_method"] = Json::object();
   for (std::size_t r = 0; r < run.muscles_by_rung.size(); ++r) {
-    if (run.muscles_by_rung[r] > 0) json["muscles_by_method"][rung_label(r)] = run.muscles_by_rung[r];
+    if (run.muscles_by_rung[r] > 0) json["muscles_by_method"][rung_label(run, r)] = run.muscles_by_rung[r];
   }
   json["tick_s"] = run.tick_s;
   json["ticks"] = run.ticks.size();

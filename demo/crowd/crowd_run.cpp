@@ -91,6 +91,7 @@ Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, co
   Simulation& simulation = scene.simulation();
   CrowdRun run;
   run.tick_s = simulation.tick_s();
+  run.living = scene.request().effects.activation;
   run.ticks.reserve(ticks);
   simulation.schedule().reset_timings();
   double live_s = wall_now_s();

@@ -30,6 +30,7 @@ struct CrowdRun {
   std::vector<CrowdTick> ticks;
   std::vector<CrowdSystem> systems;   // in the order of running
   std::vector<std::uint64_t> hashes;  // every 60 ticks, of everybody's state
+  bool living = false;                // whose ladder the rungs are of
   std::array<std::size_t, rung_count + 1> muscles_by_rung{};
   std::size_t missed = 0, spawned = 0, despawned = 0, switched = 0, refused = 0, turned = 0, changed_speed = 0;
   std::size_t steady_ticks = 0, steady_allocations = 0;

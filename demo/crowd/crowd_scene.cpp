@@ -36,14 +36,14 @@ LegMuscles CrowdScene::first_muscles() const {
   const float limit_m = static_cast<float>(request_.tolerance_m) / RelevanceOptions{}.margin;
   std::array<std::size_t, rung_count> wanted{};
   for (std::uint32_t m = 0; m < muscle_group_count; ++m) {
-    const RungCase of = {m, RungLadder::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen};
+    const RungCase of = {m, RungLadder::speed_step(1.35F, 1.72F), choice.inertia, request_.all_seen,
+                         request_.effects.activation};
     ++wanted[ladder.cheapest(of, limit_m)];
   }
   const auto most = static_cast<std::size_t>(std::ranges::max_element(wanted) - wanted.begin());
-  const MuscleMethod method = rung_method(most, request_.all_seen);
+  const MuscleMethod method = rung_method(most, request_.all_seen, request_.effects.activation);
   choice.method = method.method;
   choice.reduced = method.reduced;
-  choice.reduced.tuned = request_.effects.tuned;
   return choice;
 }
 
@@ -232,7 +232,8 @@ void CrowdScene::tick() {
 }
 
 std::array<std::size_t, rung_count + 1> CrowdScene::muscles_by_rung() const {
-  return relevance_ ? relevance_->muscles_by_rung() : std::array<std::size_t, rung_count + 1>{};
+  return relevance_ ? relevance_->muscles_by_rung(request_.effects.activation)
+                    : std::array<std::size_t, rung_count + 1>{};
 }
 
 }  // namespace mobil

@@ -20,7 +20,7 @@
 namespace mobil {
 
 struct CrowdEffects {
-  bool muscles = true, forces = false, inertia = false, line_motion = false, activation = false, tuned = false;
+  bool muscles = true, forces = false, inertia = false, line_motion = false, activation = false;
 };
 
 /// Lengths in m, times in s.

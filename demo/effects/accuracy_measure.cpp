@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t classes = speed_class_m_s.size();
 constexpr std::size_t driving_rung = 1;  // whose lines move the references
-constexpr float reference_height = static_cast<float>(reference_body_height_m);
 
 /// Copies of one walker, one a rung, and the references of their muscles, right and left.
 struct Walk {
@@ -26,23 +25,6 @@ struct Walk {
   std::vector<std::array<ReferenceMuscle, 2>> reference;            // by muscle
   std::vector<std::array<std::vector<float>, rung_count>> error_m;  // by muscle
 };
-
-Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
-                                                    const LegMuscles& choice) {
-  std::array<Entity, rung_count> all{};
-  for (std::size_t r = 0; r < rung_count; ++r) {
-    const auto human = simulation.spawn(body, {.speed_m_s = speed_m_s});
-    if (!human) return tl::unexpected(human.error());
-    all[r] = *human;
-    if (auto done = simulation.add_leg_muscles(*human, choice); !done) return tl::unexpected(done.error());
-    for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
-      if (!choice.muscles[m]) continue;
-      if (auto done = simulation.set_method(*human, static_cast<Muscle>(m), rung_method(r, true)); !done)
-        return tl::unexpected(done.error());
-    }
-  }
-  return all;
-}
 
 Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, bool counted) {
   for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
@@ -61,7 +43,35 @@ Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk
   return {};
 }
 
+std::string number_list(const std::array<float, rung_count>& values) {
+  const auto number = [](float value) {
+    std::string text = fmt::format("{:.3g}", value);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text + "F";
+  };
+  std::array<std::string, rung_count> texts;
+  std::ranges::transform(values, texts.begin(), number);
+  return fmt::format("{{{}}}", fmt::join(texts, ", "));
+}
+
 }  // namespace
+
+Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
+                                                    const LegMuscles& choice, bool living) {
+  std::array<Entity, rung_count> all{};
+  for (std::size_t r = 0; r < rung_count; ++r) {
+    const auto human = simulation.spawn(body, {.speed_m_s = speed_m_s});
+    if (!human) return tl::unexpected(human.error());
+    all[r] = *human;
+    if (auto done = simulation.add_leg_muscles(*human, choice); !done) return tl::unexpected(done.error());
+    for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
+      if (!choice.muscles[m]) continue;
+      if (auto done = simulation.set_method(*human, static_cast<Muscle>(m), rung_method(r, true, living)); !done)
+        return tl::unexpected(done.error());
+    }
+  }
+  return all;
+}
 
 float percentile(std::vector<float>& values, double part) {
   if (values.empty()) return 0;
@@ -102,8 +112,8 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
     std::vector<std::shared_ptr<const ReducedBasis>> basis;
     for (std::size_t c = 0; c < classes; ++c) {
       Walk walk{b, c, {}, {}, {}};
-      const float speed = speed_class_m_s[c] * std::sqrt(plan.bodies[b].height_m / reference_height);
-      const auto copies = spawn_copies(simulation, plan.bodies[b], speed, choice);
+      const float speed = speed_class_m_s[c] * std::sqrt(plan.bodies[b].height_m / accuracy_height_m);
+      const auto copies = spawn_copies(simulation, plan.bodies[b], speed, choice, false);
       if (!copies) return tl::unexpected(copies.error());
       walk.human = *copies;
       const Human human = *simulation.human(walk.human[driving_rung]);
@@ -139,7 +149,7 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
       AccuracyRow row{plan.muscles[m], static_cast<SpeedClass>(c), inertia, {}};
       for (Walk& walk : walks) {
         if (walk.speed != c) continue;
-        const float size = plan.bodies[walk.body].height_m / reference_height;
+        const float size = plan.bodies[walk.body].height_m / accuracy_height_m;
         for (std::size_t r = 0; r < rung_count; ++r) {
           row.error_m[r] = std::max(row.error_m[r], percentile(walk.error_m[m][r], 0.999) / size);
         }
@@ -150,19 +160,20 @@ Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool i
   return rows;
 }
 
-Result<RungCost> measure_costs(std::size_t humans, bool inertia) {
+Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living) {
   const auto crowd = BenchCrowd::make(humans);
   if (!crowd) return tl::unexpected(crowd.error());
   Simulation& simulation = (*crowd)->simulation();
   LegMuscles choice;
   choice.inertia = inertia;
+  if (living) choice.activation = ExcitationSource::phase;
   for (const Entity human : (*crowd)->people()) {
     if (auto done = simulation.add_leg_muscles(human, choice); !done) return tl::unexpected(done.error());
   }
   const auto measure = [&](std::size_t rung, bool points) -> Result<double> {
     for (const Entity human : (*crowd)->people()) {
       for (std::size_t g = 0; g < muscle_group_count; ++g) {
-        if (auto done = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points)); !done)
+        if (auto done = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, living)); !done)
           return tl::unexpected(done.error());
       }
     }
@@ -185,14 +196,15 @@ Result<RungCost> measure_costs(std::size_t humans, bool inertia) {
   const auto nothing = measure(0, false);  // what asking for the time takes
   if (!nothing) return tl::unexpected(nothing.error());
   for (std::size_t r = 1; r < rung_count; ++r) {
-    if (rungs[r].cells == reference_cells) {  // in a tick a finer mesh's vectors are vectors like others
+    const Rung& rung = rungs_of(living)[r];
+    if (rung.cells == reference_cells) {  // in a tick a finer mesh's vectors are vectors like others
       cost.state_us[r] = cost.state_us[r - 1];
       cost.points_us[r] = cost.points_us[r - 1];
       continue;
     }
     const auto bare = measure(r, false);
     if (!bare) return tl::unexpected(bare.error());
-    const auto with = rungs[r].method == Method::reduced ? measure(r, true) : bare;
+    const auto with = rung.method == Method::reduced ? measure(r, true) : bare;
     if (!with) return tl::unexpected(with.error());
     const double state_us = std::max(0.0, *bare - *nothing);
     cost.state_us[r] = static_cast<float>(state_us);
@@ -201,27 +213,19 @@ Result<RungCost> measure_costs(std::size_t humans, bool inertia) {
   return cost;
 }
 
-std::string accuracy_source(const std::vector<AccuracyRow>& rows, const std::array<RungCost, 2>& costs) {
-  const auto number = [](float value) {
-    std::string text = fmt::format("{:.3g}", value);
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
-    return text + "F";
-  };
-  const auto list = [&](const std::array<float, rung_count>& values) {
-    std::array<std::string, rung_count> texts;
-    std::ranges::transform(values, texts.begin(), number);
-    return fmt::format("{{{}}}", fmt::join(texts, ", "));
-  };
+std::string accuracy_source(const std::vector<AccuracyRow>& rows) {
   std::string source;
   for (const AccuracyRow& row : rows) {
-    source += fmt::format("    {{Muscle{{{}}}, SpeedClass::{}, {}, {}}},\n", static_cast<int>(row.muscle),
-                          speed_class_name[static_cast<std::size_t>(row.speed)], row.inertia, list(row.error_m));
-  }
-  source += "\n";
-  for (const RungCost& cost : costs) {
-    source += fmt::format("    RungCost{{{}, {}}},\n", list(cost.state_us), list(cost.points_us));
+    const std::string living = row.living ? fmt::format(", true, {}", number_list(row.volume_off)) : "";
+    source += fmt::format("    {{Muscle{{{}}}, SpeedClass::{}, {}, {}{}}},\n", static_cast<int>(row.muscle),
+                          speed_class_name[static_cast<std::size_t>(row.speed)], row.inertia, number_list(row.error_m),
+                          living);
   }
   return source;
+}
+
+std::string cost_source(const RungCost& cost) {
+  return fmt::format("    RungCost{{{}, {}}},\n", number_list(cost.state_us), number_list(cost.points_us));
 }
 
 }  // namespace mobil

@@ -14,6 +14,9 @@
 
 namespace mobil {
 
+/// Of whom errors are told; others' are taken in proportion to height, and their speeds to its root.
+inline constexpr float accuracy_height_m = static_cast<float>(reference_body_height_m);
+
 struct AccuracyPlan {
   std::vector<Muscle> muscles;
   std::vector<BodyRequest> bodies;  // each walks at every class' speed, in proportion to the root of height
@@ -27,10 +30,15 @@ AccuracyPlan accuracy_plan();
 Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool inertia);
 
 /// What rungs cost in a crowd, processor time.
-Result<RungCost> measure_costs(std::size_t humans, bool inertia);
+Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living);
 
-/// Both as systems/relevance/accuracy_table.cpp has them.
-std::string accuracy_source(const std::vector<AccuracyRow>& rows, const std::array<RungCost, 2>& costs);
+/// Rows and costs as systems/relevance/accuracy_table.cpp has them.
+std::string accuracy_source(const std::vector<AccuracyRow>& rows);
+std::string cost_source(const RungCost& cost);
+
+/// Copies of one walker with muscles of the choice, one for each rung of a ladder. Fails as Simulation does.
+Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
+                                                    const LegMuscles& choice, bool living);
 
 /// Takes the value below which `part` of them lie; reorders. 0 of none.
 float percentile(std::vector<float>& values, double part);

@@ -132,10 +132,11 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   if (!done) return tl::unexpected(done.error());
 
   const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
+    MuscleMethod method = rung_method(rung, points);
+    method.reduced.tuned = tuned;
     return everybody([&](Entity human) -> Result<void> {
       for (std::size_t g = 0; g < muscle_group_count; ++g) {
-        if (auto set = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, tuned)); !set)
-          return set;
+        if (auto set = simulation.set_method(human, static_cast<Muscle>(g), method); !set) return set;
       }
       return {};
     });

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <memory>
 #include <string>
 
+#include "demo/effects/accuracy_living.h"
 #include "demo/effects/accuracy_measure.h"
 #include "demo/effects/effects.h"
 #include "demo/effects/finite_tables.h"
@@ -35,23 +35,31 @@ Result<void> list_effects(const EffectsCommand& text) {
   return write_result("--json", text.json, effects_json(*account));
 }
 
-/// The rows of systems/relevance/accuracy_table.cpp.
+/// The rows of systems/relevance/accuracy_table.cpp, and its costs.
 Result<void> measure_table() {
-  std::vector<AccuracyRow> rows;
-  std::array<RungCost, 2> costs;
+  std::string rows, costs;
   for (const bool inertia : {false, true}) {
     AccuracyPlan plan = accuracy_plan();
     plan.progress = [&](double part) { show_part(inertia ? "errors with inertia" : "errors without inertia", part); };
     const auto errors = measure_errors(plan, inertia);
     if (!errors) return tl::unexpected(errors.error());
-    rows.insert(rows.end(), errors->begin(), errors->end());
-    show("costs");
-    const auto cost = measure_costs(1024, inertia);
-    if (!cost) return tl::unexpected(cost.error());
-    costs[inertia ? 1 : 0] = *cost;
+    rows += accuracy_source(*errors);
+  }
+  AccuracyPlan plan = living_plan();
+  plan.progress = [](double part) { show_part("errors of muscles that pull", part); };
+  const auto errors = measure_living_errors(plan);
+  if (!errors) return tl::unexpected(errors.error());
+  rows += accuracy_source(*errors);
+  for (const bool living : {false, true}) {
+    for (const bool inertia : {false, true}) {
+      show("costs");
+      const auto cost = measure_costs(1024, inertia, living);
+      if (!cost) return tl::unexpected(cost.error());
+      costs += cost_source(*cost);
+    }
   }
   show("");
-  fmt::print("{}", accuracy_source(rows, costs));
+  fmt::print("{}\n{}", rows, costs);
   return {};
 }
 

@@ -48,10 +48,11 @@ Result<void> follow(const FiniteBelly& belly, double foundation_hz, const Living
                     double begin, double part, FiniteScratch& scratch, FiniteMotion& motion) {
   constexpr double least_part = 1.0 / (steps_a_tick * 32);
   const auto at_end = [&](double a, double b) { return a + (begin + part) * (b - a); };
-  FiniteStep step{part * living_tick_s, tuned_damping_per_s(to.activation), foundation_hz,
-                  at_end(from.shortening, to.shortening), to.activation};
+  FiniteStep step{part * living_tick_s, tuned_damping_per_s(to.activation),
+                  foundation_hz,        at_end(from.shortening, to.shortening),
+                  to.activation,        {}};
   for (std::size_t d = 0; d < 3; ++d)
-    step.acceleration_m_s2[d] = at_end(from.acceleration_m_s2[d], to.acceleration_m_s2[d]);
+    step.push.constant_m_s2[d] = at_end(from.acceleration_m_s2[d], to.acceleration_m_s2[d]);
   auto done = advance(belly, scratch, step, motion);
   if (done || part < 1.5 * least_part) return done;
   for (const double start : {begin, begin + part / 2}) {

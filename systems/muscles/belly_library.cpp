@@ -90,7 +90,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
 double foundation_of(const LegMuscles& choice, Muscle muscle) {
   if (choice.foundation_hz) return *choice.foundation_hz;
   // What a pull by force makes of a belly is tabulated without.
-  if (is_single(muscle) && (choice.drive == Drive::displacement || choice.inertia))
+  if ((is_single(muscle) || has_activation(choice)) && (choice.drive == Drive::displacement || choice.inertia))
     return muscle_row(muscle).drawn.along == LegBone::shank ? shank_hz : thigh_hz;
   return choice.inertia ? thigh_hz : 0;
 }

@@ -15,7 +15,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::uint64_t magic = 0x326b626c69626f6d;  // "mobilbk2", little-endian
+constexpr std::uint64_t magic = 0x336b626c69626f6d;  // "mobilbk3", little-endian
 constexpr std::size_t header_bytes = 32;
 constexpr double any_tick_s = 1;  // a choice without a step of its own is in range at any tick
 

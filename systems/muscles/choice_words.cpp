@@ -14,12 +14,12 @@ template <class Choice, class F>
 constexpr void each_field(Choice& choice, F&& f) {
   auto& [muscles, drive, method, reduced, material, element, mass, damping, stiffness_damping, inertia, line_motion,
          activation, finite_shape, foundation, cells, dt] = choice;
-  auto& [vectors, moving, corrected, reduced_cells, control_points, reported, tuned] = reduced;
+  auto& [vectors, moving, corrected, reduced_cells, control_points, reported, tuned, linear_shape] = reduced;
   auto& [density, young, poisson] = material;
   const auto all = [&f](auto&... field) { (f(field), ...); };
   all(muscles, drive, method, vectors, moving, corrected, reduced_cells, control_points, reported, density, young,
       poisson, element, mass, damping, stiffness_damping, inertia, line_motion, foundation, cells, dt, activation,
-      finite_shape, tuned);
+      finite_shape, tuned, linear_shape);
 }
 
 constexpr Drive last_of(Drive) {

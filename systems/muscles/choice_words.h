@@ -10,7 +10,7 @@
 
 namespace mobil {
 
-inline constexpr std::size_t choice_word_count = 30;
+inline constexpr std::size_t choice_word_count = 31;
 using ChoiceWords = std::array<std::uint64_t, choice_word_count>;
 
 /// All fields, in a fixed order; doubles bit by bit.

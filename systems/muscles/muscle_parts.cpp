@@ -80,6 +80,11 @@ std::optional<MuscleKind> recognised(const TableKey& key, const World& world) {
   for (const DeformationMethod& method : deformation_methods()) {
     if (method.recognise(key, kind)) break;
   }
+  LegMuscles choice = *kind.choice;
+  choice.method = kind.method.method;
+  choice.reduced = kind.method.reduced;
+  kind.method.reduced.linear_shape =
+      choice.method == Method::reduced && has_finite_shape(choice) && kind.finite.resource == nullptr;
   return kind;
 }
 

@@ -28,31 +28,41 @@ float at_speed(const std::array<float, 3>& error, float speed_m_s) {
 }  // namespace
 
 RungLadder::RungLadder(const AccuracyTable& table) {
-  for (std::size_t inertia = 0; inertia < 2; ++inertia) {
-    for (std::size_t m = 0; m < muscles().size(); ++m) {
-      std::array<const AccuracyRow*, 3> rows{};
-      for (std::size_t c = 0; c < 3; ++c) rows[c] = table.find(static_cast<Muscle>(m), classes[c], inertia == 1);
+  for (const bool living : {false, true}) {
+    for (const bool inertia : {false, true}) {
+      set_errors(table, inertia, living);
+      set_costs(table.cost_of(inertia, living), inertia, living);
+    }
+  }
+}
+
+void RungLadder::set_errors(const AccuracyTable& table, bool inertia, bool living) {
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    std::array<const AccuracyRow*, 3> rows{};
+    for (std::size_t c = 0; c < 3; ++c) rows[c] = table.find(static_cast<Muscle>(m), classes[c], inertia, living);
+    if (rows[0] == nullptr || rows[1] == nullptr || rows[2] == nullptr) continue;
+    for (std::size_t r = 0; r < rung_count; ++r) {
+      const std::array<float, 3> at = {rows[0]->error_m[r], rows[1]->error_m[r], rows[2]->error_m[r]};
       for (std::size_t step = 0; step < speed_steps; ++step) {
-        for (std::size_t r = 0; r < rung_count; ++r) {
-          float& error = error_[inertia][step][m][r];
-          if (rows[0] == nullptr || rows[1] == nullptr || rows[2] == nullptr) continue;
-          const std::array<float, 3> at = {rows[0]->error_m[r], rows[1]->error_m[r], rows[2]->error_m[r]};
-          const auto low = static_cast<float>(step) * speed_step_m_s;
-          error = std::max(at_speed(at, low), at_speed(at, low + speed_step_m_s));
-        }
+        const auto low = static_cast<float>(step) * speed_step_m_s;
+        error_[living][inertia][step][m][r] = std::max(at_speed(at, low), at_speed(at, low + speed_step_m_s));
       }
+      volume_off_[living][inertia][m][r] =
+          std::max({rows[0]->volume_off[r], rows[1]->volume_off[r], rows[2]->volume_off[r]});
     }
-    for (std::size_t points = 0; points < 2; ++points) {
-      auto& cost = cost_[inertia][points];
-      for (std::size_t r = 0; r < rung_count; ++r) {
-        const RungCost& of = table.cost[inertia];
-        const float us = of.state_us[r] + (points == 1 ? of.points_us[r] : 0.0F);
-        cost[r] = std::llround(2e6 * static_cast<double>(us));
-      }
-      auto& order = order_[inertia][points];
-      for (std::size_t r = 0; r < rung_count; ++r) order[r] = static_cast<std::uint8_t>(r);
-      std::ranges::stable_sort(order, [&](auto a, auto b) { return cost[a] < cost[b]; });
+  }
+}
+
+void RungLadder::set_costs(const RungCost& of, bool inertia, bool living) {
+  for (const bool points : {false, true}) {
+    auto& cost = cost_[living][inertia][points];
+    for (std::size_t r = 0; r < rung_count; ++r) {
+      const float us = of.state_us[r] + (points ? of.points_us[r] : 0.0F);
+      cost[r] = std::llround(2e6 * static_cast<double>(us));
     }
+    auto& order = order_[living][inertia][points];
+    for (std::size_t r = 0; r < rung_count; ++r) order[r] = static_cast<std::uint8_t>(r);
+    std::ranges::stable_sort(order, [&](auto a, auto b) { return cost[a] < cost[b]; });
   }
 }
 

@@ -15,7 +15,7 @@ namespace mobil {
 struct RungCase {
   std::uint32_t muscle = 0;
   std::uint32_t speed_step = 0;  // RungLadder::speed_step
-  bool inertia = false, points = true;
+  bool inertia = false, points = true, living = false;
 };
 
 /// An accuracy table prepared for choosing: errors at even steps of speed, each the larger of its ends'; rungs by cost.
@@ -32,13 +32,19 @@ class RungLadder {
 
   /// Predicted error in a body of the reference's height, m.
   float error_m(const RungCase& of, std::uint32_t rung) const {
-    return error_[of.inertia][of.speed_step][of.muscle][rung];
+    return error_[of.living][of.inertia][of.speed_step][of.muscle][rung];
+  }
+  /// How much of the volume at rest its control points enclose more or less; 0 where that was not measured.
+  float volume_off(const RungCase& of, std::uint32_t rung) const {
+    return volume_off_[of.living][of.inertia][of.muscle][rung];
   }
   /// Of both legs' muscles, a tick of 1/60 s, picoseconds on the machine that was measured.
-  std::int64_t cost_ps(const RungCase& of, std::uint32_t rung) const { return cost_[of.inertia][of.points][rung]; }
+  std::int64_t cost_ps(const RungCase& of, std::uint32_t rung) const {
+    return cost_[of.living][of.inertia][of.points][rung];
+  }
   /// Rungs by cost, the cheapest first; of equal cost the lower.
   const std::array<std::uint8_t, rung_count>& by_cost(const RungCase& of) const {
-    return order_[of.inertia][of.points];
+    return order_[of.living][of.inertia][of.points];
   }
 
   /// The cheapest rung whose error is at most `limit_m`; where none is, the one of the least error.
@@ -49,9 +55,16 @@ class RungLadder {
 
  private:
   using Errors = std::array<std::array<std::array<float, rung_count>, most_muscles>, speed_steps>;
-  std::array<Errors, 2> error_{};
-  std::array<std::array<std::array<std::int64_t, rung_count>, 2>, 2> cost_{};
-  std::array<std::array<std::array<std::uint8_t, rung_count>, 2>, 2> order_{};
+  template <class T>
+  using ByCase = std::array<std::array<T, 2>, 2>;  // living, inertia
+
+  void set_errors(const AccuracyTable& table, bool inertia, bool living);
+  void set_costs(const RungCost& of, bool inertia, bool living);
+
+  ByCase<Errors> error_{};
+  ByCase<std::array<std::array<float, rung_count>, most_muscles>> volume_off_{};
+  ByCase<std::array<std::array<std::int64_t, rung_count>, 2>> cost_{};
+  ByCase<std::array<std::array<std::uint8_t, rung_count>, 2>> order_{};
 };
 
 /// What a crowd costs as a function of the factor by which everybody may miss their tolerance: a histogram of costs

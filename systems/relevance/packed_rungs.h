@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstdint>
 
+#include "components/relevance.h"
+#include "systems/relevance/ladder.h"
+
 namespace mobil {
 
 inline constexpr float default_tolerance_m = 0.001F;
@@ -21,6 +24,13 @@ inline std::uint32_t rung_at(const std::uint32_t* packed, std::uint32_t muscle) 
 inline void set_rung(std::uint32_t* packed, std::uint32_t muscle, std::uint32_t rung) {
   const std::uint32_t shift = 4 * (muscle % 8);
   packed[muscle / 8] = (packed[muscle / 8] & ~(15U << shift)) | rung << shift;
+}
+inline bool is_living(const Tiers<float>& tiers) {
+  return (tiers.effects & tier_living) != 0;
+}
+/// Which of the ladders' figures are those of a person's muscle.
+inline RungCase rung_case(const Tiers<float>& tiers, std::uint32_t muscle, bool points) {
+  return {muscle, tiers.speed_step, (tiers.effects & tier_inertia) != 0, points, is_living(tiers)};
 }
 inline bool bit_at(std::uint32_t bits, std::uint32_t muscle) {
   return (bits >> muscle & 1U) != 0;

@@ -174,7 +174,7 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
     const std::uint32_t now = rung_at(tiers.rung, m);
     if (now >= refused_rung) continue;
     const bool points = bit_at(tiers.points, m);
-    const RungCase as_is = {m, tiers.speed_step, tiers.inertia != 0, points};
+    const RungCase as_is = rung_case(tiers, m, points);
     RungCase as_seen = as_is;
     as_seen.points = looked_at;
     const std::int64_t cost = ladder_.cost_ps(as_is, now);
@@ -187,14 +187,14 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
     const bool shown = looked_at && goal != 0;
     set_rung(tiers.goal, m, goal);
     set_bit(tiers.goal_points, m, shown);
-    const bool reduced = rungs[goal].method == Method::reduced;
+    const bool reduced = rungs_of(as_is.living)[goal].method == Method::reduced;
     if (goal == now && (points == shown || !reduced)) continue;
     const std::int64_t more = ladder_.cost_ps(as_seen, goal) - cost;
     const bool lit = shown && !points;  // until then there is nothing to be seen of it
     const std::uint32_t worst = more > 0 ? (lit ? 0 : now) : goal;
     (more > 0 ? dearer_ : cheaper_)
         .push_back({ladder_.error_m(as_seen, worst) * size, human, static_cast<std::uint8_t>(m),
-                    static_cast<std::uint8_t>(goal), shown, more});
+                    static_cast<std::uint8_t>(goal), shown, as_is.living, more});
   }
 }
 

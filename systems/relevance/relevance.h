@@ -90,8 +90,8 @@ struct RelevanceOptions {
   std::optional<double> machine_factor{};
   /// Seconds that the last tick's deformation took; left out: of Simulation::report() what deforms.
   std::function<double(const Simulation&)> measured_s{};
-  /// Of people who get muscles by being managed: all but muscles and method, which are chosen. `reduced.tuned`: of
-  /// everybody whose muscles pull what moves is tuned, from the next change of its method on.
+  /// Of people who get muscles by being managed: all but muscles and method, which are chosen. Of muscles that pull so
+  /// are finite shape and tension (living_rungs), unless `finite_shape` is false: then linear bellies serve.
   LegMuscles leg_muscles{};
   /// Makes bases that methods lack while ticks go on; with none they are made in the update that takes them up. Until
   /// `making_ticks` after it was first called for a method is not taken up, and the next coarser one serves: what was
@@ -127,18 +127,20 @@ inline constexpr std::array<std::string_view, 9> reason_name = {"tolerance",    
                                                                 "out of sight", "out of reach",  "not wanted",
                                                                 "forced",       "refused",       "switch pending"};
 
-/// Why a muscle has the method that it has. `rung` is of the table; costs are of one leg's muscle, a tick.
+/// Why a muscle has the method that it has. `rung` is of the ladder of `living` muscles or of others; costs are of one
+/// leg's muscle, a tick; of living ones how much of its volume it has more or less.
 struct Choice {
   MuscleMethod method;
+  bool living = false;
   std::size_t rung = 0;
-  float predicted_error_m = 0, tolerance_m = 0;
+  float predicted_error_m = 0, tolerance_m = 0, predicted_volume_off = 0;
   double predicted_cost_us = 0;
   Reason reason = Reason::tolerance;
   std::string text;
 };
 
-/// A rung as Simulation takes it; `tuned`: where its bellies move, tension stiffens them.
-MuscleMethod rung_method(std::size_t rung, bool control_points, bool tuned = false);
+/// A rung as Simulation takes it, of the ladder of muscles that pull or of others.
+MuscleMethod rung_method(std::size_t rung, bool control_points, bool living = false);
 
 /// Whether a module's systems are part of what a budget is for: bellies, their control points, and what fades after
 /// changes of method.
@@ -201,8 +203,8 @@ class Relevance {
   RelevanceState state() const;
   void set_state(const RelevanceState& state);
 
-  /// How many muscles have each rung of the table, both legs'; last, those with a method that was forced or refused.
-  std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
+  /// How many muscles have each rung of a ladder, both legs'; last, those with a method that was forced or refused.
+  std::array<std::size_t, rung_count + 1> muscles_by_rung(bool living = false) const;
   /// Errors: a stale handle; Status::missing where the person is not managed or has no such muscle.
   Result<Choice> why(Entity human, Muscle muscle) const;
 
@@ -220,7 +222,7 @@ class Relevance {
     float excess;  // error over tolerance: as it is, to be dearer; as it will be, to be cheaper
     Entity human;
     std::uint8_t muscle, rung;
-    bool points;
+    bool points, living;
     std::int64_t cost_ps;  // more than now
   };
 
@@ -232,7 +234,6 @@ class Relevance {
   void plan_budget();
   void carry_out(RelevanceReport& report);
   void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
-  MuscleMethod method_of(const Switch& one, std::uint32_t rung) const;
   bool change(const Switch& one, RelevanceReport& report);
   bool at_hand(const Switch& one, std::uint32_t rung, bool order);
   std::uint32_t wanted(const Needs<float>& needs) const;

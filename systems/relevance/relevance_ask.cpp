@@ -18,29 +18,37 @@
 namespace mobil {
 namespace {
 
-constexpr std::uint32_t full_rung = rung_count - 1;
-
-/// The rung that a method is, or the one that it costs about as much as.
-std::uint32_t rung_of(const MuscleMethod& method) {
+/// The rung that a method is, or the one that it costs about as much as. What pulls and moves, but is not tuned, is no
+/// nearer to living tissue than static answers are.
+std::uint32_t rung_of(const MuscleMethod& method, bool living) {
   if (method.method == Method::none) return 0;
-  if (method.method != Method::reduced) return full_rung;
-  for (std::uint32_t r = 1; r < full_rung; ++r) {
-    const Rung& rung = rungs[r];
-    if (!method.reduced.moving && !rung.moving) return r;
-    if (method.reduced.moving && rung.moving && method.reduced.cells == rung.cells &&
-        method.reduced.vectors <= rung.vectors) {
-      return r;
-    }
+  const Ladder& ladder = rungs_of(living);
+  const ReducedChoice& reduced = method.reduced;
+  const bool moving = reduced.moving && (reduced.tuned || !living);
+  std::uint32_t nearest = rung_count - (living || method.method != Method::reduced ? 1 : 2);
+  for (std::uint32_t r = rung_count - 1; r > 0; --r) {
+    const Rung& rung = ladder[r];
+    if (rung.method != method.method) continue;
+    if (rung.method != Method::reduced) return r;
+    if (moving != rung.moving || (living && rung.finite_shape == reduced.linear_shape)) continue;
+    if (!moving || (reduced.cells == rung.cells && reduced.vectors <= rung.vectors)) nearest = r;
   }
-  return full_rung - 1;
+  return nearest;
+}
+
+/// Whether muscles of a choice have the ladder of those that pull.
+bool pulls_alive(const LegMuscles& choice) {
+  return has_activation(choice) && choice.finite_shape.value_or(true);
 }
 
 std::string explain(const Choice& choice, View view, const std::string& goal) {
-  const std::string_view name = rungs[choice.rung].name;
+  const std::string_view name = rungs_of(choice.living)[choice.rung].name;
   const double error_mm = 1e3 * static_cast<double>(choice.predicted_error_m);
   const double allowed_mm = 1e3 * static_cast<double>(choice.tolerance_m);
   std::string figures = fmt::format("{}: {:.3g} mm of {:.3g} mm allowed, {:.3g} us a tick", name, error_mm, allowed_mm,
                                     choice.predicted_cost_us);
+  if (choice.predicted_volume_off > 0)
+    figures += fmt::format(", volume within {:.2g} %", 100 * choice.predicted_volume_off);
   switch (choice.reason) {
     case Reason::tolerance:
       return figures + "; the cheapest that keeps to it";
@@ -65,11 +73,12 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
 
 }  // namespace
 
-MuscleMethod rung_method(std::size_t rung, bool control_points, bool tuned) {
-  const Rung& of = rungs[rung];
+MuscleMethod rung_method(std::size_t rung, bool control_points, bool living) {
+  const Rung& of = rungs_of(living)[rung];
   MuscleMethod method{of.method, {}};
   if (of.method == Method::reduced) {
-    method.reduced = {of.vectors, of.moving, true, of.cells, control_points, false, tuned};
+    method.reduced = {of.vectors,     of.moving, true,     of.cells,
+                      control_points, false,     of.tuned, living && !of.finite_shape};
   }
   return method;
 }
@@ -96,19 +105,22 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
   return {};
 }
 
-/// Rungs that may be the cheapest for one of the scene's muscles and any walk, where a cheaper method must keep to
-/// the least part of a tolerance; all, where tolerances follow from a camera or a budget.
+/// Rungs that may be the cheapest for one of the scene's muscles and any walk: for these tolerances, where a cheaper
+/// method must keep to the least part of one; for any, where tolerances follow from a camera or a budget.
 std::array<bool, rung_count> Relevance::called_for(std::span<const float> tolerances_m) const {
   std::array<bool, rung_count> called{};
-  if (scene_.camera || scene_.budget_s) {
-    called.fill(true);
-    return called;
-  }
-  for (const float tolerance_m : tolerances_m) {
-    const float limit_m = options_.slack * tolerance_m / options_.margin;
-    for (std::uint32_t m = 0; m < muscles().size(); ++m) {
-      for (std::uint32_t speed = 0; speed < RungLadder::speed_steps && scene_.muscles[m]; ++speed)
-        called[ladder_.cheapest({m, speed, options_.leg_muscles.inertia, true}, limit_m)] = true;
+  RungCase of{.inertia = options_.leg_muscles.inertia, .living = pulls_alive(options_.leg_muscles)};
+  for (of.muscle = 0; of.muscle < muscles().size(); ++of.muscle) {
+    for (of.speed_step = 0; of.speed_step < RungLadder::speed_steps && scene_.muscles[of.muscle]; ++of.speed_step) {
+      if (!scene_.camera && !scene_.budget_s) {
+        for (const float tolerance_m : tolerances_m)
+          called[ladder_.cheapest(of, options_.slack * tolerance_m / options_.margin)] = true;
+        continue;
+      }
+      for (const bool points : {false, true}) {
+        of.points = points;
+        for (std::uint32_t r = 0; r < rung_count; ++r) called[ladder_.cheapest(of, ladder_.error_m(of, r))] = true;
+      }
     }
   }
   return called;
@@ -127,7 +139,7 @@ Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
     if (!called[r]) continue;
     if (progress) progress(done++, calls);
     LegMuscles choice = options_.leg_muscles;
-    const MuscleMethod method = rung_method(r, true);
+    const MuscleMethod method = rung_method(r, true, pulls_alive(choice));
     choice.muscles = scene_.muscles;
     choice.method = method.method;
     choice.reduced = method.reduced;
@@ -166,7 +178,9 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
   tiers.muscles = 0;
   const auto choice = choice_of(world, entity);
-  tiers.inertia = choice && choice->inertia ? 1 : 0;
+  tiers.effects = 0;
+  if (choice && choice->inertia) tiers.effects |= tier_inertia;
+  if (choice && pulls_alive(*choice)) tiers.effects |= tier_living;
   tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
   tiers.relative_size = options_.margin;
   for (const OwnMuscle& own : simulation_.muscles(entity)) {
@@ -174,8 +188,8 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     set_bit(tiers.muscles, m, true);
     if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
     const MuscleMethod method = simulation_.method(entity, own.muscle);
-    set_rung(tiers.rung, m, rung_of(method));
-    set_rung(tiers.goal, m, rung_of(method));
+    set_rung(tiers.rung, m, rung_of(method, is_living(tiers)));
+    set_rung(tiers.goal, m, rung_of(method, is_living(tiers)));
     set_bit(tiers.points, m, method.method != Method::none && method.reduced.control_points);
   }
   world.add_parts(entity, std::array{part_value(row), part_value(tiers)});
@@ -208,7 +222,7 @@ Result<void> Relevance::unforce(Entity human, Muscle muscle) {
   const auto m = static_cast<std::uint32_t>(muscle);
   if (m >= most_muscles || !bit_at(tiers->muscles, m)) return fail(Status::missing);
   const MuscleMethod method = simulation_.method(human, muscle);
-  set_rung(tiers->rung, m, rung_of(method));
+  set_rung(tiers->rung, m, rung_of(method, is_living(*tiers)));
   set_bit(tiers->points, m, method.method != Method::none && method.reduced.control_points);
   return result_of("unforce", world_of(simulation_).set(human, *tiers));
 }
@@ -222,15 +236,18 @@ Result<Choice> Relevance::why(Entity human, Muscle muscle) const {
   Choice choice;
   choice.method = simulation_.method(human, muscle);
   const std::uint32_t marked = rung_at(tiers->rung, m), goal = rung_at(tiers->goal, m);
-  choice.rung = marked >= refused_rung ? rung_of(choice.method) : marked;
-  const RungCase of = {m, tiers->speed_step, tiers->inertia != 0, bit_at(tiers->points, m)};
+  choice.living = is_living(*tiers);
+  choice.rung = marked >= refused_rung ? rung_of(choice.method, choice.living) : marked;
+  const RungCase of = rung_case(*tiers, m, bit_at(tiers->points, m));
+  const Ladder& ladder = rungs_of(choice.living);
   const auto rung = static_cast<std::uint32_t>(choice.rung);
   choice.predicted_error_m = ladder_.error_m(of, rung) * tiers->relative_size;
+  choice.predicted_volume_off = ladder_.volume_off(of, rung);
   choice.tolerance_m = tiers->tolerance_m;
   choice.predicted_cost_us = 0.5e-6 * static_cast<double>(ladder_.cost_ps(of, rung)) * machine_.mean();
   const auto view = static_cast<View>(tiers->view);
   const bool shown_differs =
-      bit_at(tiers->points, m) != bit_at(tiers->goal_points, m) && rungs[choice.rung].method == Method::reduced;
+      bit_at(tiers->points, m) != bit_at(tiers->goal_points, m) && ladder[choice.rung].method == Method::reduced;
   if (marked == forced_rung) {
     choice.reason = Reason::forced;
   } else if (marked == refused_rung) {
@@ -248,16 +265,16 @@ Result<Choice> Relevance::why(Entity human, Muscle muscle) const {
   } else {
     choice.reason = scene_.budget_s && factor_ > 1 ? Reason::budget : Reason::best;
   }
-  choice.text = explain(choice, view, std::string(goal < rung_count ? rungs[goal].name : "another"));
+  choice.text = explain(choice, view, std::string(goal < rung_count ? ladder[goal].name : "another"));
   return choice;
 }
 
-std::array<std::size_t, rung_count + 1> Relevance::muscles_by_rung() const {
+std::array<std::size_t, rung_count + 1> Relevance::muscles_by_rung(bool living) const {
   std::array<std::size_t, rung_count + 1> count{};
   each(simulation_.world(), [&](const Rows& rows, const Tiers<Lanes<float>>& block) {
     for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
       const Tiers<float> tiers = row_of(block, lane);
-      for (std::uint32_t m = 0; m < most_muscles; ++m) {
+      for (std::uint32_t m = 0; m < most_muscles && is_living(tiers) == living; ++m) {
         if (bit_at(tiers.muscles, m)) count[std::min<std::size_t>(rung_at(tiers.rung, m), rung_count)] += 2;
       }
     }

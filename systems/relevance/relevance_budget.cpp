@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "assets/body/anthropometry.h"
+#include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/person.h"
@@ -27,7 +28,7 @@ double deformation_s(const Simulation& simulation) {
 
 bool is_deformation(std::string_view module) {
   static const std::vector<std::string> names = [] {
-    std::vector<std::string> all = {fade_module().name};
+    std::vector<std::string> all = {fade_module().name, finite_shape_effect.module().name};
     for (const DeformationMethod& method : deformation_methods()) {
       if (method.module != nullptr) all.push_back(method.module().name);
     }
@@ -60,7 +61,8 @@ void Relevance::plan_budget() {
 void Relevance::change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget,
                              RelevanceReport& report) {
   for (const Switch& one : all) {
-    const auto cost_ps = static_cast<std::int64_t>(1e6 * static_cast<double>(switch_us[one.rung]) * machine_.mean());
+    const float us = (one.living ? living_switch_us : switch_us)[one.rung];
+    const auto cost_ps = static_cast<std::int64_t>(1e6 * static_cast<double>(us) * machine_.mean());
     if (switching_ps_ > 0 && switching_ps_ + cost_ps > most_ps) return;
     if (within_budget && cost_ps_ + one.cost_ps > budget_ps_) continue;
     if (change(one, report)) switching_ps_ += cost_ps;
@@ -94,22 +96,14 @@ void Relevance::carry_out(RelevanceReport& report) {
   report.waiting = cheaper_.size() + dearer_.size() - report.switched - report.refused;
 }
 
-/// Tuned where that is asked for and the muscle pulls.
-MuscleMethod Relevance::method_of(const Switch& one, std::uint32_t rung) const {
-  const bool tuned = options_.leg_muscles.reduced.tuned &&
-                     simulation_.get<Activation>(
-                         muscle_of(simulation_.world(), one.human, static_cast<Muscle>(one.muscle), Side::right));
-  return rung_method(rung, one.points, tuned);
-}
-
 /// Whether what a rung shares is there, or time has come for it.
 bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
-  if (options_.background.run == nullptr || rungs[rung].method != Method::reduced) return true;
+  const MuscleMethod method = rung_method(rung, one.points, one.living);
+  if (options_.background.run == nullptr || method.method != Method::reduced) return true;
   const World& world = simulation_.world();
   const auto muscle = static_cast<Muscle>(one.muscle);
   auto choice = choice_of(world, one.human);
   if (!choice) return true;  // set_method says so
-  const MuscleMethod method = method_of(one, rung);
   choice->method = method.method;
   choice->reduced = method.reduced;
   const auto plan = make_muscle_plan(*make_body(body_request(world, one.human)), muscle);
@@ -121,7 +115,7 @@ bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
 bool Relevance::change(const Switch& one, RelevanceReport& report) {
   auto tiers = *simulation_.world().get<Tiers>(one.human);
   const std::uint32_t now = rung_at(tiers.rung, one.muscle);
-  const RungCase of = {one.muscle, tiers.speed_step, tiers.inertia != 0, one.points};
+  const RungCase of = rung_case(tiers, one.muscle, one.points);
   std::uint32_t rung = one.rung;
   if (rung != now && !at_hand(one, rung, true)) {
     const auto& order = ladder_.by_cost(of);
@@ -130,7 +124,8 @@ bool Relevance::change(const Switch& one, RelevanceReport& report) {
     rung = *cheaper;
     if (rung == now || ladder_.error_m(of, rung) >= ladder_.error_m(of, now)) return false;
   }
-  const auto done = simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), method_of(one, rung));
+  const auto done =
+      simulation_.set_method(one.human, static_cast<Muscle>(one.muscle), rung_method(rung, one.points, one.living));
   if (done) {
     RungCase before = of;
     before.points = bit_at(tiers.points, one.muscle);

@@ -22,8 +22,8 @@ struct RandomTable {
     };
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
       for (const SpeedClass speed : {SpeedClass::slow, SpeedClass::free, SpeedClass::fast}) {
-        for (const bool inertia : {false, true}) {
-          AccuracyRow row{static_cast<Muscle>(g), speed, inertia, {}};
+        for (const unsigned effects : {0U, 1U, 2U, 3U}) {
+          AccuracyRow row{static_cast<Muscle>(g), speed, (effects & 1) != 0, {}, (effects & 2) != 0, {}};
           for (float& error : row.error_m) error = between(1e-4F, 5e-2F);
           rows.push_back(row);
         }
@@ -44,7 +44,7 @@ struct Dice {
   std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(engine() % n); }
   float between(float low, float high) { return low * std::pow(high / low, static_cast<float>(engine()) * 0x1p-32F); }
   RungCase a_case() {
-    return {below(muscle_group_count), below(RungLadder::speed_steps), below(2) == 1, below(2) == 1};
+    return {below(muscle_group_count), below(RungLadder::speed_steps), below(2) == 1, below(2) == 1, below(2) == 1};
   }
 };
 
@@ -155,6 +155,27 @@ TEST(Ladder, AMuscleThatWasNotMeasuredHasItsGroupsFigures) {
         EXPECT_EQ(ladder.error_m({m, 14, true, true}, r), ladder.error_m({group, 14, true, true}, r));
       }
     }
+  }
+}
+
+/// Beside tissue at finite strain: what is shown linearly is off in volume by what finite shapes keep.
+TEST(Ladder, MusclesThatPullHaveFiguresOfTheirOwn) {
+  const RungLadder ladder(accuracy_table());
+  for (std::uint32_t m = 0; m < muscles().size(); ++m) {
+    const RungCase of{m, 14, true, true, true};
+    for (std::uint32_t r = 1; r < rung_count; ++r) {
+      EXPECT_GT(ladder.error_m(of, r), 0);
+      EXPECT_NE(ladder.error_m(of, r), ladder.error_m({m, 14, true, true}, r));
+      const Rung& rung = living_rungs[r];
+      if (rung.finite_shape && rung.moving) {
+        EXPECT_LT(ladder.volume_off(of, r), 0.012F) << rung.name;
+      } else if (!rung.finite_shape) {
+        EXPECT_GT(ladder.volume_off(of, r), 0.02F) << rung.name;
+      }
+    }
+    const std::uint32_t best = ladder.cheapest(of, 0);
+    EXPECT_TRUE(living_rungs[best].finite_shape && living_rungs[best].tuned);
+    EXPECT_LE(ladder.cost_ps(of, best), ladder.cost_ps(of, rung_count - 1)) << "none is dearer and no better";
   }
 }
 

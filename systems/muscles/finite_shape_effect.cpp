@@ -38,7 +38,10 @@ void show_in_place(Shared<FiniteShape> shape, Shared<ReducedBasis> basis, const 
   const EndDrive<Lanes<float>> beyond{blend.beyond_m, blend.beyond_m};
   const ReducedBlock belly{*basis, scale, const_cast<float*>(state.data), nullptr, frame.block};  // only read here
   const ControlPoints points{rest.data, displacement.data, false, rest.next};
-  if (state.data == nullptr) {
+  const bool within = std::ranges::all_of(blend.beyond_m.lane, [](float beyond_m) { return beyond_m == 0.0F; });
+  if (state.data == nullptr && frame.block == nullptr && within) {  // at rest, but for the shape
+    std::fill_n(displacement.data, std::size_t{displacement.words} * lane_count, 0.0F);
+  } else if (state.data == nullptr) {
     place_static(belly, points, {FarEnd::held, beyond});
   } else {
     place_control_points(belly, points, {FarEnd::held, beyond});

@@ -11,6 +11,7 @@
 #include "assets/finite/control_points.h"
 #include "assets/finite/finite_motion.h"
 #include "assets/finite/shape_tables.h"
+#include "assets/muscles/muscle_table.h"
 #include "engine/jobs.h"
 #include "systems/deformation/reduced.h"
 #include "systems/muscles/belly_library.h"
@@ -253,11 +254,15 @@ Result<std::array<TrackErrors, 2>> compare(const std::array<const MuscleTrack*, 
 
 }  // namespace
 
-AccuracyPlan living_plan() {
-  AccuracyPlan plan = accuracy_plan();
-  plan.bodies = {plan.bodies.front(), plan.bodies.back()};
-  plan.seconds = 2;
-  return plan;
+std::array<AccuracyPlan, 2> living_plans() {
+  AccuracyPlan groups = accuracy_plan(), members = groups;
+  groups.bodies = {groups.bodies.front(), groups.bodies.back()};
+  groups.seconds = 2;
+  members.bodies.resize(1);
+  members.seconds = 1;
+  members.muscles.clear();
+  for (std::size_t m = muscle_group_count; m < muscles().size(); ++m) members.muscles.push_back(static_cast<Muscle>(m));
+  return {groups, members};
 }
 
 Result<std::vector<AccuracyRow>> measure_living_errors(const AccuracyPlan& plan) {

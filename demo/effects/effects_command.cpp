@@ -45,11 +45,12 @@ Result<void> measure_table() {
     if (!errors) return tl::unexpected(errors.error());
     rows += accuracy_source(*errors);
   }
-  AccuracyPlan plan = living_plan();
-  plan.progress = [](double part) { show_part("errors of muscles that pull", part); };
-  const auto errors = measure_living_errors(plan);
-  if (!errors) return tl::unexpected(errors.error());
-  rows += accuracy_source(*errors);
+  for (AccuracyPlan plan : living_plans()) {
+    plan.progress = [](double part) { show_part("errors of muscles that pull", part); };
+    const auto errors = measure_living_errors(plan);
+    if (!errors) return tl::unexpected(errors.error());
+    rows += accuracy_source(*errors);
+  }
   for (const bool living : {false, true}) {
     for (const bool inertia : {false, true}) {
       show("costs");

@@ -14,7 +14,7 @@ namespace mobil::living_accuracy_test {
 namespace {
 
 AccuracyPlan other_bodies() {
-  AccuracyPlan plan = living_plan();
+  AccuracyPlan plan = living_plans().front();
   plan.bodies.clear();
   BodyRequest body;
   body.height_m = 1.70F;

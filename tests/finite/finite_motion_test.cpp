@@ -50,7 +50,7 @@ TEST(FiniteMotion, IsOfSecondOrder) {
     for (int i = 1; i <= steps; ++i) {
       const double t = time_s * i / steps, push = 20 * std::pow(std::sin(std::min(t, 0.05) / 0.05 * 3.14159265), 2);
       const double part = std::pow(std::sin(std::min(t, 0.08) / 0.08 * 1.57079633), 2);
-      const FiniteStep next{time_s / steps, 8, 7, 0.05 * part, 0.3 * part, {push, 0, 0}};
+      const FiniteStep next{time_s / steps, 8, 7, 0.05 * part, 0.3 * part, {{push, 0, 0}, {}}};
       EXPECT_TRUE(advance(belly, scratch, next, motion));
     }
     return motion.displacement_m;

@@ -174,7 +174,11 @@ TEST(Ladder, MusclesThatPullHaveFiguresOfTheirOwn) {
       }
     }
     const std::uint32_t best = ladder.cheapest(of, 0);
-    EXPECT_TRUE(living_rungs[best].finite_shape && living_rungs[best].tuned);
+    float least = INFINITY;
+    for (std::uint32_t r = 0; r < rung_count; ++r)
+      if (living_rungs[r].finite_shape && living_rungs[r].tuned) least = std::min(least, ladder.error_m(of, r));
+    EXPECT_LE(least, 1.09F * ladder.error_m(of, best))
+        << "errors are rounded up by up to 9 %: " << living_rungs[best].name;
     EXPECT_LE(ladder.cost_ps(of, best), ladder.cost_ps(of, rung_count - 1)) << "none is dearer and no better";
   }
 }

@@ -2,18 +2,21 @@
 // A muscle that pulls: how hard it is asked to, how hard it does, and how fibres and tendon share its line of action.
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 #include "components/lanes.h"
+#include "components/leg_frames.h"
 
 namespace mobil {
 
 /// Where a muscle's excitation comes from: there is none, and the tendon does not stretch; from the phase of the
-/// walker's gait cycle (assets/muscles/excitation_curves.h; who stands and posed people have their standing tone); or
-/// from the host (Simulation::set_excitation).
-enum class ExcitationSource : std::uint8_t { none, phase, host };
-inline constexpr std::array<std::string_view, 3> excitation_source_name = {"none", "phase", "host"};
+/// walker's gait cycle (assets/muscles/excitation_curves.h; who stands and posed people have their standing tone);
+/// from the host (Simulation::set_excitation); or from the moments at the leg's joints (JointMoments), shared among its
+/// muscles as costs them least.
+enum class ExcitationSource : std::uint8_t { none, phase, host, moments };
+inline constexpr std::array<std::string_view, 4> excitation_source_name = {"none", "phase", "host", "moments"};
 
 /// What an excitation and an activation may be: shares of the most that the muscle can.
 inline constexpr float least_activation = 0.01F, most_activation = 1;
@@ -48,6 +51,29 @@ template <class F>
 struct MemberDesign {
   F fibre_m, tendon_m, height_m, rest_belly_m, force_n;
 };
+/// Of a person whose muscles follow the moments, all single muscles of a leg (`member_muscles`, both legs alike): what
+/// they are, and the leg's size over the published one.
+inline constexpr std::size_t leg_member_count = 13;
+template <class F>
+struct LegDesign {
+  MemberDesign<F> member[leg_member_count];
+  LegScale<F> scale;
+};
+/// What their tendons are to pull with, of the isometric force. Right leg first.
+struct AskedForces {
+  struct alignas(64) Leg {
+    float of_most[leg_member_count];
+  };
+  Leg leg[2];
+};
+/// What of the moments the muscles do not make, N m, signs as in JointMoments: at the hip mostly iliopsoas and glutei,
+/// which are not among them; and how many muscles of the leg are asked for all they can. Index 0 right, 1 left.
+template <class F>
+struct MomentReserve {
+  F hip_nm[2], knee_nm[2], ankle_nm[2];
+  Whole<F> at_most[2];
+};
+
 /// Activation, and the fibre's length over its optimal one.
 template <class F>
 struct MemberState {

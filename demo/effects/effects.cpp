@@ -127,9 +127,17 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   if (!done) return tl::unexpected(done.error());
   us = meter(named({"activation"}), &systems);
   add("activation", "muscles pull as the walk asks, tendons stretch", "lines; LegMuscles::activation", us, systems);
+  for (const Entity human : people) simulation.add_forces(human);
+  choice.activation = ExcitationSource::moments;
+  done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
+  if (!done) return tl::unexpected(done.error());
+  us = meter(named({"leg moments"}), &systems);
+  add("moments", "muscles share the walk's own moments as costs them least", "activation; forces", us, systems);
   choice.activation = ExcitationSource::none;
   done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
+
+  for (const Entity human : people) simulation.remove_forces(human);
 
   const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {
     MuscleMethod method = rung_method(rung, points);

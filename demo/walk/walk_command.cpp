@@ -52,7 +52,9 @@ std::optional<WalkForces> walk_forces(const Simulation& simulation, Entity entit
   const auto ground = simulation.get<GroundReaction>(entity);
   const auto moments = simulation.get<JointMoments>(entity);
   if (!ground || !moments) return std::nullopt;
-  return WalkForces{*ground, *moments};
+  WalkForces forces{*ground, *moments};
+  if (const auto reserve = simulation.get<MomentReserve>(entity)) forces.reserve = *reserve;
+  return forces;
 }
 
 void add_muscle_rows(const Simulation& simulation, const Human& human, std::string_view method, MuscleTable& table) {
@@ -102,7 +104,12 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
 
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
                     const std::vector<ScriptedChange>& changes) {
-  Walked walked{{}, MuscleTable(has_activation(options.muscles)), {}, {}, {}, {}};
+  Walked walked{MotionTable(options.muscles.activation == ExcitationSource::moments),
+                MuscleTable(has_activation(options.muscles)),
+                {},
+                {},
+                {},
+                {}};
   WalkOutcome& outcome = walked.outcome;
   outcome.gait = human.gait;
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
@@ -178,9 +185,9 @@ Result<void> run_walk(const WalkOptions& options) {
     if (!planned) return fail(fmt::format("--script {}", planned.error().message));
     changes = std::move(*planned);
   }
+  if (options.forces) simulation.add_forces(*entity);
   auto added = simulation.add_leg_muscles(*entity, options.muscles);
   if (!added) return added;
-  if (options.forces) simulation.add_forces(*entity);
   const Human human = *simulation.human(*entity);
   const auto figure = make_figure(simulation, human, options.anatomy);
   if (!figure) return tl::unexpected(figure.error());

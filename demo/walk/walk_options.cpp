@@ -14,7 +14,9 @@ constexpr std::string_view drives[] = {"displacement", "force"};         // in t
 constexpr std::string_view views[] = {"stick", "wireframe", "surface"};  // of View
 
 // A program has no host that excites muscles.
-constexpr std::string_view walk_activations[] = {"none", "phase"};
+constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
+constexpr ExcitationSource walk_sources[] = {ExcitationSource::none, ExcitationSource::phase,
+                                             ExcitationSource::moments};
 
 /// "groups", "members" and names of the table, separated by commas.
 Result<MuscleSet> read_muscles(const std::string& text) {
@@ -49,7 +51,10 @@ const char* const walk_muscles_help =
     "taken.\n"
     "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in "
     "line\n"
-    "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them.\n"
+    "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments: excited "
+    "so\n"
+    "    that they make the walk's own moments at hip, knee and ankle as costs them least; motion.csv has what is "
+    "left.\n"
     "  --tuned: of --method reduced; how hard a muscle pulls stiffens and damps what shakes it, as in people.\n"
     "  --inertia: gravity and the leg's own motion shake the bellies, which fascia and neighbours hold sideways (7 "
     "Hz);\n"
@@ -77,7 +82,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--element", &text.element,
        "full: 2x2x2 points; bbar: for nearly incompressible tissue; one-point: one, with hourglass stiffness", muscles},
       {"--activation", &text.activation,
-       "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; none", muscles},
+       "phase: muscles pull as people's do at that part of the gait cycle, and tendons stretch; moments; none",
+       muscles},
       {"--tuned", &text.tuned, "Tension stiffens and damps vibration; with --activation phase, --method reduced",
        muscles},
       {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
@@ -150,9 +156,11 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.muscles.element = *element;
   const auto activation = choose<ExcitationSource>("--activation", text.activation, walk_activations);
   if (!activation) return tl::unexpected(activation.error());
-  options.muscles.activation = *activation;
+  options.muscles.activation = walk_sources[static_cast<std::size_t>(*activation)];
   if (has_activation(options.muscles) && options.muscles.drive == Drive::force)
     return fail("--activation draws the belly's end to a place; leave --drive force out, or --activation");
+  if (options.muscles.activation == ExcitationSource::moments && !options.forces)
+    return fail("--activation moments follows the moments at the joints; leave --no-forces out, or choose phase");
   options.muscles.reduced.tuned = text.tuned;
   if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::reduced))
     return fail("--tuned is of reduced muscles that pull: add --activation phase --method reduced, or leave it out");

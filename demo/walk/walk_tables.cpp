@@ -16,7 +16,7 @@ constexpr float degrees = 180.0F / std::numbers::pi_v<float>;
 
 }  // namespace
 
-MotionTable::MotionTable() {
+MotionTable::MotionTable(bool reserves) {
   text = "time_s,phase_right,phase_left,com_x_m,com_y_m,com_z_m,pelvis_rotation_deg,pelvis_list_deg,pelvis_tilt_deg";
   for (const auto side : side_name) {
     for (const auto* angle :
@@ -28,6 +28,10 @@ MotionTable::MotionTable() {
     for (const auto* point : {"heel", "toe"}) {
       for (const char axis : {'x', 'y', 'z'}) text += fmt::format(",{}_{}_{}_m", point, axis, side);
     }
+  }
+  if (reserves) {
+    for (const auto side : side_name)
+      text += fmt::format(",hip_reserve_{0}_nm,knee_reserve_{0}_nm,ankle_reserve_{0}_nm,muscles_at_most_{0}", side);
   }
   text += '\n';
 }
@@ -55,6 +59,12 @@ void MotionTable::add(const MotionRow& row, const std::optional<WalkForces>& for
     for (const auto& point : {feet.heel_m[side], feet.toe_m[side]}) {
       fmt::format_to(out, ",{:.6f},{:.6f},{:.6f}", point.x, point.y, point.z);
     }
+  }
+  if (forces && forces->reserve) {
+    const auto& reserve = forces->reserve;
+    for (std::size_t side = 0; side < 2; ++side)
+      fmt::format_to(out, ",{:.4f},{:.4f},{:.4f},{}", reserve->hip_nm[side], reserve->knee_nm[side],
+                     reserve->ankle_nm[side], reserve->at_most[side]);
   }
   text += '\n';
 }

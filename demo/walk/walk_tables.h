@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "components/activation.h"
 #include "components/forces.h"
 #include "components/leg_muscles.h"
 #include "components/muscle.h"
@@ -24,12 +25,14 @@ struct MotionRow {
 struct WalkForces {
   GroundReaction<float> ground;
   JointMoments<float> moments;
+  std::optional<MomentReserve<float>> reserve{};  // where muscles follow the moments
 };
 
 /// motion.csv under way. Forces are those of the row's own tick; without them their cells are empty. The ground
-/// reaction's anterior part is along the row's heading.
+/// reaction's anterior part is along the row's heading. `reserves`: what of the moments the muscles do not make
+/// follows.
 struct MotionTable {
-  MotionTable();
+  explicit MotionTable(bool reserves = false);
   void add(const MotionRow& row, const std::optional<WalkForces>& forces);
   std::string text;
 };

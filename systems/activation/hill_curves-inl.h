@@ -73,6 +73,15 @@ MOBIL_WIDE_INLINE CurvePoint tendon_force(const Wide& t) {
   return {select(taut, at, wide(-0.05F)), select(taut, tendon_stiffness * rising, wide(0.0F))};
 }
 
+/// Length over the optimal one of a fibre whose tendon pulls with `force` of the isometric one. `height`, the tendon's
+/// slack length and the path's: over the fibre's optimal length.
+MOBIL_WIDE_INLINE Wide fibre_at(const Wide& height, const Wide& tendon, const Wide& path, const Wide& force) {
+  const Wide stretch = fma(log(fma(force, wide(5.0F), wide(1.0F))), wide(1 / tendon_stiffness), wide(1.0F));
+  const Wide along = max(fnma(tendon, stretch, path), wide(0.0F));
+  const Wide m = sqrt(fma(along, along, height * height));
+  return min(max(m, max(1.05F * height, wide(0.3F))), wide(1.8F));
+}
+
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -154,6 +154,20 @@ void contract_all(const MemberBlock& of, float tick_s, Activation<Lanes<float>>&
   contract_members(of, tick_s, activation, muscle);
 }
 
+void activate_for(const MemberBlock& of, const Lanes<float>* of_most, float tick_s, Lanes<float>* excitation) {
+  const Wide rate = wide(1 / (fastest_per_s * tick_s));
+  for (std::size_t i = 0; i < of.members; ++i) {
+    const Fibre fibre = fibre_of(of.design[i], load(of.length_m[i]));
+    const Wide force = max(load(of_most[i]), wide(0.0F));
+    const Wide m = fibre_at(fibre.height, fibre.tendon, fibre.path, force), cos = cosine(fibre, m);
+    const Wide speed = (m - load(of.state[i].fibre)) * rate;
+    // Who is asked for next to nothing need not keep pace with a tendon that goes slack.
+    const Wide drag = max(fibre_damping * speed, -force), by_speed = max(force_at_speed(speed).at, wide(0.25F));
+    const Wide asked = within_range((force / cos - passive_force(m).at - drag) / (active_force(m).at * by_speed));
+    store(asked, excitation[i]);
+  }
+}
+
 void find_rests(std::size_t members, const Lanes<float>* length_m, MemberDesign<Lanes<float>>* design) {
   for (std::size_t i = 0; i < members; ++i) {
     const Wide path = load(length_m[i]);
@@ -170,6 +184,7 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 namespace {
 HWY_EXPORT(contract_all);
+HWY_EXPORT(activate_for);
 HWY_EXPORT(find_rests);
 }  // namespace
 
@@ -180,6 +195,10 @@ void contract(const MemberBlock& of, float tick_s, Activation<Lanes<float>>& act
 
 void settle(const MemberBlock& of, Activation<Lanes<float>>& activation, Musculotendon<Lanes<float>>& muscle) {
   HWY_DYNAMIC_DISPATCH(contract_all)(of, 0, activation, muscle);
+}
+
+void ask_forces(const MemberBlock& of, const Lanes<float>* of_most, float tick_s, Lanes<float>* excitation) {
+  HWY_DYNAMIC_DISPATCH(activate_for)(of, of_most, tick_s, excitation);
 }
 
 void find_rest_bellies(std::size_t members, const Lanes<float>* length_m, MemberDesign<Lanes<float>>* design) {

@@ -38,6 +38,11 @@ void contract(const MemberBlock& of, float tick_s, Activation<Lanes<float>>& act
 /// The same muscles at rest at these lengths: activation is the excitation, and fibres do not move.
 void settle(const MemberBlock& of, Activation<Lanes<float>>& activation, Musculotendon<Lanes<float>>& muscle);
 
+/// What activations must be for tendons to pull with `of_most` of the isometric force at the tick's end; no dynamics:
+/// `state` has them at once, and so has `excitation`, for `contract` to go on with. Where fibres cannot, 1; where a
+/// force is no number, the least.
+void ask_forces(const MemberBlock& of, const Lanes<float>* of_most, float tick_s, Lanes<float>* excitation);
+
 /// The designs' `rest_belly_m` from their other numbers and the path's length in who stands relaxed: at the least
 /// activation.
 void find_rest_bellies(std::size_t members, const Lanes<float>* length_m, MemberDesign<Lanes<float>>* design);

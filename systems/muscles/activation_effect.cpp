@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "components/body.h"
@@ -12,6 +10,7 @@
 #include "systems/activation/excitation.h"
 #include "systems/activation/musculotendon.h"
 #include "systems/lines/line_of_action.h"
+#include "systems/muscles/member_design.h"
 #include "systems/muscles/owner_legs.h"
 
 namespace mobil {
@@ -26,6 +25,7 @@ using Excitations = std::array<Lanes<float>, most_row_members>;
 struct RowMembers {
   RowExcitation excitation;
   std::array<float, most_row_members> weight{};
+  std::array<std::size_t, most_row_members> number{};  // among the leg's
 };
 
 const RowMembers& row_members(Muscle muscle) {
@@ -33,9 +33,11 @@ const RowMembers& row_members(Muscle muscle) {
     std::vector<RowMembers> rows;
     for (std::size_t m = 0; m < muscles().size(); ++m) {
       const auto members = members_of(static_cast<Muscle>(m));
-      RowMembers row{row_excitation(static_cast<Muscle>(m)), {}};
-      for (std::size_t i = 0; i < members.size(); ++i)
+      RowMembers row{row_excitation(static_cast<Muscle>(m)), {}, {}};
+      for (std::size_t i = 0; i < members.size(); ++i) {
         row.weight[i] = static_cast<float>(member_weight(members, members[i]));
+        row.number[i] = leg_member_number(members[i]);
+      }
       rows.push_back(row);
     }
     return rows;
@@ -54,18 +56,37 @@ MemberBlock block_of(const RowMembers& row, const float* design, const float* le
           reinterpret_cast<MemberState<Lanes<float>>*>(state)};
 }
 
-void pull(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, TagValue<Muscle> muscle,
-          TagValue<ExcitationSource> source, Field<const MemberLength> length, Field<const MemberDesignField> design,
-          Field<MemberStateField> state, Activation<Lanes<float>>& activation, Musculotendon<Lanes<float>>& tendon,
-          EndDrive<Lanes<float>>& end, float tick_s) {
+/// Of whose person nothing is asked, nothing.
+void take_forces(const LookupPublished<AskedForces>& asked, const MuscleOwner<Lanes<float>>& owner,
+                 const RowMembers& row, Excitations& of_most) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const AskedForces* const of = asked.find({owner.index[lane], owner.generation[lane]});
+    for (std::size_t i = 0; i < row.excitation.members; ++i)
+      of_most[i][lane] = of == nullptr ? 0 : of->leg[owner.side[lane] & 1U].of_most[row.number[i]];
+  }
+}
+
+void pull(LegsOfOwners posts, LookupPublished<AskedForces> asked, const MuscleOwner<Lanes<float>>& owner,
+          TagValue<Muscle> muscle, TagValue<ExcitationSource> source, Field<const MemberLength> length,
+          Field<const MemberDesignField> design, Field<MemberStateField> state, Activation<Lanes<float>>& activation,
+          Musculotendon<Lanes<float>>& tendon, EndDrive<Lanes<float>>& end, float tick_s) {
   const RowMembers& row = row_members(static_cast<Muscle>(muscle.value));
   Excitations excitation;
-  if (static_cast<ExcitationSource>(source.value) == ExcitationSource::phase) {
-    excite(row.excitation, clocks_of(posts, owner), excitation.data());
-  } else {
-    excitation.fill(activation.excitation);
+  const MemberBlock block = block_of(row, design.data, length.data, excitation, state.data);
+  switch (static_cast<ExcitationSource>(source.value)) {
+    case ExcitationSource::phase:
+      excite(row.excitation, clocks_of(posts, owner), excitation.data());
+      break;
+    case ExcitationSource::moments: {
+      Excitations of_most;
+      take_forces(asked, owner, row, of_most);
+      ask_forces(block, of_most.data(), tick_s, excitation.data());
+      break;
+    }
+    default:
+      excitation.fill(activation.excitation);
   }
-  contract(block_of(row, design.data, length.data, excitation, state.data), tick_s, activation, tendon);
+  contract(block, tick_s, activation, tendon);
   end.to = tendon.belly_m;
 }
 
@@ -90,18 +111,6 @@ void parts(const MuscleKind& kind, std::vector<KeyPart>& to) {
   to.push_back(key_part(FieldWidth<MemberLength>{members}));
   to.push_back(key_part(FieldWidth<MemberDesignField>{design_words * members}));
   to.push_back(key_part(FieldWidth<MemberStateField>{state_words * members}));
-}
-
-/// A member at rest in the anatomical position. Pennation is that of the model that the fibre's length is of, of who is
-/// not in it the measured one; force 30 N/cm² of fibres (Zajac: Muscle and tendon, Crit. Rev. Biomed. Eng. 17, 1989),
-/// with which a leg's greatest moments are those of people; models with 60 have the smaller muscles of old donors.
-MemberDesign<Lanes<float>> design_of(const MemberMuscle& member, const MemberPlan& plan) {
-  constexpr double specific_force_pa = 30e4;
-  const double angle = member.model_path_m > 0 ? member.model_pennation_deg : member.pennation_deg;
-  const double height = plan.fibre_m * std::sin(angle * std::numbers::pi / 180);
-  return broadcast(MemberDesign<float>{static_cast<float>(plan.fibre_m), static_cast<float>(plan.tendon_m),
-                                       static_cast<float>(height), 0,
-                                       static_cast<float>(specific_force_pa * plan.volume_m3 / plan.fibre_m)});
 }
 
 Lanes<float> in_all_lanes(float x) {
@@ -129,7 +138,8 @@ std::vector<float> first_words(const T* block, std::size_t members) {
   return words;
 }
 
-/// At rest as hard as it is excited now, or, where the host will say, not at all.
+/// At rest as hard as it is excited now (by the phase, before moments are known), or, where the host will say, not at
+/// all.
 void begin(const EffectStart& start, RowValues& values) {
   if (start.world.has<Activation>(start.entity)) return;
   const auto members = members_of(start.kind.muscle);
@@ -138,7 +148,7 @@ void begin(const EffectStart& start, RowValues& values) {
   std::array<MemberState<Lanes<float>>, most_row_members> state{};
   std::array<Lanes<float>, most_row_members> length;
   for (std::size_t i = 0; i < members.size(); ++i) {
-    design[i] = design_of(members[i], start.size.member[i]);
+    design[i] = broadcast(member_design(members[i], start.size.member[i]));
     length[i] = in_all_lanes(static_cast<float>(start.size.member[i].rest_length_m));
   }
   find_rest_bellies(members.size(), length.data(), design.data());
@@ -150,7 +160,7 @@ void begin(const EffectStart& start, RowValues& values) {
                   length.data());
   Excitations excitation;
   excitation.fill(in_all_lanes(least_activation));
-  if (start.kind.activation == ExcitationSource::phase)
+  if (start.kind.activation != ExcitationSource::host)
     excite(row.excitation, present_clock(start.world, start.human, start.side), excitation.data());
   Activation<Lanes<float>> activation{};
   Musculotendon<Lanes<float>> tendon{};

@@ -60,7 +60,7 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
 
 Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
-      choice.mass > Mass::consistent || choice.activation > ExcitationSource::host) {
+      choice.mass > Mass::consistent || choice.activation > ExcitationSource::moments) {
     return fail(
         "a drive, method, element, mass or activation is none of those named; take one of the enumerations' values");
   }

@@ -35,7 +35,7 @@ constexpr Mass last_of(Mass) {
   return Mass::consistent;
 }
 constexpr ExcitationSource last_of(ExcitationSource) {
-  return ExcitationSource::host;
+  return ExcitationSource::moments;
 }
 
 struct Writer {

@@ -10,6 +10,7 @@
 #include "engine/each.h"
 #include "engine/geometry.h"
 #include "systems/muscles/finite_shape_effect.h"
+#include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/person.h"
 
@@ -77,8 +78,17 @@ class Sizes {
   std::vector<MuscleSize> size_;
 };
 
+bool follows_moments(const LegMuscles& choice) {
+  return choice.activation == ExcitationSource::moments;
+}
+
 tl::expected<void, NotMade> check_choices(std::span<const SpawnRequest> people, double tick_s) {
   for (std::size_t i = 0; i < people.size(); ++i) {
+    if (people[i].muscles && follows_moments(*people[i].muscles))
+      return tl::unexpected(
+          NotMade{i, Error{"activation by moments is of who has forces: spawn without muscles, then add_forces and "
+                           "add_leg_muscles",
+                           Status::missing}});
     if (!people[i].muscles || (i > 0 && people[i - 1].muscles == people[i].muscles)) continue;
     if (auto ok = check_choice(*people[i].muscles, tick_s); !ok) return tl::unexpected(NotMade{i, ok.error()});
   }
@@ -207,6 +217,9 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
   if (!muscles_of(world, person).empty())
     return fail("this person has leg muscles; remove them first", Status::already_there);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
+  if (follows_moments(choice)) {
+    if (auto ok = can_share_leg_moments(world, person); !ok) return ok;
+  }
   const Body body = *make_body(body_request(world, person));
   std::vector<MuscleSize> size;
   for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
@@ -215,6 +228,9 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, {&person, 1}, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
+  if (follows_moments(choice)) {
+    if (auto ok = share_leg_moments(world, person, body); !ok) return ok;
+  }
   rows.done = true;
   return {};
 }
@@ -226,6 +242,9 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   const std::vector<OwnMuscle> before = muscles_of(world, person);
   if (before.empty()) return fail("this person has no leg muscles; add them first", Status::missing);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
+  if (follows_moments(choice)) {
+    if (auto ok = can_share_leg_moments(world, person); !ok) return ok;
+  }
   const Body body = *make_body(body_request(world, person));
   LegMuscles new_ones = choice;
   std::vector<OwnMuscle> stay;
@@ -249,6 +268,11 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, new_ones, scene.time, scene.jobs, {&person, 1}, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
+  if (follows_moments(choice)) {
+    if (auto ok = share_leg_moments(world, person, body); !ok) return ok;
+  } else {
+    forget_leg_moments(world, person);
+  }
   change_muscles(world, scene.library, scene.work, {person, choice, false, scene.time}, bellies, stay);
   rows.done = true;
   for (const OwnMuscle& one : before) {
@@ -266,6 +290,7 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
     if (world.has<MuscleOwner>(member) && count < rows.size()) rows[count++] = member;
   });
   if (count == 0) return Status::missing;
+  forget_leg_moments(world, person);
   return world.destroy_many(std::span(rows).first(count), jobs);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "components/activation.h"
 #include "engine/rows.h"
 #include "systems/forces/forces.h"
 #include "systems/kinematics/body_motion.h"
@@ -104,7 +105,9 @@ Status remove_forces(World& world, Entity person) {
   const bool posed = is_posed(world, person);
   if (posed ? !world.has<PosedPast>(person) : !world.has<BodyMotion>(person)) return Status::missing;
   const std::uint64_t motion = posed ? type_id<PosedPast<float>>() : type_id<BodyMotion<float>>();
-  return world.remove_parts(person, {motion, type_id<GroundReaction<float>>(), type_id<JointMoments<float>>()});
+  return world.remove_parts(
+      person, {motion, type_id<GroundReaction<float>>(), type_id<JointMoments<float>>(), type_id<LegDesign<float>>(),
+               type_id<MomentReserve<float>>(), type_id<AskedForces>()});
 }
 
 void forget_past(World& world, Entity person) {

@@ -59,7 +59,7 @@ inline LegMuscles choice_of(std::uint64_t draw) {
     choice.drive = Drive::force;
   } else {
     choice.muscles.set(static_cast<std::size_t>(Muscle::tibialis_anterior));
-    choice.activation = static_cast<ExcitationSource>(draw / 6 % excitation_source_name.size());
+    choice.activation = static_cast<ExcitationSource>(draw / 6 % 3);
     if (draw / 18 % 3 != 0) choice.finite_shape = draw / 18 % 3 == 1;
     choice.reduced.tuned = has_activation(choice) && draw / 54 % 2 == 0;
     choice.inertia = choice.reduced.tuned && draw / 108 % 2 == 0;

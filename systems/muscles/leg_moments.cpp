@@ -1,0 +1,114 @@
+#include "systems/muscles/leg_moments.h"
+
+#include <array>
+#include <vector>
+
+#include "components/activation.h"
+#include "components/forces.h"
+#include "components/pose.h"
+#include "engine/rows.h"
+#include "engine/schedule.h"
+#include "engine/snapshot.h"
+#include "systems/activation/moment_sharing.h"
+#include "systems/lines/line_motion.h"
+#include "systems/lines/line_of_action.h"
+#include "systems/muscles/member_design.h"
+
+namespace mobil {
+namespace {
+namespace of_leg_moments {
+
+/// The single muscles' lines, by their number.
+const std::vector<MuscleLines>& single_lines() {
+  static const std::vector<MuscleLines> all = [] {
+    std::vector<MuscleLines> lines;
+    for (const MemberMuscle& member : member_muscles()) lines.push_back(make_muscle_lines(*find_muscle(member.name)));
+    return lines;
+  }();
+  return all;
+}
+
+void find_arms(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& leg,
+               Lanes<float>& path_m, LegMoments<Lanes<float>>& arm_m) {
+  LineOfAction<Lanes<float>> line{};
+  EndDrive<Lanes<float>> end{};
+  LineMotion<Lanes<float>> motion{};
+  constexpr float no_matter_s = 1;
+  lines_of_action(lines, scale, leg, FarEnd::held, line, end, &path_m);
+  line_motion(lines, scale, leg, line, motion, no_matter_s);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    arm_m.hip[lane] = -motion.hip_flexion_arm_m[lane];
+    arm_m.knee[lane] = -motion.knee_flexion_arm_m[lane];
+    arm_m.ankle[lane] = -motion.ankle_dorsiflexion_arm_m[lane];
+  }
+}
+
+void share(const LegDesign<Lanes<float>>& design, const Pose<Lanes<float>>& pose,
+           const JointMoments<Lanes<float>>& moments, MomentReserve<Lanes<float>>& reserve,
+           Published<AskedForces> asked) {
+  const std::vector<MuscleLines>& lines = single_lines();
+  for (const Side side : {Side::right, Side::left}) {
+    LegFrames<Lanes<float>> leg;
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      gather_leg(reinterpret_cast<const float*>(&pose) + lane, side, leg, lane);
+    std::array<Lanes<float>, leg_member_count> path, of_most;
+    std::array<LegMoments<Lanes<float>>, leg_member_count> arm;
+    for (std::size_t i = 0; i < leg_member_count; ++i) find_arms(lines[i], design.scale, leg, path[i], arm[i]);
+    LegMoments<Lanes<float>> left;
+    share_moments(design, path.data(), arm.data(),
+                  {moments.hip_nm[side], moments.knee_nm[side], moments.ankle_nm[side]}, of_most.data(), left,
+                  reserve.at_most[side]);
+    reserve.hip_nm[side] = left.hip;
+    reserve.knee_nm[side] = left.knee;
+    reserve.ankle_nm[side] = left.ankle;
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      for (std::size_t i = 0; i < leg_member_count; ++i) asked.row[lane].leg[side].of_most[i] = of_most[i][lane];
+  }
+}
+
+/// All of the parts or none, and all with moments.
+Result<void> check_key(const TableKey& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const bool design = has(type_id<LegDesign<float>>()), reserve = has(type_id<MomentReserve<float>>());
+  const bool asked = has(type_id<AskedForces>()), moments = has(type_id<JointMoments<float>>());
+  if (design == reserve && reserve == asked && (!design || moments)) return {};
+  return fail("the snapshot does not agree with itself (shared moments of a person); give one that `save` made");
+}
+
+}  // namespace of_leg_moments
+}  // namespace
+
+Module leg_moments_module() {
+  of_leg_moments::single_lines();  // made here, not in a tick
+  return {.name = "leg moments",
+          .parts = {component_part<LegDesign>(), component_part<MomentReserve>(), key_part(Publishes<AskedForces>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("leg moments", &of_leg_moments::share); },
+          .check_key = &of_leg_moments::check_key};
+}
+
+Result<void> can_share_leg_moments(const World& world, Entity person) {
+  if (world.has<JointMoments>(person)) return {};
+  return fail("activation by moments needs the moments at the joints; call add_forces first", Status::missing);
+}
+
+Result<void> share_leg_moments(World& world, Entity person, const Body& body) {
+  if (auto ok = can_share_leg_moments(world, person); !ok) return ok;
+  if (world.has<LegDesign>(person)) return {};
+  LegDesign<float> design{};
+  std::size_t i = 0;
+  for (const MemberMuscle& member : member_muscles()) {
+    const MusclePlan plan = *make_muscle_plan(body, *find_muscle(member.name));
+    design.member[i++] = member_design(member, plan.member[0]);
+    design.scale = plan.leg_scale;
+  }
+  world.add_parts(person, std::array<PartValue, 3>{part_value(design), part_value(MomentReserve<float>{}),
+                                                   part_value(Publishes<AskedForces>{})});
+  return {};
+}
+
+void forget_leg_moments(World& world, Entity person) {
+  if (world.has<LegDesign>(person))
+    world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(), type_id<AskedForces>()});
+}
+
+}  // namespace mobil

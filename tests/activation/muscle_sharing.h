@@ -1,0 +1,69 @@
+#pragma once
+// How a leg's muscles may share given moments, in double precision: static optimisation. Of all activations that make
+// the moments, those of least Σ volume · activation² (Crowninshield & Brand 1981 with the square; Happee & van der Helm
+// 1995 for the volumes). Muscles that the leg lacks are a reserve moment at each joint.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Dense>
+
+namespace mobil::test {
+
+/// One muscle at one instant. `active_n`: what it would pull with at activation 1, beside its passive force.
+struct SharingMember {
+  double volume_m3 = 0, active_n = 0, passive_n = 0;
+  Eigen::Vector3d arm_m = Eigen::Vector3d::Zero();  // of each moment
+};
+
+/// A reserve of `size_nm` costs as much as a muscle of `volume_m3` at activation 1; it may be larger.
+struct SharingReserve {
+  double size_nm = 1, volume_m3 = 1;
+};
+using SharingReserves = std::array<SharingReserve, 3>;
+
+struct Sharing {
+  std::vector<double> activation;
+  Eigen::Vector3d reserve_nm = Eigen::Vector3d::Zero();
+};
+
+/// The dual has three unknowns: activation = clamp(active · (arm · y) / volume), reserve = size² · y / volume. Its
+/// Newton steps, each halved until what is left of the moments shrinks.
+inline Sharing share_moments(const std::vector<SharingMember>& members, const Eigen::Vector3d& moments_nm,
+                             const SharingReserves& reserves) {
+  constexpr double least = 0.01, most = 1;
+  Eigen::Vector3d yielding;
+  for (int j = 0; j < 3; ++j) yielding[j] = std::pow(reserves[j].size_nm, 2) / reserves[j].volume_m3;
+  const auto wanted = [](const SharingMember& of, const Eigen::Vector3d& y) {
+    return of.active_n * of.arm_m.dot(y) / of.volume_m3;
+  };
+  const auto left = [&](const Eigen::Vector3d& y) {
+    Eigen::Vector3d sum = moments_nm - yielding.cwiseProduct(y);
+    for (const SharingMember& one : members)
+      sum -= (std::clamp(wanted(one, y), least, most) * one.active_n + one.passive_n) * one.arm_m;
+    return sum;
+  };
+  Eigen::Vector3d y = Eigen::Vector3d::Zero(), error = left(y);
+  for (int step = 0; step < 200 && error.norm() > 1e-10 * (1 + moments_nm.norm()); ++step) {
+    Eigen::Matrix3d slope = yielding.asDiagonal();
+    for (const SharingMember& one : members) {
+      const double a = wanted(one, y);
+      if (a > least && a < most)
+        slope += one.active_n * one.active_n / one.volume_m3 * one.arm_m * one.arm_m.transpose();
+    }
+    const Eigen::Vector3d toward = slope.ldlt().solve(error);
+    double part = 1;
+    while (part > 1e-6 && left(y + part * toward).norm() > (1 - 1e-4 * part) * error.norm()) part /= 2;
+    y += part * toward;
+    error = left(y);
+  }
+  Sharing result;
+  for (const SharingMember& one : members) result.activation.push_back(std::clamp(wanted(one, y), least, most));
+  result.reserve_nm = yielding.cwiseProduct(y);
+  return result;
+}
+
+}  // namespace mobil::test

@@ -1,0 +1,148 @@
+// Muscles that follow the moments at their joints, in the engine.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "components/forces.h"
+#include "systems/simulation.h"
+
+namespace mobil::moments_test {
+namespace {
+
+LegMuscles following(Method method = Method::none) {
+  LegMuscles choice;
+  choice.method = method;
+  choice.activation = ExcitationSource::moments;
+  return choice;
+}
+
+Entity walker(Simulation& simulation) {
+  return *simulation.spawn({.height_m = 1.8F, .mass_kg = 80}, {.speed_m_s = 1.39F});
+}
+
+struct Pair {
+  std::vector<float> muscles, joint;
+};
+double off(const Pair& of) {
+  double error = 0, all = 0;
+  for (std::size_t i = 0; i < of.joint.size(); ++i)
+    error += std::pow(of.muscles[i] - of.joint[i], 2), all += std::pow(of.joint[i], 2);
+  return std::sqrt(error / all);
+}
+
+/// Activation takes 10 to 40 ms to follow, so they are a little late.
+TEST(Moments, MusclesMakeThoseOfTheWalk) {
+  Simulation simulation;
+  const Entity human = walker(simulation);
+  ASSERT_TRUE(simulation.add_forces(human));
+  LegMuscles choice = following();
+  choice.muscles = muscle_members();
+  choice.line_motion = true;
+  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  for (const Side side : {Side::right, Side::left}) {
+    Pair ankle, knee;
+    float reserve_nm = 0;
+    for (int tick = 0; tick < 240; ++tick) {
+      simulation.tick();
+      if (tick < 60) continue;
+      float ankle_nm = 0, knee_nm = 0;
+      for (const OwnMuscle& own : simulation.muscles(human)) {
+        const float force_n = simulation.get<Musculotendon>(own.entity[side])->force_n;
+        const auto arms = *simulation.get<LineMotion>(own.entity[side]);
+        ankle_nm -= force_n * arms.ankle_dorsiflexion_arm_m, knee_nm -= force_n * arms.knee_flexion_arm_m;
+      }
+      const auto moments = *simulation.get<JointMoments>(human);
+      ankle.muscles.push_back(ankle_nm), ankle.joint.push_back(moments.ankle_nm[side]);
+      knee.muscles.push_back(knee_nm), knee.joint.push_back(moments.knee_nm[side]);
+      const auto reserve = *simulation.get<MomentReserve>(human);
+      reserve_nm = std::max({reserve_nm, std::abs(reserve.knee_nm[side]), std::abs(reserve.ankle_nm[side])});
+    }
+    EXPECT_LT(off(ankle), 0.15);
+    EXPECT_LT(off(knee), 0.3);
+    EXPECT_LT(reserve_nm, 3);
+  }
+}
+
+TEST(Moments, NeedForces) {
+  Simulation simulation;
+  const Entity human = walker(simulation);
+  const auto refused = simulation.add_leg_muscles(human, following());
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().status, Status::missing);
+  EXPECT_NE(refused.error().message.find("add_forces"), std::string::npos) << refused.error().message;
+  EXPECT_TRUE(simulation.muscles(human).empty());
+  SpawnRequest request;
+  request.muscles = following();
+  Entity none;
+  const auto spawned = simulation.spawn({&request, 1}, {&none, 1});
+  ASSERT_FALSE(spawned);
+  ASSERT_TRUE(simulation.add_forces(human));
+  EXPECT_TRUE(simulation.add_leg_muscles(human, following()));
+}
+
+/// The parts that they are asked by come and go with them, and with the forces that they are of.
+TEST(Moments, ComeAndGo) {
+  Simulation simulation;
+  const Entity human = walker(simulation);
+  ASSERT_TRUE(simulation.add_forces(human));
+  ASSERT_TRUE(simulation.add_leg_muscles(human, following(Method::reduced)));
+  EXPECT_TRUE(simulation.get<MomentReserve>(human));
+  LegMuscles phase = following(Method::reduced);
+  phase.activation = ExcitationSource::phase;
+  ASSERT_TRUE(simulation.change_leg_muscles(human, phase));
+  EXPECT_FALSE(simulation.get<MomentReserve>(human));
+  ASSERT_TRUE(simulation.change_leg_muscles(human, following(Method::reduced)));
+  EXPECT_TRUE(simulation.get<MomentReserve>(human));
+  for (int tick = 0; tick < 60; ++tick) simulation.tick();
+  ASSERT_TRUE(simulation.remove_forces(human));
+  EXPECT_FALSE(simulation.get<MomentReserve>(human));
+  for (int tick = 0; tick < 60; ++tick) simulation.tick();
+  const Entity calf = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  EXPECT_LT(simulation.get<Activation>(calf)->activation, 0.02F) << "nothing is asked of them";
+  ASSERT_FALSE(simulation.change_leg_muscles(human, following(Method::none)));
+  ASSERT_TRUE(simulation.add_forces(human));
+  ASSERT_TRUE(simulation.change_leg_muscles(human, following(Method::none)));
+  ASSERT_TRUE(simulation.remove_leg_muscles(human));
+  EXPECT_FALSE(simulation.get<MomentReserve>(human));
+}
+
+TEST(Moments, GoOnFromASnapshot) {
+  Simulation simulation, other;
+  const Entity human = walker(simulation);
+  ASSERT_TRUE(simulation.add_forces(human));
+  ASSERT_TRUE(simulation.add_leg_muscles(human, following(Method::reduced)));
+  for (int tick = 0; tick < 40; ++tick) simulation.tick();
+  std::vector<std::byte> saved(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(saved));
+  const auto restored = other.restore(saved);
+  ASSERT_TRUE(restored) << restored.error().message;
+  for (int tick = 0; tick < 40; ++tick) simulation.tick(), other.tick();
+  EXPECT_EQ(simulation.state_hash(), other.state_hash());
+}
+
+/// A posed person's moments are a tick late; who stands still needs calves more than shins.
+TEST(Moments, OfPosedPeopleToo) {
+  Simulation simulation;
+  Simulation walking;
+  const Entity model = walker(walking);
+  const auto posed = simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
+  ASSERT_TRUE(posed);
+  ASSERT_TRUE(simulation.add_forces(*posed));
+  ASSERT_TRUE(simulation.add_leg_muscles(*posed, following()));
+  float most = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    walking.tick();
+    ASSERT_TRUE(simulation.set_pose(*posed, *walking.get<Pose>(model)));
+    simulation.tick();
+    const Entity calf = simulation.muscle(*posed, Muscle::triceps_surae, Side::right);
+    const float activation = simulation.get<Activation>(calf)->activation;
+    ASSERT_TRUE(std::isfinite(activation));
+    most = std::max(most, activation);
+  }
+  EXPECT_GT(most, 0.3F);
+}
+
+}  // namespace
+}  // namespace mobil::moments_test

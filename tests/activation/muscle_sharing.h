@@ -36,7 +36,8 @@ inline Sharing share_moments(const std::vector<SharingMember>& members, const Ei
                              const SharingReserves& reserves) {
   constexpr double least = 0.01, most = 1;
   Eigen::Vector3d yielding;
-  for (int j = 0; j < 3; ++j) yielding[j] = std::pow(reserves[j].size_nm, 2) / reserves[j].volume_m3;
+  for (std::size_t j = 0; j < 3; ++j)
+    yielding[static_cast<Eigen::Index>(j)] = std::pow(reserves[j].size_nm, 2) / reserves[j].volume_m3;
   const auto wanted = [](const SharingMember& of, const Eigen::Vector3d& y) {
     return of.active_n * of.arm_m.dot(y) / of.volume_m3;
   };

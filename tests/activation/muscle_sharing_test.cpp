@@ -36,7 +36,8 @@ double cost(const std::vector<SharingMember>& leg, const SharingReserves& reserv
             const Vector3d& reserve_nm) {
   double sum = 0;
   for (std::size_t i = 0; i < leg.size(); ++i) sum += leg[i].volume_m3 * a[i] * a[i];
-  for (int j = 0; j < 3; ++j) sum += reserves[j].volume_m3 * std::pow(reserve_nm[j] / reserves[j].size_nm, 2);
+  for (std::size_t j = 0; j < 3; ++j)
+    sum += reserves[j].volume_m3 * std::pow(reserve_nm[static_cast<Eigen::Index>(j)] / reserves[j].size_nm, 2);
   return sum;
 }
 

@@ -11,6 +11,7 @@
 #include <numeric>
 #include <vector>
 
+#include "components/forces.h"
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
@@ -133,8 +134,16 @@ class Crowd {
       EXPECT_EQ(simulation_.add_forces(*human), Status::ok);
     }
     if (who % 8 == 5) return;  // walks without muscles
-    const auto added = simulation_.add_leg_muscles(*human, choice_of(draw(who, -1)));
+    const auto added = simulation_.add_leg_muscles(*human, choice_for(*human, draw(who, -1)));
     ASSERT_TRUE(added) << added.error().message;
+  }
+
+  /// Who has forces follows moments where others follow the phase.
+  LegMuscles choice_for(Entity human, std::uint64_t how) const {
+    LegMuscles choice = choice_of(how);
+    if (choice.activation == ExcitationSource::phase && simulation_.get<JointMoments>(human))
+      choice.activation = ExcitationSource::moments;
+    return choice;
   }
 
   void go(int who) {
@@ -174,11 +183,11 @@ class Crowd {
   void ask_for_muscles(Entity human, std::uint64_t what, std::uint64_t how) {
     const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, Side::right);
     if (!simulation_.world().alive(hamstrings)) {
-      EXPECT_TRUE(simulation_.add_leg_muscles(human, choice_of(how)));
+      EXPECT_TRUE(simulation_.add_leg_muscles(human, choice_for(human, how)));
     } else if (what == 0) {
       EXPECT_EQ(simulation_.remove_leg_muscles(human), Status::ok);
     } else if (what == 1) {
-      EXPECT_TRUE(simulation_.change_leg_muscles(human, choice_of(how)));
+      EXPECT_TRUE(simulation_.change_leg_muscles(human, choice_for(human, how)));
     } else {
       EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % 9]));
       if (simulation_.get<ExcitationSource>(hamstrings) == static_cast<std::uint64_t>(ExcitationSource::host)) {

@@ -136,7 +136,6 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
   choice.activation = ExcitationSource::none;
   done = everybody([&](Entity human) { return simulation.change_leg_muscles(human, choice); });
   if (!done) return tl::unexpected(done.error());
-
   for (const Entity human : people) simulation.remove_forces(human);
 
   const auto set_all = [&](std::size_t rung, bool points, bool tuned = false) {

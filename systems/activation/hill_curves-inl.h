@@ -73,13 +73,23 @@ MOBIL_WIDE_INLINE CurvePoint tendon_force(const Wide& t) {
   return {select(taut, at, wide(-0.05F)), select(taut, tendon_stiffness * rising, wide(0.0F))};
 }
 
+/// Of a fibre's angle, from its sine: the height over the fibre's length.
+MOBIL_WIDE_INLINE Wide fibre_cosine(const Wide& sine) {
+  return sqrt(max(fnma(sine, sine, wide(1.0F)), wide(1e-6F)));
+}
+
+/// Lengths over the optimal one that a fibre is looked for in.
+MOBIL_WIDE_INLINE Wide shortest_fibre(const Wide& height) {
+  return max(1.05F * height, wide(0.3F));
+}
+inline constexpr float longest_fibre = 1.8F;
+
 /// Length over the optimal one of a fibre whose tendon pulls with `force` of the isometric one. `height`, the tendon's
 /// slack length and the path's: over the fibre's optimal length.
 MOBIL_WIDE_INLINE Wide fibre_at(const Wide& height, const Wide& tendon, const Wide& path, const Wide& force) {
   const Wide stretch = fma(log(fma(force, wide(5.0F), wide(1.0F))), wide(1 / tendon_stiffness), wide(1.0F));
-  const Wide along = max(fnma(tendon, stretch, path), wide(0.0F));
-  const Wide m = sqrt(fma(along, along, height * height));
-  return min(max(m, max(1.05F * height, wide(0.3F))), wide(1.8F));
+  const Wide along = fnma(tendon, stretch, path);
+  return min(max(sqrt(fma(along, along, height * height)), shortest_fibre(height)), wide(longest_fibre));
 }
 
 }  // namespace mobil::HWY_NAMESPACE

@@ -72,7 +72,7 @@ struct Dual {
 HWY_INLINE Dual dual_at(const Three& y, const Three& moments, const Pull* pull, const Three* arm) {
   const Wide zero = wide(0.0F);
   const Three reserve = {hip_yields * y.x, y.y, y.z};
-  Dual at{fnma(wide(1.0F), dot(moments, y), 0.5F * dot(reserve, y)),
+  Dual at{0.5F * dot(reserve, y) - dot(moments, y),
           {moments.x - reserve.x, moments.y - reserve.y, moments.z - reserve.z},
           {wide(hip_yields), zero, zero, wide(other_yields), zero, wide(other_yields)}};
   for (std::size_t i = 0; i < leg_member_count; ++i) {
@@ -131,16 +131,15 @@ void share_all(const LegDesign<Lanes<float>>& design, const Lanes<float>* path_m
   Wide full = zero;
   for (int round = 0; round < rounds; ++round) {
     Three moments = loaded(moments_nm);
-    Wide passive[leg_member_count], cos[leg_member_count];
+    Wide passive[leg_member_count];
     for (std::size_t i = 0; i < leg_member_count; ++i) {
       const MemberDesign<Lanes<float>>& of = design.member[i];
       const Wide fibre = load(of.fibre_m), over = one / fibre, most = load(of.force_n),
                  height = over * load(of.height_m);
       const Wide m = fibre_at(height, over * load(of.tendon_m), over * load(path_m[i]), force[i]);
-      const Wide sine = height / m;
-      cos[i] = sqrt(max(fnma(sine, sine, one), wide(1e-6F)));
-      passive[i] = most * passive_force(m).at * cos[i];
-      pull[i].active = most * active_force(m).at * cos[i];
+      const Wide cos = fibre_cosine(height / m);
+      passive[i] = most * passive_force(m).at * cos;
+      pull[i].active = most * active_force(m).at * cos;
       pull[i].per_y = pull[i].active * wide(litre_of_force_and_length) / (most * fibre);
       moments = fma_three(-passive[i], arm[i], moments);
     }

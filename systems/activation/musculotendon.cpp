@@ -18,10 +18,6 @@ constexpr int steps_from_nearby = 4, steps_from_anywhere = 24;
 /// Of force over speed, where that is 0: 0.32113 · 8.149 / √(1 + 0.374²).
 constexpr float slope_at_rest = 2.4511F;
 
-HWY_INLINE Wide clamp_between(const Wide& x, const Wide& low, const Wide& high) {
-  return min(max(x, low), high);
-}
-
 /// One member: fibres of optimal length 1.
 struct Fibre {
   Wide height, tendon, path;  // height, the tendon's slack length and the path's over the optimal length
@@ -29,11 +25,8 @@ struct Fibre {
   Wide activation;
 };
 
-HWY_INLINE Wide cosine(const Wide& sine) {
-  return sqrt(max(fnma(sine, sine, wide(1.0F)), wide(1e-6F)));
-}
 HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
-  return cosine(of.height / m);
+  return fibre_cosine(of.height / m);
 }
 
 /// What is left over of the fibre's pull at that length, and its slope, which is positive but on the falling side of
@@ -42,7 +35,7 @@ HWY_INLINE Wide cosine(const Fibre& of, const Wide& m) {
 HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, const Wide& rate) {
   const Wide speed = (m - before) * rate;
   const CurvePoint active = active_force(m), passive = passive_force(m), by_speed = force_at_speed(speed);
-  const Wide over_m = wide(1.0F) / m, cos = cosine(of.height * over_m), over_cos = wide(1.0F) / cos;
+  const Wide over_m = wide(1.0F) / m, cos = fibre_cosine(of.height * over_m), over_cos = wide(1.0F) / cos;
   const CurvePoint tendon = tendon_force(fnma(m, cos, of.path) * of.over_tendon);
   const Wide fibre = fma(of.activation * active.at, by_speed.at, fma(wide(fibre_damping), speed, passive.at));
   const Wide stiffness = fma(of.activation, fma(active.slope, by_speed.at, active.at * by_speed.slope * rate),
@@ -57,13 +50,11 @@ HWY_INLINE CurvePoint pull(const Fibre& of, const Wide& m, const Wide& before, c
 /// Newton's steps from a stretched tendon, whose force grows so fast with its length, would be short ones.
 HWY_INLINE Wide solve(const Fibre& of, const Wide& before, float rate_per_length, int steps) {
   const Wide zero = wide(0.0F), rate = wide(rate_per_length);
-  Wide low = max(1.05F * of.height, wide(0.3F)), high = wide(1.8F);
+  Wide low = shortest_fibre(of.height), high = wide(longest_fibre);
   const Wide from = select((before > low) & (before < high), before, 0.5F * (low + high));
   const Wide active = of.activation * active_force(from).at, cos = cosine(of, from);
   const Wide force = fma(cos, active, cos * min(passive_force(from).at, 1.0F));
-  const Wide stretch = fma(log(fma(force, wide(5.0F), wide(1.0F))), wide(1 / tendon_stiffness), wide(1.0F));
-  const Wide along = fnma(of.tendon, stretch, of.path);
-  const Wide balanced = clamp_between(sqrt(fma(along, along, of.height * of.height)), low, high);
+  const Wide balanced = fibre_at(of.height, of.tendon, of.path, force);
   const Wide tendon = tendon_force(fnma(from, cos, of.path) * of.over_tendon).at;
   // What the speed costs a length, by the slope of fibres that do not move; what the tendon gains on the whole way.
   const Wide costs = rate * fma(active, wide(slope_at_rest), wide(fibre_damping)) * abs(balanced - from);

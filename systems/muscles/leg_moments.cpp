@@ -86,14 +86,14 @@ Module leg_moments_module() {
           .check_key = &of_leg_moments::check_key};
 }
 
-Result<void> can_share_leg_moments(const World& world, Entity person) {
-  if (world.has<JointMoments>(person)) return {};
+Result<void> check_leg_moments(const World& world, Entity person, const LegMuscles& choice) {
+  if (!follows_moments(choice) || world.has<JointMoments>(person)) return {};
   return fail("activation by moments needs the moments at the joints; call add_forces first", Status::missing);
 }
 
-Result<void> share_leg_moments(World& world, Entity person, const Body& body) {
-  if (auto ok = can_share_leg_moments(world, person); !ok) return ok;
-  if (world.has<LegDesign>(person)) return {};
+void set_leg_moments(World& world, Entity person, const Body& body, const LegMuscles& choice) {
+  if (!follows_moments(choice)) return forget_leg_moments(world, person);
+  if (world.has<LegDesign>(person)) return;
   LegDesign<float> design{};
   std::size_t i = 0;
   for (const MemberMuscle& member : member_muscles()) {
@@ -103,7 +103,6 @@ Result<void> share_leg_moments(World& world, Entity person, const Body& body) {
   }
   world.add_parts(person, std::array<PartValue, 3>{part_value(design), part_value(MomentReserve<float>{}),
                                                    part_value(Publishes<AskedForces>{})});
-  return {};
 }
 
 void forget_leg_moments(World& world, Entity person) {

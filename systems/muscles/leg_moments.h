@@ -3,6 +3,7 @@
 // follow. Parts of the person's row; who has no such muscles has none of them.
 
 #include "components/body.h"
+#include "components/leg_muscles.h"
 #include "engine/error.h"
 #include "engine/module.h"
 #include "engine/world.h"
@@ -11,11 +12,13 @@ namespace mobil {
 
 Module leg_moments_module();
 
-/// Gives the person's row what it takes, from its body, if it has not got it. Fails, and changes nothing, where it has
-/// no forces (JointMoments).
-Result<void> share_leg_moments(World& world, Entity person, const Body& body);
-/// Whether share_leg_moments would go well.
-Result<void> can_share_leg_moments(const World& world, Entity person);
+inline bool follows_moments(const LegMuscles& choice) {
+  return choice.activation == ExcitationSource::moments;
+}
+/// Whether a person may have such muscles: moments are of who has forces (JointMoments).
+Result<void> check_leg_moments(const World& world, Entity person, const LegMuscles& choice);
+/// Gives the person's row these parts, from its body, or takes them, as a checked choice asks.
+void set_leg_moments(World& world, Entity person, const Body& body, const LegMuscles& choice);
 /// The row loses these parts, if it has them.
 void forget_leg_moments(World& world, Entity person);
 

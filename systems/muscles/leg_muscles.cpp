@@ -78,10 +78,6 @@ class Sizes {
   std::vector<MuscleSize> size_;
 };
 
-bool follows_moments(const LegMuscles& choice) {
-  return choice.activation == ExcitationSource::moments;
-}
-
 tl::expected<void, NotMade> check_choices(std::span<const SpawnRequest> people, double tick_s) {
   for (std::size_t i = 0; i < people.size(); ++i) {
     if (people[i].muscles && follows_moments(*people[i].muscles))
@@ -217,9 +213,7 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
   if (!muscles_of(world, person).empty())
     return fail("this person has leg muscles; remove them first", Status::already_there);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
-  if (follows_moments(choice)) {
-    if (auto ok = can_share_leg_moments(world, person); !ok) return ok;
-  }
+  if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
   const Body body = *make_body(body_request(world, person));
   std::vector<MuscleSize> size;
   for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
@@ -228,9 +222,7 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, {&person, 1}, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
-  if (follows_moments(choice)) {
-    if (auto ok = share_leg_moments(world, person, body); !ok) return ok;
-  }
+  set_leg_moments(world, person, body, choice);
   rows.done = true;
   return {};
 }
@@ -242,9 +234,7 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   const std::vector<OwnMuscle> before = muscles_of(world, person);
   if (before.empty()) return fail("this person has no leg muscles; add them first", Status::missing);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
-  if (follows_moments(choice)) {
-    if (auto ok = can_share_leg_moments(world, person); !ok) return ok;
-  }
+  if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
   const Body body = *make_body(body_request(world, person));
   LegMuscles new_ones = choice;
   std::vector<OwnMuscle> stay;
@@ -268,11 +258,7 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, new_ones, scene.time, scene.jobs, {&person, 1}, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
-  if (follows_moments(choice)) {
-    if (auto ok = share_leg_moments(world, person, body); !ok) return ok;
-  } else {
-    forget_leg_moments(world, person);
-  }
+  set_leg_moments(world, person, body, choice);
   change_muscles(world, scene.library, scene.work, {person, choice, false, scene.time}, bellies, stay);
   rows.done = true;
   for (const OwnMuscle& one : before) {

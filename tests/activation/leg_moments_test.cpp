@@ -11,11 +11,10 @@
 #include "components/forces.h"
 #include "components/pose.h"
 #include "systems/simulation.h"
+#include "tests/activation/pulling_walker.h"
 
 namespace mobil::leg_moments_test {
 namespace {
-
-constexpr float mass_kg = 80;
 
 /// One tick of the right leg.
 struct Instant {
@@ -31,13 +30,9 @@ const std::vector<Instant>& stride() {
   static const std::vector<Instant> all = [] {
     std::vector<Instant> instants;
     Simulation simulation;
-    const Entity human = *simulation.spawn({.height_m = 1.8F, .mass_kg = mass_kg}, {.speed_m_s = 1.39F});
-    LegMuscles choice;
-    choice.method = Method::none;
-    choice.muscles = muscle_members();
-    choice.line_motion = true;
-    choice.activation = ExcitationSource::phase;
-    if (!simulation.add_forces(human) || !simulation.add_leg_muscles(human, choice)) return instants;
+    const auto walker = test::pulling_walker(simulation, 1.39F);
+    if (!walker) return instants;
+    const Entity human = *walker;
     for (int tick = 0; tick < 300; ++tick) {
       simulation.tick();
       const Feet<float> feet = *simulation.get<Feet>(human);

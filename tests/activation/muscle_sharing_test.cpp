@@ -15,6 +15,7 @@
 #include "systems/activation/moment_sharing.h"
 #include "systems/simulation.h"
 #include "tests/activation/hill_reference.h"
+#include "tests/activation/pulling_walker.h"
 
 namespace mobil::muscle_sharing_test {
 namespace {
@@ -171,13 +172,9 @@ struct Stride {
 Stride walk(float speed_m_s) {
   Stride stride;
   Simulation simulation;
-  const Entity human = *simulation.spawn({.height_m = 1.8F, .mass_kg = 80}, {.speed_m_s = speed_m_s});
-  LegMuscles choice;
-  choice.method = Method::none;
-  choice.muscles = muscle_members();
-  choice.line_motion = true;
-  choice.activation = ExcitationSource::phase;
-  if (!simulation.add_forces(human) || !simulation.add_leg_muscles(human, choice)) return stride;
+  const auto walker = test::pulling_walker(simulation, speed_m_s);
+  if (!walker) return stride;
+  const Entity human = *walker;
   std::map<std::string_view, double> before;
   float last_phase = 1;
   int strikes = 0;

@@ -1,0 +1,21 @@
+#pragma once
+// A walker with forces whose single muscles pull as in walking people, lines alone.
+
+#include "systems/simulation.h"
+
+namespace mobil::test {
+
+inline Result<Entity> pulling_walker(Simulation& simulation, float speed_m_s) {
+  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80}, {.speed_m_s = speed_m_s});
+  if (!human) return human;
+  LegMuscles choice;
+  choice.method = Method::none;
+  choice.muscles = muscle_members();
+  choice.line_motion = true;
+  choice.activation = ExcitationSource::phase;
+  if (auto done = simulation.add_forces(*human); !done) return tl::unexpected(done.error());
+  if (auto done = simulation.add_leg_muscles(*human, choice); !done) return tl::unexpected(done.error());
+  return human;
+}
+
+}  // namespace mobil::test

@@ -148,7 +148,7 @@ struct StepPlan {
 
 /// Where a walker is: time since heel strike of the stance foot (0 right, 1 left), steps taken, and the point of the
 /// walking line beside the stance foothold with the line's heading there: about +Y, 0 toward +Z, positive to the left;
-/// how much the line turns to the next foothold and how much it turned from the one before, and the headings of the
+/// where the straight line began that the walker follows (`anchor`), and with which step; how much the line turns to the next foothold and how much it turned from the one before, and the headings of the
 /// straight ways to and from them beside that of the line. Footholds lie beside the
 /// line; in a turn they are all moved by a shift, to the left of it, so that the ground can push the body inward, and
 /// the line has one curvature for as long as one foot bears (assets/gait/walking_line-inl.h). All zero: right heel
@@ -158,6 +158,8 @@ struct GaitState {
   F time_s;
   Whole<F> stance_side, steps;
   F line_x_m, line_z_m, heading_rad;
+  F anchor_x_m, anchor_z_m;
+  Whole<F> anchor_steps;
   F turn_rad, turn_before_rad, chord_rad, chord_before_rad;
   F bend_per_m, bend_before_per_m, bend_next_per_m;  // curvature on the stance foot, the one before and the next
   F shift_m, shift_before_m, shift_next_m;           // of the stance foothold, of the one before and of the next

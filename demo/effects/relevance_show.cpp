@@ -51,8 +51,8 @@ Result<Crowd> make_crowd(std::size_t humans) {
     const Entity human = (*made)->people()[i];
     auto state = *world.get<GaitState>(human);
     const std::size_t column = i % across, row = i / across;
-    state.line_x_m = apart_m * static_cast<float>(column);
-    state.line_z_m = apart_m * static_cast<float>(row);
+    state.line_x_m = state.anchor_x_m = apart_m * static_cast<float>(column);
+    state.line_z_m = state.anchor_z_m = apart_m * static_cast<float>(row);
     world.set(human, state);
   }
   for (int i = 0; i < 60; ++i) (*made)->simulation().tick();

@@ -2,6 +2,9 @@
 // Walking: from a request to a gait (set-up), the solved steps (whenever something changes) and the walker's clock
 // (every tick).
 
+#include <algorithm>
+#include <cstdint>
+
 #include "components/body.h"
 #include "components/gait.h"
 #include "engine/error.h"
@@ -23,8 +26,31 @@ void plan_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
 void plan_next_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                     const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan);
 
+/// The same of a step's times, its footholds and whether it is settled alone: of a walker whom nobody sees, whose style
+/// stays. The rest of `plan` means nothing then.
+void time_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                     StepPlan<Lanes<float>>& plan);
+void time_next_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                    const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan);
+
+/// A walker's clock counts in whole units, so that many ticks can be made up for at once: `time_s` is always a whole
+/// number of them times `unit_s`, and so is a step's duration as the clock has it.
+struct ClockUnits {
+  std::int32_t per_tick;
+  float unit_s;
+  double per_s;
+
+  /// The nearest whole number.
+  std::int32_t of(float seconds) const { return static_cast<std::int32_t>(static_cast<double>(seconds) * per_s + 0.5); }
+  float seconds(std::int32_t units) const { return static_cast<float>(units) * unit_s; }
+  /// A step's duration, one unit at least.
+  std::int32_t step(float duration_s) const { return std::max(of(duration_s), 1); }
+};
+/// 2¹⁵ a tick, or fewer where a step of 4 s would have more than 2²³, up to which a float tells units apart.
+ClockUnits clock_units(float tick_s);
+
 /// Moves each walker's clock on by tick_s, at most one step. At a heel strike the sides change and the line moves on to
-/// the next foothold.
+/// the next foothold: of who goes straight on, to so many chords from the anchor.
 void advance_gait(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s);
 
 /// Bit l: lane l began a step in this tick that its plan does not describe yet.

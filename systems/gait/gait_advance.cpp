@@ -2,6 +2,8 @@
 #define HWY_TARGET_INCLUDE "systems/gait/gait_advance.cpp"
 #include <hwy/foreach_target.h>
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "assets/gait/walking_line-inl.h"
@@ -35,7 +37,9 @@ HWY_INLINE NextFoot next_foot(const BodySize<Lanes<float>>& size, const StepPlan
   const WideMask walks = (length > 0.0F) & (speed > 0.0F);
   const Wide far = max(length, 0.05F), squared = max(speed * speed, 0.01F);
   const Wide most = min(most_sideways / squared, most_turn / far);
-  const Wide after = (way - (1.0F - slope_at_end) * length * load(state.bend_per_m)) / far;
+  const Wide bends = length * load(state.bend_per_m);
+  const WideMask there = max(abs(way), abs(bends)) < as_asked;
+  const Wide after = select(there, wide(0.0F), (way - (1.0F - slope_at_end) * bends) / far);
   const Wide shift_per_bend = -centre_over_gravity * height * squared;
   const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m), shift = load(state.shift_m);
   const Wide lands_left = select(equal(state.stance_side, Side::right), wide(1.0F), wide(-1.0F));
@@ -66,21 +70,56 @@ HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask&
     store(select(rests, zero, load(*moved)), *moved);
 }
 
+/// Returns who comes to the end of their step. What is left of a tick then is less than one: that is how the systems
+/// that follow know a step that has just begun.
+HWY_INLINE WideMask advance_clock(const ClockUnits& units, const StepPlan<Lanes<float>>& plan,
+                                  GaitState<Lanes<float>>& state) {
+  Lanes<float> done;
+  const std::int32_t most = std::max(units.per_tick - 1, 0);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::int32_t time = units.of(state.time_s[l]) + units.per_tick;
+    const std::int32_t over = time - units.step(plan.duration_s[l]);
+    done[l] = over >= 0 ? 1.0F : 0.0F;
+    state.time_s[l] = units.seconds(over >= 0 ? std::min(over, most) : time);
+  }
+  return load(done) > 0.0F;
+}
+
+HWY_INLINE WideMask without(const WideMask& mask) {
+  return select(mask, wide(0.0F), wide(1.0F)) > 0.0F;
+}
+
+/// Who goes straight on is so many chords from where that began, others are one further than they were and begin anew.
+HWY_INLINE void move_line(const StepPlan<Lanes<float>>& plan, const WideMask& done, const WideMask& straight,
+                          const Wide& ahead_x, const Wide& ahead_z, GaitState<Lanes<float>>& state) {
+  Lanes<float> chords;
+  for (std::size_t l = 0; l < lane_count; ++l) chords[l] = static_cast<float>(state.steps[l] - state.anchor_steps[l]);
+  const WideMask bends = done & without(straight);
+  auto move = [&](const Wide& ahead, Lanes<float>& line, Lanes<float>& anchor) {
+    const Wide on = fma(load(chords), ahead, load(anchor));
+    store(select(straight, on, load(line) + select(bends, ahead, wide(0.0F))), line);
+  };
+  move(ahead_x, state.line_x_m, state.anchor_x_m);
+  move(ahead_z, state.line_z_m, state.anchor_z_m);
+  come_to_rest(plan, done, state);
+  store(select(bends, load(state.line_x_m), load(state.anchor_x_m)), state.anchor_x_m);
+  store(select(bends, load(state.line_z_m), load(state.anchor_z_m)), state.anchor_z_m);
+  Lanes<float> begins;
+  store(select(bends, wide(1.0F), wide(0.0F)), begins);
+  for (std::size_t l = 0; l < lane_count; ++l)
+    state.anchor_steps[l] = begins[l] > 0.0F ? state.steps[l] : state.anchor_steps[l];
+}
+
 void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
-  const Wide step = load(plan.duration_s), length = load(plan.step_length_m);
-  const Wide time = load(state.time_s) + tick_s;
-  const WideMask done = time >= step;
-  const Wide zero = wide(0.0F), one = wide(1.0F);
+  const WideMask done = advance_clock(clock_units(tick_s), plan, state);
+  const Wide zero = wide(0.0F), one = wide(1.0F), length = load(plan.step_length_m);
   const WideMask walked = load(plan.landing) > 0.0F;
-  // Below a tick whatever the rounding: that is how the systems that follow know a step that has just begun.
-  store(select(done, clamp(time - step, 0.0F, tick_s * 0.999999F), time), state.time_s);
 
   const Wide turn = load(state.turn_rad), heading = load(state.heading_rad), chord = load(state.chord_rad);
   Wide s, c;
   sin_cos(heading + chord, s, c);
-  const Wide along = select(done, length, zero);
-  store(fma(along, s, load(state.line_x_m)), state.line_x_m);
-  store(fma(along, c, load(state.line_z_m)), state.line_z_m);
+  const Wide bent = max(max(abs(turn), abs(chord)), abs(load(state.shift_m)));
+  const WideMask straight = done & equal(plan.settled, 1) & (bent <= 0.0F);
   auto moves_on = [&](const Wide& value, Lanes<float>& to) { store(select(done, value, load(to)), to); };
   moves_on(heading + turn, state.heading_rad);
   moves_on(turn, state.turn_before_rad);
@@ -94,7 +133,6 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
   const Wide shift = load(state.shift_m);
   store(select(lands, shift, load(state.shift_before_m)), state.shift_before_m);
   store(select(lands, load(state.shift_next_m), shift), state.shift_m);
-  come_to_rest(plan, done, state);
   Lanes<float> steps;
   store(select(lands, one, zero), steps);
   for (std::size_t l = 0; l < lane_count; ++l) {
@@ -102,6 +140,7 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
     state.steps[l] += n;
     state.stance_side[l] ^= n;
   }
+  move_line(plan, done, straight, length * s, length * c, state);
 }
 
 std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
@@ -139,7 +178,7 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Wide moves = length + load(plan.length_before_m), slant = load(plan.slant_rad);
   const WideMask on_spot = steps_on_spot(plan) & (abs(way) > off_heading) & (moves <= 0.0F);
   const Wide on_the_spot = select(on_spot, min(max(way, -most_turn), most_turn), wide(0.0F));
-  auto begin = [&](const Wide& value, Lanes<float>& to) { store(select(begun, value, load(to)), to); };
+  auto begin = [&](const Wide& value, Lanes<float>& to) { store(select(begun, value + 0.0F, load(to)), to); };  // no −0
   begin(select(length > 0.0F, chord_turn(chord), on_the_spot), state.turn_rad);
   begin(chord_heading(chord) + slant, state.chord_rad);
   // Who stood has come along no chord.
@@ -154,6 +193,15 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace mobil {
+
+ClockUnits clock_units(float tick_s) {
+  constexpr int most = 15;
+  constexpr float longest_step_s = 4;
+  if (!(tick_s > 0)) return {0, 0x1p-20F, 0x1p20};
+  const int fits = std::ilogb(0x1p23F * tick_s / longest_step_s), bits = std::clamp(fits, 0, most);
+  const float unit_s = std::ldexp(tick_s, -bits);
+  return {1 << bits, unit_s, 1.0 / static_cast<double>(unit_s)};
+}
 
 HWY_EXPORT(advance_block);
 HWY_EXPORT(to_plan_block);

@@ -17,6 +17,9 @@ constexpr float pi_f = 3.14159265F;
 /// From how far off the wanted heading on somebody who stands turns on the spot, rad.
 constexpr float off_heading = 0.02F;
 
+/// Who walks, is as near as that to the heading asked for, rad, and turns no more than that in a step goes straight on.
+constexpr float as_asked = 4e-6F;
+
 /// From one heading to another, at most half a turn either way.
 HWY_INLINE Wide shorter_way(const Wide& from, const Wide& to) {
   const Wide off = to - from;

@@ -60,10 +60,13 @@ HWY_INLINE WideMask half_aside(const Strike<Lanes<float>>& from) {
   return stands(from) & (load(from.length_m) > 0.0F);
 }
 
+/// How much of a step is solved: all of it, or its times and footholds alone.
+enum class Solve { whole, times };
+
 /// The steps toward the wanted gait: the strike at the end of this one.
 HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted,
                               const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
-                              Strike<Lanes<float>>& to) {
+                              Solve solve, Strike<Lanes<float>>& to) {
   const Wide leg = ratio(fraction::thigh + fraction::shank, height);
   const Wide scale = sqrt(leg / 0.90F);
   const Wide now = load(from.speed_m_s), aim = select(half_aside(from), wide(0.0F), load(wanted.speed_m_s));
@@ -81,7 +84,7 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   const Wide uneven = load(wanted.style.step_asymmetry), late = load(wanted.style.time_asymmetry);
   r.length = r.step_length * (1.0F + select(right_lands, uneven, -uneven));
   r.slower = select(right_lands, late, -late);
-  make_strike(r, wanted.style, to);
+  solve == Solve::whole ? make_strike(r, wanted.style, to) : time_strike(r, wanted.style, to);
 }
 
 /// Whether all words of two components are the same, lane by lane.
@@ -146,21 +149,31 @@ HWY_NOINLINE void plan_swing(const Wide& height, StepPlan<Lanes<float>>& plan) {
                 scaled(on_along, on_s, load(plan.to.half_width_m)), plan.swing_out_m);
 }
 
-/// Solves the step from plan.from to plan.to.
-HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
-                             const WideMask& right_lands, const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
+/// Who stands, and puts no foot down or puts one down elsewhere.
+struct Standing {
+  WideMask stays, spot;
+};
+
+HWY_INLINE Standing standing(const StepPlan<Lanes<float>>& plan, const WideMask& on_spot) {
+  const WideMask still = stands_still(plan), spot = still & on_spot;
+  return {either(spot, wide(0.0F), select(still, wide(1.0F), wide(0.0F))), spot};
+}
+
+/// The times and lengths of the step from plan.from to plan.to.
+HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& right_lands, const WideMask& on_spot,
+                            StepPlan<Lanes<float>>& plan) {
   const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
-  const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
+  const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask from_stands = stands(from), to_stands = stands(to), still = from_stands & to_stands;
-  const WideMask spot = still & on_spot, stays = either(spot, zero, select(still, one, zero));
+  const auto [stays, spot] = standing(plan, on_spot);
   const Wide pace_from = load(from.pace_hz), pace_to = load(to.pace_hz);
   const WideMask displaced = load(from.length_m) + load(to.length_m) > 0.0F;
   const Wide uneven = load(wanted.style.time_asymmetry);
   const Wide even = select(from_stands, first_step / max(pace_to, 0.1F),
                            select(to_stands, last_step / max(pace_from, 0.1F), 2.0F / max(pace_from + pace_to, 0.1F)));
-  const Wide standing =
+  const Wide at_rest =
       select(spot, select(displaced, 1.0F / max(pace_from + pace_to, 0.1F), wide(spot_step_s)), wide(0.25F));
-  const Wide duration = select(still, standing, even * (1.0F + select(right_lands, uneven, -uneven)));
+  const Wide duration = select(still, at_rest, even * (1.0F + select(right_lands, uneven, -uneven)));
   store(duration, plan.duration_s);
   store(pace_from * duration, plan.phase_rate_from);
   store(pace_to * duration, plan.phase_rate_to);
@@ -172,6 +185,32 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   store(select(from_stands, zero, off), plan.mixed_from);
   store(load(to.length_m), plan.step_length_m);
   store(load(from.length_m), plan.length_before_m);
+}
+
+/// Whether the step is followed by its mirror image. `alike`: its strikes are the same.
+HWY_NOINLINE void settle_step(const Gait<Lanes<float>>& wanted, const WideMask& alike, const WideMask& on_spot,
+                              StepPlan<Lanes<float>>& plan) {
+  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  const Wide zero = wide(0.0F), one = wide(1.0F);
+  const Wide uneven = abs(load(wanted.style.step_asymmetry)) + abs(load(wanted.style.time_asymmetry));
+  const WideMask even_steps = uneven <= 0.0F;
+  const WideMask there = abs(load(to.speed_m_s) - load(wanted.speed_m_s)) <= 0.0F;
+  const WideMask same_feet = (abs(load(plan.trailing_half_width_m) - load(from.half_width_m)) +
+                              abs(load(plan.trailing_toe_out) - load(from.toe_out))) <= 0.0F;
+  const WideMask goes_on = alike & even_steps & (there & same_feet);
+  store_flags(either(standing(plan, on_spot).spot, zero, select(goes_on, one, zero)), plan.settled);
+  plan.revision = wanted.revision;
+}
+
+/// Solves the step from plan.from to plan.to.
+HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                             const WideMask& right_lands, const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
+  time_step(wanted, right_lands, on_spot, plan);
+  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
+  const WideMask from_stands = stands(from), to_stands = stands(to);
+  const auto [stays, spot] = standing(plan, on_spot);
+  const Wide off = load(plan.double_support), duration = load(plan.duration_s);
 
   const Wide length = load(to.length_m);
   const Wide usual_from = load(from.advance_m), usual_to = load(to.advance_m);
@@ -191,14 +230,21 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   const WideMask alike = same_words(from, to);
   const Wide astray = balance_step(height, select(right_lands, -one, one), alike | stays, spot, plan);
   store_flags(astray > most_astray * height, plan.clamped);
+  settle_step(wanted, alike, on_spot, plan);
+}
 
-  const WideMask even_steps = (abs(load(wanted.style.step_asymmetry)) + abs(uneven)) <= 0.0F;
-  const WideMask there = abs(load(to.speed_m_s) - load(wanted.speed_m_s)) <= 0.0F;
-  const WideMask same_feet = (abs(load(plan.trailing_half_width_m) - load(from.half_width_m)) +
-                              abs(load(plan.trailing_toe_out) - load(from.toe_out))) <= 0.0F;
-  const WideMask goes_on = alike & even_steps & (there & same_feet);
-  store_flags(either(spot, zero, select(goes_on, one, zero)), plan.settled);
-  plan.revision = wanted.revision;
+/// Of a step its times, its footholds and whether it settles; where the styles of both strikes are the same.
+HWY_NOINLINE void time_step_alone(const Gait<Lanes<float>>& wanted, const WideMask& right_lands,
+                                  const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
+  time_step(wanted, right_lands, on_spot, plan);
+  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  Wide off = wide(0.0F);
+  // All else of a strike follows from these.
+  for (const auto word :
+       {&Strike<Lanes<float>>::speed_m_s, &Strike<Lanes<float>>::length_m, &Strike<Lanes<float>>::pace_hz,
+        &Strike<Lanes<float>>::advance_m, &Strike<Lanes<float>>::half_width_m, &Strike<Lanes<float>>::toe_out})
+    off = max(off, abs(load(from.*word) - load(to.*word)));
+  settle_step(wanted, off <= 0.0F, on_spot, plan);
 }
 
 HWY_INLINE Wide load_whole(const Lanes<std::uint32_t>& words) {
@@ -246,19 +292,21 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
   return load(begins) > 0.0F;
 }
 
-void first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted, StepPlan<Lanes<float>>& plan) {
+void begin_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted, Solve solve,
+                StepPlan<Lanes<float>>& plan) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask all = one > zero, left_lands = zero > one;
   store(load(wanted.speed_m_s), plan.from.speed_m_s);
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, all, plan.from);
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, left_lands, plan.to);
+  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, all, solve, plan.from);
+  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, left_lands, solve, plan.to);
   plan.trailing_half_width_m = plan.from.half_width_m;
   plan.trailing_toe_out = plan.from.toe_out;
-  solve_step(size, wanted, left_lands, left_lands, plan);
+  solve == Solve::whole ? solve_step(size, wanted, left_lands, left_lands, plan)
+                        : time_step_alone(wanted, left_lands, left_lands, plan);
 }
 
-void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
-                const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
+void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                 const GaitState<Lanes<float>>& state, Solve solve, StepPlan<Lanes<float>>& plan) {
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask right_lands = equal(state.stance_side, Side::left), fresh = zero > one;
   const WideMask sides_change = load(plan.landing) > 0.0F;  // as advance_gait has it
@@ -268,7 +316,7 @@ void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
   keep(sides_change, plan.from.half_width_m, plan.trailing_half_width_m);
   keep(sides_change, plan.from.toe_out, plan.trailing_toe_out);
   plan.from = plan.to;
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, fresh, right_lands, plan.to);
+  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, fresh, right_lands, solve, plan.to);
   // Who stands turns, until both feet point where they are to.
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
@@ -278,8 +326,25 @@ void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
   keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // feet that stand stay where they are
   keep(stays, plan.from.toe_out, plan.to.toe_out);
   const WideMask swapped = load_whole(plan.swaps) > 0.0F;
-  solve_step(size, wanted, either(swapped, select(right_lands, zero, one), select(right_lands, one, zero)), on_spot,
-             plan);
+  const WideMask lands_right = either(swapped, select(right_lands, zero, one), select(right_lands, one, zero));
+  solve == Solve::whole ? solve_step(size, wanted, lands_right, on_spot, plan)
+                        : time_step_alone(wanted, lands_right, on_spot, plan);
+}
+
+void first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted, StepPlan<Lanes<float>>& plan) {
+  begin_step(size, wanted, Solve::whole, plan);
+}
+void time_first_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                      StepPlan<Lanes<float>>& plan) {
+  begin_step(size, wanted, Solve::times, plan);
+}
+void next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
+  follow_step(size, wanted, state, Solve::whole, plan);
+}
+void time_next_block(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                     const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
+  follow_step(size, wanted, state, Solve::times, plan);
 }
 
 }  // namespace mobil::HWY_NAMESPACE
@@ -289,7 +354,9 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 
 HWY_EXPORT(first_block);
+HWY_EXPORT(time_first_block);
 HWY_EXPORT(next_block);
+HWY_EXPORT(time_next_block);
 
 void plan_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                      StepPlan<Lanes<float>>& plan) {
@@ -299,6 +366,16 @@ void plan_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
 void plan_next_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
                     const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
   HWY_DYNAMIC_DISPATCH(next_block)(size, wanted, state, plan);
+}
+
+void time_first_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                     StepPlan<Lanes<float>>& plan) {
+  HWY_DYNAMIC_DISPATCH(time_first_block)(size, wanted, plan);
+}
+
+void time_next_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wanted,
+                    const GaitState<Lanes<float>>& state, StepPlan<Lanes<float>>& plan) {
+  HWY_DYNAMIC_DISPATCH(time_next_block)(size, wanted, state, plan);
 }
 
 }  // namespace mobil

@@ -138,6 +138,24 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
   }
 }
 
+HWY_INLINE Wide step_width(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style) {
+  return load(style.step_width_h) * wider_steps(r.height, r.mass);
+}
+
+/// Where and how fast a strike is: all that the footholds and times of steps follow from.
+HWY_INLINE void time_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
+                            Strike<Lanes<float>>& strike) {
+  const WideMask stands = r.speed <= 0.0F;
+  auto walking = [&](const Wide& value) { return select(stands, wide(0.0F), value); };
+  const Wide step = select(stands, wide(1.0F), r.step_length);  // no division by zero
+  store(r.speed, strike.speed_m_s);
+  store(walking(r.length), strike.length_m);
+  store(walking(r.speed / step), strike.pace_hz);
+  store(walking(step), strike.advance_m);
+  store(step_width(r, style) * (0.5F * r.height), strike.half_width_m);
+  store(load(style.toe_out_deg) * degree_f, strike.toe_out);
+}
+
 /// The strike of a gait at its own pace, or of standing where the speed is 0.
 HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style,
                                      Strike<Lanes<float>>& strike) {
@@ -147,13 +165,8 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   const Wide step = select(stands, wide(1.0F), r.step_length);  // no division by zero
   const Wide stride = min(r.step_length / ratio(natural_step_h, r.height), 1.25F);
   look_up(r.height, r.speed, select(stands, wide(1.0F), r.length), style_amounts(r.height, style), strike);
-  store(r.speed, strike.speed_m_s);
-  store(walking(r.length), strike.length_m);
-  store(walking(r.speed / step), strike.pace_hz);
-  store(walking(step), strike.advance_m);
-  const Wide width = load(style.step_width_h) * wider_steps(r.height, r.mass);
-  store(width * (0.5F * r.height), strike.half_width_m);
-  store(load(style.toe_out_deg) * degree_f, strike.toe_out);
+  time_strike(r, style, strike);
+  const Wide width = step_width(r, style);
   store(clamp(load(strike.double_support) * load(style.double_support_scale), 0.04F, 0.24F), strike.double_support);
 
   auto more = [&](const ShapePart& part, std::size_t i, const Wide& by) {

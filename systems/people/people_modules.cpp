@@ -82,7 +82,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 
 Module walking_module() {
   return {.name = "walking",
-          .version = 2,
+          .version = 3,
           .parts = {component_part<Gait>(), component_part<StepPlan>(), component_part<GaitState>()},
           .systems = [](ScheduleBuilder& systems) {
             systems.add("gait", &advance_gait)

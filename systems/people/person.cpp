@@ -138,6 +138,9 @@ Result<Placing> place(World& world, Entity person, float x_m, float z_m, float h
   state.line_x_m = x_m;
   state.line_z_m = z_m;
   state.heading_rad = heading_rad;
+  state.anchor_x_m = x_m;
+  state.anchor_z_m = z_m;
+  state.anchor_steps = state.steps;
   gait.heading_rad += way.turn_rad;
   const auto size = broadcast(*world.get<BodySize>(person));
   Pose<Lanes<float>> pose;
@@ -172,6 +175,9 @@ void shift_people(World& world, float x_m, float z_m) {
   each(world, [&](CentreOfMass<Lanes<float>>& centre) { shift(centre.position_m); });
   each(world, [&](GaitState<Lanes<float>>& state) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) state.line_x_m[lane] -= x_m, state.line_z_m[lane] -= z_m;
+    state.anchor_x_m = state.line_x_m;
+    state.anchor_z_m = state.line_z_m;
+    state.anchor_steps = state.steps;
   });
 }
 

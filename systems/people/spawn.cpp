@@ -62,8 +62,8 @@ struct FirstInstants {
       put_row(body_size(request.body), size[b], lane);
       put_row(mobil::physique(request.body), physique[b], lane);
       put_row(gaits[i], gait[b], lane);
-      state[b].line_x_m[lane] = request.x_m;
-      state[b].line_z_m[lane] = request.z_m;
+      state[b].line_x_m[lane] = state[b].anchor_x_m[lane] = request.x_m;
+      state[b].line_z_m[lane] = state[b].anchor_z_m[lane] = request.z_m;
       state[b].heading_rad[lane] = request.heading_rad;
     }
     plan_first_step(size[b], gait[b], plan[b]);

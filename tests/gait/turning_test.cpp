@@ -16,8 +16,8 @@ std::unique_ptr<Walkers> turning(unsigned seed) {
   Dice dice{std::mt19937(seed + 100)};
   for (std::size_t l = 0; l < lane_count; ++l) {
     w->gait.heading_rad[l] = dice.single(-3, 3);
-    w->state.line_x_m[l] = dice.single(-5, 5);
-    w->state.line_z_m[l] = dice.single(-5, 5);
+    w->state.line_x_m[l] = w->state.anchor_x_m[l] = dice.single(-5, 5);
+    w->state.line_z_m[l] = w->state.anchor_z_m[l] = dice.single(-5, 5);
     w->state.heading_rad[l] = dice.single(-3, 3);
   }
   return w;

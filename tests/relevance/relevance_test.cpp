@@ -61,8 +61,8 @@ struct Scene {
   void add(int i) {
     const Entity human = join(simulation, one_body(i), false);
     auto state = *simulation.get<GaitState>(human);
-    state.line_x_m = 3.0F * static_cast<float>(i % 8);
-    state.line_z_m = 3.0F * static_cast<float>(i / 8);
+    state.line_x_m = state.anchor_x_m = 3.0F * static_cast<float>(i % 8);
+    state.line_z_m = state.anchor_z_m = 3.0F * static_cast<float>(i / 8);
     world_of(simulation).set(human, state);
     people.push_back(human);
   }

@@ -14,6 +14,7 @@
 #include "engine/state_hash.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/muscles/sleep.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 #include "systems/snapshot/snapshot.h"
@@ -36,7 +37,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
       clock_(clock),
       modules_(standard_modules()),
       library_(std::make_unique<BellyLibrary>()),
-      work_(std::make_unique<MuscleWork>()) {
+      work_(std::make_unique<MuscleWork>()),
+      sleep_work_(std::make_unique<SleepWork>()) {
   if (options.jobs) {
     jobs_ = *options.jobs;
   } else {
@@ -143,12 +145,26 @@ Result<void> Simulation::load_baked(std::span<const std::byte> baked) {
   return named("load_baked", library_->load(baked));
 }
 
+/// A walker, awake or asleep, is asked for what could be made of a request.
+Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
+  if (!gait) return tl::unexpected(gait.error());
+  const SleepTime now{tick_, static_cast<float>(tick_s())};
+  if (must_wake_for(*world_, human, now, *gait)) {
+    if (auto done = wake_for(human); !done) return done;
+  }
+  if (is_asleep(human)) {
+    ask_sleeper(*world_, human, now, *gait);
+    return {};
+  }
+  return result_of("set_gait", world_->set(human, *gait));
+}
+
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
-  return mobil::change_gait(*world_, human, change);
+  return ask(human, changed_gait(*world_, human, change));
 }
 
 Result<void> Simulation::set_gait(Entity human, const GaitRequest& gait) {
-  return mobil::set_gait(*world_, human, gait);
+  return ask(human, new_gait(*world_, human, gait));
 }
 
 std::optional<GaitRequest> Simulation::gait_request(Entity human) const {
@@ -156,14 +172,45 @@ std::optional<GaitRequest> Simulation::gait_request(Entity human) const {
 }
 
 Result<void> Simulation::turn_to(Entity human, float heading_rad) {
-  return mobil::turn_to(*world_, human, heading_rad);
+  return ask(human, turned_gait(*world_, human, heading_rad));
 }
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
+  if (auto done = wake_for(human); !done) return done;
   return mobil::step_aside(*world_, human, left_m, ahead_m);
 }
 
+Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  return sleep_people(muscle_scene(), people, false, {}, our_parts_, *sleep_work_);
+}
+
+Result<void> Simulation::wake(std::span<const Entity> people) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  std::vector<Entity> asleep;
+  std::ranges::copy_if(people, std::back_inserter(asleep), [&](Entity one) { return is_asleep(one); });
+  return named("wake", wake_people(muscle_scene(), asleep, our_parts_, *sleep_work_));
+}
+
+/// Whoever is asked for what no sleeper can.
+Result<void> Simulation::wake_for(Entity human) {
+  return is_asleep(human) ? wake({&human, 1}) : Result<void>{};
+}
+
+bool Simulation::is_asleep(Entity human) const {
+  return mobil::is_asleep(*world_, human);
+}
+
+void Simulation::reserve(std::size_t people) {
+  world_->reserve_entities(people);
+}
+
+Status Simulation::read_sleeper(Entity entity, std::uint64_t part, void* row) const {
+  return read_asleep(*world_, entity, {tick_, static_cast<float>(tick_s())}, part, row);
+}
+
 Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
+  if (auto done = wake_for(human); !done) return done;
   return mobil::place(*world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
     move_muscles(*world_, human, way);
   });
@@ -174,34 +221,42 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
     return fail(fmt::format("shift_origin: ({}, {}) m is not within ±1000000 m", x_m, z_m));
   shift_people(*world_, x_m, z_m);
   shift_muscles(*world_, x_m, z_m);
+  shift_sleepers(*world_, {tick_, static_cast<float>(tick_s())}, x_m, z_m);
   work_->recent = {};
   return {};
 }
 
 Result<void> Simulation::add_forces(Entity human) {
+  if (auto done = wake_for(human); !done) return done;
   return result_of("add_forces", mobil::add_forces(*world_, human));
 }
 
 Result<void> Simulation::remove_forces(Entity human) {
+  if (auto done = wake_for(human); !done) return done;
   return result_of("remove_forces", mobil::remove_forces(*world_, human));
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
+  if (auto done = wake_for(human); !done) return done;
   return named("add_leg_muscles", mobil::add_leg_muscles(muscle_scene(), human, choice));
 }
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
+  if (auto done = wake_for(human); !done) return done;
   return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
+  if (auto done = wake_for(human); !done) return done;
   return result_of("remove_leg_muscles", mobil::remove_leg_muscles(*world_, jobs_, human));
 }
 
 Result<void> Simulation::set_excitation(Entity human, Muscle muscle, Side side, float excitation) {
+  if (auto done = wake_for(human); !done) return done;
   return named("set_excitation", mobil::set_excitation(*world_, human, muscle, side, excitation));
 }
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
+  if (auto done = wake_for(human); !done) return done;
   return named("set_method", mobil::set_method(muscle_scene(), human, muscle, method));
 }
 
@@ -221,6 +276,9 @@ void Simulation::tick() {
   schedule_->run(*world_, {dt_s, tick_}, jobs_);
   ++tick_;
   end_fades(*world_, dt_s, *work_);
+  sleep_work_->restless.clear();
+  end_unsettled(*world_, {tick_, dt_s}, sleep_work_->rows, sleep_work_->restless);
+  if (!sleep_work_->restless.empty()) wake(std::vector(sleep_work_->restless));
 }
 
 StepReport Simulation::report() const {
@@ -272,6 +330,9 @@ std::vector<Entity> Simulation::people() const {
   mobil::each(*world_, [&](const Rows& rows, const Physique<Lanes<float>>&) {
     all.insert(all.end(), rows.entity, rows.entity + rows.live);
   });
+  mobil::each(*world_, [&](const Rows& rows, const Asleep<Lanes<float>>&) {
+    all.insert(all.end(), rows.entity, rows.entity + rows.live);
+  });
   return all;
 }
 
@@ -281,9 +342,14 @@ std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
 
 std::optional<Human> Simulation::human(Entity entity) const {
   if (!is_person(entity)) return std::nullopt;
-  Human human{
-      entity, *make_body(body_request(*world_, entity)),         world_->get<Gait>(entity).value_or(Gait<float>{}),
-      {},     choice_of(*world_, entity).value_or(LegMuscles{}), is_posed(*world_, entity)};
+  const auto asleep = sleeper_choice(*world_, entity);
+  const LegMuscles choice = asleep ? *asleep : choice_of(*world_, entity).value_or(LegMuscles{});
+  Human human{entity,
+              *make_body(body_request(*world_, entity)),
+              gait_of(*world_, entity).value_or(Gait<float>{}),
+              {},
+              choice,
+              is_posed(*world_, entity)};
   for (const OwnMuscle& own : muscles(entity)) {
     human.muscles.push_back({*make_muscle_plan(human.body, own.muscle), own.entity, method(entity, own.muscle)});
   }

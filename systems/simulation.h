@@ -98,6 +98,7 @@ struct StepReport {
 
 struct MuscleWork;    // systems/muscles/change_muscles.h
 struct MuscleScene;   // systems/muscles/leg_muscles.h
+struct SleepWork;     // systems/muscles/sleep.h
 struct SnapshotWork;  // systems/snapshot/snapshot.h
 
 class BellyLibrary;  // systems/muscles/belly_library.h
@@ -162,6 +163,23 @@ class Simulation {
   /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed
   /// person, somebody who is to walk, a way out of range; nothing has changed.
   Result<void> step_aside(Entity human, float left_m, float ahead_m);
+
+  /// Walkers whom nobody sees fall asleep: their rows go, and a hundred bytes are left from which they come back where
+  /// they would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking, at rest
+  /// where the person then stands in the stride. A host's own parts stay. `get` answers of a sleeper's body, walk and
+  /// pose as of anybody (a pose takes some microseconds); change_gait, set_gait, turn_to and despawn work on sleepers,
+  /// at the price of the strikes that follow; all other calls wake them, and so does what a sleeper cannot follow:
+  /// another style, or a second request while the first is being carried out. Systems do not see them, nor does `each`.
+  /// Who turns, changes speed or walks unevenly does not fall asleep, nor posed people, nor people whose muscles have
+  /// several methods. Returns how many of these sleep now. Errors: a stale handle, somebody named twice; nothing has
+  /// changed.
+  Result<std::size_t> sleep(std::span<const Entity> people);
+  /// Sleepers wake; who is awake is left alone. Errors: a stale handle, somebody named twice; nothing has changed.
+  Result<void> wake(std::span<const Entity> people);
+  /// False for a stale handle.
+  bool is_asleep(Entity human) const;
+  /// Room for so many people more, beside what they themselves take.
+  void reserve(std::size_t people);
 
   /// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
   /// there (rad, about +Y). Pose and muscles go along, as if the world had been moved under them: no inertia is felt,
@@ -242,7 +260,9 @@ class Simulation {
   template <template <class> class C>
   Result<C<float>> get(Entity entity) const {
     Result<C<float>> row{tl::in_place};
-    if (const Status status = world_->read(entity, *row); status != Status::ok) return fail(status);
+    Status status = world_->read(entity, *row);
+    if (status == Status::missing) status = read_sleeper(entity, type_id<C<float>>(), &*row);
+    if (status != Status::ok) return fail(status);
     return row;
   }
   template <class Tag>
@@ -336,6 +356,9 @@ class Simulation {
   Simulation(const SimulationOptions& options, Clock clock);
   MuscleScene muscle_scene();
   SnapshotWork& snapshot_work() const;
+  Status read_sleeper(Entity entity, std::uint64_t part, void* row) const;
+  Result<void> wake_for(Entity human);
+  Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 
   std::unique_ptr<World> world_;
   Clock clock_;
@@ -346,6 +369,7 @@ class Simulation {
   std::unique_ptr<Schedule> schedule_;
   std::unique_ptr<BellyLibrary> library_;
   std::unique_ptr<MuscleWork> work_;
+  std::unique_ptr<SleepWork> sleep_work_;
   mutable std::unique_ptr<SnapshotWork> snapshots_;  // made when first needed
   std::uint32_t tick_ = 0;
 };

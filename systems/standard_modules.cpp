@@ -5,12 +5,14 @@
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/people_modules.h"
+#include "systems/people/sleepers.h"
 #include "systems/relevance/relevance_module.h"
 
 namespace mobil {
 
 std::vector<Module> standard_modules() {
-  std::vector<Module> all = {walking_module(), forces_module(), skeleton_module(), leg_moments_module()};
+  std::vector<Module> all = {walking_module(), forces_module(), skeleton_module(), leg_moments_module(),
+                             sleep_module()};
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
   all.push_back(relevance_module());
   return all;

@@ -47,11 +47,8 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
   const double hips = body.hip_height_m;
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
-  if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked) {
-    Gait<float> standing{};
-    standing.style = style;
-    return standing;
-  }
+  if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked)
+    return complete_gait(body.request.height_m, 0, 0, style);
   auto positive = [](const std::optional<float>& value) { return !value || (*value > 0.0F && *value < 1e6F); };
   if (!positive(speed_asked) || !positive(length_asked) || !positive(frequency_asked))
     return fail(
@@ -96,15 +93,21 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
                               height, asked ? "choose one within that range" : "ask for more usual steps"));
     }
   }
+  return complete_gait(body.request.height_m, static_cast<float>(speed), static_cast<float>(length), style);
+}
+
+Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style) {
   Gait<float> gait{};
-  gait.speed_m_s = static_cast<float>(speed);
-  gait.step_length_m = static_cast<float>(length);
+  gait.style = style;
+  if (speed_m_s == 0) return gait;
+  const double frequency = static_cast<double>(speed_m_s) / static_cast<double>(step_length_m);
+  gait.speed_m_s = speed_m_s;
+  gait.step_length_m = step_length_m;
   gait.step_frequency_hz = static_cast<float>(frequency);
   namespace d = double_support_law;
-  const double percent =
-      (d::at_rest - d::per_cadence * 60.0 * frequency * std::sqrt(height / 1.8)) * style.double_support_scale;
+  const double cadence = 60.0 * frequency * std::sqrt(static_cast<double>(height_m) / 1.8);
+  const double percent = (d::at_rest - d::per_cadence * cadence) * static_cast<double>(style.double_support_scale);
   gait.double_support_cycle = static_cast<float>(std::fmin(std::fmax(percent, d::least), d::most) / 100.0);
-  gait.style = style;
   return gait;
 }
 

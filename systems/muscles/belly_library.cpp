@@ -164,10 +164,14 @@ std::shared_ptr<const LegMuscles> BellyLibrary::choice(const LegMuscles& choice)
   kept.muscles = LegMuscles{}.muscles;
   kept.method = LegMuscles{}.method;
   kept.reduced = {};
+  return whole_choice(kept);
+}
+
+std::shared_ptr<const LegMuscles> BellyLibrary::whole_choice(const LegMuscles& choice) {
   for (const auto& made : choices_) {
-    if (*made == kept) return made;
+    if (*made == choice) return made;
   }
-  choices_.push_back(std::make_shared<const LegMuscles>(kept));
+  choices_.push_back(std::make_shared<const LegMuscles>(choice));
   return choices_.back();
 }
 

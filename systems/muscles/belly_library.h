@@ -34,6 +34,8 @@ class BellyLibrary {
   Result<Belly> belly(const MusclePlan& plan, const LegMuscles& choice, double tick_s);
   /// A choice's tissue and effects, once each: all but which muscles and by what method.
   std::shared_ptr<const LegMuscles> choice(const LegMuscles& choice);
+  /// A choice with muscles and method, once each.
+  std::shared_ptr<const LegMuscles> whole_choice(const LegMuscles& choice);
   /// Makes all that bodies of usual size share: templates and bases by jobs, solvers one after the other. Errors: as
   /// above.
   Result<void> prepare(const LegMuscles& choice, double tick_s, const Jobs& jobs);

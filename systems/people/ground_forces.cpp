@@ -83,6 +83,10 @@ void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& p
   for (std::size_t l = 0; l < lane_count; ++l) past.known[l] = std::min(past.known[l] + 1, 2U);
 }
 
+bool has_forces(const World& world, Entity person) {
+  return world.has<GroundReaction>(person);
+}
+
 Status add_forces(World& world, Entity person) {
   if (!is_person(world, person)) return Status::stale_entity;
   if (is_posed(world, person)) return add_to_posed(world, person);

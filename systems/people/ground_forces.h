@@ -8,6 +8,7 @@
 
 namespace mobil {
 
+bool has_forces(const World& world, Entity person);
 /// Stale handles answer Status::stale_entity.
 Status add_forces(World& world, Entity person);
 /// Status::missing, too, where they are not there.

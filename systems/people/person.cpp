@@ -13,6 +13,7 @@
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/pose_measures.h"
+#include "systems/people/sleepers.h"
 
 namespace mobil {
 
@@ -22,14 +23,15 @@ bool is_rotation(const Quat<float>& q) {
 }
 
 bool is_person(const World& world, Entity entity) {
-  return world.has<Physique>(entity);
+  return world.has<Physique>(entity) || is_asleep(world, entity);
 }
 
 bool is_posed(const World& world, Entity entity) {
-  return is_person(world, entity) && !world.has<Gait>(entity);
+  return world.has<Physique>(entity) && !world.has<Gait>(entity);
 }
 
 BodyRequest body_request(const World& world, Entity person) {
+  if (is_asleep(world, person)) return sleeper_body(world, person);
   const BodySize<float> size = *world.get<BodySize>(person);
   const Physique<float> of = *world.get<Physique>(person);
   return {size.height_m,
@@ -60,17 +62,29 @@ Result<void> is_walker(const World& world, Entity person, std::string_view asked
   return {};
 }
 
+/// Requests are told apart by 16 bits.
+std::uint32_t next_request(std::uint32_t before) {
+  return (before + 1) & 0xFFFFU;
+}
+
 }  // namespace
 
-std::optional<GaitRequest> gait_request(const World& world, Entity person) {
+std::optional<Gait<float>> gait_of(const World& world, Entity person) {
+  if (is_asleep(world, person)) return sleeper_gait(world, person);
   const auto gait = world.get<Gait>(person);
+  return gait ? std::optional(*gait) : std::nullopt;
+}
+
+std::optional<GaitRequest> gait_request(const World& world, Entity person) {
+  const auto gait = gait_of(world, person);
   if (!gait) return std::nullopt;
   if (gait->speed_m_s == 0) return GaitRequest{.speed_m_s = 0.0F, .style = gait->style};
   return GaitRequest{.speed_m_s = gait->speed_m_s, .step_length_m = gait->step_length_m, .style = gait->style};
 }
 
-Result<void> change_gait(World& world, Entity person, const GaitChange& change) {
-  if (auto walks = is_walker(world, person, "change_gait", "spawn a walker instead"); !walks) return walks;
+Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change) {
+  if (auto walks = is_walker(world, person, "change_gait", "spawn a walker instead"); !walks)
+    return tl::unexpected(walks.error());
   GaitRequest request = *gait_request(world, person);
   if (change.style) request.style = *change.style;
   if (change.speed_m_s || change.step_length_m || change.step_frequency_hz) {
@@ -78,31 +92,31 @@ Result<void> change_gait(World& world, Entity person, const GaitChange& change) 
     request.step_length_m = change.step_length_m;
     request.step_frequency_hz = change.step_frequency_hz;
   }
-  return set_gait(world, person, request);
+  return new_gait(world, person, request);
 }
 
-Result<void> set_gait(World& world, Entity person, const GaitRequest& request) {
-  if (auto walks = is_walker(world, person, "set_gait", "spawn a walker instead"); !walks) return walks;
+Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& request) {
+  if (auto walks = is_walker(world, person, "set_gait", "spawn a walker instead"); !walks)
+    return tl::unexpected(walks.error());
   auto gait = resolve_gait(*make_body(body_request(world, person)), request);
   if (!gait) return tl::unexpected(gait.error());
-  const Gait<float> before = *world.get<Gait>(person);
+  const Gait<float> before = *gait_of(world, person);
   gait->heading_rad = before.heading_rad;
   gait->left_m = before.left_m;
   gait->ahead_m = before.ahead_m;
   gait->displacement = before.displacement;
-  gait->revision = before.revision + 1;
-  world.set(person, *gait);
-  return {};
+  gait->revision = next_request(before.revision);
+  return gait;
 }
 
-Result<void> turn_to(World& world, Entity person, float heading_rad) {
-  if (auto walks = is_walker(world, person, "turn_to", "turn the pose instead"); !walks) return walks;
+Result<Gait<float>> turned_gait(const World& world, Entity person, float heading_rad) {
+  if (auto walks = is_walker(world, person, "turn_to", "turn the pose instead"); !walks)
+    return tl::unexpected(walks.error());
   if (!(std::fabs(heading_rad) < 1e4F))
     return fail(fmt::format("turn_to: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
-  Gait<float> gait = *world.get<Gait>(person);
+  Gait<float> gait = *gait_of(world, person);
   gait.heading_rad = heading_rad;
-  world.set(person, gait);
-  return {};
+  return gait;
 }
 
 Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m) {
@@ -119,8 +133,8 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
   }
   gait.left_m = left_m;
   gait.ahead_m = ahead_m;
-  ++gait.displacement;
-  ++gait.revision;
+  gait.displacement = next_request(gait.displacement);
+  gait.revision = next_request(gait.revision);
   world.set(person, gait);
   return {};
 }

@@ -17,6 +17,7 @@ inline constexpr float farthest_m = 1e6F;
 /// Whether a quaternion's length is 1 within 1 %; not of what is no number.
 bool is_rotation(const Quat<float>& q);
 
+/// Awake or asleep; false for a stale handle.
 bool is_person(const World& world, Entity entity);
 /// A person whose host animates the skeleton; false for a stale handle.
 bool is_posed(const World& world, Entity entity);
@@ -26,15 +27,17 @@ BodyRequest body_request(const World& world, Entity person);
 BodySize<float> body_size(const BodyRequest& request);
 Physique<float> physique(const BodyRequest& request);
 
-/// Asks a walker to walk otherwise, from the next step on, in what is named or in all. Errors: a stale handle, a posed
-/// person, a gait out of range; nothing has changed then.
-Result<void> change_gait(World& world, Entity person, const GaitChange& change);
-Result<void> set_gait(World& world, Entity person, const GaitRequest& request);
+/// What is asked of a walker, awake or asleep; nothing for a stale handle and for posed people.
+std::optional<Gait<float>> gait_of(const World& world, Entity person);
+/// What a walker is to do from the next step on, as these would have it. Errors: a stale handle, a posed person, a gait
+/// out of range.
+Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change);
+Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& gait);
 /// What a walker is to do; nothing for a stale handle and for posed people.
 std::optional<GaitRequest> gait_request(const World& world, Entity person);
-/// Asks a walker to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left). Errors: a stale handle, a
+/// The same who is to turn to a heading (rad, about +Y, 0 toward +Z, positive to the left). Errors: a stale handle, a
 /// posed person, a heading that is not within ±10000.
-Result<void> turn_to(World& world, Entity person, float heading_rad);
+Result<Gait<float>> turned_gait(const World& world, Entity person, float heading_rad);
 /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative to
 /// the right and back, at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m (a body of 1.73 m), in
 /// proportion to the leg. It begins within a quarter of a second, or once the feet are side by side, and takes two

@@ -255,7 +255,7 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
 Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary& library) {
   const auto choice = choice_of(recipe.choice);
   if (choice && recipe.kind == ResourceKind::choice) {
-    const auto made = library.choice(*choice);
+    const auto made = library.whole_choice(*choice);
     world.share(made, hash_of(*made));
     return {};
   }

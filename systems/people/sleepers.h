@@ -1,0 +1,73 @@
+#pragma once
+// Walkers who fall asleep and wake: a row of some hundred bytes instead of one of four thousand, of which the same
+// walker comes back to the bit. What a sleeper is asked meanwhile is kept to the step.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "components/sleep.h"
+#include "engine/jobs.h"
+#include "engine/module.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+/// Ticks that have been run, and their length.
+struct SleepTime {
+  std::uint32_t tick;
+  float tick_s;
+};
+
+bool is_asleep(const World& world, Entity person);
+/// What was asked of a sleeper's body, and what is to be walked.
+BodyRequest sleeper_body(const World& world, Entity person);
+Gait<float> sleeper_gait(const World& world, Entity person);
+
+/// A walker as a sleeper. `style`: on the grid, or nothing where it is not.
+struct Sleeper {
+  Entity entity;
+  Asleep<float> asleep;
+  std::optional<SleepingStyle<float>> style;
+  OwnStyle<float> own_style;
+};
+/// Of `people` those walkers who may fall asleep now: who walk steadily or stand, and are to go on so. Appended.
+void find_steady(const World& world, std::span<const Entity> people, const SleepTime& time, std::vector<Sleeper>& out);
+/// Their row keeps of the parts that `owned` names (ids, sorted) none but what sleepers have, and `more`; all others
+/// stay.
+void put_to_sleep(World& world, const Sleeper& sleeper, std::span<const PartValue> more,
+                  std::span<const std::uint64_t> owned);
+
+/// Memory that waking works in, kept from one time to the next.
+struct WakingWork {
+  WakingWork();
+  ~WakingWork();
+  struct Blocks;
+  std::unique_ptr<Blocks> blocks;
+};
+/// Sleepers become walkers where they are at that tick. Each is alive, asleep, and named once.
+void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
+                  std::span<const std::uint64_t> owned, WakingWork& work);
+
+/// A part of a walker's row as it would be if nobody had slept: Gait, GaitState, StepPlan, BodySize, Physique, Pose,
+/// JointAngles, Feet or CentreOfMass, `row` being one of them. Status::missing where there is no such part or nobody
+/// is asleep.
+Status read_asleep(const World& world, Entity person, const SleepTime& time, std::uint64_t part, void* row);
+
+/// Whether a sleeper must wake to be asked for that: who is still about something else, or for another style.
+bool must_wake_for(const World& world, Entity person, const SleepTime& time, const Gait<float>& gait);
+/// Asks a sleeper who need not wake for it; times and places of the steps are worked out in the next tick.
+void ask_sleeper(World& world, Entity person, const SleepTime& time, const Gait<float>& gait);
+/// After a tick: who is steady again has nothing but that on the row. Looks at a part of the sleepers each tick.
+/// Appends to `restless` who does not come to walk steadily: they are to be woken.
+void end_unsettled(World& world, const SleepTime& time, std::vector<Entity>& work, std::vector<Entity>& restless);
+/// All sleepers' places, less (x, 0, z).
+void shift_sleepers(World& world, const SleepTime& time, float x_m, float z_m);
+
+Module sleep_module();
+
+}  // namespace mobil

@@ -38,6 +38,7 @@ struct Tiers {
 };
 /// Which of the table's ladders and figures are a person's: of muscles with inertia; of muscles that pull, unless
 /// LegMuscles::finite_shape has been switched off for them.
-enum TierEffect : std::uint32_t { tier_inertia = 1, tier_living = 2 };
+/// `tier_bare`: the person woke without muscles, and gets them when one of them is to be simulated.
+enum TierEffect : std::uint32_t { tier_inertia = 1, tier_living = 2, tier_bare = 4 };
 
 }  // namespace mobil

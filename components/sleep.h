@@ -16,8 +16,8 @@ namespace mobil {
 template <class F>
 struct SteadyWalk {
   Whole<F> clock, step_units, steps, anchor_steps;
-  F anchor_x_m, anchor_z_m, heading_rad, asked_heading_rad;
-  F speed_m_s, step_length_m;
+  F anchor_x_m, anchor_z_m, heading_rad;
+  F asked_heading_rad, speed_m_s, step_length_m;  // what is asked, with the last word
   Whole<F> requests;
 };
 
@@ -25,7 +25,8 @@ struct SteadyWalk {
 template <class F>
 struct Asleep {
   SteadyWalk<F> walk;
-  F height_m, mass_kg, endo, meso, ecto;
+  F height_m, mass_kg, extra_fat;  // BodySize
+  F endo, meso, ecto;              // Physique
   Whole<F> constitution;
 };
 

@@ -34,7 +34,7 @@ using spelling::type_name;
 /// FNV-1a of the type's name, where our namespace is called `mobil::` alone: the same in every version of the library.
 struct InOurNamespace;
 template <class T>
-constexpr std::uint64_t type_id() {
+consteval std::uint64_t type_id() {
   constexpr std::string_view ours = "mobil::";
   std::string_view versioned = type_name<InOurNamespace>();
   versioned.remove_suffix(std::string_view("InOurNamespace").size());

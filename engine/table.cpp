@@ -177,7 +177,13 @@ Entity Table::remove_row(std::uint32_t row) {
     copy_lane(blocks_[row / lane_count] + row % lane_count, blocks_[last / lane_count] + last % lane_count, words_);
   }
   trim();
-  park(0, words_);
+  if (row % lane_count == 0 && row / lane_count == last / lane_count) {
+    park(0, words_);
+  } else if (last % lane_count != 0) {  // the other lanes without a row are copies already
+    float* const block = blocks_[last / lane_count];
+    copy_lane(block + last % lane_count, block, words_);
+    entities_[last] = entities_[last / lane_count * lane_count];
+  }
   return moved;
 }
 

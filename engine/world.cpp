@@ -120,19 +120,17 @@ void World::undo_create(std::span<const Entity> entities) {
   }
 }
 
-void World::create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs) {
-  if (entities.empty()) return;
-  key_from(parts);
-  const std::uint32_t index = table_of(scratch_);
+/// Writes rows behind those of a table, which are rows once they are appended; returns the first one's number.
+std::uint32_t World::add_rows(std::uint32_t table, std::span<const PartValue> parts, std::uint32_t count,
+                              const Jobs& jobs) {
   struct Work {
     Table& table;
     std::span<const PartValue> parts;
     std::uint32_t first, count;
-  } work{tables_[index], parts, tables_[index].row_count(), static_cast<std::uint32_t>(entities.size())};
-  work.table.reserve(work.first + work.count);
-  reserve_entities(entities.size());
+  } work{tables_[table], parts, tables_[table].row_count(), count};
+  work.table.reserve(work.first + count);
   const std::size_t first_block = work.first / lane_count;
-  const std::size_t blocks = (work.first + work.count - 1) / lane_count + 1 - first_block;
+  const std::size_t blocks = (work.first + count - 1) / lane_count + 1 - first_block;
   const auto write = [](void* context, std::size_t begin, std::size_t end) {
     const auto& of = *static_cast<Work*>(context);
     const std::size_t at = of.first / lane_count;
@@ -144,20 +142,51 @@ void World::create_many(std::span<const PartValue> parts, std::span<Entity> enti
     work.table.drop_last(0);
     throw;
   }
-  for (std::uint32_t i = 0; i < work.count; ++i) {
-    entities[i] = entities_.create();
-    *entities_.find(entities[i]) = {index, work.first + i};
+  return work.first;
+}
+
+void World::create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs) {
+  if (entities.empty()) return;
+  key_from(parts);
+  const std::uint32_t table = table_of(scratch_);
+  reserve_entities(entities.size());
+  std::uint32_t row = add_rows(table, parts, static_cast<std::uint32_t>(entities.size()), jobs);
+  for (Entity& entity : entities) {
+    entity = entities_.create();
+    *entities_.find(entity) = {table, row++};
   }
-  work.table.append(entities);
+  tables_[table].append(entities);
   for (const Entity entity : entities) relate(entity);
 }
 
-namespace {
+void World::remake_many(std::span<const Entity> entities, std::span<const PartValue> parts,
+                        std::span<const std::uint64_t> owned, const Jobs& jobs) {
+  if (entities.empty()) return;
+  key_remade(entities.front(), parts, owned);
+  const std::uint32_t to = table_of(scratch_), from = entities_.find(entities.front())->table;
+  std::pmr::vector<RowAt> left(memory_);
+  left.reserve(entities.size());
+  for (const Entity entity : entities) left.push_back({from, entities_.find(entity)->row});
+  // What they keep is copied afterwards.
+  std::pmr::vector<PartValue> all(parts.begin(), parts.end(), memory_);
+  bool keeps = false;
+  for (const KeyPart& part : tables_[to].key()) {
+    if (!has_column(part.kind)) continue;
+    keeps = keeps || find_part(tables_[from].key(), part.id) != nullptr;
+    if (std::ranges::none_of(parts, [&](const PartValue& value) { return value.part.id == part.id; }))
+      all.push_back({part, nullptr});
+  }
+  const std::uint32_t first = add_rows(to, all, static_cast<std::uint32_t>(entities.size()), jobs);
+  tables_[to].append(entities);
+  for (std::uint32_t i = 0; i < entities.size(); ++i) {
+    if (keeps) tables_[to].copy_from(first + i, tables_[from], left[i].row);
+    *entities_.find(entities[i]) = {to, first + i};
+  }
+  std::sort(left.begin(), left.end());
+  remove_rows(left, jobs);
+}
 
-struct Gone {
-  std::uint32_t table, row;
-  bool operator<(const Gone& other) const { return table != other.table ? table < other.table : row < other.row; }
-};
+namespace {
 
 struct Moves {
   std::pmr::deque<Table>& tables;
@@ -200,25 +229,33 @@ Status World::destroy_many(std::span<const Entity> entities, const Jobs& jobs) {
 }
 
 void World::destroy_together(std::span<const Entity> entities, const Jobs& jobs) {
-  std::pmr::vector<Gone> gone(memory_);
+  std::pmr::vector<RowAt> gone(memory_);
   gone.reserve(entities.size());
   for (const Entity entity : entities) {
     const auto* location = entities_.find(entity);
     gone.push_back({location->table, location->row});
   }
   std::sort(gone.begin(), gone.end());
-  const auto end_of_table = [&](auto first) {
-    return std::find_if(first, gone.end(), [table = first->table](const Gone& g) { return g.table != table; });
-  };
+  remove_rows(gone, jobs);
+  for (const Entity entity : entities) {
+    forget(entity);
+    entities_.destroy(entity);
+  }
+}
 
-  // The last rows that stay, in their order, take the places of those that go.
+/// Rows go, which are sorted; where their entities are is left alone. The last rows that stay, in their order, take the
+/// places of those that go.
+void World::remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs) {
+  const auto end_of_table = [&](auto first) {
+    return std::find_if(first, gone.end(), [table = first->table](const RowAt& g) { return g.table != table; });
+  };
   Moves moves{tables_, std::pmr::vector<std::uint32_t>(memory_), std::pmr::vector<RowMove>(memory_)};
   moves.table.reserve(gone.size());
   moves.move.reserve(gone.size());
   for (auto first = gone.begin(), end = first; first != gone.end(); first = end) {
     end = end_of_table(first);
     const auto left = static_cast<std::uint32_t>(tables_[first->table].row_count() - (end - first));
-    auto later = std::find_if(first, end, [&](const Gone& g) { return g.row >= left; });
+    auto later = std::find_if(first, end, [&](const RowAt& g) { return g.row >= left; });
     std::uint32_t from = left;
     for (auto hole = first; hole != end && hole->row < left; ++hole, ++from) {
       for (; later != end && later->row == from; ++later) ++from;
@@ -236,10 +273,6 @@ void World::destroy_together(std::span<const Entity> entities, const Jobs& jobs)
   for (auto first = gone.begin(), end = first; first != gone.end(); first = end) {
     end = end_of_table(first);
     tables_[first->table].drop_last(static_cast<std::uint32_t>(end - first));
-  }
-  for (const Entity entity : entities) {
-    forget(entity);
-    entities_.destroy(entity);
   }
 }
 

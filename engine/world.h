@@ -67,6 +67,10 @@ class World {
   /// is number i at [(i / 16 · words + w) · 16 + i % 16]; null is zeros. The same entities as one by one, in
   /// `entities`. Where memory runs out, the world is as it was.
   void create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs = {});
+  /// As the last remake_from, of many entities of one table, alive, each named once, who come to be in another one: the
+  /// values of `parts` are as in create_many, but parts that they have already keep their own.
+  void remake_many(std::span<const Entity> entities, std::span<const PartValue> parts,
+                   std::span<const std::uint64_t> owned, const Jobs& jobs = {});
   /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
   /// most; in which order rows then lie is not that of one by one. Takes memory for the while; where there is none,
   /// they go one by one.
@@ -209,7 +213,14 @@ class World {
  private:
   friend class WorldSnapshot;  // engine/snapshot.h
 
+  struct RowAt {
+    std::uint32_t table, row;
+    bool operator<(const RowAt& other) const { return table != other.table ? table < other.table : row < other.row; }
+  };
+
   Place<Table> create_row(const TableKey& key, Entity& entity);
+  std::uint32_t add_rows(std::uint32_t table, std::span<const PartValue> parts, std::uint32_t count, const Jobs& jobs);
+  void remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs);
   void destroy_together(std::span<const Entity> entities, const Jobs& jobs);
   Status add_part(Entity entity, const KeyPart& part);
   Status remove_part(Entity entity, std::uint64_t id);

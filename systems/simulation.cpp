@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <stdexcept>
 #include <utility>
 
 #include "assets/body/anthropometry.h"
+#include "components/relevance.h"
 #include "engine/each.h"
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
@@ -17,6 +19,8 @@
 #include "systems/muscles/sleep.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
+#include "systems/relevance/relevance_module.h"
+#include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
 
@@ -28,6 +32,23 @@ template <class T>
 Result<T> named(const char* call, Result<T> result) {
   if (result) return result;
   return fail(fmt::format("{}: {}", call, result.error().message), result.error().status);
+}
+
+/// Of a request that the walker can meet.
+AskedWalk asked_walk(const World& world, Entity person, const WalkChange& change, const SleepTime& now) {
+  AskedWalk asked;
+  asked.gait = gait_of(world, person);
+  if (!asked.gait) return asked;
+  asked.asleep = is_asleep(world, person);
+  asked.must_wake = asked.asleep && (is_busy(world, person, now) || (change.gait && change.gait->style));
+  if (change.gait) {
+    const auto changed = changed_gait(world, person, *change.gait);
+    asked.gait = changed ? std::optional(*changed) : std::nullopt;
+  }
+  if (!asked.gait || !change.heading_rad) return asked;
+  asked.gait->heading_rad = *change.heading_rad;
+  if (!(std::fabs(*change.heading_rad) < 1e4F)) asked.gait.reset();
+  return asked;
 }
 
 }  // namespace
@@ -149,12 +170,13 @@ Result<void> Simulation::load_baked(std::span<const std::byte> baked) {
 Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
   const SleepTime now{tick_, static_cast<float>(tick_s())};
-  if (must_wake_for(*world_, human, now, *gait)) {
-    if (auto done = wake_for(human); !done) return done;
-  }
   if (is_asleep(human)) {
-    ask_sleeper(*world_, human, now, *gait);
-    return {};
+    const bool same_style = std::memcmp(&gait_of(*world_, human)->style, &gait->style, sizeof(GaitStyle)) == 0;
+    if (same_style && !is_busy(*world_, human, now)) {
+      ask_sleeper(*world_, human, now, *gait);
+      return {};
+    }
+    if (auto done = wake_for(human); !done) return done;
   }
   return result_of("set_gait", world_->set(human, *gait));
 }
@@ -175,6 +197,36 @@ Result<void> Simulation::turn_to(Entity human, float heading_rad) {
   return ask(human, turned_gait(*world_, human, heading_rad));
 }
 
+Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes) {
+  std::vector<Entity>& people = sleep_work_->rows;
+  people.clear();
+  for (const WalkChange& change : changes) people.push_back(change.human);
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  const SleepTime now{tick_, static_cast<float>(tick_s())};
+  std::vector<AskedWalk>& asked = sleep_work_->asked;
+  asked.resize(changes.size());
+  in_parallel(jobs_, changes.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) asked[i] = asked_walk(*world_, changes[i].human, changes[i], now);
+  });
+  people.clear();
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    if (asked[i].gait && asked[i].must_wake) people.push_back(changes[i].human);
+  if (!people.empty()) {
+    if (auto done = wake(std::vector(people)); !done) return tl::unexpected(done.error());
+  }
+  std::size_t refused = 0;
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (!asked[i].gait) {
+      ++refused;
+    } else if (asked[i].asleep && !asked[i].must_wake) {
+      ask_sleeper(*world_, changes[i].human, now, *asked[i].gait);
+    } else {
+      world_->set(changes[i].human, *asked[i].gait);
+    }
+  }
+  return refused;
+}
+
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
   if (auto done = wake_for(human); !done) return done;
   return mobil::step_aside(*world_, human, left_m, ahead_m);
@@ -187,9 +239,13 @@ Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
 
 Result<void> Simulation::wake(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  std::vector<Entity> asleep;
-  std::ranges::copy_if(people, std::back_inserter(asleep), [&](Entity one) { return is_asleep(one); });
-  return named("wake", wake_people(muscle_scene(), asleep, our_parts_, *sleep_work_));
+  std::vector<Entity> asleep, managed;
+  for (const Entity one : people)
+    if (is_asleep(one)) (world_->has<SleepsManaged>(one) ? managed : asleep).push_back(one);
+  if (!managed.empty()) {
+    if (auto done = SimulationWorld::wake(*this, managed); !done) return named("wake", std::move(done));
+  }
+  return named("wake", wake_people(muscle_scene(), asleep, WakingMuscles::now, {}, our_parts_, *sleep_work_));
 }
 
 /// Whoever is asked for what no sleeper can.
@@ -321,6 +377,25 @@ std::uint64_t Simulation::state_hash() const {
   return mix64(mobil::state_hash(*world_, jobs_) + mix64(tick_));
 }
 
+std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entity> people,
+                                   std::span<const KeyPart> keeps) {
+  return sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.our_parts_, *simulation.sleep_work_);
+}
+
+Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people) {
+  auto done = wake_people(simulation.muscle_scene(), people, WakingMuscles::later, relevance_parts(),
+                          simulation.our_parts_, *simulation.sleep_work_);
+  Tiers<float> unseen{};
+  unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
+  for (const Entity human : people) simulation.world_->set(human, unseen);
+  return done;
+}
+
+Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<const Entity> people,
+                                            const LegMuscles& choice) {
+  return begin_leg_muscles(simulation.muscle_scene(), people, choice);
+}
+
 bool Simulation::is_person(Entity entity) const {
   return mobil::is_person(*world_, entity);
 }
@@ -342,7 +417,7 @@ std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
 
 std::optional<Human> Simulation::human(Entity entity) const {
   if (!is_person(entity)) return std::nullopt;
-  const auto asleep = sleeper_choice(*world_, entity);
+  const auto asleep = kept_choice(*world_, entity);
   const LegMuscles choice = asleep ? *asleep : choice_of(*world_, entity).value_or(LegMuscles{});
   Human human{entity,
               *make_body(body_request(*world_, entity)),

@@ -63,6 +63,13 @@ struct SimulationOptions {
 /// How a posed person came to a pose.
 enum class Arrival : std::uint8_t { moved, jumped };
 
+/// What one of many walkers is asked to do otherwise.
+struct WalkChange {
+  Entity human;
+  std::optional<GaitChange> gait{};
+  std::optional<float> heading_rad{};
+};
+
 /// One of a person's muscles, by side, with its plan.
 struct HumanMuscle {
   MusclePlan plan;
@@ -158,6 +165,10 @@ class Simulation {
   /// part of it each step; who stands turns on the spot. Errors: a stale handle, a heading that is not finite;
   /// nothing has changed.
   Result<void> turn_to(Entity human, float heading_rad);
+  /// change_gait and turn_to of many walkers at once, each named once, with the simulation's jobs. Who cannot walk so
+  /// (a gait out of range, a posed person) is left as they are, and counted in the answer. Errors: a stale handle,
+  /// somebody named twice; nothing has changed.
+  Result<std::size_t> change_walks(std::span<const WalkChange> changes);
   /// Asks somebody who stands to step aside: to `left_m` to the left and `ahead_m` ahead of where they stand, negative
   /// to the right and back; at most 0.25 m aside and 0.20 m ahead or back for a leg of 0.85 m, in proportion to the
   /// leg. It begins within a quarter of a second and takes two steps of 0.3 to 0.5 s. Errors: a stale handle, a posed

@@ -8,6 +8,13 @@ namespace mobil {
 struct SimulationWorld {
   static World& of(Simulation& simulation) { return *simulation.world_; }
   static BellyLibrary& library(Simulation& simulation) { return *simulation.library_; }
+  static const Jobs& jobs(const Simulation& simulation) { return simulation.jobs_; }
+  /// As Simulation::sleep, people being named once each, who keep `keeps` of the library's parts besides.
+  static std::size_t sleep(Simulation& simulation, std::span<const Entity> people, std::span<const KeyPart> keeps);
+  /// People who sleep managed wake, named once each, without muscles; what Relevance decides of them begins anew.
+  static Result<void> wake(Simulation& simulation, std::span<const Entity> people);
+  /// Muscles of those who woke so begin.
+  static Result<void> begin_muscles(Simulation& simulation, std::span<const Entity> people, const LegMuscles& choice);
 };
 
 /// Whoever changes rows through it keeps people, their muscles and what choosing remembers in step.

@@ -1,8 +1,8 @@
 #include "demo/bench/bench_crowd_scene.h"
 
 #include <algorithm>
-#include <ctime>
 
+#include "demo/measure/measure.h"
 #include "assets/body/anthropometry.h"
 #include "demo/crowd/crowd_people.h"
 #include "engine/schedule.h"
@@ -23,12 +23,6 @@ CrowdPerson walker(std::uint64_t number) {
 }
 
 }  // namespace
-
-double process_cpu_now_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 LegMuscles bench_reduced_muscles(bool seen) {
   LegMuscles choice;

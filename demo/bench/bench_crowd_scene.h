@@ -77,7 +77,5 @@ class BenchScene {
   Series series_[2];
 };
 
-/// This process' processor time, s.
-double process_cpu_now_s();
 
 }  // namespace mobil

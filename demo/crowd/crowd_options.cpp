@@ -51,6 +51,45 @@ Result<CrowdEffects> read_effects(const std::string& text) {
   return chosen;
 }
 
+/// Those who are alive, most of them asleep, have options of their own.
+Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
+  const CrowdText usual;
+  if (text.alive.empty()) {
+    if (text.in_view != usual.in_view) return fail("--in-view: is of those who are alive; give --alive too");
+    return {};
+  }
+  const struct {
+    const char* name;
+    bool given;
+  } others[] = {{"--humans", text.humans != usual.humans},
+                {"--churn", text.churn != usual.churn},
+                {"--burst", text.burst != usual.burst},
+                {"--effects", text.effects != usual.effects},
+                {"--tolerance", text.tolerance != usual.tolerance},
+                {"--near", text.near != usual.near},
+                {"--near-tolerance", text.near_tolerance != usual.near_tolerance},
+                {"--budget", text.budget != usual.budget},
+                {"--frames", text.frames != usual.frames},
+                {"--all-seen", text.all_seen},
+                {"--raise", text.raise}};
+  for (const auto& [name, given] : others)
+    if (given) return fail(fmt::format("{}: is of a crowd that is all awake; leave it out with --alive", name));
+  AliveRequest alive;
+  const auto count = read_count("--alive", text.alive, 100, most_alive);
+  if (!count) return tl::unexpected(count.error());
+  const auto seen = read_count("--in-view", text.in_view, 1, most_crowd);
+  if (!seen) return tl::unexpected(seen.error());
+  alive.alive = *count;
+  alive.in_view = text.in_view == usual.in_view ? std::min<std::size_t>(*seen, *count / 10) : *seen;
+  if (alive.in_view > alive.alive / 4)
+    return fail(fmt::format("--in-view {}: is more than a quarter of those alive", alive.in_view));
+  alive.threads = options.crowd.threads;
+  alive.seed = options.crowd.seed;
+  alive.baked = options.crowd.baked;
+  options.alive = alive;
+  return {};
+}
+
 }  // namespace
 
 std::vector<Option> crowd_options(CrowdText& text) {
@@ -67,6 +106,10 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", muscles},
       {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", muscles},
       {"--near-tolerance", &text.near_tolerance, "The same of those", muscles},
+      {"--alive", &text.alive,
+       fmt::format("Instead: so many live on 1 m2 each, up to {}; who is far from being seen sleeps", most_alive),
+       crowd},
+      {"--in-view", &text.in_view, "How many of those the flying camera sees", crowd},
       {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", muscles},
       {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", muscles},
       {"--baked", &text.baked, "What `mobil bake` wrote, FILE, instead of making it", muscles},
@@ -135,6 +178,7 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
     return fail(
         fmt::format("--capture {}: a picture's name must end in .png; for a folder give --frames too", text.capture));
   if (options.raise && !options.capture.empty()) return fail("--raise: measures alone; leave --capture out");
+  if (auto done = read_alive(text, options); !done) return tl::unexpected(done.error());
   return options;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "demo/crowd/alive_scene.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/options.h"
 #include "engine/error.h"
@@ -19,16 +20,18 @@ struct CrowdOptions {
   std::filesystem::path report, capture;  // empty: none
   std::size_t frames = 0;                 // pictures in a folder; 0: one file
   bool raise = false;
+  std::optional<AliveRequest> alive{};  // instead of the crowd
 };
 
 /// The options as text, as the command line hands them over; bound by `crowd_options`.
 struct CrowdText {
   std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
   std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
+  std::string alive, in_view = "10000";
   bool all_seen = false, raise = false;
 };
 
-inline constexpr std::size_t most_crowd = 200'000;
+inline constexpr std::size_t most_crowd = 200'000, most_alive = 20'000'000;
 
 std::vector<Option> crowd_options(CrowdText& text);
 

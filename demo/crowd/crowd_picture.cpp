@@ -53,7 +53,7 @@ struct CrowdCamera::Parts {
   std::map<std::uint64_t, Shown> figures;  // by person
   std::vector<DrawMesh> meshes;
 
-  Result<Shown*> figure_of(const CrowdScene& scene, const CrowdWalker& walker);
+  Result<Shown*> figure_of(const Simulation& simulation, const Drawn& person);
 };
 
 CrowdCamera::CrowdCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -67,18 +67,18 @@ Result<CrowdCamera> CrowdCamera::create() {
   return CrowdCamera(std::make_unique<Parts>(std::move(*renderer)));
 }
 
-Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const CrowdScene& scene, const CrowdWalker& walker) {
-  const auto human = scene.simulation().human(walker.entity);
+Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const Simulation& simulation, const Drawn& person) {
+  const auto human = simulation.human(person.entity);
   if (!human) return fail("a person who is to be drawn has left");
-  auto found = figures.find(walker.number);
+  auto found = figures.find(person.number);
   if (found == figures.end()) {
-    auto figure = make_figure(scene.simulation(), *human, std::nullopt);
+    auto figure = make_figure(simulation, *human, std::nullopt);
     if (!figure) return tl::unexpected(figure.error());
-    found = figures.emplace(walker.number, Shown{std::move(*figure), {}, {}}).first;
+    found = figures.emplace(person.number, Shown{std::move(*figure), {}, {}}).first;
   }
   Shown& shown = found->second;
   shown.recording = begin_recording(shown.figure, 1.0F / 30);
-  record_frame(shown.figure, scene.simulation(), *human, shown.recording);
+  record_frame(shown.figure, simulation, *human, shown.recording);
   shown.drawn = {};
   add_bones(shown.recording, 0, {0, 0, 0}, 0, shown.drawn);
   if (!human->muscles.empty()) add_muscles(shown.recording, 0, {0, 0, 0}, shown.drawn);
@@ -86,37 +86,42 @@ Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const CrowdScen
 }
 
 Result<void> CrowdCamera::take(const CrowdScene& scene, Image& image) {
-  const Camera camera = crowd_camera(scene);
-  const Simulation& simulation = scene.simulation();
+  std::vector<Drawn> people;
+  for (const CrowdWalker& walker : scene.walkers()) people.push_back({walker.entity, walker.number, walker.near});
+  return take(scene.simulation(), crowd_camera(scene), people, image);
+}
+
+Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people,
+                               Image& image) {
   struct Seen {
     float distance_m;
-    const CrowdWalker* walker;
+    const Drawn* person;
     Pose<float> pose;
   };
   std::vector<Seen> seen;
-  for (const CrowdWalker& walker : scene.walkers()) {
-    const auto pose = simulation.get<Pose>(walker.entity);
+  for (const Drawn& person : people) {
+    const auto pose = simulation.get<Pose>(person.entity);
     if (!pose || !in_picture(camera, pose->position_m[0])) continue;
     const float distance = project(camera, width, height, pose->position_m[0]).z;
-    seen.push_back({distance, &walker, *pose});
+    seen.push_back({distance, &person, *pose});
   }
   std::ranges::sort(seen, [](const Seen& a, const Seen& b) {
-    if (a.walker->near != b.walker->near) return a.walker->near;
+    if (a.person->near != b.person->near) return a.person->near;
     return a.distance_m < b.distance_m;
   });
   Parts& parts = *parts_;
   parts.mannequins.clear();
   parts.meshes.clear();
   for (std::size_t i = 0; i < seen.size(); ++i) {
-    const CrowdWalker& walker = *seen[i].walker;
-    if (i < most_figures && walker.near) {
-      const auto shown = parts.figure_of(scene, walker);
+    const Drawn& person = *seen[i].person;
+    if (i < most_figures && person.near) {
+      const auto shown = parts.figure_of(simulation, person);
       if (!shown) return tl::unexpected(shown.error());
       parts.meshes.insert(parts.meshes.end(), (*shown)->drawn.meshes.begin(), (*shown)->drawn.meshes.end());
       continue;
     }
-    const auto size = *simulation.get<BodySize>(walker.entity);
-    parts.mannequins.add(seen[i].pose, size.height_m, size.mass_kg, walker.number);
+    const auto size = *simulation.get<BodySize>(person.entity);
+    parts.mannequins.add(seen[i].pose, size.height_m, size.mass_kg, person.number);
   }
   parts.mannequins.draw(parts.meshes);
   Scene drawn;

@@ -2,12 +2,15 @@
 // A crowd as pictures: bones and muscles of those in front, smooth bodies of everybody else.
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "demo/crowd/crowd_scene.h"
 #include "engine/error.h"
 #include "systems/capture/image.h"
+#include "systems/capture/scene.h"
 
 namespace mobil {
 
@@ -19,8 +22,15 @@ class CrowdCamera {
   CrowdCamera& operator=(CrowdCamera&&) noexcept;
   ~CrowdCamera();
 
-  /// The crowd as it is. Errors: a driver that gives up.
+  /// The crowd as it is, from behind and above who looks. Errors: a driver that gives up.
   Result<void> take(const CrowdScene& scene, Image& image);
+  /// These people from anywhere; of the nearest who are `near` bones and muscles are shown.
+  struct Drawn {
+    Entity entity;
+    std::uint64_t number;
+    bool near;
+  };
+  Result<void> take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people, Image& image);
 
  private:
   struct Parts;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 #include "components/fade.h"
 #include "demo/crowd/heap_count.h"
@@ -14,12 +13,6 @@ namespace {
 
 constexpr std::size_t hash_every = 60;  // ticks
 constexpr double live_every_s = 0.25;
-
-double process_cpu_now_s() {
-  timespec t{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 /// Muscles that fade after a change of method; when that ends the row is made anew.
 std::size_t fading(const World& world) {

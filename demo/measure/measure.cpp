@@ -10,10 +10,22 @@ double wall_now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double thread_cpu_now_s() {
+namespace {
+
+double cpu_now_s(clockid_t clock) {
   timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+double thread_cpu_now_s() {
+  return cpu_now_s(CLOCK_THREAD_CPUTIME_ID);
+}
+
+double process_cpu_now_s() {
+  return cpu_now_s(CLOCK_PROCESS_CPUTIME_ID);
 }
 
 double median(std::vector<double> values) {

@@ -28,9 +28,11 @@ Measured measure_short(const std::function<void()>& work);
 /// How many runs of `once_s` make up `bench_repeat_s`; at least one.
 int runs_a_repeat(double once_s);
 
-/// Seconds since some fixed moment: on the wall's clock, and those that this thread has had a processor.
+/// Seconds since some fixed moment: on the wall's clock, and those that this thread, or all of the process' threads
+/// together, have had a processor.
 double wall_now_s();
 double thread_cpu_now_s();
+double process_cpu_now_s();
 
 /// Of an odd number of values the one in the middle, of an even one the upper of the two.
 double median(std::vector<double> values);

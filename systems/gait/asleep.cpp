@@ -2,9 +2,11 @@
 #define HWY_TARGET_INCLUDE "systems/gait/asleep.cpp"
 #include <hwy/foreach_target.h>
 
+#include <array>
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "engine/rows.h"
 #include "engine/wide-inl.h"
@@ -64,6 +66,14 @@ struct StyleGrid {
     return byte;
   }
 };
+
+const std::array<StyleGrid, gait_parameters.size()>& style_grids() {
+  static const auto grids = []<std::size_t... p>(std::index_sequence<p...>) {
+    return std::array{StyleGrid(gait_parameters[p])...};
+  }
+  (std::make_index_sequence<gait_parameters.size()>{});
+  return grids;
+}
 
 /// How far a walk is at a tick. Exact: all are whole numbers below 2⁵³, and no quotient is within rounding of the next.
 struct Progress {
@@ -212,8 +222,9 @@ void mark_met(const Gait<Lanes<float>>& gait, StepPlan<Lanes<float>>& plan) {
 
 GaitStyle snapped(const GaitStyle& style) {
   GaitStyle out;
-  for (const GaitParameter& parameter : gait_parameters) {
-    const StyleGrid grid(parameter);
+  for (std::size_t p = 0; p < gait_parameters.size(); ++p) {
+    const GaitParameter& parameter = gait_parameters[p];
+    const StyleGrid& grid = style_grids()[p];
     out.*parameter.value = grid.at(grid.nearest(parameter, style.*parameter.value));
   }
   return out;
@@ -223,7 +234,7 @@ std::optional<SleepingStyle<float>> packed_style(const GaitStyle& style) {
   SleepingStyle<float> packed{};
   for (std::size_t p = 0; p < gait_parameters.size(); ++p) {
     const GaitParameter& parameter = gait_parameters[p];
-    const StyleGrid grid(parameter);
+    const StyleGrid& grid = style_grids()[p];
     const int byte = grid.nearest(parameter, style.*parameter.value);
     if (grid.at(byte) != style.*parameter.value) return std::nullopt;
     packed.bytes[p / 4] |= static_cast<std::uint32_t>(byte) << 8 * (p % 4);
@@ -233,9 +244,9 @@ std::optional<SleepingStyle<float>> packed_style(const GaitStyle& style) {
 
 GaitStyle style_of(const SleepingStyle<float>& packed) {
   GaitStyle style;
+  const auto& grids = style_grids();
   for (std::size_t p = 0; p < gait_parameters.size(); ++p)
-    style.*gait_parameters[p].value =
-        StyleGrid(gait_parameters[p]).at(static_cast<int>(packed.bytes[p / 4] >> 8 * (p % 4) & 0xFFU));
+    style.*gait_parameters[p].value = grids[p].at(static_cast<int>(packed.bytes[p / 4] >> 8 * (p % 4) & 0xFFU));
   return style;
 }
 

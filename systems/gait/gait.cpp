@@ -32,23 +32,24 @@ double speed_of(double wanted, Of of) {
   return high;
 }
 
-}  // namespace
+struct LegSizes {
+  float height_m, leg_m, hips_m;
+};
 
-Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
+Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
   for (const GaitParameter& p : gait_parameters) {
     const float value = request.style.*p.value;
     if (!inside(value, p.low, p.high))
       return fail(fmt::format("gait: {} = {} is outside {}–{}; choose a value within that range", p.name, value, p.low,
                               p.high));
   }
-  const double height = body.request.height_m;
-  const double leg = body.thigh_length_m + body.shank_length_m;
+  const double height = of.height_m, leg = of.leg_m;
   const double scale = std::sqrt(leg / 0.90);
-  const double hips = body.hip_height_m;
+  const double hips = of.hips_m;
   const auto& [speed_asked, length_asked, frequency_asked, style] = request;
 
   if (speed_asked && *speed_asked == 0.0F && !length_asked && !frequency_asked)
-    return complete_gait(body.request.height_m, 0, 0, style);
+    return complete_gait(of.height_m, 0, 0, style);
   auto positive = [](const std::optional<float>& value) { return !value || (*value > 0.0F && *value < 1e6F); };
   if (!positive(speed_asked) || !positive(length_asked) || !positive(frequency_asked))
     return fail(
@@ -93,7 +94,20 @@ Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
                               height, asked ? "choose one within that range" : "ask for more usual steps"));
     }
   }
-  return complete_gait(body.request.height_m, static_cast<float>(speed), static_cast<float>(length), style);
+  return complete_gait(of.height_m, static_cast<float>(speed), static_cast<float>(length), style);
+}
+
+}  // namespace
+
+Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request) {
+  return resolve({body.request.height_m, body.thigh_length_m + body.shank_length_m, body.hip_height_m}, request);
+}
+
+Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request) {
+  const double height = height_m;
+  const auto of_height = [&](double part) { return static_cast<float>(part * height); };
+  return resolve({height_m, of_height(fraction::thigh) + of_height(fraction::shank), of_height(fraction::hip_height)},
+                 request);
 }
 
 Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style) {

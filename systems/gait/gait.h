@@ -16,6 +16,9 @@ namespace mobil {
 /// proportion to 1/√leg), three values that disagree, or a style value outside its range.
 Result<Gait<float>> resolve_gait(const Body& body, const GaitRequest& request);
 
+/// The same of a walker of that height, whose limbs are in proportion.
+Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request);
+
 /// The gait of a speed and a step length, no heading or way asked for: what resolve_gait answers follows from these two
 /// of its numbers. A speed of 0 stands.
 Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style);

@@ -33,10 +33,11 @@ void fade(const Table& table, float tick_s, Field<const NodalDisplacement> displ
 Result<void> check_key(const TableKey& key, const World& world) {
   const auto is_ours = [](const KeyPart& part) { return std::ranges::binary_search(muscle_part_ids(), part.id); };
   const bool ours = std::ranges::any_of(key, is_ours);
-  // What a sleeper's muscles are to be is kept on the sleeper's row.
-  const bool sleeps = find_part(key, type_id<Asleep<float>>()) != nullptr &&
-                      find_part(key, type_id<LegMuscles>()) != nullptr && std::ranges::count_if(key, is_ours) == 1;
-  if (!ours || sleeps || muscle_kind(key, world)) return {};
+  // What muscles are to be that a person does not have yet is kept on the person's row.
+  const bool person =
+      (find_part(key, type_id<Asleep<float>>()) != nullptr || find_part(key, type_id<Physique<float>>()) != nullptr) &&
+      find_part(key, type_id<LegMuscles>()) != nullptr && std::ranges::count_if(key, is_ours) == 1;
+  if (!ours || person || muscle_kind(key, world)) return {};
   return fail("the snapshot does not agree with itself (the parts of a muscle); give one that `save` made");
 }
 

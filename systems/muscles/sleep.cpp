@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 
 #include "assets/body/anthropometry.h"
 #include "assets/muscles/muscle_plan.h"
@@ -32,8 +33,8 @@ bool have_one_method(const World& world, Entity person) {
 
 }  // namespace
 
-std::optional<LegMuscles> sleeper_choice(const World& world, Entity person) {
-  const auto* const choice = is_asleep(world, person) ? world.shared<LegMuscles>(person) : nullptr;
+std::optional<LegMuscles> kept_choice(const World& world, Entity person) {
+  const auto* const choice = world.has<MuscleOwner>(person) ? nullptr : world.shared<LegMuscles>(person);
   return choice == nullptr ? std::nullopt : std::optional(*choice);
 }
 
@@ -48,71 +49,95 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
     world.each_member(one.entity, [&](Entity member) {
       if (world.has<MuscleOwner>(member)) work.rows.push_back(member);
     });
-  std::vector<std::optional<LegMuscles>> choice(work.sleepers.size());
-  for (std::size_t i = 0; i < choice.size(); ++i) choice[i] = choice_of(world, work.sleepers[i].entity);
+  // Those of one table, choice and kind of style together.
+  work.groups.clear();
+  for (const Sleeper& one : work.sleepers) {
+    auto choice = choice_of(world, one.entity);
+    if (!choice) choice = kept_choice(world, one.entity);
+    SleepWork::Group group{&one, world.locate(one.entity)->table, one.style.has_value(), std::nullopt};
+    if (choice) {
+      const auto kept = scene.library.whole_choice(*choice);
+      group.choice = key_part(world.share(kept, hash_of(*kept)));
+    }
+    work.groups.push_back(group);
+  }
   world.destroy_many(work.rows, scene.jobs);
   scene.work.recent = {};
-  for (std::size_t i = 0; i < work.sleepers.size(); ++i) {
-    const Sleeper& one = work.sleepers[i];
-    std::array<PartValue, 6> more;
+  const auto order = [](const SleepWork::Group& group) {
+    return std::tuple(group.table, group.packed, group.choice ? group.choice->value + 1 : 0);
+  };
+  std::ranges::stable_sort(work.groups, {}, order);
+  for (auto first = work.groups.begin(); first != work.groups.end();) {
+    const auto end = std::find_if(first, work.groups.end(), [&](const auto& g) { return order(g) != order(*first); });
+    std::array<KeyPart, 6> more;
     std::size_t count = 0;
-    if (choice[i]) {
-      const auto kept = scene.library.whole_choice(*choice[i]);
-      more[count++] = {key_part(world.share(kept, hash_of(*kept))), nullptr};
-    }
-    if (has_forces(world, one.entity)) more[count++] = part_value(TagValue<SleepsWithForces>{1});
+    if (first->choice) more[count++] = *first->choice;
+    if (has_forces(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWithForces>{1});
     for (const KeyPart& part : keeps)
-      if (count < more.size()) more[count++] = {part, nullptr};
-    put_to_sleep(world, one, std::span(more).first(count), owned);
+      if (count < more.size() && (!first->choice || part.id != first->choice->id)) more[count++] = part;
+    work.together.clear();
+    for (; first != end; ++first) work.together.push_back(first->sleeper);
+    put_to_sleep(world, scene.jobs, work.together, std::span(more).first(count), owned, work.falling);
   }
   return work.sleepers.size();
 }
 
-Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, std::span<const std::uint64_t> owned,
-                         SleepWork& work) {
+Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice) {
   World& world = scene.world;
+  const std::size_t each = choice.muscles.count();
+  std::vector<MuscleSize> size(people.size() * each);
+  in_parallel(scene.jobs, people.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h) {
+      const Body body = *make_body(body_request(world, people[h]));
+      auto at = size.begin() + static_cast<std::ptrdiff_t>(h * each);
+      for (std::size_t m = 0; m < choice.muscles.size(); ++m)
+        if (choice.muscles[m]) *at++ = size_of(*make_muscle_plan(body, static_cast<Muscle>(m)));
+    }
+  });
+  std::vector<Entity> made;
+  made.reserve(2 * size.size());
+  auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, people, size, made);
+  if (!begun) {
+    world.undo_create(made);
+    return tl::unexpected(begun.error().error);
+  }
+  for (const Entity human : people)
+    if (follows_moments(choice)) set_leg_moments(world, human, *make_body(body_request(world, human)), choice);
+  return {};
+}
+
+Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, WakingMuscles muscles,
+                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work) {
+  World& world = scene.world;
+  if (work.all_but_choice.empty()) {
+    work.all_but_choice.assign(owned.begin(), owned.end());
+    std::erase(work.all_but_choice, type_id<LegMuscles>());
+  }
   struct Waking {
     Entity entity;
-    std::optional<LegMuscles> choice;
+    const LegMuscles* choice;
     bool forces;
   };
   std::vector<Waking> waking;
   waking.reserve(people.size());
   for (const Entity person : people)
-    waking.push_back({person, sleeper_choice(world, person), world.has<SleepsWithForces>(person)});
-  wake_walkers(world, scene.jobs, people, sleep_time(scene), owned, work.waking);
+    waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person)});
+  const bool later = muscles == WakingMuscles::later;
+  wake_walkers(world, scene.jobs, people, sleep_time(scene), more, later ? work.all_but_choice : owned, work.waking);
   for (const Waking& one : waking)
     if (one.forces) add_forces(world, one.entity);
   // Each choice together.
-  for (std::size_t first = 0; first < waking.size(); ++first) {
-    if (!waking[first].choice) continue;
-    const LegMuscles choice = *waking[first].choice;
-    std::vector<Entity> humans, made;
-    std::vector<MuscleSize> size;
-    std::vector<Body> bodies;
+  std::vector<Entity> humans;
+  for (std::size_t first = 0; first < waking.size() && !later; ++first) {
+    const LegMuscles* const choice = waking[first].choice;
+    if (choice == nullptr) continue;
+    humans.clear();
     for (std::size_t i = first; i < waking.size(); ++i) {
-      if (!waking[i].choice || !(*waking[i].choice == choice)) continue;
-      waking[i].choice.reset();
+      if (waking[i].choice != choice) continue;
+      waking[i].choice = nullptr;
       humans.push_back(waking[i].entity);
     }
-    const std::size_t each = choice.muscles.count();
-    size.resize(humans.size() * each);
-    in_parallel(scene.jobs, humans.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t h = begin; h < end; ++h) {
-        const Body body = *make_body(body_request(world, humans[h]));
-        auto at = size.begin() + static_cast<std::ptrdiff_t>(h * each);
-        for (std::size_t m = 0; m < choice.muscles.size(); ++m)
-          if (choice.muscles[m]) *at++ = size_of(*make_muscle_plan(body, static_cast<Muscle>(m)));
-      }
-    });
-    made.reserve(2 * size.size());
-    auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, humans, size, made);
-    if (!begun) {
-      world.undo_create(made);
-      return tl::unexpected(begun.error().error);
-    }
-    for (const Entity human : humans)
-      if (follows_moments(choice)) set_leg_moments(world, human, *make_body(body_request(world, human)), choice);
+    if (auto begun = begin_leg_muscles(scene, humans, *choice); !begun) return begun;
   }
   return {};
 }

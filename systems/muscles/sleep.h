@@ -1,6 +1,7 @@
 #pragma once
 // People fall asleep and wake with all that belongs to them: their muscles go, and begin again on waking.
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -12,12 +13,29 @@
 
 namespace mobil {
 
+/// What one of many is asked, nothing where that is refused; whether they sleep, and must wake for it.
+struct AskedWalk {
+  std::optional<Gait<float>> gait;
+  bool asleep = false, must_wake = false;
+};
+
 /// Memory that falling asleep and waking work in, kept from one time to the next, and nothing of it state.
 struct SleepWork {
+  struct Group {
+    const Sleeper* sleeper;
+    std::uint32_t table;
+    bool packed;
+    std::optional<KeyPart> choice;  // what muscles are to be
+  };
+
   WakingWork waking;
+  FallingAsleep falling;
+  std::vector<Group> groups;
+  std::vector<const Sleeper*> together;
   std::vector<Sleeper> sleepers;
   std::vector<Entity> rows, restless;
-  std::vector<std::uint64_t> keeps;  // ids of parts
+  std::vector<std::uint64_t> all_but_choice;  // parts
+  std::vector<AskedWalk> asked;
 };
 
 /// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may
@@ -25,11 +43,16 @@ struct SleepWork {
 /// sorted) they keep those of `keeps` alone. Returns how many sleep now.
 std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
                          std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work);
-/// Sleepers, named once each, wake where they are; their forces, and muscles at rest where they stand in the stride.
-/// Errors: what muscles are refused for; those concerned are awake then, and have none.
-Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, std::span<const std::uint64_t> owned,
-                         SleepWork& work);
-/// What a sleeper's muscles are to be; nothing where there are none.
-std::optional<LegMuscles> sleeper_choice(const World& world, Entity person);
+/// Sleepers, named once each, wake where they are, with `more` parts (wake_walkers), and have their forces again.
+/// Muscles begin at rest where their person stands in the stride, or `later`: then what they are to be stays on the
+/// person's row (kept_choice). Errors: what muscles are refused for; those concerned are awake then, and have none.
+enum class WakingMuscles : std::uint8_t { now, later };
+Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, WakingMuscles muscles,
+                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work);
+/// The muscles of a choice begin on people who are awake and have none. Errors: as above; none has any then.
+Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice);
+/// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
+/// come.
+std::optional<LegMuscles> kept_choice(const World& world, Entity person);
 
 }  // namespace mobil

@@ -62,6 +62,11 @@ Result<void> is_walker(const World& world, Entity person, std::string_view asked
   return {};
 }
 
+float height_of(const World& world, Entity person) {
+  const auto size = world.get<BodySize>(person);
+  return size ? size->height_m : world.get<Asleep>(person)->height_m;
+}
+
 /// Requests are told apart by 16 bits.
 std::uint32_t next_request(std::uint32_t before) {
   return (before + 1) & 0xFFFFU;
@@ -98,7 +103,7 @@ Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitCh
 Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& request) {
   if (auto walks = is_walker(world, person, "set_gait", "spawn a walker instead"); !walks)
     return tl::unexpected(walks.error());
-  auto gait = resolve_gait(*make_body(body_request(world, person)), request);
+  auto gait = resolve_gait(height_of(world, person), request);
   if (!gait) return tl::unexpected(gait.error());
   const Gait<float> before = *gait_of(world, person);
   gait->heading_rad = before.heading_rad;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstring>
 
 #include "assets/body/anthropometry.h"
@@ -24,6 +25,10 @@ BodyRequest body_of(const Asleep<float>& asleep) {
           {asleep.endo, asleep.meso, asleep.ecto},
           static_cast<Constitution>(asleep.constitution),
           {}};
+}
+
+BodySize<float> size_of(const Asleep<float>& asleep) {
+  return {asleep.height_m, asleep.mass_kg, asleep.extra_fat};
 }
 
 Gait<float> gait_of(float height_m, const SteadyWalk<float>& walk, const GaitStyle& style) {
@@ -64,7 +69,7 @@ struct WakingBlock {
     const Asleep<float> asleep = *world.get<Asleep>(person);
     const GaitStyle style = sleeper_style(world, person);
     const BodyRequest body = body_of(asleep);
-    put_row(body_size(body), walkers.size, lane);
+    put_row(size_of(asleep), walkers.size, lane);
     put_row(mobil::physique(body), physique, lane);
     const auto since = unsettled_of(world, person);
     const bool changing = is_unsettled(since, time);
@@ -113,6 +118,20 @@ struct WokenRow {
   }
 };
 
+/// Of a step only what tells whether it is steady: all of it would be a thousand lines of memory.
+bool read_times(const World& world, Entity person, StepPlan<float>& plan) {
+  const auto place = world.find(person);
+  if (!place) return false;
+  const std::uint32_t column = place.table->column(type_id<StepPlan<float>>());
+  if (column == Table::no_column) return false;
+  using Plan = StepPlan<float>;
+  constexpr std::size_t from = offsetof(Plan, from), to = offsetof(Plan, to), strike = offsetof(Strike<float>, shape);
+  for (const auto& [first, bytes] : {std::pair{std::size_t{0}, from}, std::pair{from, strike}, std::pair{to, strike}})
+    place.table->read(place.row, column + static_cast<std::uint32_t>(first / 4), static_cast<std::uint32_t>(bytes / 4),
+                      reinterpret_cast<std::byte*>(&plan) + first);
+  return true;
+}
+
 void work_out(Asleep<Lanes<float>>& asleep, Unsettled<Lanes<float>>& since, const GaitStyleOf<Lanes<float>>& style,
               float tick_s) {
   WalkingBlock block{};
@@ -120,7 +139,7 @@ void work_out(Asleep<Lanes<float>>& asleep, Unsettled<Lanes<float>>& since, cons
   for (std::size_t l = 0; l < lane_count; ++l) {
     const Asleep<float> one = row_of(asleep, l);
     const GaitStyle its = row_of(style, l);
-    put_row(body_size(body_of(one)), block.size, l);
+    put_row(size_of(one), block.size, l);
     put_row(gait_of(one.height_m, one.walk, its), block.gait, l);
     put_row(gait_of(one.height_m, row_of(since.before, l), its), gait_before, l);
   }
@@ -179,7 +198,7 @@ Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
     Asleep<float> asleep;
     read(row, first, asleep);
     bool sound = is_sound(asleep.walk) && asleep.constitution <= static_cast<std::uint32_t>(Constitution::heavy) &&
-                 check_body(body_of(asleep)).has_value();
+                 check_body(body_of(asleep)).has_value() && asleep.extra_fat == body_size(body_of(asleep)).extra_fat;
     if (since != Table::no_column) {
       Unsettled<float> unsettled;
       read(row, since, unsettled);
@@ -205,7 +224,40 @@ void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, flo
 
 struct WakingWork::Blocks {
   static constexpr std::size_t most = 64;  // at once
-  std::array<WakingBlock, most> block;
+  template <template <class> class C>
+  using Column = std::array<C<Lanes<float>>, most>;
+
+  Column<BodySize> size;
+  Column<Physique> physique;
+  Column<Gait> gait;
+  Column<StepPlan> plan;
+  Column<GaitState> state;
+  Column<Pose> pose;
+  Column<JointAngles> angles;
+  Column<Feet> feet;
+  Column<CentreOfMass> centre;
+  std::vector<Entity> people;    // table by table
+  std::vector<PartValue> parts;  // of a walker
+
+  void set(std::size_t b, const WakingBlock& block) {
+    size[b] = block.walkers.size;
+    physique[b] = block.physique;
+    gait[b] = block.walkers.gait;
+    plan[b] = block.walkers.plan;
+    state[b] = block.walkers.state;
+    pose[b] = block.pose;
+    angles[b] = block.angles;
+    feet[b] = block.feet;
+    centre[b] = block.centre;
+  }
+  void list_parts(std::span<const KeyPart> more) {
+    parts = {{component_part<BodySize>(), size.data()},       {component_part<Physique>(), physique.data()},
+             {component_part<Gait>(), gait.data()},           {component_part<StepPlan>(), plan.data()},
+             {component_part<GaitState>(), state.data()},     {component_part<Pose>(), pose.data()},
+             {component_part<JointAngles>(), angles.data()},  {component_part<Feet>(), feet.data()},
+             {component_part<CentreOfMass>(), centre.data()}, part_value(Publishes<LegPost>{})};
+    for (const KeyPart& part : more) parts.push_back({part, nullptr});
+  }
 };
 WakingWork::WakingWork() = default;
 WakingWork::~WakingWork() = default;
@@ -242,19 +294,19 @@ void find_steady(const World& world, std::span<const Entity> people, const Sleep
       const Physique<float> body = *world.get<Physique>(who[l]);
       const GaitStyle style = row_of(at->walkers.gait, l).style;
       out.push_back({who[l],
-                     {row_of(at->before, l), at->walkers.size.height_m[l], at->walkers.size.mass_kg[l], body.endo,
-                      body.meso, body.ecto, body.constitution},
+                     {row_of(at->before, l), at->walkers.size.height_m[l], at->walkers.size.mass_kg[l],
+                      at->walkers.size.extra_fat[l], body.endo, body.meso, body.ecto, body.constitution},
                      packed_style(style),
                      {style}});
     }
     count = 0;
   };
   for (const Entity person : people) {
-    const auto plan = world.get<StepPlan>(person);
-    if (!plan) continue;  // posed, asleep or gone
+    StepPlan<float> plan{};
+    if (!read_times(world, person, plan)) continue;  // posed, asleep or gone
     put_row(*world.get<BodySize>(person), at->walkers.size, count);
     put_row(*world.get<Gait>(person), at->walkers.gait, count);
-    put_row(*plan, at->walkers.plan, count);
+    put_row(plan, at->walkers.plan, count);
     put_row(*world.get<GaitState>(person), at->walkers.state, count);
     who[count++] = person;
     if (count == lane_count) look();
@@ -262,35 +314,57 @@ void find_steady(const World& world, std::span<const Entity> people, const Sleep
   if (count > 0) look();
 }
 
-void put_to_sleep(World& world, const Sleeper& sleeper, std::span<const PartValue> more,
-                  std::span<const std::uint64_t> owned) {
-  std::array<PartValue, 8> parts = {part_value(sleeper.asleep),
-                                    sleeper.style ? part_value(*sleeper.style) : part_value(sleeper.own_style)};
-  const std::size_t count = std::min(more.size(), parts.size() - 2);
-  std::copy_n(more.begin(), count, parts.begin() + 2);
-  world.remake_from(sleeper.entity, std::span(parts).first(2 + count), owned);
+void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const> sleepers,
+                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, FallingAsleep& work) {
+  if (sleepers.empty()) return;
+  const std::size_t blocks = (sleepers.size() + lane_count - 1) / lane_count;
+  const bool packed = sleepers.front()->style.has_value();
+  work.people.clear();
+  work.asleep.resize(blocks);
+  packed ? work.style.resize(blocks) : work.own_style.resize(blocks);
+  for (std::size_t i = 0; i < sleepers.size(); ++i) {
+    const Sleeper& one = *sleepers[i];
+    const std::size_t b = i / lane_count, l = i % lane_count;
+    work.people.push_back(one.entity);
+    put_row(one.asleep, work.asleep[b], l);
+    packed ? put_row(*one.style, work.style[b], l) : put_row(one.own_style, work.own_style[b], l);
+  }
+  std::array<PartValue, 10> parts;
+  std::size_t count = 0;
+  parts[count++] = {component_part<Asleep>(), work.asleep.data()};
+  parts[count++] = packed ? PartValue{component_part<SleepingStyle>(), work.style.data()}
+                          : PartValue{component_part<OwnStyle>(), work.own_style.data()};
+  for (const KeyPart& part : more)
+    if (count < parts.size()) parts[count++] = {part, nullptr};
+  world.remake_many(work.people, std::span(parts).first(count), owned, jobs);
 }
 
 void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
-                  std::span<const std::uint64_t> owned, WakingWork& work) {
+                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
-  auto& block = work.blocks->block;
-  while (!people.empty()) {
-    const auto some = people.first(std::min(people.size(), block.size() * lane_count));
-    people = people.subspan(some.size());
-    in_parallel(jobs, (some.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
+  WakingWork::Blocks& blocks = *work.blocks;
+  blocks.list_parts(more);
+  blocks.people.assign(people.begin(), people.end());
+  const auto table = [&](Entity person) { return world.locate(person)->table; };
+  std::ranges::stable_sort(blocks.people, {}, table);
+  for (std::span<const Entity> left = blocks.people; !left.empty();) {
+    std::size_t count = 1;
+    while (count < std::min(left.size(), WakingWork::Blocks::most * lane_count) && table(left[count]) == table(left[0]))
+      ++count;
+    const auto some = left.first(count);
+    left = left.subspan(count);
+    in_parallel(jobs, (count + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
+      const auto block = std::make_unique<WakingBlock>();
       for (std::size_t b = begin; b < end; ++b) {
         for (std::size_t l = 0; l < lane_count; ++l) {
           const std::size_t i = b * lane_count + l;
-          block[b].put(world, some[i < some.size() ? i : b * lane_count], time, l);
+          block->put(world, some[i < count ? i : b * lane_count], time, l);
         }
-        block[b].make(time.tick_s);
+        block->make(time.tick_s);
+        blocks.set(b, *block);
       }
     });
-    for (std::size_t i = 0; i < some.size(); ++i) {
-      const WokenRow row(block[i / lane_count], i % lane_count);
-      world.remake_from(some[i], row.parts(), owned);
-    }
+    world.remake_many(some, blocks.parts, owned, jobs);
   }
 }
 
@@ -323,30 +397,25 @@ Status read_asleep(const World& world, Entity person, const SleepTime& time, std
   return Status::missing;
 }
 
-bool must_wake_for(const World& world, Entity person, const SleepTime& time, const Gait<float>& gait) {
-  if (!is_asleep(world, person)) return false;
+bool is_busy(const World& world, Entity person, const SleepTime& time) {
   const auto since = unsettled_of(world, person);
-  if (is_unsettled(since, time) && since->until_tick != 0) return true;
-  const GaitStyle style = sleeper_style(world, person);
-  const Gait<float> before = sleeper_gait(world, person);
-  return std::memcmp(&style, &gait.style, sizeof(style)) != 0 || before.displacement != gait.displacement ||
-         gait.revision > 0xFFFFU;
+  return is_unsettled(since, time) && since->until_tick != 0;
 }
 
 void ask_sleeper(World& world, Entity person, const SleepTime& time, const Gait<float>& gait) {
-  Asleep<float> asleep = *world.get<Asleep>(person);
   const auto since = unsettled_of(world, person);
-  const Unsettled<float> begins = {asleep.walk, time.tick, 0};
-  if (!since) {
-    world.add(person, begins);
-  } else if (since->until_tick != 0) {
-    world.set(person, begins);  // steady again since
+  if (!since || since->until_tick != 0) {  // not yet asked for anything in this tick
+    const Unsettled<float> begins = {world.get<Asleep>(person)->walk, time.tick, 0};
+    since ? world.set(person, begins) : world.add(person, begins);
   }
-  asleep.walk.speed_m_s = gait.speed_m_s;
-  asleep.walk.step_length_m = gait.step_length_m;
-  asleep.walk.asked_heading_rad = gait.heading_rad;
-  asleep.walk.requests = gait.revision | gait.displacement << 16U;
-  world.set(person, asleep);
+  const auto place = world.find(person);
+  SteadyWalk<float> asked{};
+  asked.asked_heading_rad = gait.heading_rad;
+  asked.speed_m_s = gait.speed_m_s;
+  asked.step_length_m = gait.step_length_m;
+  asked.requests = gait.revision | gait.displacement << 16U;
+  constexpr std::size_t first = offsetof(SteadyWalk<float>, asked_heading_rad) / 4, words = sizeof(asked) / 4 - first;
+  place.table->write(place.row, place.table->column(type_id<Asleep<float>>()) + first, words, &asked.asked_heading_rad);
 }
 
 void end_unsettled(World& world, const SleepTime& time, std::vector<Entity>& work, std::vector<Entity>& restless) {

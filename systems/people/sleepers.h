@@ -37,10 +37,17 @@ struct Sleeper {
 };
 /// Of `people` those walkers who may fall asleep now: who walk steadily or stand, and are to go on so. Appended.
 void find_steady(const World& world, std::span<const Entity> people, const SleepTime& time, std::vector<Sleeper>& out);
-/// Their row keeps of the parts that `owned` names (ids, sorted) none but what sleepers have, and `more`; all others
-/// stay.
-void put_to_sleep(World& world, const Sleeper& sleeper, std::span<const PartValue> more,
-                  std::span<const std::uint64_t> owned);
+/// Memory that people fall asleep in, kept from one time to the next.
+struct FallingAsleep {
+  std::vector<Asleep<Lanes<float>>> asleep;
+  std::vector<SleepingStyle<Lanes<float>>> style;
+  std::vector<OwnStyle<Lanes<float>>> own_style;
+  std::vector<Entity> people;
+};
+/// Walkers of one table, whose styles are all on the grid or all not: their rows keep of the parts that `owned` names
+/// (ids, sorted) none but what sleepers have, and `more`; all others stay.
+void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const> sleepers,
+                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, FallingAsleep& work);
 
 /// Memory that waking works in, kept from one time to the next.
 struct WakingWork {
@@ -49,18 +56,20 @@ struct WakingWork {
   struct Blocks;
   std::unique_ptr<Blocks> blocks;
 };
-/// Sleepers become walkers where they are at that tick. Each is alive, asleep, and named once.
+/// Sleepers become walkers where they are at that tick, with `more` parts: of zeros, where they did not keep them. Each
+/// is alive, asleep, and named once.
 void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
-                  std::span<const std::uint64_t> owned, WakingWork& work);
+                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work);
 
 /// A part of a walker's row as it would be if nobody had slept: Gait, GaitState, StepPlan, BodySize, Physique, Pose,
 /// JointAngles, Feet or CentreOfMass, `row` being one of them. Status::missing where there is no such part or nobody
 /// is asleep.
 Status read_asleep(const World& world, Entity person, const SleepTime& time, std::uint64_t part, void* row);
 
-/// Whether a sleeper must wake to be asked for that: who is still about something else, or for another style.
-bool must_wake_for(const World& world, Entity person, const SleepTime& time, const Gait<float>& gait);
-/// Asks a sleeper who need not wake for it; times and places of the steps are worked out in the next tick.
+/// Whether a sleeper is still about what was asked last: then they must wake to be asked for more.
+bool is_busy(const World& world, Entity person, const SleepTime& time);
+/// Asks a sleeper who is not busy, in the style that there is; times and places of the steps are worked out in the next
+/// tick.
 void ask_sleeper(World& world, Entity person, const SleepTime& time, const Gait<float>& gait);
 /// After a tick: who is steady again has nothing but that on the row. Looks at a part of the sleepers each tick.
 /// Appends to `restless` who does not come to walk steadily: they are to be woken.

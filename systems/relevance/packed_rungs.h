@@ -18,6 +18,10 @@ inline bool positive(double value) {
 /// Instead of a rung: the caller chose, or Simulation refused; both are left alone.
 inline constexpr std::uint32_t forced_rung = 15, refused_rung = 14;
 
+/// The rung that a method is, or the one that it costs about as much as. What pulls and moves, but is not tuned, is no
+/// nearer to living tissue than static answers are.
+std::uint32_t rung_of(const MuscleMethod& method, bool living);
+
 inline std::uint32_t rung_at(const std::uint32_t* packed, std::uint32_t muscle) {
   return packed[muscle / 8] >> (4 * (muscle % 8)) & 15U;
 }

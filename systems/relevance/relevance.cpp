@@ -6,17 +6,22 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "components/sleep.h"
 #include "engine/rows.h"
 #include "systems/relevance/basis_orders.h"
 #include "systems/relevance/packed_rungs.h"
+#include "systems/relevance/sight.h"
 #include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
 
-constexpr float person_radius_m = 1, closest_m = 0.3F;
+constexpr float closest_m = 0.3F;
 constexpr float leave_m = 0.5F;  // how much farther out somebody seen must be to be seen no more
 constexpr float reference_height = static_cast<float>(reference_body_height_m);
+/// How much farther out than where they would wake people must be to fall asleep.
+constexpr float falls_asleep = 1.5F;
+
 struct Sight {
   View view;
   float tolerance_m;  // by distance; 0 without a camera
@@ -75,14 +80,15 @@ void Relevance::find_tables() {
     Table& table = world.tables()[tables_seen_];
     const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),
                      TableColumn<BodySize>(table), TableColumn<Gait>(table),  TableColumn<StepPlan>(table)};
+    if (find_part(table.key(), type_id<SleepsManaged>()) != nullptr) sleeping_tables_.push_back(&table);
     if (!at.needs || !at.tiers || !at.pose || !at.size) continue;
     tables_.emplace_back(&table, at);
   }
 }
 
 RelevanceState Relevance::state() const {
-  return {crowd_,     counting_, machine_, cost_ps_,   counted_ps_,
-          budget_ps_, factor_,   turn_,    last_tick_, orders_->ordered()};
+  return {crowd_, counting_,  machine_,           cost_ps_, counted_ps_, budget_ps_,       factor_,
+          turn_,  last_tick_, orders_->ordered(), eye_m_,   gaze_,       sleepers_looked_, all_sleepers_};
 }
 
 void Relevance::set_state(const RelevanceState& state) {
@@ -96,6 +102,10 @@ void Relevance::set_state(const RelevanceState& state) {
   turn_ = state.turn % options_.stagger;
   last_tick_ = state.last_tick;
   orders_->set_ordered(state.ordered);
+  eye_m_ = state.eye_m;
+  gaze_ = state.gaze;
+  sleepers_looked_ = state.sleepers_looked;
+  all_sleepers_ = state.all_sleepers;
 }
 
 RelevanceReport Relevance::update() {
@@ -104,6 +114,10 @@ RelevanceReport Relevance::update() {
   observe_machine();
   dearer_.clear();
   cheaper_.clear();
+  drowsy_.clear();
+  bare_.clear();
+  idle_.clear();
+  wake_sleepers(report);
   for (auto& [table, columns] : tables_) {
     for (std::size_t b = turn_; b < table->block_count(); b += options_.stagger) {
       report.evaluated += evaluate(*table, columns, b);
@@ -116,7 +130,10 @@ RelevanceReport Relevance::update() {
     counting_.clear();
     counted_ps_ = 0;
   }
+  begin_muscles(report);
+  end_muscles(report);
   carry_out(report);
+  put_to_sleep(report);
   report.factor = factor_;
   report.machine = machine_.pessimistic();
   report.predicted_s = 1e-12 * static_cast<double>(cost_ps_) * machine_.mean();
@@ -127,10 +144,14 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
   const auto& all_needs = at.needs.at(table, b);
   auto& all_tiers = at.tiers.at(table, b);
   const auto& pose = at.pose.at(table, b);
+  const auto* const kept = find_part(table.key(), type_id<LegMuscles>());
+  const auto* const choice =
+      kept == nullptr ? nullptr : static_cast<const LegMuscles*>(simulation_.world().resource(kept->value));
   const std::uint32_t live = table.live(b);
   for (std::uint32_t lane = 0; lane < live; ++lane) {
     const Needs<float> needs = row_of(all_needs, lane);
     Tiers<float> tiers = row_of(all_tiers, lane);
+    if (tiers.relative_size == 0) tiers = begin_tiers(choice);
     const float height = at.size.at(table, b).height_m[lane];
     float speed = INFINITY;
     if (at.gait && at.plan) {
@@ -148,6 +169,11 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
       const Sight of = sight(*scene_.camera, scene_.tolerance_px, pelvis, static_cast<View>(tiers.view));
       view = of.view;
       tiers.tolerance_m = of.tolerance_m;
+      if (scene_.asleep_beyond_m && view > View::near) {
+        view = View::near;  // soon, perhaps
+        if (at.plan && Gap(*scene_.camera)(pelvis) > falls_asleep * *scene_.asleep_beyond_m)
+          drowsy_.push_back(table.entities(b)[lane]);
+      }
     }
     if ((needs.own & own_look) != 0) view = needs.looked_at != 0 ? View::seen : View::near;
     if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
@@ -168,11 +194,18 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = tiers.relative_size / tiers.tolerance_m;  // errors as parts of the tolerance, over the table's
   const float limit = factor_ / size;
+  if ((tiers.effects & tier_bare) != 0) return decide_bare(human, tiers, wanted_muscles);
   const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
+  // Where nothing is seen of any of them, and nothing was forced, all go at once.
+  bool idle = scene_.asleep_beyond_m && tiers.muscles != 0;
+  const std::size_t dearer = dearer_.size(), cheaper = cheaper_.size();
   for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
     const std::uint32_t now = rung_at(tiers.rung, m);
-    if (now >= refused_rung) continue;
+    if (now >= refused_rung) {
+      idle = false;
+      continue;
+    }
     const bool points = bit_at(tiers.points, m);
     const RungCase as_is = rung_case(tiers, m, points);
     RungCase as_seen = as_is;
@@ -184,6 +217,7 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
       if (scene_.budget_s) counting_.add(ladder_, as_seen, size);
       goal = ladder_.from(now, as_seen, limit, over ? 1.0F : options_.slack);
     }
+    idle = idle && goal == 0;
     const bool shown = looked_at && goal != 0;
     set_rung(tiers.goal, m, goal);
     set_bit(tiers.goal_points, m, shown);
@@ -196,6 +230,10 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
         .push_back({ladder_.error_m(as_seen, worst) * size, human, static_cast<std::uint8_t>(m),
                     static_cast<std::uint8_t>(goal), shown, as_is.living, more});
   }
+  if (!idle) return;
+  dearer_.resize(dearer);
+  cheaper_.resize(cheaper);
+  idle_.push_back(human);
 }
 
 }  // namespace mobil

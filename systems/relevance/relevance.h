@@ -57,6 +57,11 @@ struct SceneNeeds {
   std::optional<float> tolerance_m{};
   std::optional<Viewpoint> camera{};
   float tolerance_px = 1;
+  /// Of a camera: managed people who would have to come nearer than this to be seen, m, walkers and camera together,
+  /// are awake; others sleep (Simulation::sleep). Who wakes so moves on unseen until they are seen. 2 and more; so far
+  /// that what a muscle's beginning excites has died away by then: a second's walk and a second of the camera's. Left
+  /// out: nobody is put to sleep.
+  std::optional<float> asleep_beyond_m{};
   bool looked_at = true;  // control points are placed; with a camera those seen are
   /// Processor time a tick for everybody's deformation, s. Where tolerances cost more, all are missed by one factor,
   /// the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the factor may be below 1: all of
@@ -78,6 +83,11 @@ struct RelevanceOptions {
   /// machine's factor), one method at least. Who misses most comes first, then who has the lower entity index.
   std::uint32_t switches = 256;
   double switching_s = 0.001;
+  /// People who wake in one update, and who fall asleep, at most; the nearest wake first.
+  std::uint32_t wakes = 3000, sleeps = 1000;
+  /// People who woke and get muscles in one update, at most, who misses most first; and who lose them again as nothing
+  /// of them is seen any more.
+  std::uint32_t begins = 100;
   /// Everybody is looked at every so many updates.
   std::uint32_t stagger = 4;
   /// What predicted errors are multiplied by, for what bodies and walks differ from those that were measured. Set by
@@ -106,10 +116,13 @@ struct RelevanceOptions {
 /// What an update did: people looked at; methods changed, and left for later; refusals.
 struct RelevanceReport {
   std::size_t evaluated = 0, switched = 0, waiting = 0, refused = 0;
-  float factor = 1;        // by which tolerances are missed under the budget; 1 without
-  double machine = 1;      // measured over predicted time, as planned by
-  double predicted_s = 0;  // a tick's deformation, as methods now are
-  std::string refusal{};   // the last that Simulation gave, in one line
+  // People who woke, fell asleep, got the muscles that they woke without, lost muscles that nothing is seen of.
+  std::size_t woken = 0, slept = 0, begun = 0, ended = 0;
+  std::size_t to_wake = 0, to_begin = 0;  // and who are to in the next updates
+  float factor = 1;                       // by which tolerances are missed under the budget; 1 without
+  double machine = 1;                     // measured over predicted time, as planned by
+  double predicted_s = 0;                 // a tick's deformation, as methods now are
+  std::string refusal{};                  // the last that Simulation gave, in one line
 };
 
 enum class Reason : std::uint8_t {
@@ -155,6 +168,9 @@ struct RelevanceState {
   float factor = 1;
   std::uint32_t turn = 0, last_tick = 0;
   OrderedBases ordered{};
+  Vec3<float> eye_m{}, gaze{};        // of the last update; a gaze of no length: there was no camera
+  std::uint32_t sleepers_looked = 0;  // up to which of the sleepers' blocks
+  bool all_sleepers = true;           // are looked at next
 };
 
 class BasisOrders;  // systems/relevance/basis_orders.h
@@ -185,6 +201,10 @@ class Relevance {
   /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles
   /// refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
+  /// The same of many walkers without muscles, who fall asleep at once: they get muscles, and are managed, from waking
+  /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
+  /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles; nothing has changed then.
+  Result<std::size_t> manage_asleep(std::span<const Entity> people);
   /// No more; muscles stay as they are. Errors: a stale handle, somebody who is not managed (Status::missing).
   Result<void> release(Entity human);
 
@@ -232,6 +252,14 @@ class Relevance {
   void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);
   void observe_machine();
   void plan_budget();
+  void wake_sleepers(RelevanceReport& report);
+  void look_at_sleepers();
+  Tiers<float> begin_tiers(const LegMuscles* choice) const;
+  void decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);
+  void begin_muscles(RelevanceReport& report);
+  void end_muscles(RelevanceReport& report);
+  Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points);
+  void put_to_sleep(RelevanceReport& report);
   void carry_out(RelevanceReport& report);
   void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
   bool change(const Switch& one, RelevanceReport& report);
@@ -253,6 +281,26 @@ class Relevance {
   std::size_t tables_seen_ = 0;
   std::vector<std::pair<Table*, Columns>> tables_;
   std::vector<Switch> dearer_, cheaper_;
+  // Sleep: what the last update saw, where looking at sleepers stopped; memory to work in.
+  struct Waking {
+    float order;
+    Entity human;
+  };
+  Vec3<float> eye_m_{}, gaze_{};
+  std::uint32_t sleepers_looked_ = 0;
+  bool all_sleepers_ = true;
+  std::vector<Table*> sleeping_tables_;
+  std::vector<std::size_t> sleeping_blocks_;  // up to and with a table
+  std::vector<std::uint16_t> near_lanes_;
+  std::vector<Waking> waking_;
+  struct Bare {
+    float excess;
+    Entity human;
+    std::uint32_t rung;
+    bool points;
+  };
+  std::vector<Bare> bare_;
+  std::vector<Entity> drowsy_, people_, idle_;
 };
 
 }  // namespace mobil

@@ -18,24 +18,6 @@
 namespace mobil {
 namespace {
 
-/// The rung that a method is, or the one that it costs about as much as. What pulls and moves, but is not tuned, is no
-/// nearer to living tissue than static answers are.
-std::uint32_t rung_of(const MuscleMethod& method, bool living) {
-  if (method.method == Method::none) return 0;
-  const Ladder& ladder = rungs_of(living);
-  const ReducedChoice& reduced = method.reduced;
-  const bool moving = reduced.moving && (reduced.tuned || !living);
-  std::uint32_t nearest = rung_count - (living || method.method != Method::reduced ? 1 : 2);
-  for (std::uint32_t r = rung_count - 1; r > 0; --r) {
-    const Rung& rung = ladder[r];
-    if (rung.method != method.method) continue;
-    if (rung.method != Method::reduced) return r;
-    if (moving != rung.moving || (living && rung.finite_shape == reduced.linear_shape)) continue;
-    if (!moving || (reduced.cells == rung.cells && reduced.vectors <= rung.vectors)) nearest = r;
-  }
-  return nearest;
-}
-
 /// Whether muscles of a choice have the ladder of those that pull.
 bool pulls_alive(const LegMuscles& choice) {
   return has_activation(choice) && choice.finite_shape.value_or(true);
@@ -73,6 +55,22 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
 
 }  // namespace
 
+std::uint32_t rung_of(const MuscleMethod& method, bool living) {
+  if (method.method == Method::none) return 0;
+  const Ladder& ladder = rungs_of(living);
+  const ReducedChoice& reduced = method.reduced;
+  const bool moving = reduced.moving && (reduced.tuned || !living);
+  std::uint32_t nearest = rung_count - (living || method.method != Method::reduced ? 1 : 2);
+  for (std::uint32_t r = rung_count - 1; r > 0; --r) {
+    const Rung& rung = ladder[r];
+    if (rung.method != method.method) continue;
+    if (rung.method != Method::reduced) return r;
+    if (moving != rung.moving || (living && rung.finite_shape == reduced.linear_shape)) continue;
+    if (!moving || (reduced.cells == rung.cells && reduced.vectors <= rung.vectors)) nearest = r;
+  }
+  return nearest;
+}
+
 MuscleMethod rung_method(std::size_t rung, bool control_points, bool living) {
   const Rung& of = rungs_of(living)[rung];
   MuscleMethod method{of.method, {}};
@@ -90,6 +88,8 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
     return fail(fmt::format("set_scene: a tolerance of {} pixels is not finite and positive", needs.tolerance_px));
   if (needs.budget_s && !positive(*needs.budget_s))
     return fail(fmt::format("set_scene: a budget of {} s a tick is not finite and positive", *needs.budget_s));
+  if (needs.asleep_beyond_m && !(needs.camera && *needs.asleep_beyond_m >= 2 && *needs.asleep_beyond_m < 1e6F))
+    return fail(fmt::format("set_scene: asleep beyond {} m; give 2 m or more, and a camera", *needs.asleep_beyond_m));
   if (needs.camera) {
     const Viewpoint& c = *needs.camera;
     const Vec3<float>&f = c.forward, &p = c.position_m;
@@ -210,6 +210,10 @@ Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& m
   if (!tiers || m >= most_muscles || !bit_at(tiers->muscles, m))
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
                 tiers ? Status::missing : tiers.error());
+  if ((tiers->effects & tier_bare) != 0) {
+    if (auto done = begin_muscles(std::span(&human, 1), 0, false); !done) return done;
+    tiers = simulation_.world().get<Tiers>(human);
+  }
   if (auto done = simulation_.set_method(human, muscle, method); !done) return done;
   set_rung(tiers->rung, m, forced_rung);
   world_of(simulation_).set(human, *tiers);

@@ -1,0 +1,202 @@
+#include "demo/crowd/alive_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "assets/files/output_file.h"
+#include "components/relevance.h"
+#include "demo/crowd/alive_scene.h"
+#include "demo/crowd/crowd_picture.h"
+#include "demo/crowd/crowd_report.h"
+#include "demo/crowd/crowd_run.h"
+#include "demo/measure/machine.h"
+#include "demo/measure/measure.h"
+#include "demo/program/commands.h"
+#include "demo/program/json.h"
+#include "demo/program/progress.h"
+#include "engine/schedule.h"
+#include "systems/capture/png.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t places = 3, count_every = 30, hash_each = 60;  // ticks
+
+/// All that was measured, sums over all ticks.
+struct AliveRun {
+  std::vector<CrowdTick> ticks;
+  std::vector<std::size_t> cut_ticks;  // from a cut until nobody is left to wake
+  std::size_t missed = 0, asked = 0, woken = 0, slept = 0, begun = 0, most_woken = 0;
+  double awake = 0, seen = 0, counted = 0;
+  std::vector<CrowdSystem> systems;
+  std::vector<std::uint64_t> hashes;
+};
+
+Result<void> take_picture(const CrowdOptions& options, AliveScene& scene, CrowdCamera& camera, std::size_t number) {
+  const Viewpoint& from = scene.camera();
+  const Vec3<float>&at = from.position_m, &f = from.forward;
+  const Camera view{.eye = at, .target = {at.x + 10 * f.x, at.y - 2.2F, at.z + 10 * f.z}, .vertical_fov_deg = 33};
+  std::vector<CrowdCamera::Drawn> people;
+  scene.simulation().each([&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
+    for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
+      if (tiers.view[lane] != static_cast<std::uint32_t>(View::seen)) continue;
+      const Entity who = rows.entity[lane];
+      people.push_back({who, scene.number_of(who), (tiers.effects[lane] & tier_bare) == 0});
+    }
+  });
+  Image image;
+  if (auto done = camera.take(scene.simulation(), view, people, image); !done) return done;
+  const auto file = options.capture.parent_path() / fmt::format("{}_{}{}", options.capture.stem().string(), number,
+                                                                options.capture.extension().string());
+  if (auto done = write_png(file.string(), image, PngEffort::small); !done)
+    return fail("--capture " + done.error().message);
+  fmt::print("written {}\n", file.string());
+  return {};
+}
+
+Result<AliveRun> measure(const CrowdOptions& options, AliveScene& scene) {
+  AliveRun run;
+  const double tick_s = scene.simulation().tick_s();
+  const auto ticks = static_cast<std::size_t>(std::max(1L, std::lround(options.seconds / tick_s)));
+  std::optional<CrowdCamera> camera;
+  if (!options.capture.empty()) {
+    auto made = CrowdCamera::create();
+    if (!made) return tl::unexpected(made.error());
+    camera = std::move(*made);
+  }
+  run.ticks.reserve(ticks);
+  scene.simulation().schedule().reset_timings();
+  std::size_t since_cut = 0, taken = 0;
+  for (std::size_t i = 0; i < ticks; ++i) {
+    CrowdTick tick;
+    const double cpu_start = process_cpu_now_s(), start = wall_now_s();
+    const auto asked = scene.decide();
+    const double decided = wall_now_s();
+    if (!asked) return tl::unexpected(asked.error());
+    const RelevanceReport report = scene.choose();
+    const double ready = wall_now_s();
+    scene.tick();
+    const double end = wall_now_s();
+    if (report.refused > 0) return fail(report.refusal);
+    tick.cpu_ms = 1e3 * (process_cpu_now_s() - cpu_start);
+    tick.wall_ms = 1e3 * (end - start);
+    tick.host_ms = 1e3 * (decided - start);
+    tick.relevance_ms = 1e3 * (ready - decided);
+    run.ticks.push_back(tick);
+    run.missed += tick.wall_ms > 1e3 * tick_s ? 1 : 0;
+    run.asked += *asked;
+    run.woken += report.woken;
+    run.slept += report.slept;
+    run.begun += report.begun;
+    run.most_woken = std::max(run.most_woken, report.woken);
+    if (scene.cut()) since_cut = 1;
+    if (since_cut > 0 && report.to_wake == 0) {
+      run.cut_ticks.push_back(since_cut);
+      since_cut = 0;
+    }
+    since_cut += since_cut > 0 ? 1 : 0;
+    if (i % count_every == count_every - 1) {
+      const AliveScene::Count count = scene.count();
+      run.awake += static_cast<double>(count.awake);
+      run.seen += static_cast<double>(count.seen);
+      ++run.counted;
+      show(fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms  missed {}  awake {}  seen {}", i + 1, ticks,
+                       percentile_ms(run.ticks, 0.5), percentile_ms(run.ticks, 0.99), run.missed, count.awake,
+                       count.seen));
+    }
+    if ((i + 1) % hash_each == 0 && options.seconds <= 10) run.hashes.push_back(scene.simulation().state_hash());
+    if (camera && taken < places && i + 1 == (2 * taken + 1) * ticks / (2 * places)) {
+      show("");
+      if (auto done = take_picture(options, scene, *camera, ++taken); !done) return tl::unexpected(done.error());
+    }
+  }
+  show("");
+  const auto systems = scene.simulation().schedule().systems();
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const double seconds = scene.simulation().schedule().timings()[s].seconds;
+    run.systems.push_back({systems[s].name, 1e3 * seconds / static_cast<double>(ticks)});
+  }
+  return run;
+}
+
+std::string text_of(const AliveRun& run, const AliveScene& scene, int threads) {
+  const auto a_tick = [&](std::size_t sum) { return static_cast<double>(sum) / static_cast<double>(run.ticks.size()); };
+  std::string text = fmt::format(
+      "{} people alive on {:.0f} m x {:.0f} m, {} thread{}, seed {}; who is within {:.0f} m in a cone of 60 degrees is "
+      "seen\n",
+      scene.request().alive, scene.side_m(), scene.side_m(), threads, threads == 1 ? "" : "s", scene.request().seed,
+      scene.camera().reach_m);
+  text += fmt::format("{:.0f} awake, {:.0f} of them seen (mean); asleep {:.1f} bytes each, and {} of the host's\n",
+                      run.awake / std::max(run.counted, 1.0), run.seen / std::max(run.counted, 1.0),
+                      scene.bytes_asleep(), scene.host_bytes());
+  text += fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms\n",
+                      run.ticks.size(), 1e3 * scene.simulation().tick_s(), run.missed, percentile_ms(run.ticks, 0.5),
+                      percentile_ms(run.ticks, 0.99), percentile_ms(run.ticks, 1));
+  text += fmt::format(
+      "a tick, mean: {:.0f} people asked for something, {:.1f} woke ({} at most), {:.1f} fell asleep, {:.1f} got "
+      "muscles\n",
+      a_tick(run.asked), a_tick(run.woken), run.most_woken, a_tick(run.slept), a_tick(run.begun));
+  if (!run.cut_ticks.empty())
+    text += fmt::format("{} cuts: everybody to be seen awake within {} ticks\n", run.cut_ticks.size(),
+                        *std::ranges::max_element(run.cut_ticks));
+  text += fmt::format("a tick, mean: host's decisions {:.3f} ms, waking and choosing {:.3f} ms",
+                      mean_ms(run.ticks, &CrowdTick::host_ms), mean_ms(run.ticks, &CrowdTick::relevance_ms));
+  for (const CrowdSystem& system : run.systems)
+    if (system.mean_ms >= 5e-3) text += fmt::format(", {} {:.3f} ms", system.name, system.mean_ms);
+  return text + "\n";
+}
+
+std::string json_of(const AliveRun& run, const AliveScene& scene, const CrowdOptions& options, int threads) {
+  Json json;
+  json["alive"] = scene.request().alive;
+  json["in_view"] = scene.request().in_view;
+  json["side_m"] = scene.side_m();
+  json["reach_m"] = scene.camera().reach_m;
+  json["seconds"] = options.seconds;
+  json["seed"] = scene.request().seed;
+  json["threads"] = threads;
+  json["awake_mean"] = run.awake / std::max(run.counted, 1.0);
+  json["seen_mean"] = run.seen / std::max(run.counted, 1.0);
+  json["bytes_asleep"] = scene.bytes_asleep();
+  json["host_bytes"] = scene.host_bytes();
+  json["ticks"] = run.ticks.size();
+  json["missed_ticks"] = run.missed;
+  json["tick_ms_p50"] = percentile_ms(run.ticks, 0.5);
+  json["tick_ms_p99"] = percentile_ms(run.ticks, 0.99);
+  json["tick_ms_max"] = percentile_ms(run.ticks, 1);
+  json["tick_cpu_ms_p50"] = percentile_ms(run.ticks, 0.5, &CrowdTick::cpu_ms);
+  json["host_ms"] = mean_ms(run.ticks, &CrowdTick::host_ms);
+  json["relevance_ms"] = mean_ms(run.ticks, &CrowdTick::relevance_ms);
+  json["asked"] = run.asked;
+  json["woken"] = run.woken;
+  json["most_woken"] = run.most_woken;
+  json["slept"] = run.slept;
+  json["got_muscles"] = run.begun;
+  json["cut_ticks"] = run.cut_ticks;
+  json["system_ms"] = Json::object();
+  for (const CrowdSystem& system : run.systems) json["system_ms"][system.name] = system.mean_ms;
+  json["state_hash"] = Json::array();
+  for (const std::uint64_t hash : run.hashes) json["state_hash"].push_back(fmt::format("{:016x}", hash));
+  json["machine"] = machine_json(describe_machine());
+  return json.dump(2) + "\n";
+}
+
+}  // namespace
+
+Result<void> run_alive(const CrowdOptions& options) {
+  auto made = AliveScene::make(*options.alive, show_progress);
+  if (!made) return tl::unexpected(made.error());
+  AliveScene& scene = **made;
+  const auto run = measure(options, scene);
+  if (!run) return tl::unexpected(run.error());
+  const int threads = Threads(options.alive->threads).count();
+  fmt::print("{}", text_of(*run, scene, threads));
+  if (options.report.empty()) return {};
+  return write_result("--report", options.report, json_of(*run, scene, options, threads));
+}
+
+}  // namespace mobil

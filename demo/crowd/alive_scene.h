@@ -1,0 +1,94 @@
+#pragma once
+// Very many people who are alive, of whom a camera sees some: who is too far away to be seen soon sleeps. The camera
+// flies, turns, and cuts to another place; people turn, stop and go on, asleep or awake.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "demo/crowd/crowd_scene.h"
+#include "engine/error.h"
+#include "systems/relevance/relevance.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+struct AliveRequest {
+  std::size_t alive = 1'000'000, in_view = 10'000;
+  int threads = 0;
+  std::uint64_t seed = 1;
+  double cut_every_s = 10;
+  std::filesystem::path baked{};  // of `mobil bake`; empty: made here
+};
+
+class AliveScene {
+ public:
+  /// Spawns everybody asleep. Errors: what the simulation refuses.
+  static Result<std::unique_ptr<AliveScene>> make(const AliveRequest& request,
+                                                  const CrowdScene::Progress& progress = {});
+  AliveScene(const AliveScene&) = delete;
+  AliveScene& operator=(const AliveScene&) = delete;
+
+  /// The parts of a tick: what people do next and where the camera is; who wakes, who falls asleep, which methods; the
+  /// simulation. Returns how many were asked for something.
+  Result<std::size_t> decide();
+  RelevanceReport choose();
+  void tick() { simulation_->tick(); }
+
+  const AliveRequest& request() const { return request_; }
+  const Simulation& simulation() const { return *simulation_; }
+  Simulation& simulation() { return *simulation_; }
+  const Viewpoint& camera() const { return camera_; }
+  double side_m() const { return side_m_; }
+  /// Whether the camera cut to another place in the last `decide`.
+  bool cut() const { return cut_; }
+
+  /// Who is awake, and of them who is seen.
+  struct Count {
+    std::size_t awake = 0, seen = 0;
+  };
+  Count count() const;
+  /// Person number of an entity.
+  std::uint64_t number_of(Entity entity) const { return number_of_[entity.index]; }
+  /// Of a sleeper, in the simulation, as it was before anybody was awake; of a person, in the host's records; bytes.
+  double bytes_asleep() const { return bytes_asleep_; }
+  std::size_t host_bytes() const { return sizeof(Walker) + sizeof(std::uint32_t); }
+
+ private:
+  /// One who lives; all else is drawn from the number, which is the place in the list.
+  struct Walker {
+    Entity entity;
+    float heading_rad = 0;  // asked for
+    std::uint32_t next = 0;
+    std::uint16_t changes = 0;
+    std::uint8_t draw = 0;
+    bool stopped = false;
+  };
+  static constexpr std::size_t ring = 2048;  // ticks ahead that a change may lie
+  static constexpr std::uint32_t nobody = 0xFFFFFFFF;
+
+  explicit AliveScene(const AliveRequest& request);
+  Result<void> come(std::size_t first, std::size_t count);
+  void plan(std::uint32_t number);
+  WalkChange next_change(std::uint32_t number);
+  void fly();
+
+  AliveRequest request_;
+  double side_m_ = 0, bytes_asleep_ = 0;
+  MeteredMemory memory_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Relevance> relevance_;
+  Viewpoint camera_;
+  bool cut_ = false;
+  std::vector<Walker> walkers_;
+  std::vector<std::uint32_t> number_of_;
+  std::array<std::uint32_t, ring> due_{};
+  std::vector<SpawnRequest> requests_;
+  std::vector<Entity> entities_;
+  std::vector<WalkChange> changes_;
+};
+
+}  // namespace mobil

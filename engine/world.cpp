@@ -178,10 +178,16 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   }
   const std::uint32_t first = add_rows(to, all, static_cast<std::uint32_t>(entities.size()), jobs);
   tables_[to].append(entities);
-  for (std::uint32_t i = 0; i < entities.size(); ++i) {
-    if (keeps) tables_[to].copy_from(first + i, tables_[from], left[i].row);
-    *entities_.find(entities[i]) = {to, first + i};
+  if (keeps) {
+    // Lines of memory are those of a block: no two threads write one.
+    const std::size_t before = first % lane_count, blocks = (before + entities.size() + lane_count - 1) / lane_count;
+    in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
+      const std::size_t last = std::min(end * lane_count - before, entities.size());
+      for (std::size_t i = begin == 0 ? 0 : begin * lane_count - before; i < last; ++i)
+        tables_[to].copy_from(first + static_cast<std::uint32_t>(i), tables_[from], left[i].row);
+    });
   }
+  for (std::uint32_t i = 0; i < entities.size(); ++i) *entities_.find(entities[i]) = {to, first + i};
   std::sort(left.begin(), left.end());
   remove_rows(left, jobs);
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -17,6 +18,7 @@
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
+#include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 #include "systems/relevance/relevance_module.h"
@@ -54,7 +56,8 @@ AskedWalk asked_walk(const World& world, Entity person, const WalkChange& change
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options, Clock clock)
-    : world_(std::make_unique<World>(options.memory)),
+    : memory_(options.memory),
+      world_(std::make_unique<World>(options.memory)),
       clock_(clock),
       modules_(standard_modules()),
       library_(std::make_unique<BellyLibrary>()),
@@ -173,7 +176,7 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
   if (is_asleep(human)) {
     const bool same_style = std::memcmp(&gait_of(*world_, human)->style, &gait->style, sizeof(GaitStyle)) == 0;
     if (same_style && !is_busy(*world_, human, now)) {
-      ask_sleeper(*world_, human, now, *gait);
+      ask_sleepers(*world_, jobs_, std::array{AskedSleeper{human, *gait}}, now);
       return {};
     }
     if (auto done = wake_for(human); !done) return done;
@@ -215,15 +218,18 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
     if (auto done = wake(std::vector(people)); !done) return tl::unexpected(done.error());
   }
   std::size_t refused = 0;
+  std::vector<AskedSleeper>& sleepers = sleep_work_->asked_sleepers;
+  sleepers.clear();
   for (std::size_t i = 0; i < changes.size(); ++i) {
     if (!asked[i].gait) {
       ++refused;
     } else if (asked[i].asleep && !asked[i].must_wake) {
-      ask_sleeper(*world_, changes[i].human, now, *asked[i].gait);
+      sleepers.push_back({changes[i].human, *asked[i].gait});
     } else {
       world_->set(changes[i].human, *asked[i].gait);
     }
   }
+  ask_sleepers(*world_, jobs_, sleepers, now);
   return refused;
 }
 
@@ -237,7 +243,7 @@ Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
   return sleep_people(muscle_scene(), people, false, {}, our_parts_, *sleep_work_);
 }
 
-Result<void> Simulation::wake(std::span<const Entity> people) {
+Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
   std::vector<Entity> asleep, managed;
   for (const Entity one : people)
@@ -245,12 +251,24 @@ Result<void> Simulation::wake(std::span<const Entity> people) {
   if (!managed.empty()) {
     if (auto done = SimulationWorld::wake(*this, managed); !done) return named("wake", std::move(done));
   }
-  return named("wake", wake_people(muscle_scene(), asleep, WakingMuscles::now, {}, our_parts_, *sleep_work_));
+  return named("wake", wake_people(muscle_scene(), asleep, WakingMuscles::now, {}, our_parts_, *sleep_work_).map([&] {
+    each_choice(*world_, asleep, [&](std::span<const Entity> some, const LegMuscles& choice) {
+      warming_room().warm(muscle_scene(), some, choice, warm_ticks(within_m, tick_s()));
+    });
+  }));
 }
 
 /// Whoever is asked for what no sleeper can.
 Result<void> Simulation::wake_for(Entity human) {
   return is_asleep(human) ? wake({&human, 1}) : Result<void>{};
+}
+
+WarmingRoom& Simulation::warming_room() {
+  if (sleep_work_->warming == nullptr) {
+    const std::vector<Module> modules = standard_modules();
+    sleep_work_->warming = std::make_unique<WarmingRoom>(modules, memory_);
+  }
+  return *sleep_work_->warming;
 }
 
 bool Simulation::is_asleep(Entity human) const {
@@ -333,7 +351,7 @@ void Simulation::tick() {
   ++tick_;
   end_fades(*world_, dt_s, *work_);
   sleep_work_->restless.clear();
-  end_unsettled(*world_, {tick_, dt_s}, sleep_work_->rows, sleep_work_->restless);
+  end_unsettled(*world_, jobs_, {tick_, dt_s}, sleep_work_->rows, sleep_work_->restless);
   if (!sleep_work_->restless.empty()) wake(std::vector(sleep_work_->restless));
 }
 
@@ -392,8 +410,11 @@ Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entit
 }
 
 Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<const Entity> people,
-                                            const LegMuscles& choice) {
-  return begin_leg_muscles(simulation.muscle_scene(), people, choice);
+                                            const LegMuscles& choice, float within_m) {
+  return begin_leg_muscles(simulation.muscle_scene(), people, choice).map([&] {
+    const std::uint32_t ticks = warm_ticks(within_m, simulation.tick_s());
+    if (ticks > 0) simulation.warming_room().warm(simulation.muscle_scene(), people, choice, ticks);
+  });
 }
 
 bool Simulation::is_person(Entity entity) const {

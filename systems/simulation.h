@@ -109,6 +109,7 @@ struct SleepWork;     // systems/muscles/sleep.h
 struct SnapshotWork;  // systems/snapshot/snapshot.h
 
 class BellyLibrary;  // systems/muscles/belly_library.h
+class WarmingRoom;   // systems/muscles/warm_muscles.h
 
 class Simulation {
  public:
@@ -176,17 +177,20 @@ class Simulation {
   Result<void> step_aside(Entity human, float left_m, float ahead_m);
 
   /// Walkers whom nobody sees fall asleep: their rows go, and a hundred bytes are left from which they come back where
-  /// they would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking, at rest
-  /// where the person then stands in the stride. A host's own parts stay. `get` answers of a sleeper's body, walk and
-  /// pose as of anybody (a pose takes some microseconds); change_gait, set_gait, turn_to and despawn work on sleepers,
-  /// at the price of the strikes that follow; all other calls wake them, and so does what a sleeper cannot follow:
-  /// another style, or a second request while the first is being carried out. Systems do not see them, nor does `each`.
-  /// Who turns, changes speed or walks unevenly does not fall asleep, nor posed people, nor people whose muscles have
-  /// several methods. Returns how many of these sleep now. Errors: a stale handle, somebody named twice; nothing has
-  /// changed.
+  /// they would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A
+  /// host's own parts stay. `get` answers of a sleeper's body, walk and pose as of anybody (a pose takes some
+  /// microseconds); change_gait, set_gait, turn_to and despawn work on sleepers, at the price of the strikes that
+  /// follow; all other calls wake them, and so does what a sleeper cannot follow: another style, or a second request
+  /// while the first is being carried out. Systems do not see them, nor does `each`. Who turns, changes speed or walks
+  /// unevenly does not fall asleep, nor posed people, nor people whose muscles have several methods. Returns how many
+  /// of these sleep now. Errors: a stale handle, somebody named twice; nothing has changed.
   Result<std::size_t> sleep(std::span<const Entity> people);
-  /// Sleepers wake; who is awake is left alone. Errors: a stale handle, somebody named twice; nothing has changed.
-  Result<void> wake(std::span<const Entity> people);
+  /// Sleepers wake; who is awake is left alone. Control points of their muscles are within `within_m` of where they
+  /// would be, by running through the last half a second (5 mm), one (1 mm) or two (4 µm) of a person's walk as it now
+  /// is: 0.6 µs a tick and person. From 15 mm on they begin at rest where the person stands in the stride; so do those
+  /// who are turning or changing speed, and muscles that follow moments. Errors: a stale handle, somebody named twice;
+  /// nothing has changed.
+  Result<void> wake(std::span<const Entity> people, float within_m = 0.005F);
   /// False for a stale handle.
   bool is_asleep(Entity human) const;
   /// Room for so many people more, beside what they themselves take.
@@ -369,8 +373,10 @@ class Simulation {
   SnapshotWork& snapshot_work() const;
   Status read_sleeper(Entity entity, std::uint64_t part, void* row) const;
   Result<void> wake_for(Entity human);
+  WarmingRoom& warming_room();
   Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 
+  std::pmr::memory_resource* memory_;
   std::unique_ptr<World> world_;
   Clock clock_;
   std::optional<Threads> threads_;

@@ -13,8 +13,9 @@ struct SimulationWorld {
   static std::size_t sleep(Simulation& simulation, std::span<const Entity> people, std::span<const KeyPart> keeps);
   /// People who sleep managed wake, named once each, without muscles; what Relevance decides of them begins anew.
   static Result<void> wake(Simulation& simulation, std::span<const Entity> people);
-  /// Muscles of those who woke so begin.
-  static Result<void> begin_muscles(Simulation& simulation, std::span<const Entity> people, const LegMuscles& choice);
+  /// Muscles of those who woke so begin, within that of where they would be (Simulation::wake).
+  static Result<void> begin_muscles(Simulation& simulation, std::span<const Entity> people, const LegMuscles& choice,
+                                    float within_m);
 };
 
 /// Whoever changes rows through it keeps people, their muscles and what choosing remembers in step.

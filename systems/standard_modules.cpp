@@ -5,7 +5,7 @@
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/people_modules.h"
-#include "systems/people/sleepers.h"
+#include "systems/people/sleep_module.h"
 #include "systems/relevance/relevance_module.h"
 
 namespace mobil {

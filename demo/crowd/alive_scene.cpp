@@ -19,9 +19,8 @@ constexpr std::uint32_t most_draws_alive = 20;
 constexpr std::uint64_t camera_stream = 0x50000, inward_stream = 0x40000;
 constexpr float eye_height_m = 5, flies_m_s = 8, turns_rad_s = 0.35F, half_angle_rad = std::numbers::pi_v<float> / 6;
 constexpr float pixel_rad = 2 * half_angle_rad / 1920;
-/// Half a second of flying: muscles that begin then are within some millimetres when they are seen, at the least from
-/// so far away.
-constexpr float asleep_beyond_m = 4;
+/// Some half a second of flying: muscles that begin then are within some millimetres when they are seen.
+constexpr float asleep_beyond_m = 6;
 /// Muscles that show up in a picture of so many pixels.
 constexpr float tolerance_px = 2;
 
@@ -33,6 +32,7 @@ AliveScene::AliveScene(const AliveRequest& request) : request_(request) {
   simulation_ = std::make_unique<Simulation>(SimulationOptions{.threads = request.threads, .memory = &memory_});
   RelevanceOptions options;
   options.machine_factor = 1;
+  options.switching_s = 0.0005;
   relevance_ = std::make_unique<Relevance>(*simulation_, options);
   camera_.half_angle_rad = half_angle_rad;
   camera_.radians_per_pixel = pixel_rad;

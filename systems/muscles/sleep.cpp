@@ -9,6 +9,7 @@
 #include "engine/row_hash.h"
 #include "systems/muscles/choice_words.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
 
 namespace mobil {
@@ -32,6 +33,9 @@ bool have_one_method(const World& world, Entity person) {
 }
 
 }  // namespace
+
+SleepWork::SleepWork() = default;
+SleepWork::~SleepWork() = default;
 
 std::optional<LegMuscles> kept_choice(const World& world, Entity person) {
   const auto* const choice = world.has<MuscleOwner>(person) ? nullptr : world.shared<LegMuscles>(person);

@@ -1,6 +1,7 @@
 #pragma once
 // People fall asleep and wake with all that belongs to them: their muscles go, and begin again on waking.
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,8 +11,11 @@
 #include "engine/world.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/sleepers.h"
+#include "systems/people/waking.h"
 
 namespace mobil {
+
+class WarmingRoom;  // systems/muscles/warm_muscles.h
 
 /// What one of many is asked, nothing where that is refused; whether they sleep, and must wake for it.
 struct AskedWalk {
@@ -21,6 +25,9 @@ struct AskedWalk {
 
 /// Memory that falling asleep and waking work in, kept from one time to the next, and nothing of it state.
 struct SleepWork {
+  SleepWork();
+  ~SleepWork();
+
   struct Group {
     const Sleeper* sleeper;
     std::uint32_t table;
@@ -35,7 +42,9 @@ struct SleepWork {
   std::vector<Sleeper> sleepers;
   std::vector<Entity> rows, restless;
   std::vector<std::uint64_t> all_but_choice;  // parts
+  std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
+  std::vector<AskedSleeper> asked_sleepers;
 };
 
 /// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may
@@ -51,6 +60,21 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
                          std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work);
 /// The muscles of a choice begin on people who are awake and have none. Errors: as above; none has any then.
 Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice);
+/// Calls `f(some, choice)` for people with muscles, those of one choice and method together.
+template <class F>
+void each_choice(const World& world, std::span<const Entity> people, const F& f) {
+  std::vector<Entity> left(people.begin(), people.end()), some;
+  while (!left.empty()) {
+    const auto choice = choice_of(world, left.front());
+    some.clear();
+    std::erase_if(left, [&](Entity person) {
+      if (choice_of(world, person) != choice) return false;
+      some.push_back(person);
+      return true;
+    });
+    if (choice) f(std::span<const Entity>(some), *choice);
+  }
+}
 /// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
 /// come.
 std::optional<LegMuscles> kept_choice(const World& world, Entity person);

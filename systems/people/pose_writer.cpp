@@ -17,6 +17,7 @@
 #include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/pose_axes.h"
+#include "systems/people/sleepers.h"
 
 namespace mobil {
 namespace {
@@ -232,6 +233,8 @@ Result<void> PoseWriter::write(const World& world, std::span<const Entity> peopl
   places_.reserve(people.size());
   for (std::size_t i = 0; i < people.size(); ++i) {
     const auto place = world.find(people[i]);
+    if (is_asleep(world, people[i]))
+      return fail(fmt::format("poses: person {} of the list sleeps; wake them or leave them out", i), Status::missing);
     if (!place || !TableColumn<Pose>(*place.table))
       return fail(fmt::format("poses: person {} of the list is not there (a stale handle)", i), Status::stale_entity);
     places_.push_back({place.table, place.row, static_cast<std::uint32_t>(i)});

@@ -56,8 +56,8 @@ class PoseWriter {
   /// Writes the poses of `people`, in their order, `ahead_s` after the last tick (0 to 0.2 s; a frame's alpha times the
   /// tick), with `jobs`; the same bytes for any number of threads. People whose host animates them are where it put
   /// them. Takes memory only where there are more people than ever before. Errors, in one line, before anything is
-  /// written: a stale handle, which is named by its number; a time, a scale or a segment out of range; a stride that is
-  /// too small, or a buffer.
+  /// written: a stale handle or somebody asleep, who is named by number; a time, a scale or a segment out of range; a
+  /// stride that is too small, or a buffer.
   Result<void> write(const World& world, std::span<const Entity> people, double ahead_s, const PoseLayout& layout,
                      const PoseTarget& target, const Jobs& jobs = {});
 

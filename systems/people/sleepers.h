@@ -24,7 +24,16 @@ struct SleepTime {
 };
 
 bool is_asleep(const World& world, Entity person);
-/// What was asked of a sleeper's body, and what is to be walked.
+/// What was asked of a sleeper's body, and its sizes.
+BodyRequest body_of(const Asleep<float>& asleep);
+BodySize<float> size_of(const Asleep<float>& asleep);
+/// What is asked of who walks so.
+Gait<float> gait_of(float height_m, const SteadyWalk<float>& walk, const GaitStyle& style);
+GaitStyle sleeper_style(const World& world, Entity person);
+/// What a sleeper is still about, or was: nothing where that has been taken off the row; whether it goes on.
+std::optional<Unsettled<float>> unsettled_of(const World& world, Entity person);
+bool is_unsettled(const std::optional<Unsettled<float>>& since, const SleepTime& time);
+/// The same of somebody by handle, and what is to be walked.
 BodyRequest sleeper_body(const World& world, Entity person);
 Gait<float> sleeper_gait(const World& world, Entity person);
 
@@ -49,34 +58,20 @@ struct FallingAsleep {
 void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const> sleepers,
                   std::span<const KeyPart> more, std::span<const std::uint64_t> owned, FallingAsleep& work);
 
-/// Memory that waking works in, kept from one time to the next.
-struct WakingWork {
-  WakingWork();
-  ~WakingWork();
-  struct Blocks;
-  std::unique_ptr<Blocks> blocks;
-};
-/// Sleepers become walkers where they are at that tick, with `more` parts: of zeros, where they did not keep them. Each
-/// is alive, asleep, and named once.
-void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
-                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work);
-
-/// A part of a walker's row as it would be if nobody had slept: Gait, GaitState, StepPlan, BodySize, Physique, Pose,
-/// JointAngles, Feet or CentreOfMass, `row` being one of them. Status::missing where there is no such part or nobody
-/// is asleep.
-Status read_asleep(const World& world, Entity person, const SleepTime& time, std::uint64_t part, void* row);
-
 /// Whether a sleeper is still about what was asked last: then they must wake to be asked for more.
 bool is_busy(const World& world, Entity person, const SleepTime& time);
-/// Asks a sleeper who is not busy, in the style that there is; times and places of the steps are worked out in the next
-/// tick.
-void ask_sleeper(World& world, Entity person, const SleepTime& time, const Gait<float>& gait);
+/// Asks sleepers who are not busy, each named once, in the style that there is; times and places of the steps are
+/// worked out in the next tick.
+struct AskedSleeper {
+  Entity entity;
+  Gait<float> gait;
+};
+void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> asked, const SleepTime& time);
 /// After a tick: who is steady again has nothing but that on the row. Looks at a part of the sleepers each tick.
-/// Appends to `restless` who does not come to walk steadily: they are to be woken.
-void end_unsettled(World& world, const SleepTime& time, std::vector<Entity>& work, std::vector<Entity>& restless);
+/// Appends to `restless` who does not come to walk steadily: they are to be woken. `work`: memory to work in.
+void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, std::vector<Entity>& work,
+                   std::vector<Entity>& restless);
 /// All sleepers' places, less (x, 0, z).
 void shift_sleepers(World& world, const SleepTime& time, float x_m, float z_m);
-
-Module sleep_module();
 
 }  // namespace mobil

@@ -84,7 +84,7 @@ struct RelevanceOptions {
   std::uint32_t switches = 256;
   double switching_s = 0.001;
   /// People who wake in one update, and who fall asleep, at most; the nearest wake first.
-  std::uint32_t wakes = 3000, sleeps = 1000;
+  std::uint32_t wakes = 3000, sleeps = 3000;
   /// People who woke and get muscles in one update, at most, who misses most first; and who lose them again as nothing
   /// of them is seen any more.
   std::uint32_t begins = 100;

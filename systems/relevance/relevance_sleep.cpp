@@ -42,7 +42,7 @@ float camera_moved_m(const Viewpoint& now, const Vec3<float>& eye, const Vec3<fl
 }  // namespace
 
 /// A part of the sleepers, as large as what the camera has moved asks for: each is looked at again before camera and
-/// walkers together can have gone half of the way within which they are to be awake.
+/// walkers together can have gone nine tenths of the way within which they are to be awake.
 void Relevance::look_at_sleepers() {
   const Viewpoint& camera = *scene_.camera;
   sleeping_blocks_.clear();
@@ -50,7 +50,7 @@ void Relevance::look_at_sleepers() {
   for (const Table* const table : sleeping_tables_) sleeping_blocks_.push_back(blocks += table->block_count());
   const auto tick_s = static_cast<float>(simulation_.tick_s());
   const float moved_m = camera_moved_m(camera, eye_m_, gaze_) + fastest_m_s * tick_s;
-  const float part = moved_m / (0.5F * *scene_.asleep_beyond_m);
+  const float part = moved_m / (0.9F * *scene_.asleep_beyond_m);
   std::size_t looked = blocks, first = 0;
   if (!all_sleepers_ && part < 1) {
     looked = std::min(blocks, static_cast<std::size_t>(std::ceil(part * static_cast<float>(blocks))));
@@ -218,7 +218,11 @@ Result<void> Relevance::begin_muscles(std::span<const Entity> people, std::uint3
   const MuscleMethod method = rung_method(rung, points, living);
   choice.method = method.method;
   choice.reduced = method.reduced;
-  const auto done = SimulationWorld::begin_muscles(simulation_, people, choice);
+  // Who is seen already has no time to come within the tolerance.
+  float within_m = INFINITY;
+  for (const Entity human : people)
+    if (points) within_m = std::min(within_m, world.get<Tiers>(human)->tolerance_m);
+  const auto done = SimulationWorld::begin_muscles(simulation_, people, choice, within_m);
   for (const Entity human : people) {
     auto tiers = *world.get<Tiers>(human);
     tiers.effects &= ~std::uint32_t{tier_bare};

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "components/forces.h"
+#include "components/sleep.h"
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
 #include "tests/simulation/people.h"
@@ -126,6 +127,7 @@ class Crowd {
 
   void come(int who) {
     Person p = person(who);
+    if (who % 2 == 0) p.gait.style = snapped(p.gait.style);
     if (is_posed(who)) p.body.limbs = {0.27F * p.body.height_m, 0, 0, 0.16F * p.body.height_m};
     const auto human = is_posed(who) ? simulation_.spawn_posed(p.body) : simulation_.spawn(p.body, p.gait);
     ASSERT_TRUE(human) << human.error().message;
@@ -157,6 +159,11 @@ class Crowd {
       Pose<float> pose = *simulation_.get<Pose>(human);
       for (auto& at : pose.position_m) at.z += 0.01F * static_cast<float>(what % 3);
       EXPECT_EQ(simulation_.set_pose(human, pose), Status::ok);
+    }
+    if (what % 24 == 1) {
+      EXPECT_TRUE(simulation_.sleep({&human, 1}));
+    } else if (what % 24 == 2 || (what % 24 == 0 && what / 24 % 2 == 0)) {
+      EXPECT_TRUE(simulation_.wake({&human, 1}));  // for muscles, too
     }
     if (what % 24 != 0) return;
     const std::uint64_t how = what / 24 / 8;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <cstring>
 #include <vector>
 
 #include "systems/simulation.h"
@@ -33,6 +34,12 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
 
 inline std::uint64_t hash_human(const Simulation& simulation, Entity human) {
   std::uint64_t hash = hash_row(simulation.world(), human, 0xcbf29ce484222325);
+  if (simulation.is_asleep(human)) {  // whose row stays as it is
+    const GaitState<float> state = *simulation.get<GaitState>(human);
+    std::uint32_t words[sizeof(state) / 4];
+    std::memcpy(words, &state, sizeof(state));
+    for (const std::uint32_t word : words) hash = fnv(hash, word);
+  }
   for (std::size_t g = 0; g < muscle_group_count; ++g) {
     for (const Side side : {Side::right, Side::left}) {
       hash = hash_row(simulation.world(), simulation.muscle(human, static_cast<Muscle>(g), side), hash);

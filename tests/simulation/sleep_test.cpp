@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "components/forces.h"
 #include "demo/crowd/crowd_people.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
@@ -79,8 +80,7 @@ struct Twins {
            same<Feet>(i) && same<CentreOfMass>(i) && same<BodySize>(i) && same<Physique>(i);
   }
   std::size_t asleep() const {
-    return static_cast<std::size_t>(
-        std::ranges::count_if(dozers, [&](Entity one) { return dozing.is_asleep(one); }));
+    return static_cast<std::size_t>(std::ranges::count_if(dozers, [&](Entity one) { return dozing.is_asleep(one); }));
   }
 
   Simulation dozing, waking;
@@ -124,6 +124,218 @@ TEST(Sleep, WhoHasSleptIsWhereWhoNeverDidIs) {
   EXPECT_GT(woken, 500U);
   EXPECT_GT(most, 120U);
   EXPECT_GT(read, 1000U);
+}
+
+template <class F>
+struct Mark {
+  F value;
+  Whole<F> count;
+};
+
+TEST(Sleep, AHostsOwnPartsStay) {
+  Simulation simulation({.modules = {{.name = "marks", .parts = {component_part<Mark>()}}}});
+  const Entity human = *simulation.spawn({});
+  ASSERT_TRUE(simulation.add(human, Mark<float>{2.5F, 7}));
+  ASSERT_EQ(simulation.sleep({&human, 1}).value(), 1U);
+  EXPECT_EQ(simulation.get<Mark>(human)->value, 2.5F);
+  ASSERT_TRUE(simulation.set(human, Mark<float>{3.5F, 8}));
+  simulation.tick();
+  ASSERT_TRUE(simulation.wake({&human, 1}));
+  EXPECT_FALSE(simulation.is_asleep(human));
+  EXPECT_EQ(simulation.get<Mark>(human)->value, 3.5F);
+  EXPECT_EQ(simulation.get<Mark>(human)->count, 8U);
+}
+
+TEST(Sleep, ForcesAndMusclesComeBack) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({});
+  LegMuscles choice;
+  choice.method = Method::reduced;
+  choice.inertia = true;
+  choice.muscles = MuscleSet(5);
+  ASSERT_TRUE(simulation.add_forces(human));
+  ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+  const Entity muscle = simulation.muscle(human, Muscle::hamstrings, Side::right);
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  ASSERT_EQ(simulation.sleep({&human, 1}).value(), 1U);
+  EXPECT_TRUE(simulation.is_person(human));
+  EXPECT_EQ(simulation.people(), std::vector{human});
+  EXPECT_TRUE(simulation.muscles(human).empty());
+  EXPECT_FALSE(simulation.get<LineOfAction>(muscle));
+  EXPECT_EQ(simulation.human(human)->leg_muscles, choice);
+  simulation.tick();
+  ASSERT_TRUE(simulation.wake({&human, 1}));
+  EXPECT_TRUE(simulation.get<GroundReaction>(human));
+  EXPECT_EQ(simulation.human(human)->leg_muscles, choice);
+  EXPECT_EQ(simulation.muscles(human).size(), 2U);
+  EXPECT_EQ(simulation.method(human, Muscle::hamstrings).method, Method::reduced);
+}
+
+/// One who sleeps, and one alike who never does, with muscles.
+struct MuscleTwins {
+  Simulation dozes, wakes;
+  Entity sleeper, waker;
+
+  MuscleTwins(const SpawnRequest& request) {
+    for (const auto& [simulation, human] : {std::pair{&dozes, &sleeper}, std::pair{&wakes, &waker}}) {
+      EXPECT_TRUE(simulation->spawn({&request, 1}, {human, 1}));
+      for (int i = 0; i < 120; ++i) simulation->tick();
+    }
+    EXPECT_EQ(dozes.sleep({&sleeper, 1}).value(), 1U);
+    tick(303);
+  }
+  void tick(int count) {
+    for (int i = 0; i < count; ++i) dozes.tick(), wakes.tick();
+  }
+  /// How far apart a control point is at most, m.
+  double off_m() const {
+    double most = 0;
+    for (const OwnMuscle& own : wakes.muscles(waker)) {
+      for (const Side side : {Side::right, Side::left}) {
+        const NodalView a = dozes.nodal_displacement(dozes.muscle(sleeper, own.muscle, side));
+        const NodalView b = wakes.nodal_displacement(own.entity[side]);
+        EXPECT_EQ(a.nodes, b.nodes);
+        for (std::size_t w = 0; w < std::size_t{3} * b.nodes; ++w)
+          most = std::max(most, std::abs(double{a.first[w * lane_count]} - double{b.first[w * lane_count]}));
+      }
+    }
+    return most;
+  }
+};
+
+SpawnRequest with_muscles(std::uint64_t number, Method method) {
+  const CrowdPerson person = crowd_person(7, number, 0);
+  SpawnRequest request{.body = person.body, .gait = person.gait, .muscles = LegMuscles{}};
+  request.muscles->method = method;
+  return request;
+}
+
+TEST(Sleep, MusclesThatBeginAtRestOnWakingAreSoonThoseOfWhoNeverSlept) {
+  MuscleTwins twins(with_muscles(1, Method::reduced));
+  ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, 1));
+  EXPECT_GT(twins.off_m(), 1e-4);
+  EXPECT_LT(twins.off_m(), 0.015);
+  twins.tick(30);
+  EXPECT_LT(twins.off_m(), 0.005);
+  twins.tick(30);
+  EXPECT_LT(twins.off_m(), 0.001);
+  twins.tick(60);
+  EXPECT_LT(twins.off_m(), 2e-5);
+}
+
+TEST(Sleep, MusclesWarmUpToWhatIsAsked) {
+  for (const std::uint64_t number : {2U, 8U}) {
+    for (const float within_m : {0.005F, 0.001F, 4e-6F}) {
+      MuscleTwins twins(with_muscles(number, Method::reduced));
+      ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, within_m));
+      EXPECT_LT(twins.off_m(), double{within_m}) << "person " << number;
+      const double first = twins.off_m();
+      twins.tick(1);
+      EXPECT_LT(twins.off_m(), 1.5 * first + 1e-6) << "person " << number;
+    }
+  }
+  // Any method: here the whole mesh, step by step.
+  MuscleTwins twins(with_muscles(4, Method::ecd));
+  ASSERT_TRUE(twins.dozes.wake({&twins.sleeper, 1}, 0.001F));
+  EXPECT_LT(twins.off_m(), 0.001);
+}
+
+TEST(Sleep, TheOriginMovesUnderSleepersToo) {
+  Twins twins(48);
+  twins.tick(60);
+  ASSERT_TRUE(twins.dozing.sleep(twins.dozers));
+  for (std::size_t i = 0; i < 48; i += 3) twins.change(i);
+  twins.tick(30);
+  for (Simulation* const one : {&twins.dozing, &twins.waking}) ASSERT_TRUE(one->shift_origin(128, -64));
+  for (const int ticks : {0, 40, 400}) {
+    twins.tick(ticks);
+    for (std::size_t i = 0; i < 48; ++i) {
+      const auto a = *twins.dozing.get<Pose>(twins.dozers[i]);
+      const auto b = *twins.waking.get<Pose>(twins.wakers[i]);
+      EXPECT_NEAR(a.position_m[0].x, b.position_m[0].x, 1e-4);
+      EXPECT_NEAR(a.position_m[0].z, b.position_m[0].z, 1e-4);
+    }
+  }
+}
+
+TEST(Sleep, ASnapshotHasSleepersInIt) {
+  Twins twins(64);
+  twins.tick(60);
+  ASSERT_TRUE(twins.dozing.sleep(twins.dozers));
+  for (std::size_t i = 0; i < 64; i += 2) twins.change(i);
+  twins.tick(5);
+  std::vector<std::byte> bytes(twins.dozing.snapshot_bytes());
+  ASSERT_TRUE(twins.dozing.save(bytes));
+  Simulation other;
+  const auto restored = other.restore(bytes);
+  ASSERT_TRUE(restored) << restored.error().message;
+  EXPECT_EQ(other.state_hash(), twins.dozing.state_hash());
+  for (int i = 0; i < 200; ++i) other.tick();
+  twins.tick(200);
+  EXPECT_EQ(other.state_hash(), twins.dozing.state_hash());
+  ASSERT_TRUE(other.wake(twins.dozers));
+  EXPECT_EQ(other.state_hash(), twins.waking.state_hash());
+  EXPECT_LT(bytes.size(), 64U * 400);
+}
+
+TEST(Sleep, WhoCannotSleepStaysAwake) {
+  Simulation simulation;
+  const Entity posed = *simulation.spawn_posed({});
+  GaitRequest limps;
+  limps.style.step_asymmetry = 0.1F;
+  const Entity uneven = *simulation.spawn({}, limps);
+  const Entity turning = *simulation.spawn({});
+  ASSERT_TRUE(simulation.turn_to(turning, 1));
+  const Entity unlike = *simulation.spawn({});
+  LegMuscles choice;
+  choice.method = Method::reduced;
+  ASSERT_TRUE(simulation.add_leg_muscles(unlike, choice));
+  ASSERT_TRUE(simulation.set_method(unlike, Muscle::hamstrings, {Method::statics}));
+  for (int i = 0; i < 3; ++i) simulation.tick();
+  const std::vector<Entity> all = {posed, uneven, turning, unlike};
+  EXPECT_EQ(simulation.sleep(all).value(), 0U);
+  for (const Entity human : all) EXPECT_FALSE(simulation.is_asleep(human));
+  const std::vector<Entity> twice = {turning, turning};
+  EXPECT_FALSE(simulation.sleep(twice));
+  EXPECT_FALSE(simulation.wake(twice));
+  ASSERT_TRUE(simulation.despawn(turning));
+  EXPECT_FALSE(simulation.sleep(all));
+  EXPECT_FALSE(simulation.is_asleep(turning));
+}
+
+TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
+  Simulation simulation;
+  const auto asleep = [&] {
+    const Entity human = *simulation.spawn({}, {.speed_m_s = 0.0F});
+    EXPECT_EQ(simulation.sleep({&human, 1}).value(), 1U);
+    return human;
+  };
+  Entity human = asleep();
+  ASSERT_TRUE(simulation.step_aside(human, 0.1F, 0));
+  EXPECT_FALSE(simulation.is_asleep(human));
+  human = asleep();
+  ASSERT_TRUE(simulation.place(human, 3, 4, 1));
+  EXPECT_FALSE(simulation.is_asleep(human));
+  human = asleep();
+  GaitChange lopsided;
+  lopsided.style = GaitStyle{.toe_out_deg = 9};
+  ASSERT_TRUE(simulation.change_gait(human, lopsided));
+  EXPECT_FALSE(simulation.is_asleep(human));
+  human = asleep();
+  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.2F}));
+  EXPECT_TRUE(simulation.is_asleep(human));
+  ASSERT_TRUE(simulation.turn_to(human, 1));  // at once: still the same request
+  EXPECT_TRUE(simulation.is_asleep(human));
+  simulation.tick();
+  ASSERT_TRUE(simulation.turn_to(human, 2));
+  EXPECT_FALSE(simulation.is_asleep(human));
+  human = asleep();
+  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.2F}));
+  EXPECT_FALSE(simulation.change_gait(human, {.speed_m_s = 12.0F}));
+  EXPECT_TRUE(simulation.is_asleep(human));
+  EXPECT_FLOAT_EQ(*simulation.gait_request(human)->speed_m_s, 1.2F);
+  ASSERT_TRUE(simulation.despawn(human));
+  EXPECT_FALSE(simulation.is_person(human));
 }
 
 }  // namespace

@@ -1,0 +1,206 @@
+#include "systems/people/waking.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "components/leg_frames.h"
+#include "components/pose.h"
+#include "engine/rows.h"
+#include "systems/gait/asleep.h"
+#include "systems/kinematics/kinematics.h"
+#include "systems/people/person.h"
+
+namespace mobil {
+namespace {
+
+/// Sleepers side by side who are walkers again.
+struct WakingBlock {
+  WalkingBlock walkers;
+  Physique<Lanes<float>> physique;
+  Gait<Lanes<float>> gait_before;
+  SteadyWalk<Lanes<float>> before;
+  Lanes<std::uint32_t> asked, tick;
+  Pose<Lanes<float>> pose;
+  JointAngles<Lanes<float>> angles;
+  Feet<Lanes<float>> feet;
+  CentreOfMass<Lanes<float>> centre;
+
+  void put(const World& world, Entity person, const SleepTime& time, std::size_t lane) {
+    put(*world.get<Asleep>(person), sleeper_style(world, person), unsettled_of(world, person), time, lane);
+  }
+  void put(const Asleep<float>& asleep, const GaitStyle& style, const std::optional<Unsettled<float>>& since,
+           const SleepTime& time, std::size_t lane) {
+    const BodyRequest body = body_of(asleep);
+    put_row(size_of(asleep), walkers.size, lane);
+    put_row(mobil::physique(body), physique, lane);
+    const bool changing = is_unsettled(since, time);
+    const SteadyWalk<float> from = changing ? since->before : asleep.walk;
+    put_row(gait_of(body.height_m, asleep.walk, style), walkers.gait, lane);
+    put_row(gait_of(body.height_m, from, style), gait_before, lane);
+    put_row(from, before, lane);
+    asked[lane] = changing ? since->asked_tick : time.tick;
+    tick[lane] = time.tick;
+  }
+  void make(float tick_s) {
+    const FlushDenormals flush;  // as in a tick
+    walk_on(gait_before, before, asked, tick, tick_s, walkers);
+    pose_skeleton(walkers.size, walkers.plan, walkers.state, pose, angles, feet);
+    centre_of_mass(walkers.size, pose, centre);
+  }
+};
+
+/// A lane as a row of its own.
+struct WokenRow {
+  BodySize<float> size;
+  Physique<float> physique;
+  Gait<float> gait;
+  StepPlan<float> plan;
+  GaitState<float> state;
+  Pose<float> pose;
+  JointAngles<float> angles;
+  Feet<float> feet;
+  CentreOfMass<float> centre;
+
+  WokenRow(const WakingBlock& of, std::size_t lane)
+      : size(row_of(of.walkers.size, lane)),
+        physique(row_of(of.physique, lane)),
+        gait(row_of(of.walkers.gait, lane)),
+        plan(row_of(of.walkers.plan, lane)),
+        state(row_of(of.walkers.state, lane)),
+        pose(row_of(of.pose, lane)),
+        angles(row_of(of.angles, lane)),
+        feet(row_of(of.feet, lane)),
+        centre(row_of(of.centre, lane)) {}
+
+  std::array<PartValue, 10> parts() const {
+    return {
+        part_value(size), part_value(physique), part_value(gait), part_value(plan),   part_value(state),
+        part_value(pose), part_value(angles),   part_value(feet), part_value(centre), part_value(Publishes<LegPost>{})};
+  }
+};
+
+}  // namespace
+
+struct WakingWork::Blocks {
+  static constexpr std::size_t most = 64;  // at once
+  template <template <class> class C>
+  using Column = std::array<C<Lanes<float>>, most>;
+
+  Column<BodySize> size;
+  Column<Physique> physique;
+  Column<Gait> gait;
+  Column<StepPlan> plan;
+  Column<GaitState> state;
+  Column<Pose> pose;
+  Column<JointAngles> angles;
+  Column<Feet> feet;
+  Column<CentreOfMass> centre;
+  std::vector<Entity> people;    // table by table
+  std::vector<PartValue> parts;  // of a walker
+
+  void set(std::size_t b, const WakingBlock& block) {
+    size[b] = block.walkers.size;
+    physique[b] = block.physique;
+    gait[b] = block.walkers.gait;
+    plan[b] = block.walkers.plan;
+    state[b] = block.walkers.state;
+    pose[b] = block.pose;
+    angles[b] = block.angles;
+    feet[b] = block.feet;
+    centre[b] = block.centre;
+  }
+  /// Rows of so many walkers: `put(block, i, lane)` is called for each, the first of a block once more for each lane
+  /// left.
+  template <class Put>
+  void fill(const Jobs& jobs, std::size_t count, float tick_s, const Put& put) {
+    in_parallel(jobs, (count + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
+      const auto block = std::make_unique<WakingBlock>();
+      for (std::size_t b = begin; b < end; ++b) {
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          const std::size_t i = b * lane_count + l;
+          put(*block, i < count ? i : b * lane_count, l);
+        }
+        block->make(tick_s);
+        set(b, *block);
+      }
+    });
+  }
+  void list_parts(std::span<const KeyPart> more) {
+    parts = {{component_part<BodySize>(), size.data()},       {component_part<Physique>(), physique.data()},
+             {component_part<Gait>(), gait.data()},           {component_part<StepPlan>(), plan.data()},
+             {component_part<GaitState>(), state.data()},     {component_part<Pose>(), pose.data()},
+             {component_part<JointAngles>(), angles.data()},  {component_part<Feet>(), feet.data()},
+             {component_part<CentreOfMass>(), centre.data()}, part_value(Publishes<LegPost>{})};
+    for (const KeyPart& part : more) parts.push_back({part, nullptr});
+  }
+};
+WakingWork::WakingWork() = default;
+WakingWork::~WakingWork() = default;
+
+void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
+                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work) {
+  if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
+  WakingWork::Blocks& blocks = *work.blocks;
+  blocks.list_parts(more);
+  blocks.people.assign(people.begin(), people.end());
+  const auto table = [&](Entity person) { return world.locate(person)->table; };
+  std::ranges::stable_sort(blocks.people, {}, table);
+  for (std::span<const Entity> left = blocks.people; !left.empty();) {
+    std::size_t count = 1;
+    while (count < std::min(left.size(), WakingWork::Blocks::most * lane_count) && table(left[count]) == table(left[0]))
+      ++count;
+    const auto some = left.first(count);
+    left = left.subspan(count);
+    blocks.fill(jobs, count, time.tick_s,
+                [&](WakingBlock& block, std::size_t i, std::size_t lane) { block.put(world, some[i], time, lane); });
+    world.remake_many(some, blocks.parts, owned, jobs);
+  }
+}
+
+void create_steady(World& to, const Jobs& jobs, std::span<const Sleeper> walkers, const SleepTime& then,
+                   std::span<Entity> entities, WakingWork& work) {
+  if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
+  WakingWork::Blocks& blocks = *work.blocks;
+  blocks.list_parts({});
+  while (!walkers.empty()) {
+    const auto some = walkers.first(std::min(walkers.size(), WakingWork::Blocks::most * lane_count));
+    blocks.fill(jobs, some.size(), then.tick_s, [&](WakingBlock& block, std::size_t i, std::size_t lane) {
+      block.put(some[i].asleep, some[i].own_style.style, std::nullopt, then, lane);
+    });
+    to.create_many(blocks.parts, entities.first(some.size()), jobs);
+    entities = entities.subspan(some.size());
+    walkers = walkers.subspan(some.size());
+  }
+}
+
+Status read_asleep(const World& world, Entity person, const SleepTime& time, std::uint64_t part, void* row) {
+  if (!is_asleep(world, person)) return world.alive(person) ? Status::missing : Status::stale_entity;
+  if (part == type_id<Gait<float>>()) {
+    const Gait<float> gait = sleeper_gait(world, person);
+    std::memcpy(row, &gait, sizeof(gait));
+    return Status::ok;
+  }
+  const auto since = unsettled_of(world, person);
+  if (part == type_id<GaitState<float>>() && !is_unsettled(since, time)) {
+    Lanes<std::uint32_t> tick;
+    for (auto& lane : tick.lane) lane = time.tick;
+    GaitState<Lanes<float>> state;
+    steady_state(broadcast(world.get<Asleep>(person)->walk), tick, time.tick_s, state);
+    const GaitState<float> one = first_lane(state);
+    std::memcpy(row, &one, sizeof(one));
+    return Status::ok;
+  }
+  const auto block = std::make_unique<WakingBlock>();
+  for (std::size_t l = 0; l < lane_count; ++l) block->put(world, person, time, l);
+  block->make(time.tick_s);
+  const WokenRow woken(*block, 0);
+  for (const PartValue& value : woken.parts()) {
+    if (value.part.id != part || value.row == nullptr) continue;
+    std::memcpy(row, value.row, 4 * static_cast<std::size_t>(value.part.value));
+    return Status::ok;
+  }
+  return Status::missing;
+}
+
+}  // namespace mobil

@@ -1,0 +1,35 @@
+#pragma once
+// Sleepers who are walkers again, and what a walker's row would be if its sleeper were awake.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "engine/jobs.h"
+#include "engine/world.h"
+#include "systems/people/sleepers.h"
+
+namespace mobil {
+
+/// Memory that waking works in, kept from one time to the next.
+struct WakingWork {
+  WakingWork();
+  ~WakingWork();
+  struct Blocks;
+  std::unique_ptr<Blocks> blocks;
+};
+/// Sleepers become walkers where they are at that tick, with `more` parts: of zeros, where they did not keep them. Each
+/// is alive, asleep, and named once.
+void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
+                  std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work);
+
+/// The same steady walkers, as they were at that tick, as people of another world.
+void create_steady(World& to, const Jobs& jobs, std::span<const Sleeper> walkers, const SleepTime& then,
+                   std::span<Entity> entities, WakingWork& work);
+
+/// A part of a walker's row as it would be if nobody had slept: Gait, GaitState, StepPlan, BodySize, Physique, Pose,
+/// JointAngles, Feet or CentreOfMass, `row` being one of them. Status::missing where there is no such part or nobody
+/// is asleep.
+Status read_asleep(const World& world, Entity person, const SleepTime& time, std::uint64_t part, void* row);
+
+}  // namespace mobil

@@ -1,0 +1,274 @@
+// A camera flies over a crowd, turns and cuts; who is far from being seen sleeps.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "components/relevance.h"
+#include "demo/crowd/crowd_people.h"
+#include "engine/row_hash.h"
+#include "systems/gait/asleep.h"
+#include "systems/gait/gait.h"
+#include "systems/relevance/relevance.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t people_count = 900;
+constexpr float side_m = 120;
+
+/// People and a camera; with `sleep` as a scene has it, else nobody ever sleeps.
+struct Scene {
+  explicit Scene(bool sleep, int threads = 1, bool muscles = false) : simulation({.threads = threads}) {
+    RelevanceOptions options;
+    options.machine_factor = 1;
+    options.leg_muscles.muscles = MuscleSet(1);
+    relevance.emplace(simulation, options);
+    needs.muscles = MuscleSet(1);
+    needs.tolerance_px = muscles ? 4.0F : 1e4F;
+    if (sleep) needs.asleep_beyond_m = 5;
+    look(0);
+    std::vector<SpawnRequest> requests;
+    for (std::uint64_t number = 0; requests.size() < people_count; ++number) {
+      const CrowdPerson person = crowd_person(3, number, 0);
+      const auto body = make_body(person.body);
+      SpawnRequest request{.body = person.body, .gait = person.gait};
+      if (number % 4 != 0) request.gait.style = snapped(person.gait.style);
+      if (!body || !resolve_gait(*body, request.gait)) continue;
+      const CrowdPlace place = crowd_place(3, number);
+      request.x_m = side_m * place.across;
+      request.z_m = side_m * place.along;
+      request.heading_rad = place.heading_rad;
+      if (!sleep) request.parts = relevance_parts();
+      requests.push_back(request);
+    }
+    people.resize(requests.size());
+    EXPECT_TRUE(simulation.spawn(requests, people));
+    changes.resize(people.size());
+    if (sleep) {
+      EXPECT_EQ(relevance->manage_asleep(people).value(), people.size());
+    }
+  }
+
+  /// Where the camera is in a tick: every five seconds elsewhere.
+  void look(std::uint32_t tick) {
+    const std::uint32_t take = tick / 300;
+    const float since_s = static_cast<float>(tick % 300) / 60;
+    CrowdRandom random(17, take, 1);
+    const float yaw = random.even(-3, 3) + 0.4F * std::sin(since_s);
+    Viewpoint camera;
+    camera.position_m = {random.even(-0.4F, 0.4F) * side_m + 4 * since_s, 3, random.even(-0.4F, 0.4F) * side_m};
+    camera.forward = {std::sin(yaw), 0, std::cos(yaw)};
+    camera.half_angle_rad = 0.5F;
+    camera.radians_per_pixel = 0.0005F;
+    camera.near_m = 2;
+    camera.reach_m = 30;
+    needs.camera = camera;
+    ASSERT_TRUE(relevance->set_scene(needs));
+  }
+  RelevanceReport tick() {
+    ask();
+    look(simulation.ticks());
+    const RelevanceReport report = relevance->update();
+    simulation.tick();
+    return report;
+  }
+  void ask() {
+    std::vector<WalkChange> all;
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      CrowdRandom random(5, i, simulation.ticks());
+      if (random.even(0, 1) > 0.003F) continue;
+      const CrowdChange change = crowd_change(3, i, changes[i]++, changes[i] % 6 == 5);
+      WalkChange one{people[i], std::nullopt, std::nullopt};
+      if (change.speed_m_s >= 0) one.gait = GaitChange{.speed_m_s = change.speed_m_s};
+      if (change.turn_rad != 0) one.heading_rad = 3 * change.turn_rad;
+      all.push_back(one);
+    }
+    EXPECT_TRUE(simulation.change_walks(all));
+  }
+  std::size_t asleep() const {
+    return static_cast<std::size_t>(std::ranges::count_if(people, [&](Entity e) { return simulation.is_asleep(e); }));
+  }
+  /// Of positions, poses and clocks of everybody, whether they sleep or not.
+  std::uint64_t walks_hash() const {
+    std::uint64_t hash = 0;
+    const auto add = [&](const auto& row) { hash = mix64(hash ^ hash_bytes(&*row, sizeof(*row))); };
+    for (const Entity human : people) {
+      add(simulation.get<Gait>(human));
+      add(simulation.get<GaitState>(human));
+      add(simulation.get<Pose>(human));
+    }
+    return hash;
+  }
+  /// Who is seen, by the camera as it is.
+  bool sees(Entity human) const {
+    const Viewpoint& camera = *needs.camera;
+    const Vec3<float> at = simulation.get<Pose>(human)->position_m[0];
+    const double x = at.x - camera.position_m.x, y = at.y - camera.position_m.y, z = at.z - camera.position_m.z;
+    const double distance = std::sqrt(x * x + y * y + z * z);
+    const double along = (x * camera.forward.x + z * camera.forward.z) / distance;
+    return distance < camera.reach_m && std::acos(along) < camera.half_angle_rad;
+  }
+
+  Simulation simulation;
+  std::optional<Relevance> relevance;
+  SceneNeeds needs;
+  std::vector<Entity> people;
+  std::vector<std::uint32_t> changes;
+};
+
+TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
+  Scene sleeps(true), wakes(false);
+  std::size_t least = people_count, most = 0, woken = 0, slept = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const RelevanceReport report = sleeps.tick();
+    wakes.tick();
+    woken += report.woken;
+    slept += report.slept;
+    ASSERT_EQ(report.refused, 0U) << report.refusal;
+    if (i % 30 != 29) continue;
+    least = std::min(least, sleeps.asleep());
+    most = std::max(most, sleeps.asleep());
+    if (i % 300 == 299) {
+      ASSERT_EQ(sleeps.walks_hash(), wakes.walks_hash()) << "tick " << i;
+    }
+  }
+  EXPECT_LT(least, people_count * 9 / 10);
+  EXPECT_GT(most, people_count / 2);
+  EXPECT_GT(woken, people_count / 2);
+  EXPECT_GT(slept, people_count / 4);
+}
+
+TEST(RelevanceSleep, NobodyWhoIsSeenSleeps) {
+  Scene scene(true);
+  std::size_t seen = 0;
+  for (int i = 0; i < 700; ++i) {
+    const RelevanceReport report = scene.tick();
+    if (report.to_wake > 0 || i % 7 != 0) continue;
+    for (const Entity human : scene.people) {
+      if (!scene.sees(human)) continue;
+      ++seen;
+      EXPECT_FALSE(scene.simulation.is_asleep(human)) << "tick " << i;
+    }
+  }
+  EXPECT_GT(seen, 1000U);
+}
+
+TEST(RelevanceSleep, TheNearestWakeFirst) {
+  Scene scene(true);
+  RelevanceOptions few;
+  few.machine_factor = 1;
+  few.wakes = 10;
+  few.leg_muscles.muscles = MuscleSet(1);
+  Relevance relevance(scene.simulation, few);
+  ASSERT_TRUE(relevance.set_scene(scene.needs));
+  std::set<Entity, decltype([](Entity a, Entity b) { return a.index < b.index; })> awake;
+  double before = 0;
+  std::size_t batches = 0;
+  for (RelevanceReport report = relevance.update();; report = relevance.update(), ++batches) {
+    double nearest = 1e9, farthest = 0;
+    for (const Entity human : scene.people) {
+      if (scene.simulation.is_asleep(human) || awake.contains(human)) continue;
+      awake.insert(human);
+      if (!scene.sees(human)) continue;
+      const Vec3<float> at = scene.simulation.get<Pose>(human)->position_m[0];
+      const double d = std::hypot(at.x - scene.needs.camera->position_m.x, at.z - scene.needs.camera->position_m.z);
+      nearest = std::min(nearest, d);
+      farthest = std::max(farthest, d);
+    }
+    EXPECT_LE(report.woken, few.wakes);
+    if (farthest > 0) {
+      EXPECT_GT(nearest, before - 1);  // a walker's pelvis is beside the line
+      before = farthest;
+    }
+    if (report.to_wake == 0) break;
+  }
+  EXPECT_GT(batches, 2U);
+}
+
+TEST(RelevanceSleep, ThreadsDoNotMatter) {
+  const auto hashes = [](int threads) {
+    Scene scene(true, threads, true);
+    std::vector<std::uint64_t> all;
+    for (int i = 0; i < 360; ++i) {
+      scene.tick();
+      if (i % 40 == 39) all.push_back(scene.simulation.state_hash());
+    }
+    return all;
+  };
+  const auto alone = hashes(1);
+  for (const int threads : {2, 3, 8}) EXPECT_EQ(hashes(threads), alone) << threads << " threads";
+}
+
+TEST(RelevanceSleep, ASnapshotHalfWayGoesOnAlike) {
+  Scene scene(true, 1, true);
+  for (int i = 0; i < 330; ++i) scene.tick();
+  EXPECT_GT(scene.asleep(), 0U);
+  std::vector<std::byte> bytes(scene.simulation.snapshot_bytes());
+  ASSERT_TRUE(scene.simulation.save(bytes));
+  const RelevanceState state = scene.relevance->state();
+  const auto changes = scene.changes;
+  const auto go_on = [&] {
+    std::vector<std::uint64_t> all;
+    for (int i = 0; i < 320; ++i) {
+      scene.tick();
+      if (i % 40 == 39) all.push_back(scene.simulation.state_hash());
+    }
+    return all;
+  };
+  const auto first = go_on();
+  ASSERT_TRUE(scene.simulation.restore(bytes));
+  scene.relevance->set_state(state);
+  scene.changes = changes;
+  EXPECT_EQ(go_on(), first);
+}
+
+TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
+  Scene scene(true, 1, true);
+  std::size_t begun = 0, ended = 0;
+  for (int i = 0; i < 900; ++i) {
+    const RelevanceReport report = scene.tick();
+    begun += report.begun;
+    ended += report.ended;
+    EXPECT_EQ(report.refused, 0U) << report.refusal;
+  }
+  EXPECT_GT(begun, 50U);
+  EXPECT_GT(ended, 10U);
+  for (const Entity human : scene.people) {
+    const bool has = !scene.simulation.muscles(human).empty();
+    if (scene.simulation.is_asleep(human)) {
+      EXPECT_FALSE(has);
+      continue;
+    }
+    const auto tiers = *scene.simulation.get<Tiers>(human);
+    if (tiers.relative_size == 0) continue;  // has just woken
+    EXPECT_EQ(has, (tiers.effects & tier_bare) == 0);
+    EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(1));
+  }
+}
+
+TEST(RelevanceSleep, WhatCannotBeIsRefused) {
+  Scene scene(true);
+  SceneNeeds needs;
+  needs.asleep_beyond_m = 10;
+  EXPECT_FALSE(scene.relevance->set_scene(needs));  // of what camera?
+  needs.camera = scene.needs.camera;
+  needs.asleep_beyond_m = 1;
+  EXPECT_FALSE(scene.relevance->set_scene(needs));
+  needs.asleep_beyond_m = NAN;
+  EXPECT_FALSE(scene.relevance->set_scene(needs));
+  needs.asleep_beyond_m = 2;
+  EXPECT_TRUE(scene.relevance->set_scene(needs));
+  const std::vector<Entity> twice = {scene.people[0], scene.people[0]};
+  EXPECT_FALSE(scene.relevance->manage_asleep(twice));
+}
+
+}  // namespace
+}  // namespace mobil

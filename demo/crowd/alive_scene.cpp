@@ -26,13 +26,14 @@ constexpr float tolerance_px = 2;
 
 }  // namespace
 
-AliveScene::AliveScene(const AliveRequest& request) : request_(request) {
+AliveScene::AliveScene(const AliveRequest& request) : request_(request), threads_(request.threads) {
   due_.fill(nobody);
   side_m_ = std::sqrt(ground_m2_each * static_cast<double>(request.alive));
-  simulation_ = std::make_unique<Simulation>(SimulationOptions{.threads = request.threads, .memory = &memory_});
+  simulation_ = std::make_unique<Simulation>(SimulationOptions{.jobs = threads_.jobs(), .memory = &memory_});
   RelevanceOptions options;
   options.machine_factor = 1;
   options.switching_s = 0.0005;
+  options.wakes = 4000;
   relevance_ = std::make_unique<Relevance>(*simulation_, options);
   camera_.half_angle_rad = half_angle_rad;
   camera_.radians_per_pixel = pixel_rad;
@@ -53,12 +54,15 @@ Result<std::unique_ptr<AliveScene>> AliveScene::make(const AliveRequest& request
   SceneNeeds needs;
   needs.camera = scene->camera_;
   needs.tolerance_px = tolerance_px;
+  if (!request.muscles) needs.muscles = 0;
   needs.asleep_beyond_m = asleep_beyond_m;
   if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
   const auto preparing = [&](std::size_t done, std::size_t of) {
     if (progress) progress("preparing", done, of);
   };
-  if (auto done = scene->relevance_->prepare({}, preparing); !done) return tl::unexpected(done.error());
+  if (request.muscles) {
+    if (auto done = scene->relevance_->prepare({}, preparing); !done) return tl::unexpected(done.error());
+  }
   const std::size_t before = scene->memory_.lent();
   scene->simulation_->reserve(request.alive);
   scene->walkers_.resize(request.alive);
@@ -157,16 +161,15 @@ void AliveScene::fly() {
 }
 
 Result<std::size_t> AliveScene::decide() {
-  changes_.clear();
+  now_.clear();
   std::uint32_t& first = due_[simulation_->ticks() % ring];
-  const std::uint32_t now = first;
+  for (std::uint32_t number = first; number != nobody; number = walkers_[number].next) now_.push_back(number);
   first = nobody;
-  for (std::uint32_t number = now; number != nobody;) {
-    const std::uint32_t next = walkers_[number].next;
-    changes_.push_back(next_change(number));
-    plan(number);
-    number = next;
-  }
+  changes_.resize(now_.size());
+  in_parallel(threads_.jobs(), now_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) changes_[i] = next_change(now_[i]);
+  });
+  for (const std::uint32_t number : now_) plan(number);
   if (auto done = simulation_->change_walks(changes_); !done) return tl::unexpected(done.error());
   fly();
   SceneNeeds needs = relevance_->scene();

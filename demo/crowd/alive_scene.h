@@ -11,6 +11,7 @@
 
 #include "demo/crowd/crowd_scene.h"
 #include "engine/error.h"
+#include "engine/jobs.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 
@@ -21,6 +22,7 @@ struct AliveRequest {
   int threads = 0;
   std::uint64_t seed = 1;
   double cut_every_s = 10;
+  bool muscles = true;
   std::filesystem::path baked{};  // of `mobil bake`; empty: made here
 };
 
@@ -79,6 +81,7 @@ class AliveScene {
   AliveRequest request_;
   double side_m_ = 0, bytes_asleep_ = 0;
   MeteredMemory memory_;
+  Threads threads_;  // the simulation's, and the host's own
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Relevance> relevance_;
   Viewpoint camera_;
@@ -88,6 +91,7 @@ class AliveScene {
   std::array<std::uint32_t, ring> due_{};
   std::vector<SpawnRequest> requests_;
   std::vector<Entity> entities_;
+  std::vector<std::uint32_t> now_;  // whose change comes in this tick
   std::vector<WalkChange> changes_;
 };
 

@@ -64,7 +64,7 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
   } others[] = {{"--humans", text.humans != usual.humans},
                 {"--churn", text.churn != usual.churn},
                 {"--burst", text.burst != usual.burst},
-                {"--effects", text.effects != usual.effects},
+                {"--effects", text.effects != usual.effects && text.effects != "none"},
                 {"--tolerance", text.tolerance != usual.tolerance},
                 {"--near", text.near != usual.near},
                 {"--near-tolerance", text.near_tolerance != usual.near_tolerance},
@@ -86,6 +86,7 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
   alive.threads = options.crowd.threads;
   alive.seed = options.crowd.seed;
   alive.baked = options.crowd.baked;
+  alive.muscles = options.crowd.effects.muscles;
   options.alive = alive;
   return {};
 }

@@ -35,9 +35,9 @@ TEST(CrowdCommand, HelpTellsEveryOptionAndExamples) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("crowd --help", folder.path);
   EXPECT_EQ(ran.status, 0);
-  for (const char* option :
-       {"--humans", "--seconds", "--threads", "--tolerance", "--near", "--budget", "--effects", "--churn", "--burst",
-        "--seed", "--capture", "--frames", "--report", "--raise", "--all-seen", "--near-tolerance", "Examples:"}) {
+  for (const char* option : {"--humans", "--seconds", "--threads", "--tolerance", "--near", "--budget", "--effects",
+                             "--churn", "--burst", "--seed", "--capture", "--frames", "--report", "--raise",
+                             "--all-seen", "--near-tolerance", "--alive", "--in-view", "Examples:"}) {
     EXPECT_NE(ran.out.find(option), std::string::npos) << option;
   }
 }
@@ -65,6 +65,11 @@ TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
                   {"--capture crowd.jpg", {"--capture", ".png"}},
                   {"--frames 3", {"--frames", "--capture"}},
                   {"--raise --capture crowd.png", {"--raise"}},
+                  {"--alive 10", {"--alive 10", "100 to 20000000"}},
+                  {"--alive 1000 --in-view 300", {"--in-view 300", "quarter"}},
+                  {"--in-view 5", {"--in-view", "--alive"}},
+                  {"--alive 1000 --churn 3", {"--churn", "--alive"}},
+                  {"--alive 1000 --raise", {"--raise", "--alive"}},
                   {"--human 3", {"there is no option --human", "--humans"}}},
                  folder.path);
 }
@@ -138,6 +143,23 @@ TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
              other = report_of(asked + "--seed 2");
   EXPECT_EQ(first["state_hash"], again["state_hash"]);
   EXPECT_NE(first["state_hash"], other["state_hash"]);
+}
+
+TEST(CrowdCommand, MostOfThoseAliveSleepAndDependOnTheSeedAlone) {
+  const std::string asked = "--alive 4000 --in-view 300 --seconds 2 --effects none --seed 5 --threads ";
+  const Json one = report_of(asked + "1"), two = report_of(asked + "2");
+  ASSERT_TRUE(one.is_object());
+  EXPECT_EQ(one["alive"], 4000);
+  EXPECT_EQ(one["ticks"], 120);
+  EXPECT_EQ(one["state_hash"].size(), 2U);
+  EXPECT_EQ(one["state_hash"], two["state_hash"]);
+  EXPECT_NEAR(one["seen_mean"].get<double>(), 300, 90);
+  EXPECT_LT(one["awake_mean"].get<double>(), 2000);
+  EXPECT_GT(one["asked"].get<double>(), 100);
+  EXPECT_GT(one["woken"].get<double>(), 300);
+  EXPECT_GT(one["slept"].get<double>(), 0);
+  EXPECT_GT(one["tick_ms_p99"].get<double>(), 0);
+  EXPECT_EQ(one["cut_ticks"].size(), 1U);
 }
 
 TEST(CrowdCommand, AsManyComeAsLeave) {

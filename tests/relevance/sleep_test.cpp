@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
-#include <map>
+#include <cstdlib>
+#include <memory>
+#include <optional>
 #include <set>
 #include <vector>
 
@@ -21,12 +22,13 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t people_count = 900;
+constexpr std::size_t everybody = 900;
 constexpr float side_m = 120;
 
 /// People and a camera; with `sleep` as a scene has it, else nobody ever sleeps.
 struct Scene {
-  explicit Scene(bool sleep, int threads = 1, bool muscles = false) : simulation({.threads = threads}) {
+  explicit Scene(bool sleep, int threads = 1, bool muscles = false, std::size_t people_count = everybody)
+      : simulation({.threads = threads}) {
     RelevanceOptions options;
     options.machine_factor = 1;
     options.leg_muscles.muscles = MuscleSet(1);
@@ -126,7 +128,7 @@ struct Scene {
 
 TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
   Scene sleeps(true), wakes(false);
-  std::size_t least = people_count, most = 0, woken = 0, slept = 0;
+  std::size_t least = everybody, most = 0, woken = 0, slept = 0;
   for (int i = 0; i < 1500; ++i) {
     const RelevanceReport report = sleeps.tick();
     wakes.tick();
@@ -140,10 +142,10 @@ TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
       ASSERT_EQ(sleeps.walks_hash(), wakes.walks_hash()) << "tick " << i;
     }
   }
-  EXPECT_LT(least, people_count * 9 / 10);
-  EXPECT_GT(most, people_count / 2);
-  EXPECT_GT(woken, people_count / 2);
-  EXPECT_GT(slept, people_count / 4);
+  EXPECT_LT(least, everybody * 9 / 10);
+  EXPECT_GT(most, everybody / 2);
+  EXPECT_GT(woken, everybody / 2);
+  EXPECT_GT(slept, everybody / 4);
 }
 
 TEST(RelevanceSleep, NobodyWhoIsSeenSleeps) {
@@ -251,6 +253,39 @@ TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
     if (tiers.relative_size == 0) continue;  // has just woken
     EXPECT_EQ(has, (tiers.effects & tier_bare) == 0);
     EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(1));
+  }
+}
+
+/// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those
+/// are who never slept, whatever the threads; one crowd is taken back to what it was half way and goes on from there.
+TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
+  const int ticks = std::getenv("MOBIL_LONG") != nullptr ? 216'000 : 1800;
+  constexpr std::size_t few = 160;
+  Scene wakes(false, 1, false, few);
+  std::vector<std::unique_ptr<Scene>> sleep;
+  for (const int threads : {1, 2, 3, 8}) sleep.push_back(std::make_unique<Scene>(true, threads, false, few));
+  for (int i = 1; i <= ticks; ++i) {
+    wakes.tick();
+    for (const auto& scene : sleep) scene->tick();
+    if (i == ticks / 2) {
+      Scene& back = *sleep[1];
+      std::vector<std::byte> bytes(back.simulation.snapshot_bytes());
+      ASSERT_TRUE(back.simulation.save(bytes));
+      const RelevanceState state = back.relevance->state();
+      const auto changes = back.changes;
+      for (int k = 0; k < 200; ++k) back.tick();
+      ASSERT_TRUE(back.simulation.restore(bytes));
+      back.relevance->set_state(state);
+      back.changes = changes;
+    }
+    if (i % (ticks / 12) != 0) continue;
+    const std::uint64_t expected = wakes.walks_hash(), state = sleep[0]->simulation.state_hash();
+    for (const auto& scene : sleep) {
+      ASSERT_EQ(scene->walks_hash(), expected) << "tick " << i;
+      ASSERT_EQ(scene->simulation.state_hash(), state) << "tick " << i;
+      EXPECT_GT(scene->asleep(), 0U);
+      EXPECT_LT(scene->asleep(), few);
+    }
   }
 }
 

@@ -148,11 +148,11 @@ struct StepPlan {
 
 /// Where a walker is: time since heel strike of the stance foot (0 right, 1 left), steps taken, and the point of the
 /// walking line beside the stance foothold with the line's heading there: about +Y, 0 toward +Z, positive to the left;
-/// where the straight line began that the walker follows (`anchor`), and with which step; how much the line turns to the next foothold and how much it turned from the one before, and the headings of the
-/// straight ways to and from them beside that of the line. Footholds lie beside the
-/// line; in a turn they are all moved by a shift, to the left of it, so that the ground can push the body inward, and
-/// the line has one curvature for as long as one foot bears (assets/gait/walking_line-inl.h). All zero: right heel
-/// strike at the origin, walking toward +Z.
+/// where the straight line began that the walker follows (`anchor`), and with which step; how much the line turns to
+/// the next foothold and how much it turned from the one before, and the headings of the straight ways to and from them
+/// beside that of the line. Footholds lie beside the line; in a turn they are all moved by a shift, to the left of it,
+/// so that the ground can push the body inward, and the line has one curvature for as long as one foot bears
+/// (assets/gait/walking_line-inl.h). All zero: right heel strike at the origin, walking toward +Z.
 template <class F>
 struct GaitState {
   F time_s;

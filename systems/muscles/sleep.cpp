@@ -8,6 +8,7 @@
 #include "assets/muscles/muscle_plan.h"
 #include "engine/row_hash.h"
 #include "systems/muscles/choice_words.h"
+#include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "assets/body/anthropometry.h"
 #include "engine/rows.h"
 #include "engine/schedule.h"
 #include "engine/snapshot.h"

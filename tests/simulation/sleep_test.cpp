@@ -111,7 +111,7 @@ TEST(Sleep, WhoHasSleptIsWhereWhoNeverDidIs) {
     woken += rested.size();
     most = std::max(most, twins.asleep());
     twins.tick(20 + static_cast<int>(random() % 30));
-    for (std::size_t i = second % 7; i < twins.dozers.size(); i += 7) {
+    for (auto i = static_cast<std::size_t>(second % 7); i < twins.dozers.size(); i += 7) {
       ASSERT_TRUE(twins.all_same(i)) << "person " << i << " in second " << second << ", "
                                      << (twins.dozing.is_asleep(twins.dozers[i]) ? "asleep" : "awake");
       read += twins.dozing.is_asleep(twins.dozers[i]) ? 1 : 0;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "demo/measure/measure.h"
 #include "assets/body/anthropometry.h"
 #include "demo/crowd/crowd_people.h"
+#include "demo/measure/measure.h"
 #include "engine/schedule.h"
 #include "systems/gait/gait.h"
 

@@ -201,6 +201,11 @@ void Table::write(std::uint32_t row, std::uint32_t first_word, std::uint32_t wor
 }
 
 void Table::copy_from(std::uint32_t row, const Table& other, std::uint32_t other_row) {
+  copy_new_from(row, other, other_row);
+  if (row % lane_count == 0) park(0, words_);
+}
+
+void Table::copy_new_from(std::uint32_t row, const Table& other, std::uint32_t other_row) {
   for (std::size_t i = 0; i < key_.size(); ++i) {
     const KeyPart& part = key_[i];
     const KeyPart* theirs = has_column(part.kind) ? find_part(other.key_, part.id) : nullptr;
@@ -209,7 +214,6 @@ void Table::copy_from(std::uint32_t row, const Table& other, std::uint32_t other
               other.blocks_[other_row / lane_count] + other.column(part.id) * lane_count + other_row % lane_count,
               static_cast<std::uint32_t>(part.value));
   }
-  if (row % lane_count == 0) park(0, words_);
 }
 
 /// Fills the lanes without a row of the last block with copies of its lane 0.

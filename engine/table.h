@@ -77,8 +77,10 @@ class Table {
   Entity remove_row(std::uint32_t row);
   void read(std::uint32_t row, std::uint32_t first_word, std::uint32_t words, void* out) const;
   void write(std::uint32_t row, std::uint32_t first_word, std::uint32_t words, const void* in);
-  /// Copies into `row` all columns that `other` has too.
+  /// Copies into `row` all columns that `other` has too. `copy_new_from`: into one that is not appended yet; several
+  /// threads may, each its own blocks.
   void copy_from(std::uint32_t row, const Table& other, std::uint32_t other_row);
+  void copy_new_from(std::uint32_t row, const Table& other, std::uint32_t other_row);
 
  private:
   friend class WorldSnapshot;  // engine/snapshot.h

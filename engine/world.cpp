@@ -167,26 +167,20 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   std::pmr::vector<RowAt> left(memory_);
   left.reserve(entities.size());
   for (const Entity entity : entities) left.push_back({from, entities_.find(entity)->row});
-  // What they keep is copied afterwards.
-  std::pmr::vector<PartValue> all(parts.begin(), parts.end(), memory_);
-  bool keeps = false;
-  for (const KeyPart& part : tables_[to].key()) {
-    if (!has_column(part.kind)) continue;
-    keeps = keeps || find_part(tables_[from].key(), part.id) != nullptr;
-    if (std::ranges::none_of(parts, [&](const PartValue& value) { return value.part.id == part.id; }))
-      all.push_back({part, nullptr});
-  }
-  const std::uint32_t first = add_rows(to, all, static_cast<std::uint32_t>(entities.size()), jobs);
-  tables_[to].append(entities);
-  if (keeps) {
+  const std::uint32_t first = add_rows(to, parts, static_cast<std::uint32_t>(entities.size()), jobs);
+  const auto is_kept = [&](const KeyPart& part) {
+    return has_column(part.kind) && find_part(tables_[from].key(), part.id) != nullptr;
+  };
+  if (std::ranges::any_of(tables_[to].key(), is_kept)) {
     // Lines of memory are those of a block: no two threads write one.
     const std::size_t before = first % lane_count, blocks = (before + entities.size() + lane_count - 1) / lane_count;
     in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
       const std::size_t last = std::min(end * lane_count - before, entities.size());
       for (std::size_t i = begin == 0 ? 0 : begin * lane_count - before; i < last; ++i)
-        tables_[to].copy_from(first + static_cast<std::uint32_t>(i), tables_[from], left[i].row);
+        tables_[to].copy_new_from(first + static_cast<std::uint32_t>(i), tables_[from], left[i].row);
     });
   }
+  tables_[to].append(entities);
   for (std::uint32_t i = 0; i < entities.size(); ++i) *entities_.find(entities[i]) = {to, first + i};
   std::sort(left.begin(), left.end());
   remove_rows(left, jobs);

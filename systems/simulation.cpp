@@ -251,24 +251,23 @@ Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   if (!managed.empty()) {
     if (auto done = SimulationWorld::wake(*this, managed); !done) return named("wake", std::move(done));
   }
-  return named("wake", wake_people(muscle_scene(), asleep, WakingMuscles::now, {}, our_parts_, *sleep_work_).map([&] {
-    each_choice(*world_, asleep, [&](std::span<const Entity> some, const LegMuscles& choice) {
-      warming_room().warm(muscle_scene(), some, choice, warm_ticks(within_m, tick_s()));
-    });
-  }));
+  const auto warm = [&](std::span<const Entity> some, const LegMuscles& choice) {
+    warm_muscles(some, choice, within_m);
+  };
+  return named("wake", wake_people(muscle_scene(), asleep, WakingMuscles::now, {}, our_parts_, *sleep_work_, warm));
 }
 
-/// Whoever is asked for what no sleeper can.
+/// What no sleeper can do wakes them first.
 Result<void> Simulation::wake_for(Entity human) {
   return is_asleep(human) ? wake({&human, 1}) : Result<void>{};
 }
 
-WarmingRoom& Simulation::warming_room() {
-  if (sleep_work_->warming == nullptr) {
-    const std::vector<Module> modules = standard_modules();
-    sleep_work_->warming = std::make_unique<WarmingRoom>(modules, memory_);
-  }
-  return *sleep_work_->warming;
+void Simulation::warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m) {
+  const std::uint32_t ticks = warm_ticks(within_m, tick_s());
+  if (ticks == 0) return;
+  if (sleep_work_->warming == nullptr)
+    sleep_work_->warming = std::make_unique<WarmingRoom>(standard_modules(), memory_);
+  sleep_work_->warming->warm(muscle_scene(), people, choice, ticks);
 }
 
 bool Simulation::is_asleep(Entity human) const {
@@ -412,8 +411,7 @@ Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entit
 Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<const Entity> people,
                                             const LegMuscles& choice, float within_m) {
   return begin_leg_muscles(simulation.muscle_scene(), people, choice).map([&] {
-    const std::uint32_t ticks = warm_ticks(within_m, simulation.tick_s());
-    if (ticks > 0) simulation.warming_room().warm(simulation.muscle_scene(), people, choice, ticks);
+    simulation.warm_muscles(people, choice, within_m);
   });
 }
 

@@ -109,7 +109,6 @@ struct SleepWork;     // systems/muscles/sleep.h
 struct SnapshotWork;  // systems/snapshot/snapshot.h
 
 class BellyLibrary;  // systems/muscles/belly_library.h
-class WarmingRoom;   // systems/muscles/warm_muscles.h
 
 class Simulation {
  public:
@@ -373,7 +372,7 @@ class Simulation {
   SnapshotWork& snapshot_work() const;
   Status read_sleeper(Entity entity, std::uint64_t part, void* row) const;
   Result<void> wake_for(Entity human);
-  WarmingRoom& warming_room();
+  void warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m);
   Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 
   std::pmr::memory_resource* memory_;

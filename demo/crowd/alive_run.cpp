@@ -115,11 +115,7 @@ Result<AliveRun> measure(const CrowdOptions& options, AliveScene& scene) {
     }
   }
   show("");
-  const auto systems = scene.simulation().schedule().systems();
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    const double seconds = scene.simulation().schedule().timings()[s].seconds;
-    run.systems.push_back({systems[s].name, 1e3 * seconds / static_cast<double>(ticks)});
-  }
+  run.systems = mean_systems(scene.simulation().schedule(), ticks);
   return run;
 }
 
@@ -163,22 +159,14 @@ std::string json_of(const AliveRun& run, const AliveScene& scene, const CrowdOpt
   json["seen_mean"] = run.seen / std::max(run.counted, 1.0);
   json["bytes_asleep"] = scene.bytes_asleep();
   json["host_bytes"] = scene.host_bytes();
-  json["ticks"] = run.ticks.size();
-  json["missed_ticks"] = run.missed;
-  json["tick_ms_p50"] = percentile_ms(run.ticks, 0.5);
-  json["tick_ms_p99"] = percentile_ms(run.ticks, 0.99);
-  json["tick_ms_max"] = percentile_ms(run.ticks, 1);
-  json["tick_cpu_ms_p50"] = percentile_ms(run.ticks, 0.5, &CrowdTick::cpu_ms);
-  json["host_ms"] = mean_ms(run.ticks, &CrowdTick::host_ms);
-  json["relevance_ms"] = mean_ms(run.ticks, &CrowdTick::relevance_ms);
+  add_ticks(run.ticks, run.missed, json);
   json["asked"] = run.asked;
   json["woken"] = run.woken;
   json["most_woken"] = run.most_woken;
   json["slept"] = run.slept;
   json["got_muscles"] = run.begun;
   json["cut_ticks"] = run.cut_ticks;
-  json["system_ms"] = Json::object();
-  for (const CrowdSystem& system : run.systems) json["system_ms"][system.name] = system.mean_ms;
+  add_systems(run.systems, json);
   json["state_hash"] = Json::array();
   for (const std::uint64_t hash : run.hashes) json["state_hash"].push_back(fmt::format("{:016x}", hash));
   json["machine"] = machine_json(describe_machine());

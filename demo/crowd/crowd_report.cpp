@@ -102,6 +102,24 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
   return text;
 }
 
+void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json) {
+  json["ticks"] = ticks.size();
+  json["missed_ticks"] = missed;
+  json["tick_ms_p50"] = percentile_ms(ticks, 0.5);
+  json["tick_ms_p99"] = percentile_ms(ticks, 0.99);
+  json["tick_ms_max"] = percentile_ms(ticks, 1);
+  json["tick_cpu_ms_p50"] = percentile_ms(ticks, 0.5, &CrowdTick::cpu_ms);
+  json["tick_cpu_ms_p99"] = percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms);
+  json["tick_cpu_ms_max"] = percentile_ms(ticks, 1, &CrowdTick::cpu_ms);
+  json["host_ms"] = mean_ms(ticks, &CrowdTick::host_ms);
+  json["relevance_ms"] = mean_ms(ticks, &CrowdTick::relevance_ms);
+}
+
+void add_systems(const std::vector<CrowdSystem>& systems, Json& json) {
+  json["system_ms"] = Json::object();
+  for (const CrowdSystem& system : systems) json["system_ms"][system.name] = system.mean_ms;
+}
+
 std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene,
                        const CrowdOptions& options) {
   Json json;
@@ -111,18 +129,8 @@ std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const Cro
     if (run.muscles_by_rung[r] > 0) json["muscles_by_method"][rung_label(run, r)] = run.muscles_by_rung[r];
   }
   json["tick_s"] = run.tick_s;
-  json["ticks"] = run.ticks.size();
-  json["missed_ticks"] = run.missed;
-  json["tick_ms_p50"] = percentile_ms(run.ticks, 0.5);
-  json["tick_ms_p99"] = percentile_ms(run.ticks, 0.99);
-  json["tick_ms_max"] = percentile_ms(run.ticks, 1);
-  json["tick_cpu_ms_p50"] = percentile_ms(run.ticks, 0.5, &CrowdTick::cpu_ms);
-  json["tick_cpu_ms_p99"] = percentile_ms(run.ticks, 0.99, &CrowdTick::cpu_ms);
-  json["tick_cpu_ms_max"] = percentile_ms(run.ticks, 1, &CrowdTick::cpu_ms);
-  json["host_ms"] = mean_ms(run.ticks, &CrowdTick::host_ms);
-  json["relevance_ms"] = mean_ms(run.ticks, &CrowdTick::relevance_ms);
-  json["system_ms"] = Json::object();
-  for (const CrowdSystem& system : run.systems) json["system_ms"][system.name] = system.mean_ms;
+  add_ticks(run.ticks, run.missed, json);
+  add_systems(run.systems, json);
   json["bytes_per_human"] = memory.per_human;
   json["far_bytes_per_human"] = memory.far_human;
   json["peak_bytes"] = memory.peak;

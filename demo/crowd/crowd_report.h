@@ -2,10 +2,12 @@
 // A crowd's figures: on the terminal and as JSON.
 
 #include <string>
+#include <vector>
 
 #include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_run.h"
 #include "demo/crowd/crowd_scene.h"
+#include "demo/program/json.h"
 
 namespace mobil {
 
@@ -22,6 +24,11 @@ std::string crowd_live_line(const CrowdRun& run, std::size_t of);
 std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene);
 std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene,
                        const CrowdOptions& options);
+
+/// Ticks, those missed, and what they took.
+void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json);
+/// What systems took, by name.
+void add_systems(const std::vector<CrowdSystem>& systems, Json& json);
 
 std::string tried_line(const CrowdLimit::Tried& tried);
 std::string limit_text(const CrowdLimit& limit);

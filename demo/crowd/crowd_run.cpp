@@ -80,6 +80,13 @@ double mean_ms(const std::vector<CrowdTick>& ticks, double CrowdTick::*what) {
   return ticks.empty() ? 0 : sum / static_cast<double>(ticks.size());
 }
 
+std::vector<CrowdSystem> mean_systems(const Schedule& schedule, std::size_t ticks) {
+  std::vector<CrowdSystem> all;
+  for (std::size_t s = 0; s < schedule.systems().size(); ++s)
+    all.push_back({schedule.systems()[s].name, 1e3 * schedule.timings()[s].seconds / static_cast<double>(ticks)});
+  return all;
+}
+
 Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, const CrowdLive& live) {
   Simulation& simulation = scene.simulation();
   CrowdRun run;
@@ -97,11 +104,7 @@ Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, co
     live_s = wall_now_s() + live_every_s;
   }
   run.muscles_by_rung = scene.muscles_by_rung();
-  const auto systems = simulation.schedule().systems();
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    const double seconds = simulation.schedule().timings()[s].seconds;
-    run.systems.push_back({systems[s].name, 1e3 * seconds / static_cast<double>(ticks)});
-  }
+  run.systems = mean_systems(simulation.schedule(), ticks);
   return run;
 }
 

@@ -41,6 +41,9 @@ struct CrowdRun {
 double percentile_ms(const std::vector<CrowdTick>& ticks, double part, double CrowdTick::*what = &CrowdTick::wall_ms);
 double mean_ms(const std::vector<CrowdTick>& ticks, double CrowdTick::*what);
 
+/// What each system took of so many ticks, since timings were last reset.
+std::vector<CrowdSystem> mean_systems(const Schedule& schedule, std::size_t ticks);
+
 using CrowdLive = std::function<void(const CrowdRun&, std::size_t of)>;
 
 /// Runs a settled crowd for so many ticks; `live` is told now and then, outside of what is measured. A tick is missed

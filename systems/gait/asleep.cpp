@@ -29,11 +29,9 @@ void line_block(const SteadyWalk<Lanes<float>>& walk, const Lanes<float>& chords
 /// Who heads where they are asked to, as near as turn_gait and lanes_to_plan care.
 void heads_block(const GaitState<Lanes<float>>& state, const Gait<Lanes<float>>& gait, Lanes<float>& heads) {
   const Wide way = abs(shorter_way(load(state.heading_rad), load(gait.heading_rad)));
-  const Wide most = select(load(gait.speed_m_s) > 0.0F, wide(as_asked), wide(off_heading));
-  // Whoever stands turns where they are further off than that.
-  const WideMask there = (load(gait.speed_m_s) > 0.0F) & (way < most);
-  const WideMask stands = (load(gait.speed_m_s) <= 0.0F) & (way <= most);
-  store(select(there | stands, wide(1.0F), wide(0.0F)), heads);
+  const WideMask walks = load(gait.speed_m_s) > 0.0F, stands = load(gait.speed_m_s) <= 0.0F;
+  const WideMask heads_there = (walks & (way < as_asked)) | (stands & (way <= off_heading));
+  store(select(heads_there, wide(1.0F), wide(0.0F)), heads);
 }
 
 }  // namespace mobil::HWY_NAMESPACE
@@ -48,6 +46,7 @@ HWY_EXPORT(heads_block);
 namespace {
 
 constexpr int most_strikes = 12;
+
 /// The grid of a parameter: its default and whole steps from there, as far as its range goes; a byte counts them.
 struct StyleGrid {
   float usual, step;

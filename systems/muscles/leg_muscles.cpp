@@ -207,6 +207,27 @@ Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> pe
   return Status::ok;
 }
 
+Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice) {
+  World& world = scene.world;
+  const std::size_t each = choice.muscles.count();
+  std::vector<MuscleSize> size(people.size() * each);
+  in_parallel(scene.jobs, people.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t h = begin; h < end; ++h) {
+      const Body body = *make_body(body_request(world, people[h]));
+      auto at = size.begin() + static_cast<std::ptrdiff_t>(h * each);
+      for (std::size_t m = 0; m < choice.muscles.size(); ++m)
+        if (choice.muscles[m]) *at++ = size_of(*make_muscle_plan(body, static_cast<Muscle>(m)));
+    }
+  });
+  NewRows rows(scene, 2 * size.size());
+  auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, people, size, rows.made);
+  if (!begun) return tl::unexpected(begun.error().error);
+  for (const Entity person : people)
+    if (follows_moments(choice)) set_leg_moments(world, person, *make_body(body_request(world, person)), choice);
+  rows.done = true;
+  return {};
+}
+
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
@@ -214,17 +235,7 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
     return fail("this person has leg muscles; remove them first", Status::already_there);
   if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
   if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
-  const Body body = *make_body(body_request(world, person));
-  std::vector<MuscleSize> size;
-  for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
-    if (choice.muscles[m]) size.push_back(size_of(*make_muscle_plan(body, static_cast<Muscle>(m))));
-  }
-  NewRows rows(scene, 2 * size.size());
-  auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, {&person, 1}, size, rows.made);
-  if (!begun) return tl::unexpected(begun.error().error);
-  set_leg_moments(world, person, body, choice);
-  rows.done = true;
-  return {};
+  return begin_leg_muscles(scene, {&person, 1}, choice);
 }
 
 /// Muscles that are there keep their handles, others begin; those that are no longer asked for go.

@@ -42,6 +42,10 @@ tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<con
 /// People and all that belongs to them go. Where one is stale or named twice, Status::stale_entity, and all stay.
 Status despawn_people(World& world, const Jobs& jobs, std::span<const Entity> people);
 
+/// The muscles of a choice in range begin on people who are there and have none, at rest where they stand. Errors: as
+/// add_leg_muscles; where there is one, or memory runs out, none has any.
+Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice);
+
 /// As the members of Simulation of these names (systems/simulation.h); messages without that name.
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);

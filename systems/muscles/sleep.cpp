@@ -4,11 +4,8 @@
 #include <array>
 #include <tuple>
 
-#include "assets/body/anthropometry.h"
-#include "assets/muscles/muscle_plan.h"
 #include "engine/row_hash.h"
 #include "systems/muscles/choice_words.h"
-#include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
@@ -87,32 +84,9 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
   return work.sleepers.size();
 }
 
-Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice) {
-  World& world = scene.world;
-  const std::size_t each = choice.muscles.count();
-  std::vector<MuscleSize> size(people.size() * each);
-  in_parallel(scene.jobs, people.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t h = begin; h < end; ++h) {
-      const Body body = *make_body(body_request(world, people[h]));
-      auto at = size.begin() + static_cast<std::ptrdiff_t>(h * each);
-      for (std::size_t m = 0; m < choice.muscles.size(); ++m)
-        if (choice.muscles[m]) *at++ = size_of(*make_muscle_plan(body, static_cast<Muscle>(m)));
-    }
-  });
-  std::vector<Entity> made;
-  made.reserve(2 * size.size());
-  auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, people, size, made);
-  if (!begun) {
-    world.undo_create(made);
-    return tl::unexpected(begun.error().error);
-  }
-  for (const Entity human : people)
-    if (follows_moments(choice)) set_leg_moments(world, human, *make_body(body_request(world, human)), choice);
-  return {};
-}
-
 Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, WakingMuscles muscles,
-                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work) {
+                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
+                         const MusclesBegun& then) {
   World& world = scene.world;
   if (work.all_but_choice.empty()) {
     work.all_but_choice.assign(owned.begin(), owned.end());
@@ -143,6 +117,7 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
       humans.push_back(waking[i].entity);
     }
     if (auto begun = begin_leg_muscles(scene, humans, *choice); !begun) return begun;
+    if (then) then(humans, *choice);
   }
   return {};
 }

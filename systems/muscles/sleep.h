@@ -1,6 +1,7 @@
 #pragma once
 // People fall asleep and wake with all that belongs to them: their muscles go, and begin again on waking.
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -55,26 +56,12 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
 /// Sleepers, named once each, wake where they are, with `more` parts (wake_walkers), and have their forces again.
 /// Muscles begin at rest where their person stands in the stride, or `later`: then what they are to be stays on the
 /// person's row (kept_choice). Errors: what muscles are refused for; those concerned are awake then, and have none.
+/// `then` hears of those whose muscles have begun, choice by choice.
 enum class WakingMuscles : std::uint8_t { now, later };
+using MusclesBegun = std::function<void(std::span<const Entity> people, const LegMuscles& choice)>;
 Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, WakingMuscles muscles,
-                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work);
-/// The muscles of a choice begin on people who are awake and have none. Errors: as above; none has any then.
-Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice);
-/// Calls `f(some, choice)` for people with muscles, those of one choice and method together.
-template <class F>
-void each_choice(const World& world, std::span<const Entity> people, const F& f) {
-  std::vector<Entity> left(people.begin(), people.end()), some;
-  while (!left.empty()) {
-    const auto choice = choice_of(world, left.front());
-    some.clear();
-    std::erase_if(left, [&](Entity person) {
-      if (choice_of(world, person) != choice) return false;
-      some.push_back(person);
-      return true;
-    });
-    if (choice) f(std::span<const Entity>(some), *choice);
-  }
-}
+                         std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
+                         const MusclesBegun& then = {});
 /// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
 /// come.
 std::optional<LegMuscles> kept_choice(const World& world, Entity person);

@@ -67,7 +67,7 @@ float height_of(const World& world, Entity person) {
   return size ? size->height_m : world.get<Asleep>(person)->height_m;
 }
 
-/// Requests are told apart by 16 bits.
+/// The number of the next request; a sleeper keeps 16 bits of it.
 std::uint32_t next_request(std::uint32_t before) {
   return (before + 1) & 0xFFFFU;
 }

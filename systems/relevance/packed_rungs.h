@@ -18,6 +18,10 @@ inline bool positive(double value) {
 /// Instead of a rung: the caller chose, or Simulation refused; both are left alone.
 inline constexpr std::uint32_t forced_rung = 15, refused_rung = 14;
 
+/// Whether muscles of a choice have the ladder of those that pull.
+inline bool pulls_alive(const LegMuscles& choice) {
+  return has_activation(choice) && choice.finite_shape.value_or(true);
+}
 /// The rung that a method is, or the one that it costs about as much as. What pulls and moves, but is not tuned, is no
 /// nearer to living tissue than static answers are.
 std::uint32_t rung_of(const MuscleMethod& method, bool living);

@@ -18,11 +18,6 @@
 namespace mobil {
 namespace {
 
-/// Whether muscles of a choice have the ladder of those that pull.
-bool pulls_alive(const LegMuscles& choice) {
-  return has_activation(choice) && choice.finite_shape.value_or(true);
-}
-
 std::string explain(const Choice& choice, View view, const std::string& goal) {
   const std::string_view name = rungs_of(choice.living)[choice.rung].name;
   const double error_mm = 1e3 * static_cast<double>(choice.predicted_error_m);

@@ -133,7 +133,7 @@ Tiers<float> Relevance::begin_tiers(const LegMuscles* choice) const {
   if (choice == nullptr) return tiers;
   tiers.effects = tier_bare;
   if (choice->inertia) tiers.effects |= tier_inertia;
-  if (has_activation(*choice) && choice->finite_shape.value_or(true)) tiers.effects |= tier_living;
+  if (pulls_alive(*choice)) tiers.effects |= tier_living;
   tiers.muscles = static_cast<std::uint32_t>(choice->muscles.to_ulong());
   return tiers;
 }
@@ -214,8 +214,7 @@ void Relevance::end_muscles(RelevanceReport& report) {
 Result<void> Relevance::begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points) {
   World& world = world_of(simulation_);
   LegMuscles choice = *world.shared<LegMuscles>(people.front());
-  const bool living = has_activation(choice) && choice.finite_shape.value_or(true);
-  const MuscleMethod method = rung_method(rung, points, living);
+  const MuscleMethod method = rung_method(rung, points, pulls_alive(choice));
   choice.method = method.method;
   choice.reduced = method.reduced;
   // Who is seen already has no time to come within the tolerance.

@@ -3,6 +3,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstring>
 #include <new>
@@ -191,6 +192,61 @@ TEST(WorldBatch, WithoutMemoryTheWorldIsUnchanged) {
     for (int i = 0; i < 21; ++i) EXPECT_EQ(read(world, before[static_cast<std::size_t>(i)]), values_of(i));
     ASSERT_LT(granted, 200U);
   }
+}
+
+template <class F>
+struct Badge {
+  F value;
+};
+
+/// Lanes without a row hold copies of the last block's first.
+void expect_parked(const World& world) {
+  for (const Table& table : world.tables()) {
+    if (table.row_count() % lane_count == 0) continue;
+    const float* const block = table.block(table.block_count() - 1);
+    for (std::size_t w = 0; w < table.words(); ++w) {
+      for (std::size_t lane = table.row_count() % lane_count; lane < lane_count; ++lane)
+        ASSERT_EQ(std::memcmp(&block[w * lane_count + lane], &block[w * lane_count], 4), 0) << "word " << w;
+    }
+  }
+}
+
+RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
+  const auto count = *rc::gen::inRange<std::size_t>(1, 90);
+  const auto there = *rc::gen::inRange<std::size_t>(0, 40);
+  World together, single;
+  const std::vector<Entity> all = create(together, 1, 0, count, backward());
+  RC_ASSERT(create(single, 1, 0, count, {}) == all);
+  for (World* const world : {&together, &single}) {
+    for (std::size_t i = 0; i < there; ++i)
+      world->create(Place3<float>{}, Age<float>{}, Badge<float>{}, TagValue<Kind>{1});
+  }
+  std::vector<Entity> some;
+  for (const Entity entity : all)
+    if (*rc::gen::inRange(0, 3) > 0) some.push_back(entity);
+  std::vector<Badge<Lanes<float>>> badge((some.size() + lane_count - 1) / lane_count);
+  for (std::size_t i = 0; i < some.size(); ++i)
+    badge[i / lane_count].value[i % lane_count] = static_cast<float>(some[i].index) + 0.25F;
+  constexpr std::array owned = {type_id<Points>()};
+  together.remake_many(some, std::array{PartValue{component_part<Badge>(), badge.data()}}, owned, backward());
+  for (const Entity entity : some) {
+    const Badge<float> own{static_cast<float>(entity.index) + 0.25F};
+    RC_ASSERT(single.remake_from(entity, std::array{part_value(own)}, owned) == Status::ok);
+  }
+  for (const Entity entity : all) {
+    RC_ASSERT(together.has<Badge>(entity) == single.has<Badge>(entity));
+    RC_ASSERT(together.has<Points>(entity) == single.has<Points>(entity));
+    RC_ASSERT(together.get<Age>(entity)->ticks == single.get<Age>(entity)->ticks);
+    RC_ASSERT(together.get<Place3>(entity)->at.x == single.get<Place3>(entity)->at.x);
+    if (single.has<Badge>(entity)) {
+      RC_ASSERT(together.get<Badge>(entity)->value == single.get<Badge>(entity)->value);
+    }
+    if (single.has<Points>(entity)) {
+      RC_ASSERT(read(together, entity) == read(single, entity));
+    }
+  }
+  expect_parked(together);
+  expect_parked(single);
 }
 
 }  // namespace mobil::world_batch_test

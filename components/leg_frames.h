@@ -13,6 +13,16 @@ struct LegFrames {
   Quat<F> pelvis, thigh, shank, foot;
 };
 
+/// A leg's bones in the frame of its own knee: origin at the knee joint, axes of the thigh, m. `pelvis` and `foot`:
+/// what the axes x, y and z of these bones are there. The shank is turned about x by the flexion, whose sine and cosine
+/// these are. Of a left leg: the mirror image, as in LegFrames.
+template <class F>
+struct KneeFrame {
+  Vec3<F> hip_m, ankle_m;
+  Vec3<F> pelvis[3], foot[3];
+  F flexion_rad, sine, cosine;
+};
+
 /// Where a leg is in the walk: the part of the gait cycle that is over since its own heel strike, 0 to 1; and the
 /// walk's speed over √(g · leg), 0 of who stands and of posed people.
 template <class F>

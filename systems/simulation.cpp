@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstring>
 #include <stdexcept>
@@ -15,12 +16,14 @@
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
 #include "engine/state_hash.h"
+#include "systems/muscles/compact.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
+#include "systems/people/whole.h"
 #include "systems/relevance/relevance_module.h"
 #include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
@@ -62,7 +65,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
       modules_(standard_modules()),
       library_(std::make_unique<BellyLibrary>()),
       work_(std::make_unique<MuscleWork>()),
-      sleep_work_(std::make_unique<SleepWork>()) {
+      sleep_work_(std::make_unique<SleepWork>()),
+      compact_work_(std::make_unique<CompactWork>()) {
   if (options.jobs) {
     jobs_ = *options.jobs;
   } else {
@@ -179,7 +183,7 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
       ask_sleepers(*world_, jobs_, std::array{AskedSleeper{human, *gait}}, now);
       return {};
     }
-    if (auto done = wake_for(human); !done) return done;
+    if (auto done = make_whole_for(human); !done) return done;
   }
   return result_of("set_gait", world_->set(human, *gait));
 }
@@ -234,12 +238,13 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
 }
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return mobil::step_aside(*world_, human, left_m, ahead_m);
 }
 
 Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  if (auto done = expand(people); !done) return tl::unexpected(done.error());
   return sleep_people(muscle_scene(), people, false, {}, our_parts_, *sleep_work_);
 }
 
@@ -249,17 +254,34 @@ Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   for (const Entity one : people)
     if (is_asleep(one)) (world_->has<SleepsManaged>(one) ? managed : asleep).push_back(one);
   if (!managed.empty()) {
-    if (auto done = SimulationWorld::wake(*this, managed); !done) return named("wake", std::move(done));
+    if (auto done = SimulationWorld::wake(*this, managed, Woken::whole); !done) return named("wake", std::move(done));
   }
   const auto warm = [&](std::span<const Entity> some, const LegMuscles& choice) {
     warm_muscles(some, choice, within_m);
   };
-  return named("wake", wake_people(muscle_scene(), asleep, WakingMuscles::now, {}, our_parts_, *sleep_work_, warm));
+  return named("wake", wake_people(muscle_scene(), asleep, {}, {}, our_parts_, *sleep_work_, warm));
 }
 
-/// What no sleeper can do wakes them first.
-Result<void> Simulation::wake_for(Entity human) {
-  return is_asleep(human) ? wake({&human, 1}) : Result<void>{};
+/// What no sleeper can do wakes them first, and so with who is compact.
+Result<void> Simulation::make_whole_for(Entity human) {
+  if (is_asleep(human)) {
+    if (auto done = wake({&human, 1}); !done) return done;
+  }
+  return is_compact(human) ? expand({&human, 1}) : Result<void>{};
+}
+
+Result<std::size_t> Simulation::compact(std::span<const Entity> people) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  return compact_people(muscle_scene(), people, *compact_work_);
+}
+
+Result<void> Simulation::expand(std::span<const Entity> people) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  return named("expand", expand_people(muscle_scene(), people, *compact_work_));
+}
+
+bool Simulation::is_compact(Entity human) const {
+  return mobil::is_compact(*world_, human);
 }
 
 void Simulation::warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m) {
@@ -278,12 +300,13 @@ void Simulation::reserve(std::size_t people) {
   world_->reserve_entities(people);
 }
 
-Status Simulation::read_sleeper(Entity entity, std::uint64_t part, void* row) const {
+Status Simulation::read_absent(Entity entity, std::uint64_t part, void* row) const {
+  if (is_compact(entity)) return read_compact(*world_, entity, part, row);
   return read_asleep(*world_, entity, {tick_, static_cast<float>(tick_s())}, part, row);
 }
 
 Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return mobil::place(*world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
     move_muscles(*world_, human, way);
   });
@@ -300,40 +323,41 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
 }
 
 Result<void> Simulation::add_forces(Entity human) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return result_of("add_forces", mobil::add_forces(*world_, human));
 }
 
 Result<void> Simulation::remove_forces(Entity human) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return result_of("remove_forces", mobil::remove_forces(*world_, human));
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return named("add_leg_muscles", mobil::add_leg_muscles(muscle_scene(), human, choice));
 }
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return result_of("remove_leg_muscles", mobil::remove_leg_muscles(*world_, jobs_, human));
 }
 
 Result<void> Simulation::set_excitation(Entity human, Muscle muscle, Side side, float excitation) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return named("set_excitation", mobil::set_excitation(*world_, human, muscle, side, excitation));
 }
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
-  if (auto done = wake_for(human); !done) return done;
+  if (auto done = make_whole_for(human); !done) return done;
   return named("set_method", mobil::set_method(muscle_scene(), human, muscle, method));
 }
 
 MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
+  if (is_compact(human)) return compact_method(*world_, human, muscle);
   const Entity right_one = this->muscle(human, muscle, Side::right);
   return muscle_method(*world_, world_->alive(right_one) ? right_one : this->muscle(human, muscle, Side::left));
 }
@@ -399,13 +423,21 @@ std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entit
   return sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.our_parts_, *simulation.sleep_work_);
 }
 
-Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people) {
-  auto done = wake_people(simulation.muscle_scene(), people, WakingMuscles::later, relevance_parts(),
+Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people, Woken as) {
+  auto done = wake_people(simulation.muscle_scene(), people, {WakingMuscles::later, as}, relevance_parts(),
                           simulation.our_parts_, *simulation.sleep_work_);
   Tiers<float> unseen{};
   unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
   for (const Entity human : people) simulation.world_->set(human, unseen);
   return done;
+}
+
+std::size_t SimulationWorld::compact(Simulation& simulation, std::span<const Entity> people) {
+  return compact_people(simulation.muscle_scene(), people, *simulation.compact_work_);
+}
+
+Result<void> SimulationWorld::expand(Simulation& simulation, std::span<const Entity> people) {
+  return expand_people(simulation.muscle_scene(), people, *simulation.compact_work_);
 }
 
 Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<const Entity> people,
@@ -437,7 +469,12 @@ std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
 std::optional<Human> Simulation::human(Entity entity) const {
   if (!is_person(entity)) return std::nullopt;
   const auto asleep = kept_choice(*world_, entity);
-  const LegMuscles choice = asleep ? *asleep : choice_of(*world_, entity).value_or(LegMuscles{});
+  LegMuscles choice = asleep ? *asleep : choice_of(*world_, entity).value_or(LegMuscles{});
+  if (is_compact(entity) && choice.muscles.any()) {
+    const MuscleMethod first = method(entity, static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong())));
+    choice.method = first.method;
+    choice.reduced = first.reduced;
+  }
   Human human{entity,
               *make_body(body_request(*world_, entity)),
               gait_of(*world_, entity).value_or(Gait<float>{}),

@@ -106,6 +106,7 @@ struct StepReport {
 struct MuscleWork;    // systems/muscles/change_muscles.h
 struct MuscleScene;   // systems/muscles/leg_muscles.h
 struct SleepWork;     // systems/muscles/sleep.h
+struct CompactWork;   // systems/muscles/compact.h
 struct SnapshotWork;  // systems/snapshot/snapshot.h
 
 class BellyLibrary;  // systems/muscles/belly_library.h
@@ -192,6 +193,23 @@ class Simulation {
   Result<void> wake(std::span<const Entity> people, float within_m = 0.005F);
   /// False for a stale handle.
   bool is_asleep(Entity human) const;
+
+  /// Walkers whom nobody looks at become compact: they go on as before, and so do their muscles, in a part of the time
+  /// and of the memory. They have no pose of their own then, and the muscles are in the person's row: their handles go,
+  /// others come when they are whole again. `get` makes Pose, JointAngles, Feet and CentreOfMass when it is asked (some
+  /// microseconds), PoseWriter sixteen people's at a time; each<Pose> does not see them. change_gait, set_gait, turn_to
+  /// and despawn leave them compact; all other calls that change a person make them whole first. Control points are
+  /// within 4 µm of where they would be. Posed people do not become compact, nor people with forces, nor whose muscles
+  /// place control points, have effects, parts of the host's or a method other than reduced or none, nor while they
+  /// fade. Returns how many of these are compact now. Errors: a stale handle, somebody named twice; nothing has
+  /// changed.
+  Result<std::size_t> compact(std::span<const Entity> people);
+  /// Compact people are whole again; who is not compact is left alone. Errors: a stale handle, somebody named twice;
+  /// nothing has changed.
+  Result<void> expand(std::span<const Entity> people);
+  /// False for a stale handle.
+  bool is_compact(Entity human) const;
+
   /// Room for so many people more, beside what they themselves take.
   void reserve(std::size_t people);
 
@@ -275,7 +293,7 @@ class Simulation {
   Result<C<float>> get(Entity entity) const {
     Result<C<float>> row{tl::in_place};
     Status status = world_->read(entity, *row);
-    if (status == Status::missing) status = read_sleeper(entity, type_id<C<float>>(), &*row);
+    if (status == Status::missing) status = read_absent(entity, type_id<C<float>>(), &*row);
     if (status != Status::ok) return fail(status);
     return row;
   }
@@ -342,7 +360,7 @@ class Simulation {
   /// All people, in the order of their rows; until somebody comes or goes.
   std::vector<Entity> people() const;
   bool is_person(Entity entity) const;
-  /// A person's muscles in the table's order; empty for a stale handle and without muscles.
+  /// A person's muscles in the table's order; empty for a stale handle, without muscles, asleep and compact.
   std::vector<OwnMuscle> muscles(Entity human) const;
   /// A person's muscle; a stale handle where there is none.
   Entity muscle(Entity human, Muscle muscle, Side side) const;
@@ -370,8 +388,8 @@ class Simulation {
   Simulation(const SimulationOptions& options, Clock clock);
   MuscleScene muscle_scene();
   SnapshotWork& snapshot_work() const;
-  Status read_sleeper(Entity entity, std::uint64_t part, void* row) const;
-  Result<void> wake_for(Entity human);
+  Status read_absent(Entity entity, std::uint64_t part, void* row) const;
+  Result<void> make_whole_for(Entity human);
   void warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m);
   Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 
@@ -386,6 +404,7 @@ class Simulation {
   std::unique_ptr<BellyLibrary> library_;
   std::unique_ptr<MuscleWork> work_;
   std::unique_ptr<SleepWork> sleep_work_;
+  std::unique_ptr<CompactWork> compact_work_;
   mutable std::unique_ptr<SnapshotWork> snapshots_;  // made when first needed
   std::uint32_t tick_ = 0;
 };

@@ -1,6 +1,7 @@
 #pragma once
 // What a simulation keeps to itself, its world's structure and what muscles share: for what is the library's own.
 
+#include "systems/people/waking.h"
 #include "systems/simulation.h"
 
 namespace mobil {
@@ -12,7 +13,10 @@ struct SimulationWorld {
   /// As Simulation::sleep, people being named once each, who keep `keeps` of the library's parts besides.
   static std::size_t sleep(Simulation& simulation, std::span<const Entity> people, std::span<const KeyPart> keeps);
   /// People who sleep managed wake, named once each, without muscles; what Relevance decides of them begins anew.
-  static Result<void> wake(Simulation& simulation, std::span<const Entity> people);
+  static Result<void> wake(Simulation& simulation, std::span<const Entity> people, Woken as);
+  /// As Simulation::compact and expand, people being named once each.
+  static std::size_t compact(Simulation& simulation, std::span<const Entity> people);
+  static Result<void> expand(Simulation& simulation, std::span<const Entity> people);
   /// Muscles of those who woke so begin, within that of where they would be (Simulation::wake).
   static Result<void> begin_muscles(Simulation& simulation, std::span<const Entity> people, const LegMuscles& choice,
                                     float within_m);

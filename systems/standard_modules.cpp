@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "systems/muscles/compact_module.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/people_modules.h"
@@ -14,6 +15,7 @@ std::vector<Module> standard_modules() {
   std::vector<Module> all = {walking_module(), forces_module(), skeleton_module(), leg_moments_module(),
                              sleep_module()};
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
+  all.push_back(compact_module());
   all.push_back(relevance_module());
   return all;
 }

@@ -49,6 +49,14 @@ BenchTick measure_cost(BenchRun& run, BenchScene& scene, const std::string& name
   return tick;
 }
 
+/// The same of a crowd of whom nothing is seen.
+Result<BenchTick> measure_compact(BenchRun& run, BenchScene& scene) {
+  if (auto done = scene.compact(); !done) return tl::unexpected(done.error());
+  const BenchTick tick = measure_cost(run, scene, fmt::format("{}.compact", scene.size()));
+  if (auto done = scene.expand(); !done) return tl::unexpected(done.error());
+  return tick;
+}
+
 /// Systems by what they take, the largest first.
 std::vector<std::size_t> by_size(const BenchTick& tick) {
   std::vector<std::size_t> order(tick.system_s.size());
@@ -185,9 +193,13 @@ Result<void> bench_crowds(BenchRun& run) {
   const Schedule& schedule = scene.simulation().schedule();
   if (auto done = scene.grow_to(few); !done) return done;
   const BenchTick small = measure_cost(run, scene, std::to_string(few));
+  const auto small_compact = measure_compact(run, scene);
+  if (!small_compact) return tl::unexpected(small_compact.error());
   if (auto done = scene.grow_to(middle); !done) return done;
   const BenchTick one = measure_cost(run, scene, std::to_string(middle));
   tell_systems(run, scene, schedule, one, small, static_cast<double>(few));
+
+  if (const auto done = measure_compact(run, scene); !done) return tl::unexpected(done.error());
 
   BenchTick alone, both;
   for (int round = 0; round < run.rounds(20); ++round) {
@@ -209,9 +221,15 @@ Result<void> bench_crowds(BenchRun& run) {
   const BenchTick large = measure_cost(run, scene, std::to_string(many));
   add_figure(run, "crowd.us_per_spawn", scene.spawn_s() * 1e6, "us",
              "with eight muscles, a thousand at a time; processor time, what they share made before");
-  const double ratio = large.cpu_s / static_cast<double>(many) / (small.cpu_s / static_cast<double>(few));
-  add_figure(run, "crowd.large_over_small", ratio, "1",
-             fmt::format("a human's cost among {} over that among {}", many, few));
+  const auto grown = [&](const BenchTick& last, const BenchTick& first) {
+    return last.cpu_s / static_cast<double>(many) / (first.cpu_s / static_cast<double>(few));
+  };
+  const std::string among = fmt::format("a human's cost among {} over that among {}", many, few);
+  add_figure(run, "crowd.large_over_small", grown(large, small), "1", among);
+  const auto large_compact = measure_compact(run, scene);
+  if (!large_compact) return tl::unexpected(large_compact.error());
+  add_figure(run, "crowd.compact.large_over_small", grown(*large_compact, *small_compact), "1",
+             among + ", everybody compact");
   return beside_rivals(run);
 }
 

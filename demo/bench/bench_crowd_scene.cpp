@@ -82,6 +82,18 @@ Result<void> BenchScene::change(const LegMuscles& choice) {
   return {};
 }
 
+Result<void> BenchScene::compact() {
+  const auto done = simulation_.compact(people_);
+  if (!done) return tl::unexpected(done.error());
+  if (*done < people_.size()) return fail("somebody does not become compact");
+  simulation_.tick();
+  return {};
+}
+
+Result<void> BenchScene::expand() {
+  return simulation_.expand(people_);
+}
+
 double BenchScene::bytes_per_human() const {
   std::size_t bytes = 0;
   for (const Table& table : simulation_.world().tables())

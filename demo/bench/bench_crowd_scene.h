@@ -40,6 +40,9 @@ class BenchScene {
   Result<void> grow_to(std::size_t humans);
   /// Everybody's muscles otherwise.
   Result<void> change(const LegMuscles& choice);
+  /// Everybody becomes compact (Simulation::compact), and whole again.
+  Result<void> compact();
+  Result<void> expand();
 
   std::size_t size() const { return people_.size(); }
   Simulation& simulation() { return simulation_; }
@@ -76,6 +79,5 @@ class BenchScene {
   };
   Series series_[2];
 };
-
 
 }  // namespace mobil

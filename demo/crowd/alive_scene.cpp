@@ -56,6 +56,7 @@ Result<std::unique_ptr<AliveScene>> AliveScene::make(const AliveRequest& request
   needs.tolerance_px = tolerance_px;
   if (!request.muscles) needs.muscles = 0;
   needs.asleep_beyond_m = asleep_beyond_m;
+  needs.compact_unseen = true;
   if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
   const auto preparing = [&](std::size_t done, std::size_t of) {
     if (progress) progress("preparing", done, of);

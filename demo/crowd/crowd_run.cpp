@@ -41,7 +41,8 @@ Result<void> measured_tick(CrowdScene& scene, CrowdRun& run) {
   tick.wall_ms = 1e3 * (end - start);
   tick.host_ms = 1e3 * (decided - start);
   tick.relevance_ms = 1e3 * (ready - decided);
-  tick.steady = !decisions->structural() && chosen.switched == 0 && fading(scene.simulation().world()) == fading_before;
+  tick.steady = !decisions->structural() && chosen.switched + chosen.compacted + chosen.expanded == 0 &&
+                fading(scene.simulation().world()) == fading_before;
   if (tick.steady) {
     ++run.steady_ticks;
     run.steady_allocations += allocations;

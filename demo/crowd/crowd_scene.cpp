@@ -68,6 +68,7 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request
     SceneNeeds needs;
     needs.tolerance_m = static_cast<float>(request.tolerance_m);
     needs.looked_at = request.all_seen;
+    needs.compact_unseen = true;
     needs.budget_s = request.budget_s;
     if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
     const float near_m[] = {static_cast<float>(request.near_tolerance_m)};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "demo/crowd/crowd_scene.h"
 
@@ -63,21 +64,16 @@ Result<void> CrowdScene::look_round(CrowdDecisions& decisions) {
   return choose_near(decisions);
 }
 
-/// Block by block, which takes a tenth of the time that asking for one after the other would.
+/// Where their walking lines are, for who is compact has no pose: block by block, which takes a tenth of the time that
+/// asking for one after the other would.
 void CrowdScene::read_places() {
-  for (const Table& table : simulation_->world().tables()) {
-    const std::uint32_t column = table.column(type_id<Pose<float>>());
-    if (column == Table::no_column) continue;
-    for (std::size_t b = 0; b < table.block_count(); ++b) {
-      const float* const pelvis = table.block(b) + std::size_t{column} * lane_count;
-      const Entity* const who = table.entities(b);
-      for (std::uint32_t lane = 0; lane < table.live(b); ++lane) {
-        CrowdWalker& walker = walkers_[slot_of_[who[lane].index]];
-        walker.x_m = pelvis[lane];
-        walker.z_m = pelvis[2 * lane_count + lane];
-      }
+  std::as_const(*simulation_).each([&](const Rows& rows, const GaitState<Lanes<float>>& state) {
+    for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
+      CrowdWalker& walker = walkers_[slot_of_[rows.entity[lane].index]];
+      walker.x_m = state.line_x_m[lane];
+      walker.z_m = state.line_z_m[lane];
     }
-  }
+  });
 }
 
 /// Who is outside of the square heads for a point of their own in its inner half, and goes on aiming at it: a turn

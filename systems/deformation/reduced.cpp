@@ -61,6 +61,13 @@ void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_
   }
 }
 
+void swing_all(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s, float* state,
+               const float* motion) {
+  const Wide rate = (load(to) - load(from)) * (1.0F / tick_s);
+  for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count)
+    swing(state, motion, rate);
+}
+
 /// Activation, and what all motions of a tuned belly have of it in this tick.
 struct Tuning {
   Wide activation, half, decay;  // α/2, e^(−αh/2)
@@ -242,6 +249,7 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 namespace {
 HWY_EXPORT(deform_tick);
+HWY_EXPORT(swing_all);
 HWY_EXPORT(tuned_tick);
 HWY_EXPORT(place_moving);
 HWY_EXPORT(place_at_rest);
@@ -249,6 +257,11 @@ HWY_EXPORT(place_at_rest);
 
 void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
   HWY_DYNAMIC_DISPATCH(deform_tick)(block, end, tick_s);
+}
+
+void swing_reduced(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s, float* state,
+                   const float* motion) {
+  HWY_DYNAMIC_DISPATCH(swing_all)(vectors, from, to, tick_s, state, motion);
 }
 
 void deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation, float tick_s) {

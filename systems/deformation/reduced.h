@@ -10,8 +10,8 @@
 // Of tuned bellies fibres that pull stiffen and damp the motions. With activation A over the tick
 //   ω'² = ω² + (A − A₀)·γ,   α = 16 + 60·A,   z̈ + α·ż + ω'²·(z − s_end) = ω²·s_frame,
 // A₀ = tuned_activation, γ = tension_1_s2: what the end's displacement makes of a belly at rest stays, under the loads
-// of the frame it gives way less. α is at most 1.9 times a belly's lowest ω'. Kept is X = ω·(z − s), ω and s those of A₀,
-// so that it is placed alike whatever A; each tick swings what is left of z when its place in rest, s_end +
+// of the frame it gives way less. α is at most 1.9 times a belly's lowest ω'. Kept is X = ω·(z − s), ω and s those of
+// A₀, so that it is placed alike whatever A; each tick swings what is left of z when its place in rest, s_end +
 // (ω²/ω'²)·s_frame, is taken away. (Wakeling and Nigg, J.
 // Appl. Physiol. 90, 2001: frequency and damping of vibrations rise with force. 16 gives 7 Hz a share of critical
 // damping of 0.18, 16 + 60 gives 15 Hz 0.4; no source measures them.)
@@ -46,6 +46,11 @@ struct ReducedBlock {
 
 /// One tick of a block. A lane's NaN stays in its lane. No heap.
 void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
+
+/// The same of bellies of so many vectors that the end's displacement alone moves, from and to: `state` and `motion` as
+/// in a ReducedBlock with one input.
+void swing_reduced(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s, float* state,
+                   const float* motion);
 
 /// α of tuned bellies, 1/s, where no motion is so slow that it would creep.
 constexpr double tuned_damping_per_s(double activation) {

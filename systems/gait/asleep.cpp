@@ -257,6 +257,12 @@ std::uint32_t steady_walkers(const BodySize<Lanes<float>>& size, const Gait<Lane
   return steady_lanes(*fresh, gait, plan, state, tick, tick_s, walk);
 }
 
+bool may_be_steady(const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
+                   const GaitState<Lanes<float>>& state, std::size_t lane) {
+  return plan.settled[lane] == 1 && plan.revision[lane] == gait.revision[lane] &&
+         plan.displacement[lane] == gait.displacement[lane] && goes_straight(state, lane);
+}
+
 void steady_state(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s,
                   GaitState<Lanes<float>>& state) {
   const ClockUnits units = clock_units(tick_s);

@@ -22,6 +22,10 @@ std::uint32_t steady_walkers(const BodySize<Lanes<float>>& size, const Gait<Lane
                              const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                              const Lanes<std::uint32_t>& tick, float tick_s, SteadyWalk<Lanes<float>>& walk);
 
+/// Whether somebody may be steady, by what takes no time to read: who turns, or has not met what is asked, is not.
+bool may_be_steady(const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
+                   const GaitState<Lanes<float>>& state, std::size_t lane);
+
 /// The state of a steady walk after so many ticks: what advance_gait and turn_gait would have made, to the bit.
 void steady_state(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s,
                   GaitState<Lanes<float>>& state);

@@ -110,7 +110,7 @@ HWY_INLINE Foothold stance_foothold(const Line& line, const FootMotion& foot, co
 }
 
 /// Of the other: first in the frame of the foothold before, then along the line, at last in the frame of the next.
-HWY_NOINLINE Foothold other_foothold(const Line& line, const FootMotion& foot, const Wide& out) {
+HWY_NOINLINE inline Foothold other_foothold(const Line& line, const FootMotion& foot, const Wide& out) {
   const Wide left = out * foot.ankle_out, along = foot.ankle_forward;
   const Wide &length_before = line.from.length_m, &length = line.to.length_m;
   Wide before_s, before_c, ahead_s, ahead_c, s, c;

@@ -84,7 +84,7 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
   return work.sleepers.size();
 }
 
-Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, WakingMuscles muscles,
+Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, const Waking& how,
                          std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
                          const MusclesBegun& then) {
   World& world = scene.world;
@@ -92,18 +92,19 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
     work.all_but_choice.assign(owned.begin(), owned.end());
     std::erase(work.all_but_choice, type_id<LegMuscles>());
   }
-  struct Waking {
+  struct Sleeping {
     Entity entity;
     const LegMuscles* choice;
     bool forces;
   };
-  std::vector<Waking> waking;
+  std::vector<Sleeping> waking;
   waking.reserve(people.size());
   for (const Entity person : people)
     waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person)});
-  const bool later = muscles == WakingMuscles::later;
-  wake_walkers(world, scene.jobs, people, sleep_time(scene), more, later ? work.all_but_choice : owned, work.waking);
-  for (const Waking& one : waking)
+  const bool later = how.muscles == WakingMuscles::later;
+  wake_walkers(world, scene.jobs, people, how.as, sleep_time(scene), more, later ? work.all_but_choice : owned,
+               work.waking);
+  for (const Sleeping& one : waking)
     if (one.forces) add_forces(world, one.entity);
   // Each choice together.
   std::vector<Entity> humans;

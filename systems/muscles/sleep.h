@@ -58,8 +58,12 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
 /// person's row (kept_choice). Errors: what muscles are refused for; those concerned are awake then, and have none.
 /// `then` hears of those whose muscles have begun, choice by choice.
 enum class WakingMuscles : std::uint8_t { now, later };
+struct Waking {
+  WakingMuscles muscles = WakingMuscles::now;
+  Woken as = Woken::whole;  // compact only with muscles later
+};
 using MusclesBegun = std::function<void(std::span<const Entity> people, const LegMuscles& choice)>;
-Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, WakingMuscles muscles,
+Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> people, const Waking& waking,
                          std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
                          const MusclesBegun& then = {});
 /// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to

@@ -33,17 +33,20 @@ void publish_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<flo
   set_clocks(size, plan, state, posts.row);
 }
 
-/// A skeleton has all of its parts, and a walker all of those that gait and kinematics work on.
+/// A skeleton has all of its parts, and a walker all of those that gait works on; of the pose's all or, of who is
+/// compact, none.
 Result<void> check_key(const TableKey& key, const World&) {
   const auto count = [&](std::initializer_list<std::uint64_t> ids) {
     return std::count_if(ids.begin(), ids.end(), [&](std::uint64_t id) { return find_part(key, id) != nullptr; });
   };
-  const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>(), type_id<Pose<float>>(),
-                           type_id<JointAngles<float>>(), type_id<Feet<float>>(), type_id<CentreOfMass<float>>()});
+  const auto body = count({type_id<BodySize<float>>(), type_id<Physique<float>>()});
+  const auto pose = count(
+      {type_id<Pose<float>>(), type_id<JointAngles<float>>(), type_id<Feet<float>>(), type_id<CentreOfMass<float>>()});
   const auto walk = count({type_id<Gait<float>>(), type_id<StepPlan<float>>(), type_id<GaitState<float>>()});
   const auto limbs = count({type_id<LimbLengths<float>>()});
-  if ((body == 0 || body == 6) && (walk == 0 || (walk == 3 && body == 6)) && (limbs == 0 || (walk == 0 && body == 6)))
-    return {};
+  const bool nobody = body == 0 && pose == 0 && walk == 0, posed = body == 2 && pose == 4 && walk == 0;
+  const bool walker = body == 2 && (pose == 4 || pose == 0) && walk == 3;
+  if ((nobody || posed || walker) && (limbs == 0 || posed)) return {};
   return fail("the snapshot does not agree with itself (the parts of a person); give one that `save` made");
 }
 

@@ -48,6 +48,14 @@ void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<fl
   pose_skeleton(size, *plan, state, pose, angles, feet);
 }
 
+/// A block of walkers without a pose of their own.
+void pose_compact(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
+  JointAngles<Lanes<float>> angles;
+  Feet<Lanes<float>> feet;
+  pose_skeleton(TableColumn<BodySize>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
+                TableColumn<GaitState>(table).at(table, block), pose, angles, feet);
+}
+
 /// Places and quaternions of one segment of sixteen people: x y z, x y z w.
 struct Placed {
   float at[3][lane_count], turn[4][lane_count];
@@ -170,11 +178,16 @@ void PoseWriter::Work::write_block(std::size_t b) const {
       std::span(writer.places_).subspan(writer.blocks_[b], writer.blocks_[b + 1] - writer.blocks_[b]);
   const Table& table = *people.front().table;
   const std::size_t block = people.front().row / lane_count;
-  const auto* pose = &TableColumn<Pose>(table).at(table, block);
+  const TableColumn<Pose> own(table);
+  const auto* pose = own ? &own.at(table, block) : nullptr;
   Pose<Lanes<float>> then;
-  if (ahead_s > 0 && TableColumn<GaitState>(table)) {
+  if (TableColumn<GaitState>(table) && (ahead_s > 0 || pose == nullptr)) {
     const FlushDenormals flush;
-    walk_on(table, block, ahead_s, then);
+    if (ahead_s > 0) {
+      walk_on(table, block, ahead_s, then);
+    } else {
+      pose_compact(table, block, then);
+    }
     pose = &then;
   }
   // Person after person, so that memory is written in order; as many segments at once as a cache holds.
@@ -235,7 +248,7 @@ Result<void> PoseWriter::write(const World& world, std::span<const Entity> peopl
     const auto place = world.find(people[i]);
     if (is_asleep(world, people[i]))
       return fail(fmt::format("poses: person {} of the list sleeps; wake them or leave them out", i), Status::missing);
-    if (!place || !TableColumn<Pose>(*place.table))
+    if (!place || !(TableColumn<Pose>(*place.table) || TableColumn<GaitState>(*place.table)))
       return fail(fmt::format("poses: person {} of the list is not there (a stale handle)", i), Status::stale_entity);
     places_.push_back({place.table, place.row, static_cast<std::uint32_t>(i)});
   }

@@ -42,9 +42,10 @@ struct WakingBlock {
     asked[lane] = changing ? since->asked_tick : time.tick;
     tick[lane] = time.tick;
   }
-  void make(float tick_s) {
+  void make(float tick_s, Woken as) {
     const FlushDenormals flush;  // as in a tick
     walk_on(gait_before, before, asked, tick, tick_s, walkers);
+    if (as == Woken::compact) return;
     pose_skeleton(walkers.size, walkers.plan, walkers.state, pose, angles, feet);
     centre_of_mass(walkers.size, pose, centre);
   }
@@ -99,12 +100,13 @@ struct WakingWork::Blocks {
   std::vector<Entity> people;    // table by table
   std::vector<PartValue> parts;  // of a walker
 
-  void set(std::size_t b, const WakingBlock& block) {
+  void set(std::size_t b, const WakingBlock& block, Woken as) {
     size[b] = block.walkers.size;
     physique[b] = block.physique;
     gait[b] = block.walkers.gait;
     plan[b] = block.walkers.plan;
     state[b] = block.walkers.state;
+    if (as == Woken::compact) return;
     pose[b] = block.pose;
     angles[b] = block.angles;
     feet[b] = block.feet;
@@ -113,7 +115,7 @@ struct WakingWork::Blocks {
   /// Rows of so many walkers: `put(block, i, lane)` is called for each, the first of a block once more for each lane
   /// left.
   template <class Put>
-  void fill(const Jobs& jobs, std::size_t count, float tick_s, const Put& put) {
+  void fill(const Jobs& jobs, std::size_t count, Woken as, float tick_s, const Put& put) {
     in_parallel(jobs, (count + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
       const auto block = std::make_unique<WakingBlock>();
       for (std::size_t b = begin; b < end; ++b) {
@@ -121,28 +123,34 @@ struct WakingWork::Blocks {
           const std::size_t i = b * lane_count + l;
           put(*block, i < count ? i : b * lane_count, l);
         }
-        block->make(tick_s);
-        set(b, *block);
+        block->make(tick_s, as);
+        set(b, *block, as);
       }
     });
   }
-  void list_parts(std::span<const KeyPart> more) {
-    parts = {{component_part<BodySize>(), size.data()},       {component_part<Physique>(), physique.data()},
-             {component_part<Gait>(), gait.data()},           {component_part<StepPlan>(), plan.data()},
-             {component_part<GaitState>(), state.data()},     {component_part<Pose>(), pose.data()},
-             {component_part<JointAngles>(), angles.data()},  {component_part<Feet>(), feet.data()},
-             {component_part<CentreOfMass>(), centre.data()}, part_value(Publishes<LegPost>{})};
+  void list_parts(std::span<const KeyPart> more, Woken as) {
+    parts = {{component_part<BodySize>(), size.data()},
+             {component_part<Physique>(), physique.data()},
+             {component_part<Gait>(), gait.data()},
+             {component_part<StepPlan>(), plan.data()},
+             {component_part<GaitState>(), state.data()}};
+    if (as == Woken::whole)
+      parts.insert(parts.end(), {{component_part<Pose>(), pose.data()},
+                                 {component_part<JointAngles>(), angles.data()},
+                                 {component_part<Feet>(), feet.data()},
+                                 {component_part<CentreOfMass>(), centre.data()},
+                                 part_value(Publishes<LegPost>{})});
     for (const KeyPart& part : more) parts.push_back({part, nullptr});
   }
 };
 WakingWork::WakingWork() = default;
 WakingWork::~WakingWork() = default;
 
-void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
+void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, Woken as, const SleepTime& time,
                   std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
   WakingWork::Blocks& blocks = *work.blocks;
-  blocks.list_parts(more);
+  blocks.list_parts(more, as);
   blocks.people.assign(people.begin(), people.end());
   const auto table = [&](Entity person) { return world.locate(person)->table; };
   std::ranges::stable_sort(blocks.people, {}, table);
@@ -152,7 +160,7 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
       ++count;
     const auto some = left.first(count);
     left = left.subspan(count);
-    blocks.fill(jobs, count, time.tick_s,
+    blocks.fill(jobs, count, as, time.tick_s,
                 [&](WakingBlock& block, std::size_t i, std::size_t lane) { block.put(world, some[i], time, lane); });
     world.remake_many(some, blocks.parts, owned, jobs);
   }
@@ -162,10 +170,10 @@ void create_steady(World& to, const Jobs& jobs, std::span<const Sleeper> walkers
                    std::span<Entity> entities, WakingWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
   WakingWork::Blocks& blocks = *work.blocks;
-  blocks.list_parts({});
+  blocks.list_parts({}, Woken::whole);
   while (!walkers.empty()) {
     const auto some = walkers.first(std::min(walkers.size(), WakingWork::Blocks::most * lane_count));
-    blocks.fill(jobs, some.size(), then.tick_s, [&](WakingBlock& block, std::size_t i, std::size_t lane) {
+    blocks.fill(jobs, some.size(), Woken::whole, then.tick_s, [&](WakingBlock& block, std::size_t i, std::size_t lane) {
       block.put(some[i].asleep, some[i].own_style.style, std::nullopt, then, lane);
     });
     to.create_many(blocks.parts, entities.first(some.size()), jobs);
@@ -193,7 +201,7 @@ Status read_asleep(const World& world, Entity person, const SleepTime& time, std
   }
   const auto block = std::make_unique<WakingBlock>();
   for (std::size_t l = 0; l < lane_count; ++l) block->put(world, person, time, l);
-  block->make(time.tick_s);
+  block->make(time.tick_s, Woken::whole);
   const WokenRow woken(*block, 0);
   for (const PartValue& value : woken.parts()) {
     if (value.part.id != part || value.row == nullptr) continue;

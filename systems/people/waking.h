@@ -18,9 +18,11 @@ struct WakingWork {
   struct Blocks;
   std::unique_ptr<Blocks> blocks;
 };
+/// As which they wake: with a pose, or without (components/compact.h).
+enum class Woken : std::uint8_t { whole, compact };
 /// Sleepers become walkers where they are at that tick, with `more` parts: of zeros, where they did not keep them. Each
 /// is alive, asleep, and named once.
-void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, const SleepTime& time,
+void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people, Woken as, const SleepTime& time,
                   std::span<const KeyPart> more, std::span<const std::uint64_t> owned, WakingWork& work);
 
 /// The same steady walkers, as they were at that tick, as people of another world.

@@ -8,6 +8,7 @@
 
 #include "components/sleep.h"
 #include "engine/rows.h"
+#include "systems/gait/asleep.h"
 #include "systems/relevance/basis_orders.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/sight.h"
@@ -19,6 +20,8 @@ namespace {
 constexpr float closest_m = 0.3F;
 constexpr float leave_m = 0.5F;  // how much farther out somebody seen must be to be seen no more
 constexpr float reference_height = static_cast<float>(reference_body_height_m);
+/// How far a pelvis is from the point of the line beside the stance foot, at most.
+constexpr float off_the_line_m = 0.6F;
 /// How much farther out than where they would wake people must be to fall asleep.
 constexpr float falls_asleep = 1.5F;
 
@@ -27,16 +30,17 @@ struct Sight {
   float tolerance_m;  // by distance; 0 without a camera
 };
 
-Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, View before) {
+/// `blur_m`: how far somebody may be from `at`.
+Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, View before, float blur_m) {
   const Vec3<float> v = {at.x - camera.position_m.x, at.y - camera.position_m.y, at.z - camera.position_m.z};
   const Vec3<float>& f = camera.forward;
   const float distance = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
   const float along = (v.x * f.x + v.y * f.y + v.z * f.z) / std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
   const float aside = std::sqrt(std::max(distance * distance - along * along, 0.0F));
   const float outside_m = aside * std::cos(camera.half_angle_rad) - along * std::sin(camera.half_angle_rad);
-  const float grace = before == View::seen ? leave_m : 0.0F;
+  const float grace = (before == View::seen ? leave_m : 0.0F) + blur_m;
   const bool reached = distance <= camera.reach_m + grace, in_cone = outside_m <= person_radius_m + grace;
-  const bool near = distance <= camera.near_m + (before == View::near ? leave_m : 0.0F);
+  const bool near = distance <= camera.near_m + (before == View::near ? leave_m : 0.0F) + blur_m;
   const View view = reached && in_cone ? View::seen
                     : near             ? View::near
                     : reached          ? View::out_of_sight
@@ -73,15 +77,34 @@ Result<Relevance> Relevance::make(Simulation& simulation, const RelevanceOptions
   return Relevance(simulation, options);
 }
 
+/// Where somebody's pelvis is; of who is compact, within off_the_line_m.
+Vec3<float> Relevance::pelvis_of(const Table& table, const Columns& at, std::size_t b, std::uint32_t lane) {
+  if (!at.pose) {
+    const auto& state = at.state.at(table, b);
+    return {state.line_x_m[lane], pelvis_m, state.line_z_m[lane]};
+  }
+  const auto& pelvis = at.pose.at(table, b).position_m[index(Segment::pelvis)];
+  return {pelvis.x[lane], pelvis.y[lane], pelvis.z[lane]};
+}
+
+/// Who is to be whole, and who may be compact: of whom nothing is seen and who waits for nothing.
+void Relevance::decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess) {
+  const bool looked_at = static_cast<View>(tiers.view) == View::seen;
+  if ((tiers.effects & (tier_inertia | tier_living)) != 0 && !compact) return;
+  if (compact && (looked_at || !settled || !scene_.compact_unseen)) expanding_.push_back({excess, human});
+  if (!compact && scene_.compact_unseen && !looked_at && settled) unseen_.push_back(human);
+}
+
 /// Tables come and stay.
 void Relevance::find_tables() {
   World& world = world_of(simulation_);
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
     const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),
-                     TableColumn<BodySize>(table), TableColumn<Gait>(table),  TableColumn<StepPlan>(table)};
+                     TableColumn<BodySize>(table), TableColumn<Gait>(table),  TableColumn<StepPlan>(table),
+                     TableColumn<GaitState>(table)};
     if (find_part(table.key(), type_id<SleepsManaged>()) != nullptr) sleeping_tables_.push_back(&table);
-    if (!at.needs || !at.tiers || !at.pose || !at.size) continue;
+    if (!at.needs || !at.tiers || !at.size || !(at.pose || at.state)) continue;
     tables_.emplace_back(&table, at);
   }
 }
@@ -117,6 +140,8 @@ RelevanceReport Relevance::update() {
   drowsy_.clear();
   bare_.clear();
   idle_.clear();
+  unseen_.clear();
+  expanding_.clear();
   wake_sleepers(report);
   for (auto& [table, columns] : tables_) {
     for (std::size_t b = turn_; b < table->block_count(); b += options_.stagger) {
@@ -130,10 +155,12 @@ RelevanceReport Relevance::update() {
     counting_.clear();
     counted_ps_ = 0;
   }
+  make_whole(report);
   begin_muscles(report);
   end_muscles(report);
   carry_out(report);
   put_to_sleep(report);
+  make_compact(report);
   report.factor = factor_;
   report.machine = machine_.pessimistic();
   report.predicted_s = 1e-12 * static_cast<double>(cost_ps_) * machine_.mean();
@@ -143,7 +170,7 @@ RelevanceReport Relevance::update() {
 std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b) {
   const auto& all_needs = at.needs.at(table, b);
   auto& all_tiers = at.tiers.at(table, b);
-  const auto& pose = at.pose.at(table, b);
+  const bool compact = !at.pose;
   const auto* const kept = find_part(table.key(), type_id<LegMuscles>());
   const auto* const choice =
       kept == nullptr ? nullptr : static_cast<const LegMuscles*>(simulation_.world().resource(kept->value));
@@ -164,14 +191,15 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
     tiers.tolerance_m = scene_.tolerance_m.value_or(default_tolerance_m);
     View view = scene_.looked_at ? View::seen : View::near;
     if (scene_.camera) {
-      const auto& at_pelvis = pose.position_m[index(Segment::pelvis)];
-      const Vec3<float> pelvis = {at_pelvis.x[lane], at_pelvis.y[lane], at_pelvis.z[lane]};
-      const Sight of = sight(*scene_.camera, scene_.tolerance_px, pelvis, static_cast<View>(tiers.view));
+      const Vec3<float> pelvis = pelvis_of(table, at, b, lane);
+      const Sight of = sight(*scene_.camera, scene_.tolerance_px, pelvis, static_cast<View>(tiers.view),
+                             compact ? off_the_line_m : 0);
       view = of.view;
       tiers.tolerance_m = of.tolerance_m;
       if (scene_.asleep_beyond_m && view > View::near) {
         view = View::near;  // soon, perhaps
-        if (at.plan && Gap(*scene_.camera)(pelvis) > falls_asleep * *scene_.asleep_beyond_m)
+        if (at.plan && Gap(*scene_.camera)(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
+            may_be_steady(at.gait.at(table, b), at.plan.at(table, b), at.state.at(table, b), lane))
           drowsy_.push_back(table.entities(b)[lane]);
       }
     }
@@ -179,7 +207,7 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
     if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
     tiers.view = static_cast<std::uint32_t>(view);
 
-    decide(table.entities(b)[lane], tiers, wanted(needs));
+    decide(table.entities(b)[lane], tiers, wanted(needs), compact);
     put_row(tiers, all_tiers, lane);
   }
   return live;
@@ -189,21 +217,22 @@ std::uint32_t Relevance::wanted(const Needs<float>& needs) const {
   return (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(scene_.muscles.to_ulong());
 }
 
-void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles) {
+void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact) {
   const auto view = static_cast<View>(tiers.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = tiers.relative_size / tiers.tolerance_m;  // errors as parts of the tolerance, over the table's
   const float limit = factor_ / size;
-  if ((tiers.effects & tier_bare) != 0) return decide_bare(human, tiers, wanted_muscles);
+  if ((tiers.effects & tier_bare) != 0) return decide_bare(human, tiers, wanted_muscles, compact);
   const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
   // Where nothing is seen of any of them, and nothing was forced, all go at once.
-  bool idle = scene_.asleep_beyond_m && tiers.muscles != 0;
+  bool idle = scene_.asleep_beyond_m && tiers.muscles != 0, settled = true;
+  float excess = 0;
   const std::size_t dearer = dearer_.size(), cheaper = cheaper_.size();
   for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
     const std::uint32_t now = rung_at(tiers.rung, m);
     if (now >= refused_rung) {
-      idle = false;
+      idle = settled = false;
       continue;
     }
     const bool points = bit_at(tiers.points, m);
@@ -226,10 +255,14 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
     const std::int64_t more = ladder_.cost_ps(as_seen, goal) - cost;
     const bool lit = shown && !points;  // until then there is nothing to be seen of it
     const std::uint32_t worst = more > 0 ? (lit ? 0 : now) : goal;
+    settled = false;
+    const float misses = ladder_.error_m(as_seen, worst) * size;
+    excess = std::max(excess, misses);
     (more > 0 ? dearer_ : cheaper_)
-        .push_back({ladder_.error_m(as_seen, worst) * size, human, static_cast<std::uint8_t>(m),
-                    static_cast<std::uint8_t>(goal), shown, as_is.living, more});
+        .push_back(
+            {misses, human, static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(goal), shown, as_is.living, more});
   }
+  decide_compact(human, compact, tiers, settled, excess);
   if (!idle) return;
   dearer_.resize(dearer);
   cheaper_.resize(cheaper);

@@ -62,6 +62,9 @@ struct SceneNeeds {
   /// that what a muscle's beginning excites has died away by then: a second's walk and a second of the camera's. Left
   /// out: nobody is put to sleep.
   std::optional<float> asleep_beyond_m{};
+  /// Managed walkers of whom nothing is seen are compact (Simulation::compact), as soon as no change of theirs waits,
+  /// and whole again when something is, or when another method is due. Handles of their muscles come and go with that.
+  bool compact_unseen = false;
   bool looked_at = true;  // control points are placed; with a camera those seen are
   /// Processor time a tick for everybody's deformation, s. Where tolerances cost more, all are missed by one factor,
   /// the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the factor may be below 1: all of
@@ -88,6 +91,8 @@ struct RelevanceOptions {
   /// People who woke and get muscles in one update, at most, who misses most first; and who lose them again as nothing
   /// of them is seen any more.
   std::uint32_t begins = 100;
+  /// People who become compact in one update, and whole again, at most; of the latter those first who miss most.
+  std::uint32_t compacts = 200, expands = 3000;
   /// Everybody is looked at every so many updates.
   std::uint32_t stagger = 4;
   /// What predicted errors are multiplied by, for what bodies and walks differ from those that were measured. Set by
@@ -118,11 +123,12 @@ struct RelevanceReport {
   std::size_t evaluated = 0, switched = 0, waiting = 0, refused = 0;
   // People who woke, fell asleep, got the muscles that they woke without, lost muscles that nothing is seen of.
   std::size_t woken = 0, slept = 0, begun = 0, ended = 0;
-  std::size_t to_wake = 0, to_begin = 0;  // and who are to in the next updates
-  float factor = 1;                       // by which tolerances are missed under the budget; 1 without
-  double machine = 1;                     // measured over predicted time, as planned by
-  double predicted_s = 0;                 // a tick's deformation, as methods now are
-  std::string refusal{};                  // the last that Simulation gave, in one line
+  std::size_t compacted = 0, expanded = 0;               // people who became compact, and whole again
+  std::size_t to_wake = 0, to_begin = 0, to_expand = 0;  // and who are to in the next updates
+  float factor = 1;                                      // by which tolerances are missed under the budget; 1 without
+  double machine = 1;                                    // measured over predicted time, as planned by
+  double predicted_s = 0;                                // a tick's deformation, as methods now are
+  std::string refusal{};                                 // the last that Simulation gave, in one line
 };
 
 enum class Reason : std::uint8_t {
@@ -237,6 +243,7 @@ class Relevance {
     TableColumn<BodySize> size;
     TableColumn<Gait> gait;  // walkers have this and the next
     TableColumn<StepPlan> plan;
+    TableColumn<GaitState> state;
   };
   struct Switch {
     float excess;  // error over tolerance: as it is, to be dearer; as it will be, to be cheaper
@@ -249,17 +256,21 @@ class Relevance {
   std::array<bool, rung_count> called_for(std::span<const float> tolerances_m) const;
   void find_tables();
   std::uint32_t evaluate(Table& table, const Columns& at, std::size_t block);
-  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);
+  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact);
   void observe_machine();
   void plan_budget();
   void wake_sleepers(RelevanceReport& report);
   void look_at_sleepers();
   Tiers<float> begin_tiers(const LegMuscles* choice) const;
-  void decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles);
+  void decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact);
   void begin_muscles(RelevanceReport& report);
   void end_muscles(RelevanceReport& report);
   Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points);
   void put_to_sleep(RelevanceReport& report);
+  static Vec3<float> pelvis_of(const Table& table, const Columns& at, std::size_t block, std::uint32_t lane);
+  void decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess);
+  void make_whole(RelevanceReport& report);
+  void make_compact(RelevanceReport& report);
   void carry_out(RelevanceReport& report);
   void change_first(std::span<const Switch> all, std::int64_t most_ps, bool within_budget, RelevanceReport& report);
   bool change(const Switch& one, RelevanceReport& report);
@@ -285,6 +296,12 @@ class Relevance {
   struct Waking {
     float order;
     Entity human;
+    bool seen;
+  };
+  /// Who is compact and is to be whole.
+  struct Expanding {
+    float excess;
+    Entity human;
   };
   Vec3<float> eye_m_{}, gaze_{};
   std::uint32_t sleepers_looked_ = 0;
@@ -300,7 +317,8 @@ class Relevance {
     bool points;
   };
   std::vector<Bare> bare_;
-  std::vector<Entity> drowsy_, people_, idle_;
+  std::vector<Expanding> expanding_;
+  std::vector<Entity> drowsy_, people_, idle_, unseen_;
 };
 
 }  // namespace mobil

@@ -148,6 +148,9 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     return fail("manage: that person is not there (a stale handle); spawn one first", Status::stale_entity);
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
+  if (simulation_.is_compact(entity)) {
+    if (auto done = simulation_.expand({&entity, 1}); !done) return done;
+  }
   if (simulation_.muscles(entity).empty()) {
     LegMuscles choice = options_.leg_muscles;
     choice.muscles = needs.muscles.value_or(scene_.muscles);

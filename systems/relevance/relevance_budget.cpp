@@ -113,6 +113,7 @@ bool Relevance::at_hand(const Switch& one, std::uint32_t rung, bool order) {
 
 /// False where it waits for what its method shares.
 bool Relevance::change(const Switch& one, RelevanceReport& report) {
+  if (simulation_.is_compact(one.human)) return false;  // waits to be whole
   auto tiers = *simulation_.world().get<Tiers>(one.human);
   const std::uint32_t now = rung_at(tiers.rung, one.muscle);
   const RungCase of = rung_case(tiers, one.muscle, one.points);

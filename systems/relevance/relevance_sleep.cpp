@@ -22,8 +22,6 @@ namespace {
 constexpr float fastest_m_s = 2.6F;  // of walkers
 /// Who turns or changes speed is not yet where the words of a sleeper say: off by this at most.
 constexpr float unsettled_m = 8;
-/// Height of a pelvis, m.
-constexpr float pelvis_m = 0.95F;
 
 float length(const Vec3<float>& v) {
   return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
@@ -94,7 +92,7 @@ void Relevance::look_at_sleepers() {
       const float dx = x_m[l] - camera.position_m.x, dz = z_m[l] - camera.position_m.z;
       // Who is seen comes before who is not, then the nearer one.
       const float unseen_m = std::max(gap({x_m[l], pelvis_m, z_m[l]}), 0.0F);
-      waking_.push_back({std::sqrt(dx * dx + dz * dz) + 1000 * unseen_m, table->entities(block)[l]});
+      waking_.push_back({std::sqrt(dx * dx + dz * dz) + 1000 * unseen_m, table->entities(block)[l], unseen_m == 0});
     }
   }
 }
@@ -114,14 +112,47 @@ void Relevance::wake_sleepers(RelevanceReport& report) {
   std::partial_sort(waking_.begin(), waking_.begin() + static_cast<std::ptrdiff_t>(now), waking_.end(), nearer);
   report.to_wake = waking_.size() - now;
   all_sleepers_ = report.to_wake > 0;
+  waking_.resize(now);
+  // Who is not seen yet has no pose until then; with forces there is one.
+  const World& world = simulation_.world();
+  const auto whole = [&](const Waking& one) {
+    return !scene_.compact_unseen || one.seen || world.has<SleepsWithForces>(one.human);
+  };
+  const auto compact = std::stable_partition(waking_.begin(), waking_.end(), whole);
+  for (const auto& [some, as] : {std::pair{std::span(waking_.begin(), compact), Woken::whole},
+                                 std::pair{std::span(compact, waking_.end()), Woken::compact}}) {
+    people_.clear();
+    for (const Waking& one : some) people_.push_back(one.human);
+    if (people_.empty()) continue;
+    if (const auto done = SimulationWorld::wake(simulation_, people_, as); !done) {
+      report.refused += people_.size();
+      report.refusal = done.error().message;
+    }
+    report.woken += people_.size();
+  }
+}
+
+/// Who misses most first.
+void Relevance::make_whole(RelevanceReport& report) {
+  const auto first = [](const Expanding& a, const Expanding& b) {
+    return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
+  };
+  const std::size_t now = std::min<std::size_t>(expanding_.size(), options_.expands);
+  std::partial_sort(expanding_.begin(), expanding_.begin() + static_cast<std::ptrdiff_t>(now), expanding_.end(), first);
+  report.to_expand = expanding_.size() - now;
   people_.clear();
-  for (std::size_t i = 0; i < now; ++i) people_.push_back(waking_[i].human);
+  for (std::size_t i = 0; i < now; ++i) people_.push_back(expanding_[i].human);
+  report.expanded = people_.size();
   if (people_.empty()) return;
-  if (const auto done = SimulationWorld::wake(simulation_, people_); !done) {
+  if (const auto done = SimulationWorld::expand(simulation_, people_); !done) {
     report.refused += people_.size();
     report.refusal = done.error().message;
   }
-  report.woken = people_.size();
+}
+
+void Relevance::make_compact(RelevanceReport& report) {
+  unseen_.resize(std::min<std::size_t>(unseen_.size(), options_.compacts));
+  if (!unseen_.empty()) report.compacted = SimulationWorld::compact(simulation_, unseen_);
 }
 
 /// Of who has woken without muscles; `choice`: what they are to be, null where there will be none.
@@ -139,7 +170,7 @@ Tiers<float> Relevance::begin_tiers(const LegMuscles* choice) const {
 }
 
 /// The rung that all of a person's muscles begin with: the dearest that one of them calls for.
-void Relevance::decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles) {
+void Relevance::decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact) {
   const auto view = static_cast<View>(tiers.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = tiers.relative_size / tiers.tolerance_m, limit = factor_ / size;
@@ -157,6 +188,7 @@ void Relevance::decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wan
     bare.excess = std::max(bare.excess, ladder_.error_m(of, 0) * size);
   }
   if (bare.rung != 0) bare_.push_back(bare);
+  decide_compact(human, compact, tiers, bare.rung == 0, bare.excess);
 }
 
 void Relevance::begin_muscles(RelevanceReport& report) {
@@ -167,6 +199,7 @@ void Relevance::begin_muscles(RelevanceReport& report) {
   std::partial_sort(bare_.begin(), bare_.begin() + static_cast<std::ptrdiff_t>(count), bare_.end(), first);
   report.to_begin = bare_.size() - count;
   bare_.resize(count);
+  std::erase_if(bare_, [&](const Bare& one) { return simulation_.is_compact(one.human); });  // they wait to be whole
   // Those of one choice and rung together.
   const World& world = simulation_.world();
   for (std::size_t i = 0; i < bare_.size(); ++i) {
@@ -193,6 +226,7 @@ void Relevance::begin_muscles(RelevanceReport& report) {
 /// What they are to be is kept on the person's row.
 void Relevance::end_muscles(RelevanceReport& report) {
   World& world = world_of(simulation_);
+  std::erase_if(idle_, [&](Entity human) { return simulation_.is_compact(human); });
   idle_.resize(std::min<std::size_t>(idle_.size(), options_.begins));
   people_.clear();
   for (const Entity human : idle_) {

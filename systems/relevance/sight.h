@@ -11,6 +11,8 @@ namespace mobil {
 
 /// People count as balls of this radius round the pelvis, m.
 inline constexpr float person_radius_m = 1;
+/// Height of a pelvis where no pose says better, m.
+inline constexpr float pelvis_m = 0.95F;
 
 /// How far people are from being seen.
 class Gap {

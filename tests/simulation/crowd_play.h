@@ -165,6 +165,10 @@ class Crowd {
     } else if (what % 24 == 2 || (what % 24 == 0 && what / 24 % 2 == 0)) {
       EXPECT_TRUE(simulation_.wake({&human, 1}));  // for muscles, too
     }
+    if (what % 24 == 3 || what % 24 == 4) shrink(human, what / 24);
+    if (what % 24 == 5) {
+      EXPECT_TRUE(simulation_.expand({&human, 1}));
+    }
     if (what % 24 != 0) return;
     const std::uint64_t how = what / 24 / 8;
     if (what / 24 % 2 == 0) {
@@ -172,6 +176,18 @@ class Crowd {
     } else if (!is_posed(who)) {
       ask_to_walk(human, what / 48 % 4, how);
     }
+  }
+
+  /// With muscles that may be compact, or without.
+  void shrink(Entity human, std::uint64_t how) {
+    LegMuscles choice;
+    choice.muscles = how % 2 == 0 ? 1 : 9;
+    choice.method = how % 5 == 0 ? Method::none : Method::reduced;
+    choice.reduced = reduced(how % 3 == 0 ? 5 : 12, true, false);
+    if (!simulation_.muscles(human).empty()) {
+      EXPECT_TRUE(simulation_.change_leg_muscles(human, choice));
+    }
+    EXPECT_TRUE(simulation_.compact({&human, 1}));
   }
 
   void ask_to_walk(Entity human, std::uint64_t what, std::uint64_t how) {
@@ -188,6 +204,7 @@ class Crowd {
   }
 
   void ask_for_muscles(Entity human, std::uint64_t what, std::uint64_t how) {
+    EXPECT_TRUE(simulation_.expand({&human, 1}));
     const auto hamstrings = simulation_.muscle(human, Muscle::hamstrings, Side::right);
     if (!simulation_.world().alive(hamstrings)) {
       EXPECT_TRUE(simulation_.add_leg_muscles(human, choice_for(human, how)));

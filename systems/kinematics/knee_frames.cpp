@@ -1,0 +1,110 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/kinematics/knee_frames.cpp"
+#include <hwy/foreach_target.h>
+
+#include "systems/kinematics/knee_frames.h"
+#include "systems/kinematics/step_now-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+namespace {
+
+struct SineCosine {
+  Wide sine, cosine;
+};
+
+/// From the frame that faces where the pelvis heads to that of a thigh, as a right one's.
+class IntoThigh {
+ public:
+  /// `aside`: the thigh's turn about z; `thigh`: the one about x after it, backward.
+  IntoThigh(const SineCosine& aside, const SineCosine& thigh, std::size_t side)
+      : aside_(aside), thigh_(thigh), mirror_(wide(side == Side::left ? -1.0F : 1.0F)) {}
+
+  HWY_INLINE WideVec place(const WideVec& v) const {
+    const WideVec at = turned(v);
+    return {mirror_ * at.x, at.y, at.z};
+  }
+  HWY_INLINE WideVec x_axis(const WideVec& v) const {
+    const WideVec at = turned(v);
+    return {at.x, mirror_ * at.y, mirror_ * at.z};
+  }
+
+ private:
+  HWY_INLINE WideVec turned(const WideVec& v) const {
+    const Wide x = fma(aside_.cosine, v.x, aside_.sine * v.y), y = fnma(aside_.sine, v.x, aside_.cosine * v.y);
+    return {x, fnma(thigh_.sine, v.z, thigh_.cosine * y), fma(thigh_.sine, y, thigh_.cosine * v.z)};
+  }
+
+  SineCosine aside_, thigh_;
+  Wide mirror_;
+};
+
+HWY_INLINE SineCosine sine_cosine(const Wide& angle) {
+  SineCosine of;
+  sin_cos(angle, of.sine, of.cosine);
+  return of;
+}
+
+/// No angle is made of the leg's triangle but the knee's: its sides give sines and cosines.
+HWY_NOINLINE void knee_frame(const StepNow& now, const WideVec (&pelvis)[3], std::size_t side, const Wide& height,
+                             KneeFrame<Lanes<float>>& frame) {
+  const LegPlane leg = leg_plane(now, side, height);
+  const WideVec& d = leg.to_ankle;
+  const Wide across = sqrt(leg.across2), whole = sqrt(fma(d.z, d.z, leg.across2));
+  const Wide per_across = 1.0F / across, per_whole = 1.0F / whole;
+  const Wide per_upper = 1.0F / (static_cast<float>(fraction::thigh) * height);
+  const Wide per_lower = 1.0F / (static_cast<float>(fraction::shank) * height);
+  const SineCosine ahead = {d.z * per_whole, across * per_whole};
+  const SineCosine above = {leg.bulge * per_upper, leg.near * per_upper};
+  const SineCosine below = {leg.bulge * per_lower, (leg.distance - leg.near) * per_lower};
+  const IntoThigh into({d.x * per_across, -d.y * per_across},
+                       {fma(ahead.sine, above.cosine, ahead.cosine * above.sine),
+                        fnma(ahead.sine, above.sine, ahead.cosine * above.cosine)},
+                       side);
+  const Wide sine = fma(above.sine, below.cosine, above.cosine * below.sine);
+  const Wide cosine = fnma(above.sine, below.sine, above.cosine * below.cosine);
+  store(sine, frame.sine);
+  store(cosine, frame.cosine);
+  store(atan2(sine, cosine), frame.flexion_rad);
+
+  const Vec3<float> knee = unit_skeleton.joint_offset[index(Segment::shank_right)];
+  const WideVec hip = scaled({-knee.x, -knee.y, -knee.z}, height);
+  store(hip, frame.hip_m);
+  store(hip + into.place(d), frame.ankle_m);
+  store(into.x_axis(pelvis[0]), frame.pelvis[0]);
+  for (const std::size_t axis : {std::size_t{1}, std::size_t{2}}) store(into.place(pelvis[axis]), frame.pelvis[axis]);
+  const FootMotion& foot = now.foot[side];
+  const SineCosine yaw =
+      sine_cosine(now.at[side].heading - now.pelvis.heading + foot.toe_out * (side == Side::left ? 1.0F : -1.0F));
+  const SineCosine pitch = sine_cosine(-foot.pitch);
+  store(into.x_axis({yaw.cosine, wide(0.0F), -yaw.sine}), frame.foot[0]);
+  store(into.place({yaw.sine * pitch.sine, pitch.cosine, yaw.cosine * pitch.sine}), frame.foot[1]);
+  store(into.place({yaw.sine * pitch.cosine, -pitch.sine, yaw.cosine * pitch.cosine}), frame.foot[2]);
+}
+
+void both_knees(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2]) {
+  const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
+  const StepNow now = step_now(height, plan, state);
+  const WideQuat& turn = now.motion.turn;
+  const WideVec pelvis[3] = {rotate(turn, {one, zero, zero}), rotate(turn, {zero, one, zero}),
+                             rotate(turn, {zero, zero, one})};
+  for (std::size_t side = 0; side < 2; ++side) knee_frame(now, pelvis, side, height, leg[side]);
+}
+
+}  // namespace
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+
+HWY_EXPORT(both_knees);
+
+void knee_frames(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                 const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2]) {
+  HWY_DYNAMIC_DISPATCH(both_knees)(size, plan, state, leg);
+}
+
+}  // namespace mobil
+#endif

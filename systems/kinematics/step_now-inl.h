@@ -1,0 +1,204 @@
+// Where pelvis and feet are in a step. Include it as engine/wide-inl.h says.
+
+#if defined(MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_
+#undef MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_
+#else
+#define MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_
+#endif
+
+#include "systems/kinematics/kinematics_wide-inl.h"
+#include "systems/kinematics/on_line-inl.h"
+#include "systems/kinematics/unit_skeleton.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+/// What the pelvis does now, seen from the right side; its turn and the hips' places from their middle, in its heading.
+struct PelvisMotion {
+  Wide rotation, list, tilt;
+  WideQuat turn;
+  WideVec hip[2];
+};
+
+HWY_NOINLINE inline PelvisMotion pelvis_motion(const StepPlan<Lanes<float>>& plan, const StepWaves& w,
+                                               const Wide& eased, const Wide& sign, const Wide& height) {
+  PelvisMotion m;
+  m.rotation = sign * pelvis_rotation(plan, w, eased);
+  m.list = sign * pelvis_list(plan, w, eased);
+  m.tilt = pelvis_tilt(plan, w, eased);
+  m.turn = turn_yzx(m.rotation, -m.list, m.tilt);
+  for (std::size_t side = 0; side < 2; ++side)
+    m.hip[side] =
+        rotate(m.turn, scaled(unit_skeleton.joint_offset[index(on_side(Segment::thigh_right, side))], height));
+  return m;
+}
+
+/// Where the pelvis is and heads, in the frame of the stance foothold; the heading there, sine and cosine.
+struct PelvisPlace {
+  WideVec position;
+  Wide heading, sine, cosine;
+};
+
+/// The lower of two, rounded off where they are within `width`: C², never above either.
+HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
+  const Wide d = clamp((b - a) / width, -1.0F, 1.0F);
+  // The positive part of d with (1 − d²) 3/4 as its second derivative.
+  const Wide rounded = fma(d, fma(d, 0.375F - 0.0625F * d * d, wide(0.5F)), wide(0.1875F));
+  return min(a, b) - width * (rounded - max(d, 0.0F));
+}
+
+/// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, and less the nearer it is to the
+/// ground it left or comes to.
+HWY_NOINLINE inline void draw_in(FootMotion& foot, Foothold& at, const PelvisPlace& root, const PelvisMotion& motion,
+                                 std::size_t side, const Wide& height) {
+  const WideVec& hip = motion.hip[side];
+  const Wide hip_left = root.position.x + fma(hip.x, root.cosine, hip.z * root.sine);
+  const Wide hip_ahead = root.position.z + fnma(hip.x, root.sine, hip.z * root.cosine);
+  const Wide dx = at.ankle.left - hip_left, dz = at.ankle.forward - hip_ahead;
+  const Wide dy = foot.ankle_up - root.position.y - hip.y;
+  const Wide distance = sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
+  constexpr float full = static_cast<float>(fraction::thigh + fraction::shank);
+  const Wide most = 0.9995F * full * height;
+  const Wide within = fma(0.01F * full * height, foot.in_the_air, wide(1e-5F));
+  const Wide near = max(1.0F - abs(distance - most) / within, 0.0F);
+  const Wide reached = min(distance, most) - within * (1.0F / 6.0F) * near * near * near;
+  const Wide part = mix(wide(1.0F), reached / distance, smooth(4.0F * foot.in_the_air));
+  at.ankle = {fma(part, dx, hip_left), fma(part, dz, hip_ahead)};
+  foot.ankle_up = fma(part, dy, root.position.y + hip.y);
+}
+
+/// Height of the middle of the hips at which a leg is as straight as a knee becomes.
+HWY_NOINLINE inline Wide highest_hips(const FootMotion& foot, const Foothold& at, const PelvisPlace& root,
+                                      const PelvisMotion& motion, std::size_t side, const Wide& height) {
+  const WideVec& hip = motion.hip[side];
+  const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
+  const Wide x = fnma(dz, root.sine, dx * root.cosine) - hip.x, z = fma(dx, root.sine, dz * root.cosine) - hip.z;
+  constexpr float straightest = static_cast<float>(fraction::thigh + fraction::shank) * 0.9999F;  // 1.6 degrees
+  const Wide reach = straightest * height;
+  return foot.ankle_up - hip.y + sqrt(max(reach * reach - fma(x, x, z * z), 0.0F));
+}
+
+HWY_INLINE Foothold foothold_of(const WideMask& stands, const Foothold& stance, const Foothold& other) {
+  return {
+      {select(stands, stance.ankle.left, other.ankle.left), select(stands, stance.ankle.forward, other.ankle.forward)},
+      select(stands, stance.heading, other.heading)};
+}
+
+HWY_INLINE FootMotion foot_of(const WideMask& stands, const FootMotion& stance, const FootMotion& other) {
+  return {select(stands, stance.pitch, other.pitch),
+          select(stands, stance.toes, other.toes),
+          select(stands, stance.toe_out, other.toe_out),
+          select(stands, stance.ankle_up, other.ankle_up),
+          select(stands, stance.ankle_out, other.ankle_out),
+          select(stands, stance.ankle_forward, other.ankle_forward),
+          other.part,
+          other.swung,
+          select(stands, wide(0.0F), other.in_the_air)};
+}
+
+/// The hips give way to legs that a turn moves aside, so that the centre of mass keeps to the line: by this part of how
+/// far the ankles are moved.
+constexpr float give_way = 0.03F;
+
+/// How much further to the left of the line a foot is than in a straight walk.
+HWY_INLINE Wide beside(const OnLine& on, const PelvisPlace& root, const Foothold& at, const Wide& straight) {
+  return fma(at.ankle.left - on.place.left, root.cosine, (on.place.forward - at.ankle.forward) * root.sine) - straight;
+}
+
+/// Pelvis and feet in the frame of the stance foothold, and what all of a pose is made of.
+struct StepNow {
+  Wide part, eased;  // of the step's time that is over
+  StepWaves waves;
+  MixedShape shape;
+  PelvisMotion motion;
+  PelvisPlace pelvis;
+  WideMask stands[2];
+  FootMotion foot[2];
+  Foothold at[2];
+};
+
+HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& plan,
+                            const GaitState<Lanes<float>>& state) {
+  const Wide one = wide(1.0F), zero = wide(0.0F);
+  const Wide time = load(state.time_s);
+  const WideMask right_stands = equal(state.stance_side, Side::right),
+                 left_stands = equal(state.stance_side, Side::left);
+  const Wide u = time / load(plan.duration_s), eased = smooth(u), phase = step_phase(plan, u);
+  const StepWaves waves = step_waves(phase);
+  const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+  const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one), height);
+  const Line line = line_of(plan, state);
+
+  StepNow now{u, eased, waves, of, motion, {}, {right_stands, left_stands}, {}, {}};
+  PelvisPlace& pelvis = now.pelvis;
+  const HipsPlace hips = hips_place(plan, of, u, phase, waves);
+  const Wide aside = select(right_stands, hips.aside, -hips.aside);
+  const OnLine on = on_line(line, hips.forward, phase, eased);
+  const Wide up =
+      hips_height(plan, of, height, u, waves) -
+      mix(select(stands(plan.from), zero,
+                 longer_leg(line.from.length_m, line.turned_before, line.shift_before, line.shift, height)),
+          select(stands(plan.to), zero, longer_leg(line.to.length_m, line.turn, line.shift, line.shift_next, height)),
+          eased);
+  pelvis.heading = on.heading;
+  sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
+
+  const FootMotion stance = stance_foot(plan, of, height, phase);
+  const FootMotion other = other_foot(plan, of, height, phase);
+  const Wide out = select(left_stands, one, -one);  // the stance foot's side
+  const Foothold standing_at = stance_foothold(line, stance, out), other_at = other_foothold(line, other, -out);
+  const Wide rest = shift_at_rest(plan, line, eased);
+  const Wide way_aside = aside + rest -
+                         give_way * (beside(on, pelvis, standing_at, rest + out * stance.ankle_out) +
+                                     beside(on, pelvis, other_at, rest - out * other.ankle_out));
+  const Ground way = turned(way_aside, hips.ahead, pelvis.sine, pelvis.cosine);
+  pelvis.position = {on.place.left + way.left, up, on.place.forward + way.forward};
+  for (std::size_t side = 0; side < 2; ++side) {
+    now.foot[side] = foot_of(now.stands[side], stance, other);
+    now.at[side] = foothold_of(now.stands[side], standing_at, other_at);
+    draw_in(now.foot[side], now.at[side], pelvis, motion, side, height);
+  }
+  // Where a leg would be too short, in a turn or at a very slow walk, the pelvis sinks.
+  const Wide rounding = 0.0002F * height;
+  const auto limit = [&](std::size_t side)
+                         HWY_ATTR { return highest_hips(now.foot[side], now.at[side], pelvis, motion, side, height); };
+  pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(Side::right), limit(Side::left), rounding), rounding);
+  return now;
+}
+
+/// A leg's thigh and shank in the plane of hip, knee and ankle. Of the frame that faces where the pelvis heads, origin
+/// in the middle of the hips.
+struct LegPlane {
+  WideVec to_ankle;  // from the hip
+  Wide across2;      // of its part that is not ahead, squared
+  Wide distance;     // to the ankle, at most as long as the leg
+  Wide near, bulge;  // of the knee: along the line from hip to ankle, and off it
+};
+
+HWY_INLINE LegPlane leg_plane(const StepNow& now, std::size_t side, const Wide& height) {
+  const Wide upper = static_cast<float>(fraction::thigh) * height;
+  const Wide lower = static_cast<float>(fraction::shank) * height;
+  const PelvisPlace& root = now.pelvis;
+  const Foothold& at = now.at[side];
+  // In the frame of the stance foothold, then turned into the pelvis's heading: small numbers, so that the knee keeps
+  // its digits however far somebody walks.
+  const WideVec& hip = now.motion.hip[side];
+  const Wide dx = at.ankle.left - root.position.x, dz = at.ankle.forward - root.position.z;
+  LegPlane leg;
+  leg.to_ankle = {fnma(dz, root.sine, dx * root.cosine) - hip.x, now.foot[side].ankle_up - root.position.y - hip.y,
+                  fma(dx, root.sine, dz * root.cosine) - hip.z};
+  const WideVec& d = leg.to_ankle;
+  leg.across2 = fma(d.x, d.x, d.y * d.y);
+  const Wide longest = (upper + lower) * 0.999999F;
+  leg.distance = min(sqrt(fma(d.z, d.z, leg.across2)), longest);
+  // Where the knee's height over the hip–ankle line falls.
+  leg.near = fma(leg.distance, leg.distance, (upper - lower) * (upper + lower)) / (2.0F * leg.distance);
+  leg.bulge = sqrt(max((upper - leg.near) * (upper + leg.near), 0.0F));
+  return leg;
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,97 @@
+#include "systems/muscles/compact_module.h"
+
+#include <array>
+
+#include "components/body.h"
+#include "components/compact.h"
+#include "components/gait.h"
+#include "components/leg_muscles.h"
+#include "components/pose.h"
+#include "engine/schedule.h"
+#include "engine/snapshot.h"
+#include "systems/deformation/reduced.h"
+#include "systems/kinematics/knee_frames.h"
+#include "systems/lines/elongations.h"
+#include "systems/muscles/compact_codes.h"
+
+namespace mobil {
+namespace {
+
+/// All of a person's muscles that move, right and left, over a tick.
+void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                  Ahead<StepPlan> next, const GaitState<Lanes<float>>& gait, Shared<LegMuscles> choice,
+                  TagValue<CompactMuscles> codes, Field<const CompactMotion> motion, Field<CompactState> state) {
+  if (next.block != nullptr) {
+    const auto* const p = reinterpret_cast<const char*>(next.block);
+    for (std::size_t i = 0; i < sizeof(StepPlan<Lanes<float>>); i += 64) __builtin_prefetch(p + i, 0, 2);
+  }
+  KneeFrame<Lanes<float>> leg[2];
+  knee_frames(size, plan, gait, leg);
+  const auto* const words = reinterpret_cast<const Lanes<float>*>(motion.data);
+  const LegScale<Lanes<float>> scale = {words[0], words[1], words[2]};
+  struct Moving {
+    std::uint32_t vectors;
+    CompactLayout at;
+  };
+  std::array<Moving, most_compact> moving;
+  std::array<ElongatedLine, most_compact> lines;
+  std::array<Lanes<float>, most_compact> now;
+  std::size_t count = 0, place = 0;
+  CompactLayout at;
+  for (std::size_t m = 0; m < choice->muscles.size(); ++m) {
+    if (!choice->muscles[m]) continue;
+    const std::uint32_t code = code_at(codes.value, place++);
+    if (!moves(code)) continue;
+    moving[count] = {code, at};
+    lines[count] = {&lines_of(static_cast<Muscle>(m)), &words[at.motion], &now[count]};
+    at.skip(code);
+    ++count;
+  }
+  for (std::uint32_t side = 0; side < 2; ++side) {
+    elongations({lines.data(), count}, scale, leg[side]);
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto& [vectors, from] = moving[i];
+      float* const own = state.data + lane_count * (from.state + side * (1 + 2 * vectors));
+      auto& before = *reinterpret_cast<Lanes<float>*>(own);
+      swing_reduced(vectors, before, now[i], tick_s, own + lane_count, motion.data + lane_count * (from.motion + 1));
+      before = now[i];
+    }
+  }
+}
+
+/// Who is compact is a walker without a pose; fields are as wide as the codes say.
+Result<void> check_compact_key(const TableKey& key, const World& world) {
+  const auto words = [&](std::uint64_t id) {
+    const KeyPart* const part = find_part(key, id);
+    return part == nullptr ? 0 : part->value;
+  };
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const KeyPart* const codes = find_part(key, type_id<CompactMuscles>());
+  const KeyPart* const choice = find_part(key, type_id<LegMuscles>());
+  bool sound = codes != nullptr || (!has(type_id<CompactState>()) && !has(type_id<CompactMotion>()));
+  if (codes != nullptr) {
+    const CompactLayout width = compact_width(codes->value);
+    sound = choice != nullptr && has(type_id<Gait<float>>()) && !has(type_id<Pose<float>>()) &&
+            words(type_id<CompactState>()) == width.state &&
+            words(type_id<CompactMotion>()) == (width.state > 0 ? width.motion : 0);
+  }
+  if (sound && codes != nullptr) {
+    const auto& set = static_cast<const LegMuscles*>(world.resource(choice->value))->muscles;
+    sound = set.count() <= most_compact && codes->value >> (code_bits * set.count()) == 0 &&
+            (set >> muscles().size()).none();
+  }
+  if (sound) return {};
+  return fail("the snapshot does not agree with itself (somebody's compact muscles); give one that `save` made");
+}
+
+}  // namespace
+
+Module compact_module() {
+  return {.name = "compact",
+          .parts = {key_part(FieldWidth<CompactState>{}), key_part(FieldWidth<CompactMotion>{}),
+                    key_part(TagValue<CompactMuscles>{})},
+          .systems = [](ScheduleBuilder& systems) { systems.add("compact muscles", &move_compact); },
+          .check_key = &check_compact_key};
+}
+
+}  // namespace mobil

@@ -1,0 +1,121 @@
+#include "systems/people/whole.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <vector>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "components/leg_frames.h"
+#include "components/pose.h"
+#include "engine/access.h"
+#include "engine/rows.h"
+#include "systems/kinematics/kinematics.h"
+
+namespace mobil {
+namespace {
+
+struct PosedBlock {
+  BodySize<Lanes<float>> size;
+  StepPlan<Lanes<float>> plan;
+  GaitState<Lanes<float>> state;
+  Pose<Lanes<float>> pose;
+  JointAngles<Lanes<float>> angles;
+  Feet<Lanes<float>> feet;
+  CentreOfMass<Lanes<float>> centre;
+
+  void put(const World& world, Entity person, std::size_t lane) {
+    put_row(*world.get<BodySize>(person), size, lane);
+    put_row(*world.get<StepPlan>(person), plan, lane);
+    put_row(*world.get<GaitState>(person), state, lane);
+  }
+  void make() {
+    const FlushDenormals flush;  // as in a tick
+    pose_skeleton(size, plan, state, pose, angles, feet);
+    centre_of_mass(size, pose, centre);
+  }
+};
+
+}  // namespace
+
+struct WholeWork::Blocks {
+  static constexpr std::size_t most = 64;  // at once
+  std::array<Pose<Lanes<float>>, most> pose;
+  std::array<JointAngles<Lanes<float>>, most> angles;
+  std::array<Feet<Lanes<float>>, most> feet;
+  std::array<CentreOfMass<Lanes<float>>, most> centre;
+  std::vector<Entity> people;  // table by table
+  std::vector<std::uint64_t> owned;
+};
+WholeWork::WholeWork() = default;
+WholeWork::~WholeWork() = default;
+
+bool is_compact(const World& world, Entity person) {
+  return world.has<Gait>(person) && !world.has<Pose>(person);
+}
+
+std::span<const std::uint64_t> pose_part_ids() {
+  static const auto ids = [] {
+    std::array all = {type_id<Pose<float>>(), type_id<JointAngles<float>>(), type_id<Feet<float>>(),
+                      type_id<CentreOfMass<float>>(), type_id<LegPost>()};
+    std::ranges::sort(all);
+    return all;
+  }();
+  return ids;
+}
+
+Status read_compact(const World& world, Entity person, std::uint64_t part, void* row) {
+  if (!is_compact(world, person)) return world.alive(person) ? Status::missing : Status::stale_entity;
+  const auto block = std::make_unique<PosedBlock>();
+  for (std::size_t l = 0; l < lane_count; ++l) block->put(world, person, l);
+  block->make();
+  const auto copied = [&](const auto& of) {
+    std::memcpy(row, &of, sizeof(of));
+    return Status::ok;
+  };
+  if (part == type_id<Pose<float>>()) return copied(first_lane(block->pose));
+  if (part == type_id<JointAngles<float>>()) return copied(first_lane(block->angles));
+  if (part == type_id<Feet<float>>()) return copied(first_lane(block->feet));
+  if (part == type_id<CentreOfMass<float>>()) return copied(first_lane(block->centre));
+  return Status::missing;
+}
+
+void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, std::span<const std::uint64_t> gone,
+                WholeWork& work) {
+  if (work.blocks == nullptr) work.blocks = std::make_unique<WholeWork::Blocks>();
+  WholeWork::Blocks& blocks = *work.blocks;
+  const std::array<PartValue, 5> parts = {{{component_part<Pose>(), blocks.pose.data()},
+                                           {component_part<JointAngles>(), blocks.angles.data()},
+                                           {component_part<Feet>(), blocks.feet.data()},
+                                           {component_part<CentreOfMass>(), blocks.centre.data()},
+                                           part_value(Publishes<LegPost>{})}};
+  blocks.owned.assign(gone.begin(), gone.end());
+  blocks.owned.insert(blocks.owned.end(), pose_part_ids().begin(), pose_part_ids().end());
+  std::ranges::sort(blocks.owned);
+  blocks.people.assign(people.begin(), people.end());
+  const auto table = [&](Entity person) { return world.locate(person)->table; };
+  std::ranges::stable_sort(blocks.people, {}, table);
+  for (std::span<const Entity> left = blocks.people; !left.empty();) {
+    std::size_t count = 1;
+    while (count < std::min(left.size(), WholeWork::Blocks::most * lane_count) && table(left[count]) == table(left[0]))
+      ++count;
+    const auto some = left.first(count);
+    left = left.subspan(count);
+    in_parallel(jobs, (count + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
+      const auto block = std::make_unique<PosedBlock>();
+      for (std::size_t b = begin; b < end; ++b) {
+        for (std::size_t l = 0; l < lane_count; ++l)
+          block->put(world, some[b * lane_count + l < count ? b * lane_count + l : b * lane_count], l);
+        block->make();
+        blocks.pose[b] = block->pose;
+        blocks.angles[b] = block->angles;
+        blocks.feet[b] = block->feet;
+        blocks.centre[b] = block->centre;
+      }
+    });
+    world.remake_many(some, parts, blocks.owned, jobs);
+  }
+}
+
+}  // namespace mobil

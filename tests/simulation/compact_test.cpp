@@ -1,0 +1,347 @@
+// Compact people: walks are those of people who never were, to the bit; muscles go on within what is promised.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "components/compact.h"
+#include "components/forces.h"
+#include "components/sleep.h"
+#include "systems/people/pose_writer.h"
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+
+namespace mobil {
+namespace {
+
+LegMuscles unseen(std::uint32_t vectors) {
+  LegMuscles choice;
+  choice.method = Method::reduced;
+  choice.reduced = {.vectors = vectors, .cells = {2, 2, 8}, .control_points = false, .reported = false};
+  return choice;
+}
+
+/// The same people in two simulations: in one of them some are compact.
+struct Pair {
+  explicit Pair(int count, const std::optional<LegMuscles>& muscles = std::nullopt, int threads = 1)
+      : compact({.threads = threads}), whole({.threads = threads}) {
+    for (int i = 0; i < count; ++i) {
+      const Person one = person(i);
+      for (Simulation* const simulation : {&compact, &whole}) {
+        const Entity human = *simulation->spawn(one.body, one.gait);
+        if (muscles) {
+          EXPECT_TRUE(simulation->add_leg_muscles(human, *muscles));
+        }
+        (simulation == &compact ? small : large).push_back(human);
+      }
+    }
+  }
+  void tick(int count = 1) {
+    for (int i = 0; i < count; ++i) compact.tick(), whole.tick();
+  }
+  void turn(std::size_t i, float heading_rad) {
+    EXPECT_TRUE(compact.turn_to(small[i], heading_rad));
+    EXPECT_TRUE(whole.turn_to(large[i], heading_rad));
+  }
+  void hasten(std::size_t i, float speed_m_s) {
+    EXPECT_TRUE(compact.change_gait(small[i], {.speed_m_s = speed_m_s}));
+    EXPECT_TRUE(whole.change_gait(large[i], {.speed_m_s = speed_m_s}));
+  }
+  template <template <class> class C>
+  bool same(std::size_t i) const {
+    const auto a = compact.get<C>(small[i]), b = whole.get<C>(large[i]);
+    return a && b && std::memcmp(&*a, &*b, sizeof(*a)) == 0;
+  }
+  bool all_same(std::size_t i) const {
+    return same<Gait>(i) && same<GaitState>(i) && same<StepPlan>(i) && same<Pose>(i) && same<JointAngles>(i) &&
+           same<Feet>(i) && same<CentreOfMass>(i) && same<BodySize>(i) && same<Physique>(i);
+  }
+  std::size_t how_many() const {
+    return static_cast<std::size_t>(std::ranges::count_if(small, [&](Entity e) { return compact.is_compact(e); }));
+  }
+
+  Simulation compact, whole;
+  std::vector<Entity> small, large;
+};
+
+std::vector<float> state_of(const Simulation& simulation, Entity muscle) {
+  std::vector<float> state(*simulation.world().get<ReducedState>(muscle));
+  EXPECT_EQ(simulation.world().get_field<ReducedState>(muscle, state), Status::ok);
+  return state;
+}
+
+TEST(Compact, WhoWasCompactIsWhereWhoNeverWasIs) {
+  Pair pair(70);
+  std::mt19937 random(3);
+  std::size_t most = 0, read = 0;
+  for (int second = 0; second < 40; ++second) {
+    std::vector<Entity> shrink, grow;
+    for (std::size_t i = 0; i < pair.small.size(); ++i) {
+      const auto draw = random() % 100;
+      if (draw < 10) pair.turn(i, 0.06F * static_cast<float>(draw) * static_cast<float>(second % 7 - 3));
+      if (draw >= 10 && draw < 20) pair.hasten(i, draw == 10 ? 0.0F : 0.08F * static_cast<float>(draw));
+      if (draw > 50) (draw > 80 ? grow : shrink).push_back(pair.small[i]);
+    }
+    const auto are = pair.compact.compact(shrink);
+    ASSERT_TRUE(are) << are.error().message;
+    EXPECT_EQ(*are, shrink.size());
+    ASSERT_TRUE(pair.compact.expand(grow));
+    most = std::max(most, pair.how_many());
+    pair.tick(15 + static_cast<int>(random() % 20));
+    for (auto i = static_cast<std::size_t>(second % 5); i < pair.small.size(); i += 5) {
+      ASSERT_TRUE(pair.all_same(i)) << "person " << i << " in second " << second;
+      read += pair.compact.is_compact(pair.small[i]) ? 1 : 0;
+    }
+  }
+  ASSERT_TRUE(pair.compact.expand(pair.small));
+  EXPECT_EQ(pair.how_many(), 0U);
+  EXPECT_EQ(pair.compact.state_hash(), pair.whole.state_hash());
+  EXPECT_GT(most, 40U);
+  EXPECT_GT(read, 200U);
+}
+
+/// Near the origin: far from it whole people's places, and with them their lines, lose digits that compact ones keep.
+TEST(Compact, MusclesGoOnWithinFourMicrometres) {
+  for (const std::uint32_t vectors : {4U, 12U}) {
+    Pair pair(40, unseen(vectors));
+    pair.tick(20);
+    ASSERT_EQ(*pair.compact.compact(pair.small), pair.small.size());
+    for (std::size_t i = 0; i < pair.small.size(); i += 3) pair.turn(i, i % 2 == 0 ? 1.2F : -0.7F);
+    for (std::size_t i = 1; i < pair.small.size(); i += 3) pair.hasten(i, i % 2 == 0 ? 0.0F : 1.5F);
+    pair.tick(120);
+    ASSERT_TRUE(pair.compact.expand(pair.small));
+    MuscleMethod seen = {Method::reduced, unseen(vectors).reduced};
+    seen.reduced.control_points = true;
+    double worst_end = 0, worst_point = 0, largest = 0;
+    for (std::size_t i = 0; i < pair.small.size(); ++i) {
+      for (std::size_t m = 0; m < muscle_group_count; ++m) {
+        const auto muscle = static_cast<Muscle>(m);
+        ASSERT_TRUE(pair.compact.set_method(pair.small[i], muscle, seen));
+        ASSERT_TRUE(pair.whole.set_method(pair.large[i], muscle, seen));
+        for (const Side side : {Side::right, Side::left}) {
+          const Entity a = pair.compact.muscle(pair.small[i], muscle, side);
+          const Entity b = pair.whole.muscle(pair.large[i], muscle, side);
+          const double end = double{pair.compact.get<EndDrive>(a)->to} - double{pair.whole.get<EndDrive>(b)->to};
+          worst_end = std::max(worst_end, std::fabs(end));
+          const NodalView one = pair.compact.nodal_displacement(a), other = pair.whole.nodal_displacement(b);
+          for (std::size_t k = 0; k < 3 * std::size_t{one.nodes}; ++k) {
+            const double u = double{one.first[k * lane_count]}, v = double{other.first[k * lane_count]};
+            worst_point = std::max(worst_point, std::fabs(u - v));
+            largest = std::max(largest, std::fabs(v));
+          }
+        }
+      }
+    }
+    EXPECT_LT(worst_end, 4e-6);
+    EXPECT_LT(worst_point, 2e-5);
+    EXPECT_GT(largest, 0.01);
+  }
+}
+
+TEST(Compact, HandingOverAndBackChangesNothing) {
+  Simulation simulation;
+  std::vector<Entity> people;
+  for (int i = 0; i < 19; ++i) {
+    people.push_back(*simulation.spawn(person(i).body, person(i).gait));
+    ASSERT_TRUE(simulation.add_leg_muscles(people.back(), unseen(6)));
+  }
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  std::vector<std::vector<float>> before;
+  const auto states = [&] {
+    std::vector<std::vector<float>> all;
+    for (const Entity human : people) {
+      for (const OwnMuscle& own : simulation.muscles(human))
+        for (const Entity muscle : own.entity) {
+          all.push_back(state_of(simulation, muscle));
+          all.back().push_back(simulation.get<EndDrive>(muscle)->to);
+          all.back().push_back(simulation.get<LineOfAction>(muscle)->length_m);
+        }
+    }
+    return all;
+  };
+  before = states();
+  ASSERT_EQ(*simulation.compact(people), people.size());
+  EXPECT_TRUE(simulation.muscles(people[3]).empty());
+  ASSERT_TRUE(simulation.expand(people));
+  EXPECT_EQ(states(), before);
+  ASSERT_EQ(*simulation.compact(people), people.size());
+  const std::uint64_t hash = simulation.state_hash();
+  ASSERT_TRUE(simulation.expand(people));
+  ASSERT_EQ(*simulation.compact(people), people.size());
+  EXPECT_EQ(simulation.state_hash(), hash);
+}
+
+TEST(Compact, EachMuscleHasTheMethodThatItHad) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({});
+  ASSERT_TRUE(simulation.add_leg_muscles(human, unseen(4)));
+  const auto reduced = [](std::uint32_t vectors, bool moving) {
+    ReducedChoice choice = unseen(vectors).reduced;
+    choice.moving = moving;
+    return MuscleMethod{Method::reduced, choice};
+  };
+  const std::vector<MuscleMethod> methods = {
+      {Method::none, {}}, reduced(12, false), reduced(7, true), reduced(4, true)};
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    ASSERT_TRUE(simulation.set_method(human, static_cast<Muscle>(m), methods[m]));
+  ASSERT_EQ(*simulation.compact({&human, 1}), 1U);
+  const auto as_asked = [&] {
+    for (std::size_t m = 0; m < methods.size(); ++m)
+      EXPECT_TRUE(same_method(simulation.method(human, static_cast<Muscle>(m)), methods[m])) << m;
+  };
+  as_asked();
+  simulation.tick();
+  EXPECT_EQ(simulation.human(human)->leg_muscles.muscles, muscle_groups());
+  ASSERT_TRUE(simulation.expand({&human, 1}));
+  as_asked();
+  EXPECT_EQ(simulation.muscles(human).size(), 4U);
+}
+
+template <class F>
+struct Sticker {
+  F value;
+};
+
+TEST(Compact, NotWhoHasWhatACompactRowCannotHold) {
+  Simulation simulation({.modules = {{.name = "stickers", .parts = {component_part<Sticker>()}}}});
+  const auto stays_whole = [&](Entity human, const char* what) {
+    EXPECT_EQ(simulation.compact({&human, 1}).value(), 0U) << what;
+    EXPECT_FALSE(simulation.is_compact(human)) << what;
+  };
+  const auto with = [&](const LegMuscles& choice) {
+    const Entity human = *simulation.spawn({});
+    EXPECT_TRUE(simulation.add_leg_muscles(human, choice));
+    return human;
+  };
+  stays_whole(*simulation.spawn_posed({}), "posed");
+  const Entity pressing = *simulation.spawn({});
+  ASSERT_TRUE(simulation.add_forces(pressing));
+  stays_whole(pressing, "forces");
+  LegMuscles choice = unseen(4);
+  choice.reduced.control_points = true;
+  stays_whole(with(choice), "control points");
+  choice = unseen(4);
+  choice.inertia = true;
+  stays_whole(with(choice), "inertia");
+  choice = unseen(4);
+  choice.line_motion = true;
+  stays_whole(with(choice), "line motion");
+  choice = unseen(4);
+  choice.drive = Drive::force;
+  stays_whole(with(choice), "drawn by force");
+  choice = unseen(4);
+  choice.method = Method::ecd;
+  stays_whole(with(choice), "explicit");
+  choice = unseen(4);
+  choice.activation = ExcitationSource::phase;
+  stays_whole(with(choice), "activation");
+  choice = unseen(31);
+  choice.muscles = 1;
+  choice.reduced.cells = {4, 4, 16};
+  stays_whole(with(choice), "too many vectors");
+  const Entity labelled = with(unseen(4));
+  ASSERT_TRUE(simulation.add(simulation.muscle(labelled, Muscle::quadriceps, Side::left), Sticker<float>{1}));
+  stays_whole(labelled, "a host's part of a muscle");
+  const Entity fine = with(unseen(4));
+  ASSERT_TRUE(simulation.add(fine, Sticker<float>{7}));
+  EXPECT_EQ(simulation.compact({&fine, 1}).value(), 1U);
+  EXPECT_EQ(simulation.get<Sticker>(fine)->value, 7.0F);
+  const std::vector twice = {fine, fine};
+  EXPECT_FALSE(simulation.compact(twice));
+  EXPECT_FALSE(simulation.expand(twice));
+  EXPECT_TRUE(simulation.is_compact(fine));
+  ASSERT_TRUE(simulation.despawn(fine));
+  EXPECT_EQ(simulation.compact({&fine, 1}).error().status, Status::stale_entity);
+  EXPECT_FALSE(simulation.is_compact(fine));
+}
+
+TEST(Compact, OtherCallsMakeWholeFirst) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({});
+  ASSERT_TRUE(simulation.add_leg_muscles(human, unseen(4)));
+  const auto small = [&] { EXPECT_EQ(simulation.compact({&human, 1}).value(), 1U); };
+  small();
+  ASSERT_TRUE(simulation.change_gait(human, {.speed_m_s = 1.1F}));
+  ASSERT_TRUE(simulation.turn_to(human, 0.5F));
+  simulation.tick();
+  EXPECT_TRUE(simulation.is_compact(human));
+  ASSERT_TRUE(simulation.place(human, 3, 4, 0.2F));
+  EXPECT_FALSE(simulation.is_compact(human));
+  EXPECT_NEAR(simulation.get<Pose>(human)->position_m[0].x, 3, 0.5);
+  small();
+  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none, {}}));
+  EXPECT_FALSE(simulation.is_compact(human));
+  small();
+  ASSERT_TRUE(simulation.remove_leg_muscles(human));
+  EXPECT_TRUE(simulation.muscles(human).empty());
+  small();
+  ASSERT_TRUE(simulation.add_leg_muscles(human, unseen(4)));
+  EXPECT_EQ(simulation.muscles(human).size(), 4U);
+  small();
+  ASSERT_TRUE(simulation.add_forces(human));
+  simulation.tick();
+  EXPECT_TRUE(simulation.get<GroundReaction>(human));
+}
+
+TEST(Compact, FallsAsleepAndWakes) {
+  Pair pair(20, unseen(4));
+  pair.tick(300);
+  ASSERT_EQ(*pair.compact.compact(pair.small), pair.small.size());
+  const std::size_t slept = *pair.compact.sleep(pair.small);
+  EXPECT_GT(slept, 10U);
+  pair.tick(50);
+  ASSERT_TRUE(pair.compact.wake(pair.small));
+  for (std::size_t i = 0; i < pair.small.size(); ++i) {
+    EXPECT_TRUE(pair.all_same(i));
+    EXPECT_EQ(pair.compact.method(pair.small[i], Muscle::quadriceps).reduced.vectors, 4U);
+    EXPECT_EQ(pair.compact.muscles(pair.small[i]).size(), 4U);
+  }
+}
+
+TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
+  Simulation simulation({.threads = 2});
+  std::vector<Entity> people;
+  for (int i = 0; i < 21; ++i) {
+    people.push_back(*simulation.spawn(person(i).body, person(i).gait));
+    if (i % 3 != 0) {
+      ASSERT_TRUE(simulation.add_leg_muscles(people.back(), unseen(i % 2 == 0 ? 4 : 9)));
+    }
+  }
+  for (int i = 0; i < 10; ++i) simulation.tick();
+  ASSERT_EQ(*simulation.compact(people), people.size());
+  std::vector<std::byte> bytes(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(bytes));
+  Simulation other;
+  const auto restored = other.restore(bytes);
+  ASSERT_TRUE(restored) << restored.error().message;
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+  for (int i = 0; i < 25; ++i) simulation.tick(), other.tick();
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+  ASSERT_TRUE(other.expand(people));
+  EXPECT_EQ(other.muscles(people[1]).size(), 4U);
+  const Vec3<float> before = simulation.get<Pose>(people[5])->position_m[7];
+  ASSERT_TRUE(simulation.shift_origin(64, -128));
+  const Vec3<float> after = simulation.get<Pose>(people[5])->position_m[7];
+  EXPECT_NEAR(after.x, before.x - 64, 1e-5);
+  EXPECT_NEAR(after.z, before.z + 128, 2e-5);
+}
+
+TEST(Compact, PosesAreWrittenOfThem) {
+  Pair pair(35);
+  pair.tick(40);
+  ASSERT_TRUE(pair.compact.compact(std::span(pair.small).subspan(5, 20)));
+  for (const double ahead_s : {0.0, 0.011}) {
+    std::vector<std::byte> a(pair.small.size() * segment_count * 28), b(a.size());
+    PoseWriter writer;
+    ASSERT_TRUE(writer.write(pair.compact.world(), pair.small, ahead_s, {}, {a}));
+    ASSERT_TRUE(writer.write(pair.whole.world(), pair.large, ahead_s, {}, {b}));
+    EXPECT_EQ(a, b);
+  }
+}
+
+}  // namespace
+}  // namespace mobil

@@ -109,6 +109,10 @@ Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
     distance_.emplace_back((x * x + z * z) * (walkers_[i].near ? stays : 1), i);
   }
   std::nth_element(distance_.begin(), distance_.begin() + static_cast<std::ptrdiff_t>(near), distance_.end());
+  entities_.clear();  // all who come near become whole together
+  for (std::size_t k = 0; k < near; ++k)
+    if (!walkers_[distance_[k].second].near) entities_.push_back(walkers_[distance_[k].second].entity);
+  if (auto done = simulation_->expand(entities_); !done) return done;
   for (std::size_t k = 0; k < distance_.size(); ++k) {
     CrowdWalker& walker = walkers_[distance_[k].second];
     const bool is_near = k < near;

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 
 #include "assets/body/column.h"
+#include "engine/fetch_ahead.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/step_now-inl.h"
 
@@ -142,7 +143,13 @@ HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::
 
 void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                Feet<Lanes<float>>& feet) {
+                Feet<Lanes<float>>& feet, const NextWalkers& next) {
+  FetchAhead plans(next.plan), poses(next.pose);
+  const auto fetch = [&] {
+    plans.fetch(60);
+    poses.fetch(60);
+  };
+  plans.fetch(120);
   const Skeleton skeleton{load(size.height_m), pose};
   const StepNow now = step_now(skeleton.height, plan, state);
   const PelvisMotion& motion = now.motion;
@@ -158,12 +165,15 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
                facing * motion.turn);
 
   Wide leg[2];
+  fetch();
   for (std::size_t side = 0; side < 2; ++side) {
+    fetch();
     leg[side] = pose_leg(now, origin, facing, side, skeleton, angles, feet);
     store(0.5F * select(now.stands[side], now.part, now.part + 1.0F), feet.phase[side]);
   }
 
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
+  fetch();
   pose_column(facing, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation,
               harmonics(now.shape, step_shape::trunk, 3, now.waves), skeleton);
   const ArmManner arms = {manner(from.arm_back, to.arm_back, eased),
@@ -175,8 +185,11 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
                           manner(from.finger_flexion, to.finger_flexion, eased)};
   const Wide leg_back = manner(from.leg_back, to.leg_back, eased);
   const Wide per_range = 1.0F / max(manner(from.leg_forward, to.leg_forward, eased) - leg_back, 1e-3F);
-  for (std::size_t side = 0; side < 2; ++side)
+  for (std::size_t side = 0; side < 2; ++side) {
+    fetch();
     pose_arm(arms, (leg[1 - side] - leg_back) * per_range, side, skeleton, angles);
+  }
+  fetch();
   store(motion.rotation, angles.pelvis_rotation);
   store(motion.list, angles.pelvis_list);
   store(motion.tilt, angles.pelvis_tilt);
@@ -205,8 +218,8 @@ HWY_EXPORT(centre_block);
 
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                   Feet<Lanes<float>>& feet) {
-  HWY_DYNAMIC_DISPATCH(pose_block)(size, plan, state, pose, angles, feet);
+                   Feet<Lanes<float>>& feet, const NextWalkers& next) {
+  HWY_DYNAMIC_DISPATCH(pose_block)(size, plan, state, pose, angles, feet, next);
 }
 
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,

@@ -11,14 +11,20 @@ namespace mobil {
 /// within a seventh.
 inline constexpr float kneecap_part = 0.9F;
 
+/// The block to be posed next: fetched meanwhile, never read.
+struct NextWalkers {
+  const StepPlan<Lanes<float>>* plan = nullptr;
+  const Pose<Lanes<float>>* pose = nullptr;
+};
+
 /// Writes every segment's world position and rotation, the joint angles and the feet's ground points. Hips follow the
 /// step's curves, turned, listed, tilted and shifted as `pelvis_phase` (components/gait.h) says; the standing foot
 /// turns about its planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with the
 /// knee pointing forward; the column undoes the pelvis up to the head; each arm follows the opposite leg. No state of
-/// its own: any time of any step may be asked.
+/// its own: any time of any step may be asked. `next` may be empty.
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                    const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                   Feet<Lanes<float>>& feet);
+                   Feet<Lanes<float>>& feet, const NextWalkers& next = {});
 
 /// Centre of mass of the whole body, from the masses and centres of its segments.
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,

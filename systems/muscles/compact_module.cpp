@@ -7,6 +7,7 @@
 #include "components/gait.h"
 #include "components/leg_muscles.h"
 #include "components/pose.h"
+#include "engine/fetch_ahead.h"
 #include "engine/schedule.h"
 #include "engine/snapshot.h"
 #include "systems/deformation/reduced.h"
@@ -21,12 +22,13 @@ namespace {
 void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                   Ahead<StepPlan> next, const GaitState<Lanes<float>>& gait, Shared<LegMuscles> choice,
                   TagValue<CompactMuscles> codes, Field<const CompactMotion> motion, Field<CompactState> state) {
-  if (next.block != nullptr) {
-    const auto* const p = reinterpret_cast<const char*>(next.block);
-    for (std::size_t i = 0; i < sizeof(StepPlan<Lanes<float>>); i += 64) __builtin_prefetch(p + i, 0, 2);
-  }
+  FetchAhead plans(next.block);
+  FetchAhead motions(motion.next, std::size_t{motion.words} * sizeof(Lanes<float>));
+  FetchAhead states(state.next, std::size_t{state.words} * sizeof(Lanes<float>));
+  plans.fetch(120);
   KneeFrame<Lanes<float>> leg[2];
   knee_frames(size, plan, gait, leg);
+  plans.fetch(60);
   const auto* const words = reinterpret_cast<const Lanes<float>*>(motion.data);
   const LegScale<Lanes<float>> scale = {words[0], words[1], words[2]};
   struct Moving {
@@ -50,6 +52,9 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
   for (std::uint32_t side = 0; side < 2; ++side) {
     elongations({lines.data(), count}, scale, leg[side]);
     for (std::size_t i = 0; i < count; ++i) {
+      plans.fetch(25);
+      motions.fetch(12);
+      states.fetch(12);
       const auto& [vectors, from] = moving[i];
       float* const own = state.data + lane_count * (from.state + side * (1 + 2 * vectors));
       auto& before = *reinterpret_cast<Lanes<float>*>(own);

@@ -24,6 +24,12 @@
 namespace mobil {
 namespace {
 
+void pose_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, Ahead<StepPlan> next_plan,
+                  const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, Ahead<Pose> next_pose,
+                  JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet) {
+  pose_skeleton(size, plan, state, pose, angles, feet, {next_plan.block, next_pose.block});
+}
+
 void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
   post_legs(pose, posts.row);
 }
@@ -93,7 +99,7 @@ Module walking_module() {
                 .after("gait")
                 .add("turn", &turn_gait)
                 .after("replan")
-                .add("kinematics", &pose_skeleton)
+                .add("kinematics", &pose_walkers)
                 .add("centre of mass", &centre_of_mass);
           }};
 }

@@ -76,6 +76,9 @@ class CostSpectrum {
   void clear() { due_.fill(0); }
   /// `cost_ps` falls due while the factor is below `factor`.
   void add(float factor, std::int64_t cost_ps) { due_[bin(factor)] += cost_ps; }
+  void add(const CostSpectrum& more) {
+    for (std::size_t i = 0; i < bins; ++i) due_[i] += more.due_[i];
+  }
   /// What a muscle costs whose errors are `size` times the table's parts of its tolerance (`size` in 1/m).
   void add(const RungLadder& ladder, const RungCase& of, float size);
   /// The least factor, least_factor ≤ … ≤ most_factor, at which all costs at most `budget_ps`, up to a bin (4 %).

@@ -88,11 +88,12 @@ Vec3<float> Relevance::pelvis_of(const Table& table, const Columns& at, std::siz
 }
 
 /// Who is to be whole, and who may be compact: of whom nothing is seen and who waits for nothing.
-void Relevance::decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess) {
+void Relevance::decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess,
+                               Looked& out) const {
   const bool looked_at = static_cast<View>(tiers.view) == View::seen;
   if ((tiers.effects & (tier_inertia | tier_living)) != 0 && !compact) return;
-  if (compact && (looked_at || !settled || !scene_.compact_unseen)) expanding_.push_back({excess, human});
-  if (!compact && scene_.compact_unseen && !looked_at && settled) unseen_.push_back(human);
+  if (compact && (looked_at || !settled || !scene_.compact_unseen)) out.expanding.push_back({excess, human});
+  if (!compact && scene_.compact_unseen && !looked_at && settled) out.unseen.push_back(human);
 }
 
 /// Tables come and stay.
@@ -131,23 +132,69 @@ void Relevance::set_state(const RelevanceState& state) {
   all_sleepers_ = state.all_sleepers;
 }
 
+void Relevance::Looked::clear() {
+  dearer.clear();
+  cheaper.clear();
+  bare.clear();
+  expanding.clear();
+  drowsy.clear();
+  idle.clear();
+  unseen.clear();
+  counted_ps = 0;
+}
+
+void Relevance::Looked::add(const Looked& more) {
+  const auto join = [](auto& to, const auto& from) { to.insert(to.end(), from.begin(), from.end()); };
+  join(dearer, more.dearer);
+  join(cheaper, more.cheaper);
+  join(bare, more.bare);
+  join(expanding, more.expanding);
+  join(drowsy, more.drowsy);
+  join(idle, more.idle);
+  join(unseen, more.unseen);
+  counted_ps += more.counted_ps;
+}
+
+/// This turn's part of the crowd, in runs of blocks on all threads; the lists are joined in the order of the blocks.
+std::size_t Relevance::look_at_the_awake() {
+  constexpr std::size_t together = 16;  // blocks
+  now_.clear();
+  blocks_.clear();
+  std::size_t people = 0;
+  for (std::uint32_t t = 0; t < tables_.size(); ++t) {
+    Table& table = *tables_[t].first;
+    for (std::size_t b = turn_; b < table.block_count(); b += options_.stagger) {
+      blocks_.push_back({t, static_cast<std::uint32_t>(b)});
+      people += table.live(b);
+    }
+  }
+  const std::size_t runs = (blocks_.size() + together - 1) / together;
+  if (looked_.size() < runs) looked_.resize(runs);
+  in_parallel(SimulationWorld::jobs(simulation_), runs, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t run = begin; run < end; ++run) {
+      Looked& out = looked_[run];
+      out.clear();
+      if (scene_.budget_s) out.counting.clear();
+      for (std::size_t i = run * together; i < std::min((run + 1) * together, blocks_.size()); ++i) {
+        auto& [table, columns] = tables_[blocks_[i].table];
+        evaluate(*table, columns, blocks_[i].block, out);
+      }
+    }
+  });
+  for (std::size_t run = 0; run < runs; ++run) {
+    now_.add(looked_[run]);
+    if (scene_.budget_s) counting_.add(looked_[run].counting);
+  }
+  counted_ps_ += now_.counted_ps;
+  return people;
+}
+
 RelevanceReport Relevance::update() {
   RelevanceReport report;
   find_tables();
   observe_machine();
-  dearer_.clear();
-  cheaper_.clear();
-  drowsy_.clear();
-  bare_.clear();
-  idle_.clear();
-  unseen_.clear();
-  expanding_.clear();
   wake_sleepers(report);
-  for (auto& [table, columns] : tables_) {
-    for (std::size_t b = turn_; b < table->block_count(); b += options_.stagger) {
-      report.evaluated += evaluate(*table, columns, b);
-    }
-  }
+  report.evaluated = look_at_the_awake();
   if (++turn_ >= options_.stagger) {
     turn_ = 0;
     crowd_ = counting_;
@@ -167,7 +214,7 @@ RelevanceReport Relevance::update() {
   return report;
 }
 
-std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b) {
+void Relevance::evaluate(Table& table, const Columns& at, std::size_t b, Looked& out) const {
   const auto& all_needs = at.needs.at(table, b);
   auto& all_tiers = at.tiers.at(table, b);
   const bool compact = !at.pose;
@@ -200,34 +247,34 @@ std::uint32_t Relevance::evaluate(Table& table, const Columns& at, std::size_t b
         view = View::near;  // soon, perhaps
         if (at.plan && Gap(*scene_.camera)(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
             may_be_steady(at.gait.at(table, b), at.plan.at(table, b), at.state.at(table, b), lane))
-          drowsy_.push_back(table.entities(b)[lane]);
+          out.drowsy.push_back(table.entities(b)[lane]);
       }
     }
     if ((needs.own & own_look) != 0) view = needs.looked_at != 0 ? View::seen : View::near;
     if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
     tiers.view = static_cast<std::uint32_t>(view);
 
-    decide(table.entities(b)[lane], tiers, wanted(needs), compact);
+    decide(table.entities(b)[lane], tiers, wanted(needs), compact, out);
     put_row(tiers, all_tiers, lane);
   }
-  return live;
 }
 
 std::uint32_t Relevance::wanted(const Needs<float>& needs) const {
   return (needs.own & own_muscles) != 0 ? needs.muscles : static_cast<std::uint32_t>(scene_.muscles.to_ulong());
 }
 
-void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact) {
+void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+                       Looked& out) const {
   const auto view = static_cast<View>(tiers.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = tiers.relative_size / tiers.tolerance_m;  // errors as parts of the tolerance, over the table's
   const float limit = factor_ / size;
-  if ((tiers.effects & tier_bare) != 0) return decide_bare(human, tiers, wanted_muscles, compact);
+  if ((tiers.effects & tier_bare) != 0) return decide_bare(human, tiers, wanted_muscles, compact, out);
   const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
   // Where nothing is seen of any of them, and nothing was forced, all go at once.
   bool idle = scene_.asleep_beyond_m && tiers.muscles != 0, settled = true;
   float excess = 0;
-  const std::size_t dearer = dearer_.size(), cheaper = cheaper_.size();
+  const std::size_t dearer = out.dearer.size(), cheaper = out.cheaper.size();
   for (std::uint32_t left = tiers.muscles; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
     const std::uint32_t now = rung_at(tiers.rung, m);
@@ -240,10 +287,10 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
     RungCase as_seen = as_is;
     as_seen.points = looked_at;
     const std::int64_t cost = ladder_.cost_ps(as_is, now);
-    counted_ps_ += cost;
+    if (!compact) out.counted_ps += cost;  // what is compact is no part of what a budget is for
     std::uint32_t goal = 0;
     if (simulated && bit_at(wanted_muscles, m)) {
-      if (scene_.budget_s) counting_.add(ladder_, as_seen, size);
+      if (scene_.budget_s && !compact) out.counting.add(ladder_, as_seen, size);
       goal = ladder_.from(now, as_seen, limit, over ? 1.0F : options_.slack);
     }
     idle = idle && goal == 0;
@@ -258,15 +305,15 @@ void Relevance::decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_m
     settled = false;
     const float misses = ladder_.error_m(as_seen, worst) * size;
     excess = std::max(excess, misses);
-    (more > 0 ? dearer_ : cheaper_)
+    (more > 0 ? out.dearer : out.cheaper)
         .push_back(
             {misses, human, static_cast<std::uint8_t>(m), static_cast<std::uint8_t>(goal), shown, as_is.living, more});
   }
-  decide_compact(human, compact, tiers, settled, excess);
+  decide_compact(human, compact, tiers, settled, excess, out);
   if (!idle) return;
-  dearer_.resize(dearer);
-  cheaper_.resize(cheaper);
-  idle_.push_back(human);
+  out.dearer.resize(dearer);
+  out.cheaper.resize(cheaper);
+  out.idle.push_back(human);
 }
 
 }  // namespace mobil

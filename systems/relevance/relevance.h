@@ -66,7 +66,7 @@ struct SceneNeeds {
   /// and whole again when something is, or when another method is due. Handles of their muscles come and go with that.
   bool compact_unseen = false;
   bool looked_at = true;  // control points are placed; with a camera those seen are
-  /// Processor time a tick for everybody's deformation, s. Where tolerances cost more, all are missed by one factor,
+  /// Processor time a tick for everybody's deformation, but for compact people's, s. Where tolerances cost more, all are missed by one factor,
   /// the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the factor may be below 1: all of
   /// the budget is spent.
   std::optional<double> budget_s{};
@@ -253,22 +253,50 @@ class Relevance {
     std::int64_t cost_ps;  // more than now
   };
 
+  /// Who wakes without muscles and is to have them: all by one rung.
+  struct Bare {
+    float excess;
+    Entity human;
+    std::uint32_t rung;
+    bool points;
+  };
+  /// Who is compact and is to be whole.
+  struct Expanding {
+    float excess;
+    Entity human;
+  };
+  /// What looking at some people came to.
+  struct Looked {
+    std::vector<Switch> dearer, cheaper;
+    std::vector<Bare> bare;
+    std::vector<Expanding> expanding;
+    std::vector<Entity> drowsy, idle, unseen;
+    CostSpectrum counting;  // with a budget
+    std::int64_t counted_ps = 0;
+
+    void clear();
+    void add(const Looked& more);  // all but `counting`
+  };
+
   std::array<bool, rung_count> called_for(std::span<const float> tolerances_m) const;
   void find_tables();
-  std::uint32_t evaluate(Table& table, const Columns& at, std::size_t block);
-  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact);
+  std::size_t look_at_the_awake();
+  void evaluate(Table& table, const Columns& at, std::size_t block, Looked& out) const;
+  void decide(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact, Looked& out) const;
   void observe_machine();
   void plan_budget();
   void wake_sleepers(RelevanceReport& report);
   void look_at_sleepers();
   Tiers<float> begin_tiers(const LegMuscles* choice) const;
-  void decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact);
+  void decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+                   Looked& out) const;
   void begin_muscles(RelevanceReport& report);
   void end_muscles(RelevanceReport& report);
   Result<void> begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points);
   void put_to_sleep(RelevanceReport& report);
   static Vec3<float> pelvis_of(const Table& table, const Columns& at, std::size_t block, std::uint32_t lane);
-  void decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess);
+  void decide_compact(Entity human, bool compact, const Tiers<float>& tiers, bool settled, float excess,
+                      Looked& out) const;
   void make_whole(RelevanceReport& report);
   void make_compact(RelevanceReport& report);
   void carry_out(RelevanceReport& report);
@@ -291,17 +319,18 @@ class Relevance {
   std::uint32_t turn_ = 0, last_tick_ = 0;
   std::size_t tables_seen_ = 0;
   std::vector<std::pair<Table*, Columns>> tables_;
-  std::vector<Switch> dearer_, cheaper_;
+  /// What was decided of those looked at: by this update, and by each run of blocks of it.
+  Looked now_;
+  std::vector<Looked> looked_;
+  struct BlockOf {
+    std::uint32_t table, block;
+  };
+  std::vector<BlockOf> blocks_;
   // Sleep: what the last update saw, where looking at sleepers stopped; memory to work in.
   struct Waking {
     float order;
     Entity human;
     bool seen;
-  };
-  /// Who is compact and is to be whole.
-  struct Expanding {
-    float excess;
-    Entity human;
   };
   Vec3<float> eye_m_{}, gaze_{};
   std::uint32_t sleepers_looked_ = 0;
@@ -310,15 +339,7 @@ class Relevance {
   std::vector<std::size_t> sleeping_blocks_;  // up to and with a table
   std::vector<std::uint16_t> near_lanes_;
   std::vector<Waking> waking_;
-  struct Bare {
-    float excess;
-    Entity human;
-    std::uint32_t rung;
-    bool points;
-  };
-  std::vector<Bare> bare_;
-  std::vector<Expanding> expanding_;
-  std::vector<Entity> drowsy_, people_, idle_, unseen_;
+  std::vector<Entity> people_;
 };
 
 }  // namespace mobil

@@ -84,16 +84,16 @@ void Relevance::carry_out(RelevanceReport& report) {
   };
   const std::size_t turns = options_.switches;
   const bool over = scene_.budget_s && cost_ps_ > budget_ps_;
-  const std::size_t left = turns > dearer_.size() ? turns - dearer_.size() : 0;
-  const std::size_t down = std::min(cheaper_.size(), over ? turns : std::max(turns / 2, left));
-  const std::size_t up = std::min(dearer_.size(), turns - down);
-  arrange(cheaper_, down, false);
-  arrange(dearer_, up, true);
+  const std::size_t left = turns > now_.dearer.size() ? turns - now_.dearer.size() : 0;
+  const std::size_t down = std::min(now_.cheaper.size(), over ? turns : std::max(turns / 2, left));
+  const std::size_t up = std::min(now_.dearer.size(), turns - down);
+  arrange(now_.cheaper, down, false);
+  arrange(now_.dearer, up, true);
   const auto most_ps = static_cast<std::int64_t>(std::min(1e12 * options_.switching_s, 9e18));
   switching_ps_ = 0;
-  change_first(std::span(cheaper_).first(down), over || up == 0 ? most_ps : most_ps / 2, false, report);
-  change_first(std::span(dearer_).first(up), most_ps, scene_.budget_s.has_value(), report);
-  report.waiting = cheaper_.size() + dearer_.size() - report.switched - report.refused;
+  change_first(std::span(now_.cheaper).first(down), over || up == 0 ? most_ps : most_ps / 2, false, report);
+  change_first(std::span(now_.dearer).first(up), most_ps, scene_.budget_s.has_value(), report);
+  report.waiting = now_.cheaper.size() + now_.dearer.size() - report.switched - report.refused;
 }
 
 /// Whether what a rung shares is there, or time has come for it.

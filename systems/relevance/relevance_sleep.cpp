@@ -137,11 +137,12 @@ void Relevance::make_whole(RelevanceReport& report) {
   const auto first = [](const Expanding& a, const Expanding& b) {
     return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
   };
-  const std::size_t now = std::min<std::size_t>(expanding_.size(), options_.expands);
-  std::partial_sort(expanding_.begin(), expanding_.begin() + static_cast<std::ptrdiff_t>(now), expanding_.end(), first);
-  report.to_expand = expanding_.size() - now;
+  const std::size_t now = std::min<std::size_t>(now_.expanding.size(), options_.expands);
+  std::partial_sort(now_.expanding.begin(), now_.expanding.begin() + static_cast<std::ptrdiff_t>(now),
+                    now_.expanding.end(), first);
+  report.to_expand = now_.expanding.size() - now;
   people_.clear();
-  for (std::size_t i = 0; i < now; ++i) people_.push_back(expanding_[i].human);
+  for (std::size_t i = 0; i < now; ++i) people_.push_back(now_.expanding[i].human);
   report.expanded = people_.size();
   if (people_.empty()) return;
   if (const auto done = SimulationWorld::expand(simulation_, people_); !done) {
@@ -151,8 +152,8 @@ void Relevance::make_whole(RelevanceReport& report) {
 }
 
 void Relevance::make_compact(RelevanceReport& report) {
-  unseen_.resize(std::min<std::size_t>(unseen_.size(), options_.compacts));
-  if (!unseen_.empty()) report.compacted = SimulationWorld::compact(simulation_, unseen_);
+  now_.unseen.resize(std::min<std::size_t>(now_.unseen.size(), options_.compacts));
+  if (!now_.unseen.empty()) report.compacted = SimulationWorld::compact(simulation_, now_.unseen);
 }
 
 /// Of who has woken without muscles; `choice`: what they are to be, null where there will be none.
@@ -170,7 +171,8 @@ Tiers<float> Relevance::begin_tiers(const LegMuscles* choice) const {
 }
 
 /// The rung that all of a person's muscles begin with: the dearest that one of them calls for.
-void Relevance::decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact) {
+void Relevance::decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
+                            Looked& out) const {
   const auto view = static_cast<View>(tiers.view);
   const bool looked_at = view == View::seen, simulated = view <= View::near;
   const float size = tiers.relative_size / tiers.tolerance_m, limit = factor_ / size;
@@ -179,7 +181,7 @@ void Relevance::decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wan
   for (std::uint32_t left = simulated ? tiers.muscles & wanted_muscles : 0; left != 0; left &= left - 1) {
     const auto m = static_cast<std::uint32_t>(std::countr_zero(left));
     const RungCase of = rung_case(tiers, m, looked_at);
-    if (scene_.budget_s) counting_.add(ladder_, of, size);
+    if (scene_.budget_s) out.counting.add(ladder_, of, size);
     const std::uint32_t goal = ladder_.cheapest(of, limit);
     const std::int64_t cost = ladder_.cost_ps(of, goal);
     if (goal == 0 || cost <= dearest) continue;
@@ -187,28 +189,29 @@ void Relevance::decide_bare(Entity human, Tiers<float>& tiers, std::uint32_t wan
     bare.rung = goal;
     bare.excess = std::max(bare.excess, ladder_.error_m(of, 0) * size);
   }
-  if (bare.rung != 0) bare_.push_back(bare);
-  decide_compact(human, compact, tiers, bare.rung == 0, bare.excess);
+  if (bare.rung != 0) out.bare.push_back(bare);
+  decide_compact(human, compact, tiers, bare.rung == 0, bare.excess, out);
 }
 
 void Relevance::begin_muscles(RelevanceReport& report) {
   const auto first = [](const Bare& a, const Bare& b) {
     return a.excess != b.excess ? a.excess > b.excess : a.human.index < b.human.index;
   };
-  const std::size_t count = std::min<std::size_t>(bare_.size(), options_.begins);
-  std::partial_sort(bare_.begin(), bare_.begin() + static_cast<std::ptrdiff_t>(count), bare_.end(), first);
-  report.to_begin = bare_.size() - count;
-  bare_.resize(count);
-  std::erase_if(bare_, [&](const Bare& one) { return simulation_.is_compact(one.human); });  // they wait to be whole
+  const std::size_t count = std::min<std::size_t>(now_.bare.size(), options_.begins);
+  std::partial_sort(now_.bare.begin(), now_.bare.begin() + static_cast<std::ptrdiff_t>(count), now_.bare.end(), first);
+  report.to_begin = now_.bare.size() - count;
+  now_.bare.resize(count);
+  std::erase_if(now_.bare,
+                [&](const Bare& one) { return simulation_.is_compact(one.human); });  // they wait to be whole
   // Those of one choice and rung together.
   const World& world = simulation_.world();
-  for (std::size_t i = 0; i < bare_.size(); ++i) {
-    if (bare_[i].rung == 0) continue;
-    const Bare one = bare_[i];
+  for (std::size_t i = 0; i < now_.bare.size(); ++i) {
+    if (now_.bare[i].rung == 0) continue;
+    const Bare one = now_.bare[i];
     const LegMuscles* const choice = world.shared<LegMuscles>(one.human);
     people_.clear();
-    for (std::size_t k = i; k < bare_.size(); ++k) {
-      Bare& other = bare_[k];
+    for (std::size_t k = i; k < now_.bare.size(); ++k) {
+      Bare& other = now_.bare[k];
       if (other.rung != one.rung || other.points != one.points || world.shared<LegMuscles>(other.human) != choice)
         continue;
       people_.push_back(other.human);
@@ -226,10 +229,10 @@ void Relevance::begin_muscles(RelevanceReport& report) {
 /// What they are to be is kept on the person's row.
 void Relevance::end_muscles(RelevanceReport& report) {
   World& world = world_of(simulation_);
-  std::erase_if(idle_, [&](Entity human) { return simulation_.is_compact(human); });
-  idle_.resize(std::min<std::size_t>(idle_.size(), options_.begins));
+  std::erase_if(now_.idle, [&](Entity human) { return simulation_.is_compact(human); });
+  now_.idle.resize(std::min<std::size_t>(now_.idle.size(), options_.begins));
   people_.clear();
-  for (const Entity human : idle_) {
+  for (const Entity human : now_.idle) {
     if (world.shared<LegMuscles>(human) == nullptr) {
       const auto kept = SimulationWorld::library(simulation_).whole_choice(*choice_of(world, human));
       world.add(human, world.share(kept, hash_of(*kept)));
@@ -242,7 +245,7 @@ void Relevance::end_muscles(RelevanceReport& report) {
     world.set(human, tiers);
   }
   world.destroy_many(people_, SimulationWorld::jobs(simulation_));
-  report.ended = idle_.size();
+  report.ended = now_.idle.size();
 }
 
 Result<void> Relevance::begin_muscles(std::span<const Entity> people, std::uint32_t rung, bool points) {
@@ -290,17 +293,17 @@ Result<std::size_t> Relevance::manage_asleep(std::span<const Entity> people) {
 }
 
 void Relevance::put_to_sleep(RelevanceReport& report) {
-  if (drowsy_.empty()) return;
+  if (now_.drowsy.empty()) return;
   const World& world = simulation_.world();
   constexpr std::array plain = {key_part(TagValue<SleepsManaged>{1})};
   constexpr std::array needy = {key_part(TagValue<SleepsManaged>{1}), component_part<Needs>()};
-  drowsy_.resize(std::min<std::size_t>(drowsy_.size(), options_.sleeps));
+  now_.drowsy.resize(std::min<std::size_t>(now_.drowsy.size(), options_.sleeps));
   // Who has needs of their own keeps them.
-  const auto own = std::stable_partition(drowsy_.begin(), drowsy_.end(),
+  const auto own = std::stable_partition(now_.drowsy.begin(), now_.drowsy.end(),
                                          [&](Entity human) { return world.get<Needs>(human)->own == 0; });
-  const auto without = static_cast<std::size_t>(own - drowsy_.begin());
-  report.slept = SimulationWorld::sleep(simulation_, std::span(drowsy_).first(without), plain) +
-                 SimulationWorld::sleep(simulation_, std::span(drowsy_).subspan(without), needy);
+  const auto without = static_cast<std::size_t>(own - now_.drowsy.begin());
+  report.slept = SimulationWorld::sleep(simulation_, std::span(now_.drowsy).first(without), plain) +
+                 SimulationWorld::sleep(simulation_, std::span(now_.drowsy).subspan(without), needy);
 }
 
 }  // namespace mobil

@@ -261,9 +261,13 @@ TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
 TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
   const int ticks = std::getenv("MOBIL_LONG") != nullptr ? 216'000 : 1800;
   constexpr std::size_t few = 160;
+  std::size_t compact = 0;
   Scene wakes(false, 1, false, few);
   std::vector<std::unique_ptr<Scene>> sleep;
-  for (const int threads : {1, 2, 3, 8}) sleep.push_back(std::make_unique<Scene>(true, threads, false, few));
+  for (const int threads : {1, 2, 3, 8}) {
+    sleep.push_back(std::make_unique<Scene>(true, threads, false, few));
+    sleep.back()->needs.compact_unseen = true;
+  }
   for (int i = 1; i <= ticks; ++i) {
     wakes.tick();
     for (const auto& scene : sleep) scene->tick();
@@ -278,6 +282,7 @@ TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
       back.relevance->set_state(state);
       back.changes = changes;
     }
+    for (const Entity human : sleep[0]->people) compact += sleep[0]->simulation.is_compact(human) ? 1 : 0;
     if (i % (ticks / 12) != 0) continue;
     const std::uint64_t expected = wakes.walks_hash(), state = sleep[0]->simulation.state_hash();
     for (const auto& scene : sleep) {
@@ -287,6 +292,7 @@ TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
       EXPECT_LT(scene->asleep(), few);
     }
   }
+  EXPECT_GT(compact, static_cast<std::size_t>(ticks));
 }
 
 TEST(RelevanceSleep, WhatCannotBeIsRefused) {

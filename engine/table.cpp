@@ -92,8 +92,9 @@ void Table::reserve(std::uint32_t rows) {
   }
 }
 
+/// Room for an eighth more rows stays, so that rows that go and come again take no memory; of an empty table none.
 void Table::trim() {
-  while (!chunks_.empty() && blocks_.size() - chunks_.back().blocks > block_count()) drop_chunk();
+  while (!chunks_.empty() && (blocks_.size() - chunks_.back().blocks) * 8 >= block_count() * 9) drop_chunk();
   if (entities_.size() > blocks_.size() * lane_count) entities_.resize(blocks_.size() * lane_count);
 }
 

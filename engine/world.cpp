@@ -14,6 +14,8 @@ World::World(std::pmr::memory_resource* memory)
       resource_content_(memory),
       members_(memory),
       scratch_(memory),
+      moves_{std::pmr::vector<std::uint32_t>(memory), std::pmr::vector<RowMove>(memory)},
+      going_(memory),
       identity_(std::make_shared<const char>()) {}
 
 Place<Table> World::find(Entity entity) {
@@ -164,7 +166,8 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   if (entities.empty()) return;
   key_remade(entities.front(), parts, owned);
   const std::uint32_t to = table_of(scratch_), from = entities_.find(entities.front())->table;
-  std::pmr::vector<RowAt> left(memory_);
+  std::pmr::vector<RowAt>& left = going_;
+  left.clear();
   left.reserve(entities.size());
   for (const Entity entity : entities) left.push_back({from, entities_.find(entity)->row});
   const std::uint32_t first = add_rows(to, parts, static_cast<std::uint32_t>(entities.size()), jobs);
@@ -185,26 +188,6 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   std::sort(left.begin(), left.end());
   remove_rows(left, jobs);
 }
-
-namespace {
-
-struct Moves {
-  std::pmr::deque<Table>& tables;
-  std::pmr::vector<std::uint32_t> table;
-  std::pmr::vector<RowMove> move;
-
-  static void copy(void* context, std::size_t begin, std::size_t end) {
-    auto& of = *static_cast<Moves*>(context);
-    while (begin < end) {
-      std::size_t same = begin + 1;
-      while (same < end && of.table[same] == of.table[begin]) ++same;
-      of.tables[of.table[begin]].copy_rows({&of.move[begin], same - begin});
-      begin = same;
-    }
-  }
-};
-
-}  // namespace
 
 bool World::alive_once(std::span<const Entity> entities) {
   constexpr std::uint32_t named = 0x80000000;  // in a row's number, for the while
@@ -229,7 +212,8 @@ Status World::destroy_many(std::span<const Entity> entities, const Jobs& jobs) {
 }
 
 void World::destroy_together(std::span<const Entity> entities, const Jobs& jobs) {
-  std::pmr::vector<RowAt> gone(memory_);
+  std::pmr::vector<RowAt>& gone = going_;
+  gone.clear();
   gone.reserve(entities.size());
   for (const Entity entity : entities) {
     const auto* location = entities_.find(entity);
@@ -249,7 +233,9 @@ void World::remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs) {
   const auto end_of_table = [&](auto first) {
     return std::find_if(first, gone.end(), [table = first->table](const RowAt& g) { return g.table != table; });
   };
-  Moves moves{tables_, std::pmr::vector<std::uint32_t>(memory_), std::pmr::vector<RowMove>(memory_)};
+  Moves& moves = moves_;
+  moves.table.clear();
+  moves.move.clear();
   moves.table.reserve(gone.size());
   moves.move.reserve(gone.size());
   for (auto first = gone.begin(), end = first; first != gone.end(); first = end) {
@@ -263,7 +249,14 @@ void World::remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs) {
       moves.move.push_back({hole->row, from});
     }
   }
-  if (!moves.move.empty()) jobs.parallel_for(jobs.user, moves.move.size(), &Moves::copy, &moves);
+  in_parallel(jobs, moves.move.size(), [&](std::size_t begin, std::size_t end) {
+    while (begin < end) {
+      std::size_t same = begin + 1;
+      while (same < end && moves.table[same] == moves.table[begin]) ++same;
+      tables_[moves.table[begin]].copy_rows({&moves.move[begin], same - begin});
+      begin = same;
+    }
+  });
   for (std::size_t i = 0; i < moves.move.size(); ++i) {
     Table& table = tables_[moves.table[i]];
     const RowMove& move = moves.move[i];

@@ -261,6 +261,12 @@ class World {
   Members members_;
   std::uint64_t owner_part_ = 0;
   TableKey scratch_;  // the key being put together, kept for its memory
+  struct Moves {      // rows that are to take others' places, by table; kept for the same reason
+    std::pmr::vector<std::uint32_t> table;
+    std::pmr::vector<RowMove> move;
+  };
+  Moves moves_;
+  std::pmr::vector<RowAt> going_;
   std::shared_ptr<const char> identity_;
 };
 

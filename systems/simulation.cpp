@@ -250,7 +250,9 @@ Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
 
 Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  std::vector<Entity> asleep, managed;
+  std::vector<Entity>&asleep = sleep_work_->asleep, &managed = sleep_work_->managed;
+  asleep.clear();
+  managed.clear();
   for (const Entity one : people)
     if (is_asleep(one)) (world_->has<SleepsManaged>(one) ? managed : asleep).push_back(one);
   if (!managed.empty()) {

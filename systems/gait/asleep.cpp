@@ -176,10 +176,10 @@ struct Walkers {
   const float tick_s;
   WalkingBlock& at;
   Lanes<std::uint32_t> tick;
-  WalkingBlock next;  // work
+  WalkingBlock& next;  // work
 
-  Walkers(float tick_length_s, WalkingBlock& block, const Lanes<std::uint32_t>& asked)
-      : units(clock_units(tick_length_s)), tick_s(tick_length_s), at(block), tick(asked), next() {}
+  Walkers(float tick_length_s, WalkingBlock& block, const Lanes<std::uint32_t>& asked, WalkingBlock& work)
+      : units(clock_units(tick_length_s)), tick_s(tick_length_s), at(block), tick(asked), next(work) {}
 
   std::uint32_t ticks_to_strike(std::size_t lane) const {
     const std::int32_t left = units.step(at.plan.duration_s[lane]) - units.of(at.state.time_s[lane]);
@@ -302,22 +302,23 @@ void begin_steady(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_
 }
 
 void walk_on(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
-             const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block) {
+             const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block,
+             WalkingBlock& work) {
   steady_state(before, asked, tick_s, block.state);
   block.plan = {};
   plan_first_step(block.size, gait_before, block.plan);
   mark_met(gait_before, block.plan);
-  const auto walkers = std::make_unique<Walkers>(tick_s, block, asked);
+  Walkers walkers(tick_s, block, asked, work);
   for (;;) {
     std::uint32_t lanes = 0;
     for (std::size_t l = 0; l < lane_count; ++l)
-      lanes |= static_cast<std::uint32_t>(walkers->tick[l] + walkers->ticks_to_strike(l) <= tick[l]) << l;
+      lanes |= static_cast<std::uint32_t>(walkers.tick[l] + walkers.ticks_to_strike(l) <= tick[l]) << l;
     if (lanes == 0) break;
-    walkers->strike(lanes, &plan_next_step);
+    walkers.strike(lanes, &plan_next_step);
   }
-  const ClockUnits& units = walkers->units;
+  const ClockUnits& units = walkers.units;
   for (std::size_t l = 0; l < lane_count; ++l) {
-    const auto left = static_cast<std::int32_t>(tick[l] - walkers->tick[l]);
+    const auto left = static_cast<std::int32_t>(tick[l] - walkers.tick[l]);
     block.state.time_s[l] = units.seconds(units.of(block.state.time_s[l]) + left * units.per_tick);
   }
 }
@@ -329,7 +330,8 @@ void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>
   block.plan = {};
   time_first_step(block.size, gait_before, block.plan);
   mark_met(gait_before, block.plan);
-  const auto walkers = std::make_unique<Walkers>(tick_s, block, asked);
+  const auto work = std::make_unique<WalkingBlock>();
+  const auto walkers = std::make_unique<Walkers>(tick_s, block, asked, *work);
   const auto fresh = std::make_unique<StepPlan<Lanes<float>>>();
   time_first_step(block.size, block.gait, *fresh);
   SteadyWalk<Lanes<float>> walk;

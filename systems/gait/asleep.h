@@ -45,9 +45,10 @@ struct WalkingBlock {
 void begin_steady(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s,
                   WalkingBlock& block);
 /// Walkers who were steady at tick `asked`, by `before`, and were asked then for block.gait: as they are at `tick`, not
-/// before `asked`. Their steps are solved as those of anybody.
+/// before `asked`. Their steps are solved as those of anybody. `work`: memory to work in.
 void walk_on(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
-             const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block);
+             const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block,
+             WalkingBlock& work);
 /// When those walkers are steady again and what they then do, by strikes alone: a hundredth of the time. `until` is
 /// never_settles where that is not within twelve strikes.
 void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,

@@ -92,19 +92,14 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
     work.all_but_choice.assign(owned.begin(), owned.end());
     std::erase(work.all_but_choice, type_id<LegMuscles>());
   }
-  struct Sleeping {
-    Entity entity;
-    const LegMuscles* choice;
-    bool forces;
-  };
-  std::vector<Sleeping> waking;
-  waking.reserve(people.size());
+  std::vector<SleepWork::Sleeping>& waking = work.waking_people;
+  waking.clear();
   for (const Entity person : people)
     waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person)});
   const bool later = how.muscles == WakingMuscles::later;
   wake_walkers(world, scene.jobs, people, how.as, sleep_time(scene), more, later ? work.all_but_choice : owned,
                work.waking);
-  for (const Sleeping& one : waking)
+  for (const SleepWork::Sleeping& one : waking)
     if (one.forces) add_forces(world, one.entity);
   // Each choice together.
   std::vector<Entity> humans;

@@ -41,7 +41,13 @@ struct SleepWork {
   std::vector<Group> groups;
   std::vector<const Sleeper*> together;
   std::vector<Sleeper> sleepers;
-  std::vector<Entity> rows, restless;
+  struct Sleeping {
+    Entity entity;
+    const LegMuscles* choice;
+    bool forces;
+  };
+  std::vector<Sleeping> waking_people;
+  std::vector<Entity> rows, restless, asleep, managed;
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;

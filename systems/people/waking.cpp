@@ -3,10 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <memory_resource>
+#include <new>
+#include <type_traits>
 
 #include "components/leg_frames.h"
 #include "components/pose.h"
 #include "engine/rows.h"
+#include "engine/scratch.h"
 #include "systems/gait/asleep.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/person.h"
@@ -25,6 +29,7 @@ struct WakingBlock {
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
+  WalkingBlock work;
 
   void put(const World& world, Entity person, const SleepTime& time, std::size_t lane) {
     put(*world.get<Asleep>(person), sleeper_style(world, person), unsettled_of(world, person), time, lane);
@@ -44,7 +49,7 @@ struct WakingBlock {
   }
   void make(float tick_s, Woken as) {
     const FlushDenormals flush;  // as in a tick
-    walk_on(gait_before, before, asked, tick, tick_s, walkers);
+    walk_on(gait_before, before, asked, tick, tick_s, walkers, work);
     if (as == Woken::compact) return;
     pose_skeleton(walkers.size, walkers.plan, walkers.state, pose, angles, feet);
     centre_of_mass(walkers.size, pose, centre);
@@ -99,6 +104,7 @@ struct WakingWork::Blocks {
   Column<CentreOfMass> centre;
   std::vector<Entity> people;    // table by table
   std::vector<PartValue> parts;  // of a walker
+  ScratchPool room{std::pmr::new_delete_resource()};
 
   void set(std::size_t b, const WakingBlock& block, Woken as) {
     size[b] = block.walkers.size;
@@ -116,15 +122,18 @@ struct WakingWork::Blocks {
   /// left.
   template <class Put>
   void fill(const Jobs& jobs, std::size_t count, Woken as, float tick_s, const Put& put) {
+    static_assert(std::is_trivially_destructible_v<WakingBlock> && sizeof(WakingBlock) % sizeof(float) == 0);
+    room.prepare(sizeof(WakingBlock) / sizeof(float), jobs.threads);
     in_parallel(jobs, (count + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
-      const auto block = std::make_unique<WakingBlock>();
+      const ScratchLease lease(&room);
+      auto& block = *new (lease.data()) WakingBlock;
       for (std::size_t b = begin; b < end; ++b) {
         for (std::size_t l = 0; l < lane_count; ++l) {
           const std::size_t i = b * lane_count + l;
-          put(*block, i < count ? i : b * lane_count, l);
+          put(block, i < count ? i : b * lane_count, l);
         }
-        block->make(tick_s, as);
-        set(b, *block, as);
+        block.make(tick_s, as);
+        set(b, block, as);
       }
     });
   }
@@ -153,7 +162,8 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
   blocks.list_parts(more, as);
   blocks.people.assign(people.begin(), people.end());
   const auto table = [&](Entity person) { return world.locate(person)->table; };
-  std::ranges::stable_sort(blocks.people, {}, table);
+  const auto order = [&](Entity person) { return std::pair(table(person), person.index); };
+  std::ranges::sort(blocks.people, {}, order);  // a stable sort would take memory
   for (std::span<const Entity> left = blocks.people; !left.empty();) {
     std::size_t count = 1;
     while (count < std::min(left.size(), WakingWork::Blocks::most * lane_count) && table(left[count]) == table(left[0]))

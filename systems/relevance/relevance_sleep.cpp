@@ -118,7 +118,7 @@ void Relevance::wake_sleepers(RelevanceReport& report) {
   const auto whole = [&](const Waking& one) {
     return !scene_.compact_unseen || one.seen || world.has<SleepsWithForces>(one.human);
   };
-  const auto compact = std::stable_partition(waking_.begin(), waking_.end(), whole);
+  const auto compact = std::partition(waking_.begin(), waking_.end(), whole);
   for (const auto& [some, as] : {std::pair{std::span(waking_.begin(), compact), Woken::whole},
                                  std::pair{std::span(compact, waking_.end()), Woken::compact}}) {
     people_.clear();

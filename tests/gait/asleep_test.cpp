@@ -139,10 +139,11 @@ TEST(Asleep, WhatAChangeLeadsToFollowsFromStrikesAlone) {
       block->gait = w.gait;
       Lanes<std::uint32_t> until;
       settle(gait_before, before, at, tick_s, *block, after, until);
+      const auto work = std::make_unique<WalkingBlock>();
       GaitState<Lanes<float>> then;
       for (int i = 0; i < 700; ++i) {
         const bool look = i % 23 == 0;
-        if (look) walk_on(gait_before, before, at, all_at(scene.now), tick_s, *block);
+        if (look) walk_on(gait_before, before, at, all_at(scene.now), tick_s, *block, *work);
         steady_state(after, all_at(scene.now), tick_s, then);
         for (std::size_t l = 0; l < lane_count; ++l) {
           if ((steady >> l & 1U) == 0) continue;

@@ -242,7 +242,7 @@ TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
     EXPECT_EQ(report.refused, 0U) << report.refusal;
   }
   EXPECT_GT(begun, 50U);
-  EXPECT_GT(ended, 10U);
+  EXPECT_GT(ended, 5U);
   for (const Entity human : scene.people) {
     const bool has = !scene.simulation.muscles(human).empty();
     if (scene.simulation.is_asleep(human)) {

@@ -12,6 +12,7 @@
 #include "assets/body/anthropometry.h"
 #include "components/forces.h"
 #include "demo/crowd/crowd_people.h"
+#include "demo/crowd/heap_count.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
@@ -124,6 +125,24 @@ TEST(Sleep, WhoHasSleptIsWhereWhoNeverDidIs) {
   EXPECT_GT(woken, 500U);
   EXPECT_GT(most, 120U);
   EXPECT_GT(read, 1000U);
+}
+
+TEST(Sleep, WhoHasWokenBeforeWakesWithoutTheHeap) {
+  Twins twins(200);
+  Simulation& simulation = twins.dozing;
+  twins.tick(200);
+  const auto tired = std::span(twins.dozers).first(20);  // tables that shrink by much give memory back
+  for (int round = 0; round < 4; ++round) {
+    ASSERT_GT(simulation.sleep(tired).value(), 10U);
+    start_heap_count();
+    const bool woken = simulation.wake(tired).has_value();
+    const std::size_t requests = stop_heap_count();
+    ASSERT_TRUE(woken);
+    if (round > 0) {
+      EXPECT_EQ(requests, 0U);
+    }
+    twins.tick(10);
+  }
 }
 
 template <class F>

@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <cstring>
 #include <stdexcept>
 #include <utility>
 
@@ -178,7 +177,9 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
   const SleepTime now{tick_, static_cast<float>(tick_s())};
   if (is_asleep(human)) {
-    const bool same_style = std::memcmp(&gait_of(*world_, human)->style, &gait->style, sizeof(GaitStyle)) == 0;
+    const GaitStyle present = gait_of(*world_, human)->style;
+    const bool same_style = std::ranges::all_of(
+        gait_parameters, [&](const GaitParameter& p) { return present.*p.value == gait->style.*p.value; });
     if (same_style && !is_busy(*world_, human, now)) {
       ask_sleepers(*world_, jobs_, std::array{AskedSleeper{human, *gait}}, now);
       return {};

@@ -48,7 +48,10 @@ struct ClockUnits {
   double per_s;
 
   /// The nearest whole number.
-  std::int32_t of(float seconds) const { return static_cast<std::int32_t>(static_cast<double>(seconds) * per_s + 0.5); }
+  std::int32_t of(float seconds) const {
+    const double above = static_cast<double>(seconds) * per_s + 0.5;
+    return static_cast<std::int32_t>(above);
+  }
   float seconds(std::int32_t units) const { return static_cast<float>(units) * unit_s; }
   /// A step's duration, one unit at least.
   std::int32_t step(float duration_s) const { return std::max(of(duration_s), 1); }

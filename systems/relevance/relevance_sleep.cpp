@@ -258,7 +258,7 @@ Result<void> Relevance::begin_muscles(std::span<const Entity> people, std::uint3
   float within_m = INFINITY;
   for (const Entity human : people)
     if (points) within_m = std::min(within_m, world.get<Tiers>(human)->tolerance_m);
-  const auto done = SimulationWorld::begin_muscles(simulation_, people, choice, within_m);
+  auto done = SimulationWorld::begin_muscles(simulation_, people, choice, within_m);
   for (const Entity human : people) {
     auto tiers = *world.get<Tiers>(human);
     tiers.effects &= ~std::uint32_t{tier_bare};

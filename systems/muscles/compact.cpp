@@ -10,7 +10,6 @@
 #include "components/pose.h"
 #include "engine/rows.h"
 #include "systems/lines/elongations.h"
-#include "systems/muscles/choice_words.h"
 #include "systems/muscles/compact_codes.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/whole.h"
@@ -89,8 +88,7 @@ void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
   MuscleSet set;
   world.each_member(person, [&](Entity member) {
     if (!world.has<MuscleOwner>(member)) return;
-    const auto* const place = world.locate(member);
-    const CompactWork::Known known = known_of(world, place->table, work);
+    const CompactWork::Known known = known_of(world, world.locate(member)->table, work);
     fits = fits && known.code != not_compact && (tissue == nullptr || tissue == known.tissue);
     tissue = known.tissue;
     if (known.code != compact_none && known.code != not_compact) {
@@ -99,7 +97,7 @@ void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
     }
     set.set(known.number);
     const auto side = static_cast<std::uint8_t>(world.get<MuscleOwner>(member)->side);
-    work.muscles.push_back({member, place->table, place->row, known.number, side, known.code});
+    work.muscles.push_back({member, known.number, side, known.code});
   });
   const auto own = std::span(work.muscles).subspan(first);
   const auto order = [](const CompactWork::Muscle& m) { return std::pair(m.number, m.side); };
@@ -111,8 +109,8 @@ void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
     all |= std::uint64_t{own[i].code} << (code_bits * (i / 2));
   }
   if (!fits) return work.muscles.resize(first);
-  const LegMuscles* kept = nullptr;
-  if (tissue != nullptr) kept = scene.library.whole_choice(kept_of(*tissue, mesh, set)).get();
+  Shared<LegMuscles> kept{};
+  if (tissue != nullptr) kept = keep_choice(scene.world, scene.library, kept_of(*tissue, mesh, set));
   work.people.push_back(
       {person, at->table, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(own.size()), all, kept});
 }
@@ -160,11 +158,11 @@ void gather_compact(const World& world, std::span<const CompactWork::Person> peo
 /// People of one table, choice and kind of muscles.
 void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person> people, CompactWork& work) {
   World& world = scene.world;
-  const LegMuscles* const choice = people.front().choice;
+  const Shared<LegMuscles>& choice = people.front().choice;
   std::vector<std::uint64_t> owned(pose_part_ids().begin(), pose_part_ids().end());
   std::vector<PartValue> parts;
   work.rows.clear();
-  if (choice != nullptr) {
+  if (choice.resource != nullptr) {
     const CompactLayout width = compact_width(people.front().codes);
     if (width.state > 0) {
       gather_compact(world, people, width, work);
@@ -172,8 +170,7 @@ void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person
       parts.push_back({key_part(FieldWidth<CompactMotion>{width.motion}), work.motion.data()});
     }
     parts.push_back(part_value(TagValue<CompactMuscles>{people.front().codes}));
-    const auto kept = scene.library.whole_choice(*choice);
-    parts.push_back(part_value(world.share(kept, hash_of(*kept))));
+    parts.push_back(part_value(choice));
     owned.push_back(type_id<LegMuscles>());
     for (const CompactWork::Person& person : people)
       for (std::uint32_t m = 0; m < person.count; ++m) work.rows.push_back(work.muscles[person.first + m].entity);
@@ -258,13 +255,10 @@ std::size_t compact_people(const MuscleScene& scene, std::span<const Entity> peo
     if (is_compact(scene.world, person)) ++compact;
     look_at(scene, person, work);
   }
-  const auto order = [](const CompactWork::Person& p) { return std::tuple(p.table, p.codes, p.choice); };
-  std::ranges::stable_sort(work.people, [&](const auto& a, const auto& b) {
-    const auto rank = [&](const CompactWork::Person& p) {
-      return std::tuple(p.table, p.codes, p.choice == nullptr ? 0 : hash_of(*p.choice));
-    };
-    return rank(a) < rank(b);
-  });
+  const auto order = [](const CompactWork::Person& p) {
+    return std::tuple(p.table, p.codes, p.choice.resource == nullptr ? 0 : p.choice.index + 1);
+  };
+  std::ranges::stable_sort(work.people, {}, order);
   for (auto first = work.people.begin(); first != work.people.end();) {
     const auto end = std::find_if(first, work.people.end(), [&](const auto& p) { return order(p) != order(*first); });
     compact_alike(scene, {first, end}, work);

@@ -20,7 +20,6 @@ namespace mobil {
 struct CompactWork {
   struct Muscle {
     Entity entity;
-    std::uint32_t table, row;
     std::uint8_t number, side, code;
   };
   /// A person who may become compact: a run of `muscles`.
@@ -29,7 +28,7 @@ struct CompactWork {
     std::uint32_t table;
     std::uint32_t first, count;
     std::uint64_t codes;
-    const LegMuscles* choice;  // what is kept of it; null where there are no muscles
+    Shared<LegMuscles> choice;  // what is kept of it; null where there are no muscles
   };
   /// What a table's muscles are; tables stay as long as their world.
   struct Known {

@@ -9,6 +9,7 @@
 #include "components/fade.h"
 #include "engine/each.h"
 #include "engine/geometry.h"
+#include "systems/muscles/choice_words.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
@@ -155,6 +156,12 @@ std::optional<LegMuscles> choice_of(const World& world, Entity person) {
   choice.muscles.reset();
   for (const OwnMuscle& one : own) choice.muscles.set(static_cast<std::size_t>(one.muscle));
   return choice;
+}
+
+Shared<LegMuscles> keep_choice(World& world, BellyLibrary& library, const LegMuscles& choice) {
+  auto kept = library.whole_choice(choice);
+  const std::uint64_t content = hash_of(*kept);
+  return world.share(std::move(kept), content);
 }
 
 tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<const SpawnRequest> people,

@@ -36,6 +36,10 @@ Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side);
 /// muscles.
 std::optional<LegMuscles> choice_of(const World& world, Entity person);
 
+/// A choice with muscles and method, to be kept on the row of a person who has no muscles for a while; equal choices
+/// give the same handle.
+Shared<LegMuscles> keep_choice(World& world, BellyLibrary& library, const LegMuscles& choice);
+
 /// All people with their muscles, or none; `entities` as long as `people`. Errors name the first person who cannot be.
 tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<const SpawnRequest> people,
                                          std::span<Entity> entities);

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "engine/row_hash.h"
-#include "systems/muscles/choice_words.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
@@ -57,10 +56,7 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
     auto choice = choice_of(world, one.entity);
     if (!choice) choice = kept_choice(world, one.entity);
     SleepWork::Group group{&one, world.locate(one.entity)->table, one.style.has_value(), std::nullopt};
-    if (choice) {
-      const auto kept = scene.library.whole_choice(*choice);
-      group.choice = key_part(world.share(kept, hash_of(*kept)));
-    }
+    if (choice) group.choice = key_part(keep_choice(world, scene.library, *choice));
     work.groups.push_back(group);
   }
   world.destroy_many(work.rows, scene.jobs);

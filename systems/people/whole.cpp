@@ -45,7 +45,6 @@ struct WholeWork::Blocks {
   std::array<JointAngles<Lanes<float>>, most> angles;
   std::array<Feet<Lanes<float>>, most> feet;
   std::array<CentreOfMass<Lanes<float>>, most> centre;
-  std::vector<Entity> people;  // table by table
   std::vector<std::uint64_t> owned;
 };
 WholeWork::WholeWork() = default;
@@ -93,15 +92,10 @@ void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, 
   blocks.owned.assign(gone.begin(), gone.end());
   blocks.owned.insert(blocks.owned.end(), pose_part_ids().begin(), pose_part_ids().end());
   std::ranges::sort(blocks.owned);
-  blocks.people.assign(people.begin(), people.end());
-  const auto table = [&](Entity person) { return world.locate(person)->table; };
-  std::ranges::stable_sort(blocks.people, {}, table);
-  for (std::span<const Entity> left = blocks.people; !left.empty();) {
-    std::size_t count = 1;
-    while (count < std::min(left.size(), WholeWork::Blocks::most * lane_count) && table(left[count]) == table(left[0]))
-      ++count;
-    const auto some = left.first(count);
-    left = left.subspan(count);
+  while (!people.empty()) {
+    const std::size_t count = std::min(people.size(), WholeWork::Blocks::most * lane_count);
+    const auto some = people.first(count);
+    people = people.subspan(count);
     in_parallel(jobs, (count + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
       const auto block = std::make_unique<PosedBlock>();
       for (std::size_t b = begin; b < end; ++b) {

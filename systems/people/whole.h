@@ -27,7 +27,8 @@ struct WholeWork {
   struct Blocks;
   std::unique_ptr<Blocks> blocks;
 };
-/// Compact people, named once each, have their pose again; of the parts that `gone` names (ids, sorted) they keep none.
+/// Compact people of one table, named once each, have their pose again; of the parts that `gone` names (ids, sorted)
+/// they keep none.
 void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, std::span<const std::uint64_t> gone,
                 WholeWork& work);
 

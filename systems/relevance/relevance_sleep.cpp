@@ -7,7 +7,6 @@
 #include "components/sleep.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
-#include "systems/muscles/choice_words.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
@@ -234,8 +233,7 @@ void Relevance::end_muscles(RelevanceReport& report) {
   people_.clear();
   for (const Entity human : now_.idle) {
     if (world.shared<LegMuscles>(human) == nullptr) {
-      const auto kept = SimulationWorld::library(simulation_).whole_choice(*choice_of(world, human));
-      world.add(human, world.share(kept, hash_of(*kept)));
+      world.add(human, keep_choice(world, SimulationWorld::library(simulation_), *choice_of(world, human)));
     }
     world.each_member(human, [&](Entity member) {
       if (world.has<MuscleOwner>(member)) people_.push_back(member);
@@ -282,8 +280,8 @@ Result<std::size_t> Relevance::manage_asleep(std::span<const Entity> people) {
   LegMuscles choice = options_.leg_muscles;
   choice.muscles = scene_.muscles;
   choice.method = Method::none;
-  const auto kept = SimulationWorld::library(simulation_).whole_choice(choice);
-  const std::array keeps = {key_part(TagValue<SleepsManaged>{1}), key_part(world.share(kept, hash_of(*kept)))};
+  const auto kept = keep_choice(world, SimulationWorld::library(simulation_), choice);
+  const std::array keeps = {key_part(TagValue<SleepsManaged>{1}), key_part(kept)};
   const std::size_t slept = SimulationWorld::sleep(simulation_, people, keeps);
   for (const Entity human : people) {
     if (simulation_.is_asleep(human)) continue;

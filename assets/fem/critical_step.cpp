@@ -11,6 +11,8 @@
 namespace mobil {
 namespace {
 
+constexpr double widest = 4;  // scale across up to which a foundation's entries are as close as they are promised
+
 std::vector<bool> moving_components(const Cells& cells, FarEnd end) {
   std::vector<bool> moving(3 * node_count(cells));
   for (std::uint32_t n = 0; n < node_count(cells); ++n) {
@@ -50,16 +52,85 @@ double top_eigenvalue(const StiffnessTerms& terms, double across, double along, 
   return top_eigenvalue_bound(make_pencil(terms, across, along, step_case));
 }
 
-/// How far, in parts of itself, a convex h(r) may lie below its chord from entry i to the next: it is above the chords
-/// on either side, prolonged. Beyond the table's ends it grows no slower than a constant and no faster than r² (as an
-/// even convex function of r, and over r² one of 1/r).
-double slack_between(const std::vector<double>& r, const std::vector<double>& h, std::size_t i) {
-  const auto slope = [&](std::size_t from) { return (h[from + 1] - h[from]) / (r[from + 1] - r[from]); };
-  const double before = i > 0 ? slope(i - 1) : 0;
-  const double after = i + 2 < r.size() ? slope(i + 1) : 2 * h[i + 1] / r[i + 1];
-  if (after <= before) return 0;
-  return (slope(i) - before) * (after - slope(i)) / (after - before) * (r[i + 1] - r[i]) / h[i];
+/// How far below its chord from x[i] to x[i + 1] a convex h(x) may lie: it is above the chords on either side,
+/// prolonged, whose slopes are `before` and `after`.
+double sag(double before, double slope, double after, double width) {
+  return after <= before ? 0 : (slope - before) * (after - slope) / (after - before) * width;
 }
+
+/// Fills a CriticalSteps' tables: h(r, q) wherever one is needed, and further arguments where h may sag too much.
+class Tabulation {
+ public:
+  Tabulation(CriticalSteps& table, const StiffnessTerms& terms, const StepCase& step_case)
+      : table_(table), terms_(terms), step_case_(step_case) {}
+
+  void insert_ratio(std::size_t place, double r) {
+    for (std::size_t level = table_.foundation.size(); level-- > 0;) {
+      const double h = top(r, table_.foundation[level]);
+      table_.top.insert(at(level, place, table_.ratio.size()), h);
+    }
+    table_.ratio.insert(table_.ratio.begin() + static_cast<std::ptrdiff_t>(place), r);
+  }
+  void insert_foundation(std::size_t level, double q) {
+    std::vector<double> row;
+    for (const double r : table_.ratio) row.push_back(top(r, q));
+    table_.top.insert(at(level, 0, table_.ratio.size()), row.begin(), row.end());
+    table_.foundation.insert(table_.foundation.begin() + static_cast<std::ptrdiff_t>(level), q);
+  }
+
+  /// Beyond the table's ends h grows no slower than a constant and no faster than r² (as an even convex function of
+  /// r, and over r² one of 1/r).
+  bool sags_between_ratios(std::size_t i) const {
+    const auto& r = table_.ratio;
+    for (std::size_t level = 0; level < table_.foundation.size(); ++level) {
+      const double* const h = &table_.top[level * r.size()];
+      const auto slope = [&](std::size_t from) { return (h[from + 1] - h[from]) / (r[from + 1] - r[from]); };
+      const double before = i > 0 ? slope(i - 1) : 0;
+      const double after = i + 2 < r.size() ? slope(i + 1) : 2 * h[i + 1] / r[i + 1];
+      if (sag(before, slope(i), after, r[i + 1] - r[i]) >= most_between_ratios * h[i]) return true;
+    }
+    return false;
+  }
+  /// By a foundation's stiffness h grows no slower than not at all and no faster than that itself.
+  bool sags_between_foundations(std::size_t level) const {
+    const auto& q = table_.foundation;
+    for (std::size_t i = 0; i < table_.ratio.size(); ++i) {
+      const auto h = [&](std::size_t l) { return table_.top[l * table_.ratio.size() + i]; };
+      const auto slope = [&](std::size_t from) { return (h(from + 1) - h(from)) / (q[from + 1] - q[from]); };
+      const double before = level > 0 ? slope(level - 1) : 0, after = level + 2 < q.size() ? slope(level + 1) : 1;
+      if (sag(before, slope(level), after, q[level + 1] - q[level]) >= most_between_foundations * h(level)) return true;
+    }
+    return false;
+  }
+  /// Past the last foundation the lookup lets h grow as fast as it can: whether that is too much by `q`.
+  bool sags_beyond(double q) const {
+    const std::size_t last = table_.foundation.size() - 1, n = table_.ratio.size();
+    const double past = q - table_.foundation[last];
+    for (std::size_t i = 0; i < n; ++i) {
+      const double h = table_.top[last * n + i], slope = (h - table_.top[(last - 1) * n + i]) /
+                                                         (table_.foundation[last] - table_.foundation[last - 1]);
+      if ((1 - slope) * past >= most_between_foundations * (h + slope * past)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr double most_between_ratios = 0.015, most_between_foundations = 0.01;
+
+  std::vector<double>::iterator at(std::size_t level, std::size_t place, std::size_t ratios) {
+    return table_.top.begin() + static_cast<std::ptrdiff_t>(level * ratios + place);
+  }
+  /// At S = r, l = 1: K / (S²·l) = (A + r·B + r²·C) / r², so h = r²·ω².
+  double top(double r, double q) const {
+    StepCase step_case = step_case_;
+    step_case.foundation_1_s = std::sqrt(q) / r;
+    return r * r * top_eigenvalue(terms_, r, 1, step_case);
+  }
+
+  CriticalSteps& table_;
+  const StiffnessTerms& terms_;
+  const StepCase& step_case_;
+};
 
 }  // namespace
 
@@ -78,29 +149,30 @@ CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCas
   CriticalSteps table;
   table.stiffness_damping_s = step_case.stiffness_damping_s;
   table.foundation_1_s2 = step_case.foundation_1_s * step_case.foundation_1_s;
-  StepCase bare = step_case, braced = step_case;
-  bare.foundation_1_s = 0;
-  const auto insert = [&](std::size_t place, double r) {
-    const auto at = static_cast<std::ptrdiff_t>(place);
-    table.ratio.insert(table.ratio.begin() + at, r);
-    // at S = r, l = 1: K / (S²·l) = (A + r·B + r²·C) / r², so h = r²·ω²
-    table.top.insert(table.top.begin() + at, r * r * top_eigenvalue(terms, r, 1, bare));
-    if (table.foundation_1_s2 <= 0) return;
-    braced.foundation_1_s = CriticalSteps::braced_across * step_case.foundation_1_s / r;
-    table.braced_top.insert(table.braced_top.begin() + at, r * r * top_eigenvalue(terms, r, 1, braced));
-  };
+  Tabulation tabulation(table, terms, step_case);
+  table.foundation.push_back(0);
   const double intervals = highest > lowest ? std::ceil(std::log(highest / lowest) / std::log(1.12)) : 0;
   for (double i = 0; i <= intervals; ++i) {
-    insert(table.ratio.size(), intervals > 0 ? lowest * std::pow(highest / lowest, i / intervals) : lowest);
+    tabulation.insert_ratio(table.ratio.size(),
+                            intervals > 0 ? lowest * std::pow(highest / lowest, i / intervals) : lowest);
   }
-  constexpr std::size_t most = 400;
-  for (bool settled = false; !settled && table.ratio.size() < most;) {
+  const bool founded = table.foundation_1_s2 > 0;
+  const auto foundation_at = [&](double across) { return across * across * table.foundation_1_s2; };
+  if (founded) {
+    tabulation.insert_foundation(1, foundation_at(2));
+    if (tabulation.sags_beyond(foundation_at(widest))) tabulation.insert_foundation(2, foundation_at(widest));
+  }
+  constexpr std::size_t most_ratios = 400, most_foundations = 16;
+  for (bool settled = false; !settled;) {
     settled = true;
-    for (std::size_t i = table.ratio.size() - 1; i-- > 0;) {
-      const bool tight = slack_between(table.ratio, table.top, i) < 0.015 &&
-                         (table.braced_top.empty() || slack_between(table.ratio, table.braced_top, i) < 0.015);
-      if (tight) continue;
-      insert(i + 1, std::sqrt(table.ratio[i] * table.ratio[i + 1]));
+    for (std::size_t i = table.ratio.size() - 1; i-- > 0 && table.ratio.size() < most_ratios;) {
+      if (!tabulation.sags_between_ratios(i)) continue;
+      tabulation.insert_ratio(i + 1, std::sqrt(table.ratio[i] * table.ratio[i + 1]));
+      settled = false;
+    }
+    for (std::size_t i = table.foundation.size() - 1; i-- > 0 && table.foundation.size() < most_foundations;) {
+      if (!tabulation.sags_between_foundations(i)) continue;
+      tabulation.insert_foundation(i + 1, 0.5 * (table.foundation[i] + table.foundation[i + 1]));
       settled = false;
     }
   }
@@ -120,12 +192,20 @@ Result<double> critical_step(const CriticalSteps& table, double across, double a
   const std::size_t lower = upper > 0 ? upper - 1 : 0;
   const double width = table.ratio[upper] - table.ratio[lower];
   const double s = width > 0 ? (r - table.ratio[lower]) / width : 0;
-  const auto at = [&](const std::vector<double>& top) { return top[lower] + s * (top[upper] - top[lower]); };
-  double top = at(table.top);
-  if (table.foundation_1_s2 > 0) {
-    const double q = across * across * table.foundation_1_s2;
-    const double braced = table.braced_across * table.braced_across * table.foundation_1_s2;
-    top += q < braced ? q / braced * (at(table.braced_top) - top) : at(table.braced_top) - top + q - braced;
+  const auto at = [&](std::size_t level) {
+    const double* const row = &table.top[level * table.ratio.size()];
+    return row[lower] + s * (row[upper] - row[lower]);
+  };
+  const auto& foundation = table.foundation;
+  const double q = across * across * table.foundation_1_s2;
+  std::size_t next = 1;
+  while (next < foundation.size() && q >= foundation[next]) ++next;
+  double top = at(next - 1);
+  const double past = q - foundation[next - 1];
+  if (next < foundation.size()) {
+    top += past / (foundation[next] - foundation[next - 1]) * (at(next) - top);
+  } else {
+    top += past;
   }
   // K / (S²·l·M₁) at (S, l): l·(A + r·B + r²·C) / (S²·l)
   return (1 - 4 * slack) * central_difference_limit(top / (across * across), table.stiffness_damping_s);

@@ -47,17 +47,15 @@ double critical_step(const StiffnessTerms& terms, double across, double along, c
 /// positive semidefinite and the largest eigenvalue convex, so interpolating h linearly in r and in q never falls below
 /// it: the step is safe between the entries too.
 struct CriticalSteps {
-  static constexpr double braced_across = 2;  // S at which braced_top stands
-
-  std::vector<double> ratio;       // ascending
-  std::vector<double> top;         // h(r, 0), 1/s²
-  std::vector<double> braced_top;  // h(r, braced_across²·ω_f²); empty without a foundation
+  std::vector<double> ratio;       // r, ascending
+  std::vector<double> foundation;  // q, ascending from 0, 1/s²; only that 0 without a foundation
+  std::vector<double> top;         // h(r, q), 1/s², [foundation][ratio]
   double stiffness_damping_s = 0;
   double foundation_1_s2 = 0;  // ω_f²
 };
 
-/// Tabulates r from `lowest` to `highest` (0 < lowest ≤ highest) in steps of at most 12 %, finer where another
-/// shape of vibration takes over.
+/// Tabulates r from `lowest` to `highest` (0 < lowest ≤ highest) in steps of at most 12 %, and q as far as bodies
+/// four times as wide as the template; both finer where another shape of vibration takes over.
 CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCase& step_case, double lowest,
                                       double highest);
 

@@ -15,7 +15,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::uint64_t magic = 0x336b626c69626f6d;  // "mobilbk3", little-endian
+constexpr std::uint64_t magic = 0x346b626c69626f6d;  // "mobilbk4", little-endian
 constexpr std::size_t header_bytes = 32;
 constexpr double any_tick_s = 1;  // a choice without a step of its own is in range at any tick
 
@@ -56,8 +56,9 @@ void read_ascending(BakeReader& in, std::vector<double>& values, std::size_t len
 
 void write(BakeWriter& out, const CriticalSteps& steps, const AxialStiffness& axial, const StaticStretch& stretch) {
   out.put(static_cast<std::uint32_t>(steps.ratio.size()));
+  out.put(static_cast<std::uint32_t>(steps.foundation.size()));
   out.put(static_cast<std::uint32_t>(axial.ratio.size()));
-  for (const auto* values : {&steps.ratio, &steps.top, &steps.braced_top, &axial.ratio, &axial.per_ratio}) {
+  for (const auto* values : {&steps.ratio, &steps.foundation, &steps.top, &axial.ratio, &axial.per_ratio}) {
     out(*values, values->size());
   }
   out(stretch.displacement, stretch.displacement.size());
@@ -67,10 +68,16 @@ void write(BakeWriter& out, const CriticalSteps& steps, const AxialStiffness& ax
 
 void read(BakeReader& in, const LegMuscles& choice, Muscle muscle, CriticalSteps& steps, AxialStiffness& axial,
           StaticStretch& stretch) {
-  const auto ratios = in.take<std::uint32_t>(), axials = in.take<std::uint32_t>();
+  const auto ratios = in.take<std::uint32_t>(), foundations = in.take<std::uint32_t>(),
+             axials = in.take<std::uint32_t>();
   read_ascending(in, steps.ratio, ratios);
-  in(steps.top, ratios);
-  in(steps.braced_top, foundation_of(choice, muscle) > 0 ? ratios : 0);
+  in(steps.foundation, foundations);
+  if (!in.sound() || steps.foundation.empty() || steps.foundation.front() != 0 ||
+      !std::is_sorted(steps.foundation.begin(), steps.foundation.end()) ||
+      (foundations > 1) != (foundation_of(choice, muscle) > 0)) {
+    in.refuse();
+  }
+  in(steps.top, std::size_t{ratios} * foundations);
   read_ascending(in, axial.ratio, axials);
   in(axial.per_ratio, axials);
   if (in.sound()) in(stretch.displacement, 3 * std::size_t{node_count(choice.cells)});

@@ -48,8 +48,10 @@ std::uint64_t fingerprint(const MuscleTemplate& shape) {
   const KernelArrays& k = shape.kernel;
   print.add(shape.mesh.node);
   print.add(shape.terms.pair);
-  for (const auto* values : {&shape.critical_steps.ratio, &shape.critical_steps.top, &shape.critical_steps.braced_top})
+  for (const auto* values :
+       {&shape.critical_steps.ratio, &shape.critical_steps.foundation, &shape.critical_steps.top}) {
     print.add(*values);
+  }
   for (const auto* values :
        {&k.individual, &k.shared, &k.consistent_mass_kg, &k.mass_kg, &k.inverse_mass, &k.far_share, &k.rest_m}) {
     print.add(*values);

@@ -144,6 +144,23 @@ RC_GTEST_PROP(CriticalStep, TableServesMassDampingAndFoundationWithinTwoPercent,
   RC_ASSERT(*step > 0.98 * exact);
 }
 
+/// A foundation about as stiff as the tissue: the fastest mode changes from stretching along to swaying across as the
+/// body gets wider, so that h(r, q) has a corner in q.
+TEST(CriticalStep, TableFollowsWhereAFoundationTakesOver) {
+  const auto terms = assemble(*make_block({2, 2, 4}, 0.03), Material{1000, 1e3, 0.3});
+  const StepCase step_case{FarEnd::held, Mass::lumped, 1e-3, 60};
+  const CriticalSteps table = tabulate_critical_steps(*terms, step_case, 0.7, 1.5);
+  for (double across = 0.25; across <= 4; across *= 1.05) {
+    for (const double ratio : {0.7, 0.93, 1.21, 1.5}) {
+      const double exact = critical_step(*terms, across, across / ratio, step_case);
+      const auto step = critical_step(table, across, across / ratio);
+      ASSERT_TRUE(step);
+      EXPECT_LE(*step, 1.003 * exact) << across << ' ' << ratio;  // `exact` may lie as much below the exact one
+      EXPECT_GT(*step, 0.98 * exact) << across << ' ' << ratio;
+    }
+  }
+}
+
 TEST(CriticalStep, TableRefusesWhatItDoesNotCover) {
   const auto terms = assemble(*make_block({1, 1, 2}, 0.015), Material{});
   const auto table = tabulate_critical_steps(*terms, FarEnd::held, 0.8, 1.25);

@@ -15,6 +15,7 @@ enum class Status : std::uint8_t {
   wrong_width,    ///< the span is not as long as the field
   not_valid,      ///< refused for what the message says: a value out of range, bytes that are damaged, too little room
   not_yours,      ///< a part or an entity that is the library's, where a host's is asked for
+  no_memory,      ///< there is no memory for it
 };
 
 /// In words.
@@ -34,6 +35,8 @@ constexpr std::string_view status_text(Status status) {
       return "a value is not finite or out of its range";
     case Status::not_yours:
       return "that part or entity is the library's; use the call that is for it";
+    case Status::no_memory:
+      return "there is no memory for it; give the simulation more";
   }
   return "no status";
 }

@@ -16,6 +16,8 @@ World::World(std::pmr::memory_resource* memory)
       scratch_(memory),
       moves_{std::pmr::vector<std::uint32_t>(memory), std::pmr::vector<RowMove>(memory)},
       going_(memory),
+      journal_{false, std::pmr::vector<RowAt>(memory), std::pmr::vector<Entity>(memory),
+               std::pmr::vector<Entity>(memory)},
       identity_(std::make_shared<const char>()) {}
 
 Place<Table> World::find(Entity entity) {
@@ -104,19 +106,23 @@ Place<Table> World::create_row(const TableKey& key, Entity& entity) {
 Status World::destroy(Entity entity) {
   const auto* location = entities_.find(entity);
   if (location == nullptr) return Status::stale_entity;
-  const std::uint32_t row = location->row;
-  const Entity moved = tables_[location->table].remove_row(row);
-  if (auto* theirs = entities_.find(moved)) theirs->row = row;
+  const auto at = *location;
+  erase_row(at);
   forget(entity);
   entities_.destroy(entity);
   return Status::ok;
 }
 
+void World::erase_row(const EntityRegister::Location& at) {
+  const Entity moved = tables_[at.table].remove_row(at.row);
+  if (auto* theirs = entities_.find(moved)) theirs->row = at.row;
+}
+
 void World::undo_create(std::span<const Entity> entities) {
   for (std::size_t i = entities.size(); i-- > 0;) {
-    const auto [table, row] = *entities_.find(entities[i]);
-    const Entity moved = tables_[table].remove_row(row);
-    if (auto* theirs = entities_.find(moved)) theirs->row = row;
+    const auto at = *entities_.find(entities[i]);
+    erase_row(at);
+    if (!journal_.created.empty()) journal_.created.pop_back();
     forget(entities[i]);
     entities_.undo_create(entities[i]);
   }
@@ -152,12 +158,14 @@ void World::create_many(std::span<const PartValue> parts, std::span<Entity> enti
   key_from(parts);
   const std::uint32_t table = table_of(scratch_);
   reserve_entities(entities.size());
+  if (journal_.open) journal_.created.reserve(journal_.created.size() + entities.size());
   std::uint32_t row = add_rows(table, parts, static_cast<std::uint32_t>(entities.size()), jobs);
   for (Entity& entity : entities) {
     entity = entities_.create();
     *entities_.find(entity) = {table, row++};
   }
   tables_[table].append(entities);
+  if (journal_.open) journal_.created.insert(journal_.created.end(), entities.begin(), entities.end());
   for (const Entity entity : entities) relate(entity);
 }
 
@@ -170,6 +178,14 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   left.clear();
   left.reserve(entities.size());
   for (const Entity entity : entities) left.push_back({from, entities_.find(entity)->row});
+  // What is needed once rows have moved.
+  const std::size_t leaving = journal_.left.size() + entities.size();
+  moves_.table.reserve(leaving);
+  moves_.move.reserve(leaving);
+  if (journal_.open) {
+    journal_.left.reserve(leaving);
+    journal_.moved.reserve(leaving);
+  }
   const std::uint32_t first = add_rows(to, parts, static_cast<std::uint32_t>(entities.size()), jobs);
   const auto is_kept = [&](const KeyPart& part) {
     return has_column(part.kind) && find_part(tables_[from].key(), part.id) != nullptr;
@@ -185,8 +201,44 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   }
   tables_[to].append(entities);
   for (std::uint32_t i = 0; i < entities.size(); ++i) *entities_.find(entities[i]) = {to, first + i};
+  if (journal_.open) {
+    journal_.left.insert(journal_.left.end(), left.begin(), left.end());
+    journal_.moved.insert(journal_.moved.end(), entities.begin(), entities.end());
+    return;
+  }
   std::sort(left.begin(), left.end());
   remove_rows(left, jobs);
+}
+
+World::Attempt::Attempt(World& world, const Jobs& jobs) : world_(world), jobs_(jobs) {
+  world_.journal_.open = true;
+}
+
+World::Attempt::~Attempt() {
+  Journal& journal = world_.journal_;
+  if (!journal.open) return;
+  while (!journal.created.empty()) {
+    const Entity last = journal.created.back();
+    world_.undo_create({&last, 1});
+  }
+  for (std::size_t i = journal.moved.size(); i-- > 0;) {
+    auto& at = *world_.entities_.find(journal.moved[i]);
+    world_.erase_row(at);
+    at = {journal.left[i].table, journal.left[i].row};
+  }
+  journal.left.clear();
+  journal.moved.clear();
+  journal.open = false;
+}
+
+void World::Attempt::keep() {
+  Journal& journal = world_.journal_;
+  journal.open = false;
+  journal.created.clear();
+  journal.moved.clear();
+  std::sort(journal.left.begin(), journal.left.end());
+  world_.remove_rows(journal.left, jobs_);
+  journal.left.clear();
 }
 
 bool World::alive_once(std::span<const Entity> entities) {

@@ -71,6 +71,22 @@ class World {
   /// values of `parts` are as in create_many, but parts that they have already keep their own.
   void remake_many(std::span<const Entity> entities, std::span<const PartValue> parts,
                    std::span<const std::uint64_t> owned, const Jobs& jobs = {});
+  /// While one lives, what create_many and remake_many do, and what becomes of entities remade, can be undone,
+  /// and is at its end unless it was kept: rows and handles are as they were, those given out afterwards too. Undoing
+  /// and keeping take no memory. Until then the old rows of who was remade stay in their tables: nobody goes over
+  /// tables, nobody is destroyed, and nobody comes into a table that others left. One at a time.
+  class Attempt {
+   public:
+    explicit Attempt(World& world, const Jobs& jobs = {});
+    ~Attempt();
+    Attempt(const Attempt&) = delete;
+    Attempt& operator=(const Attempt&) = delete;
+    void keep();
+
+   private:
+    World& world_;
+    const Jobs& jobs_;
+  };
   /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
   /// most; in which order rows then lie is not that of one by one. Takes memory for the while; where there is none,
   /// they go one by one.
@@ -220,6 +236,7 @@ class World {
 
   Place<Table> create_row(const TableKey& key, Entity& entity);
   std::uint32_t add_rows(std::uint32_t table, std::span<const PartValue> parts, std::uint32_t count, const Jobs& jobs);
+  void erase_row(const EntityRegister::Location& at);
   void remove_rows(std::pmr::vector<RowAt>& gone, const Jobs& jobs);
   void destroy_together(std::span<const Entity> entities, const Jobs& jobs);
   Status add_part(Entity entity, const KeyPart& part);
@@ -267,6 +284,13 @@ class World {
   };
   Moves moves_;
   std::pmr::vector<RowAt> going_;
+  struct Journal {  // of an Attempt
+    bool open = false;
+    std::pmr::vector<RowAt> left;    // rows that entities were remade from
+    std::pmr::vector<Entity> moved;  // whose those are
+    std::pmr::vector<Entity> created;
+  };
+  Journal journal_;
   std::shared_ptr<const char> identity_;
 };
 

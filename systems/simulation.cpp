@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "assets/body/anthropometry.h"
-#include "components/relevance.h"
 #include "engine/each.h"
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
@@ -23,7 +22,6 @@
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 #include "systems/people/whole.h"
-#include "systems/relevance/relevance_module.h"
 #include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
@@ -251,6 +249,7 @@ Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
 
 Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  World::Attempt attempt(*world_, jobs_);
   std::vector<Entity>&asleep = sleep_work_->asleep, &managed = sleep_work_->managed;
   asleep.clear();
   managed.clear();
@@ -262,7 +261,9 @@ Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   const auto warm = [&](std::span<const Entity> some, const LegMuscles& choice) {
     warm_muscles(some, choice, within_m);
   };
-  return named("wake", wake_people(muscle_scene(), asleep, {}, {}, our_parts_, *sleep_work_, warm));
+  auto done = wake_people(muscle_scene(), asleep, {}, {}, our_parts_, *sleep_work_, warm);
+  if (done) attempt.keep();
+  return named("wake", std::move(done));
 }
 
 /// What no sleeper can do wakes them first, and so with who is compact.
@@ -280,7 +281,10 @@ Result<std::size_t> Simulation::compact(std::span<const Entity> people) {
 
 Result<void> Simulation::expand(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  return named("expand", expand_people(muscle_scene(), people, *compact_work_));
+  World::Attempt attempt(*world_, jobs_);
+  auto done = expand_people(muscle_scene(), people, *compact_work_);
+  if (done) attempt.keep();
+  return named("expand", std::move(done));
 }
 
 bool Simulation::is_compact(Entity human) const {
@@ -419,35 +423,6 @@ Result<void> Simulation::restore(std::span<const std::byte> in) {
 
 std::uint64_t Simulation::state_hash() const {
   return mix64(mobil::state_hash(*world_, jobs_) + mix64(tick_));
-}
-
-std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entity> people,
-                                   std::span<const KeyPart> keeps) {
-  return sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.our_parts_, *simulation.sleep_work_);
-}
-
-Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people, Woken as) {
-  auto done = wake_people(simulation.muscle_scene(), people, {WakingMuscles::later, as}, relevance_parts(),
-                          simulation.our_parts_, *simulation.sleep_work_);
-  Tiers<float> unseen{};
-  unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
-  for (const Entity human : people) simulation.world_->set(human, unseen);
-  return done;
-}
-
-std::size_t SimulationWorld::compact(Simulation& simulation, std::span<const Entity> people) {
-  return compact_people(simulation.muscle_scene(), people, *simulation.compact_work_);
-}
-
-Result<void> SimulationWorld::expand(Simulation& simulation, std::span<const Entity> people) {
-  return expand_people(simulation.muscle_scene(), people, *simulation.compact_work_);
-}
-
-Result<void> SimulationWorld::begin_muscles(Simulation& simulation, std::span<const Entity> people,
-                                            const LegMuscles& choice, float within_m) {
-  return begin_leg_muscles(simulation.muscle_scene(), people, choice).map([&] {
-    simulation.warm_muscles(people, choice, within_m);
-  });
 }
 
 bool Simulation::is_person(Entity entity) const {

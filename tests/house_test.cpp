@@ -69,7 +69,7 @@ TEST(House, IncludesPointDownTheListOfRooms) {
 /// In each room's order: a folder includes itself and those before it.
 const std::map<std::string, std::vector<std::string>> order = {
     {"assets", {"fem", "reduction", "body", "gait", "muscles", "surfaces", "finite", "files", "import", "export"}},
-    {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder}},  // the modules, the front door
+    {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "c"}},  // modules, front doors
     {"demo",
      {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "compare", "gait_fit", "paper",
       "bake", "crowd", "bench", "effects", "frontier", "stress"}},
@@ -161,6 +161,12 @@ TEST(House, OptionalPartsStayOutOfTheCore) {
 
 /// Sources that have no header of their name beside them, and whose functions those are.
 const std::map<std::string, std::string> no_header_yet = {
+    {"systems/c/c_choosing.cpp", "mobil.h"},
+    {"systems/c/c_muscles.cpp", "mobil.h"},
+    {"systems/c/c_people.cpp", "mobil.h"},
+    {"systems/c/c_reading.cpp", "mobil.h"},
+    {"systems/c/c_simulation.cpp", "mobil.h"},
+    {"systems/c/c_surfaces.cpp", "mobil.h"},
     {"systems/deformation/explicit.cpp", "deformation.h"},
     {"systems/deformation/implicit.cpp", "deformation.h"},
     {"systems/deformation/reduced_report.cpp", "reduced.h"},

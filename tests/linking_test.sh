@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# What the linker sees of us. libmobil.so exports our namespace and nothing else, and a host runs with it; a host's own
+# What the linker sees of us. libmobil_core.so exports our namespace and nothing else, and a host runs with it; a host's own
 # shared library that takes our archives in exports nothing of them; two versions live in one program.
 # Usage: linking_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
@@ -9,17 +9,17 @@ compile=("${CXX:-c++}" -std=c++20 -O1)
 archives=("$1"/libmobil_systems.a "$1"/libmobil_assets.a "$1"/libmobil_engine.a)
 others=(-lfmt -lhwy -ltbb -lmeshoptimizer)
 
-nm -D --defined-only -C "$1/libmobil.so" | cut -d' ' -f3- >"$scratch/exported"
+nm -D --defined-only -C "$1/libmobil_core.so" | cut -d' ' -f3- >"$scratch/exported"
 grep -q '^mobil::.*::Simulation::tick' "$scratch/exported"
 if grep -vE '^(mobil::|mobil_v[0-9_]+$|(vtable|typeinfo|typeinfo name) for mobil::)' "$scratch/exported" | sed 's/@.*//' |
   grep -vE '^mobil_v[0-9_]+$' | grep .; then
-  echo "libmobil.so exports these, which are not ours" >&2
+  echo "libmobil_core.so exports these, which are not ours" >&2
   exit 1
 fi
-"${compile[@]}" -I"$1/include" "$2/demo/hello.cpp" "$1/libmobil.so" -Wl,-rpath,"$1" -o "$scratch/hello"
+"${compile[@]}" -I"$1/include" "$2/demo/hello.cpp" "$1/libmobil_core.so" -Wl,-rpath,"$1" -o "$scratch/hello"
 "$scratch/hello" >"$scratch/hello.txt"
 ldd "$scratch/hello" >"$scratch/libraries"
-grep -q libmobil.so "$scratch/libraries"
+grep -q libmobil_core.so "$scratch/libraries"
 
 cat >"$scratch/plugin.cpp" <<'CPP'
 #include <mobil/simulation.h>

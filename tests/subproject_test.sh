@@ -19,10 +19,10 @@ if grep -rq 'file(INSTALL' "$scratch/build/mobil"; then
   exit 1
 fi
 ninja -C "$scratch/build" CMakeFiles/game_host.dir/game_host.cpp.o CMakeFiles/hello.dir"$1"/demo/hello.cpp.o
-# With shared libraries the host links libmobil.so.
+# With shared libraries the host links libmobil_core.so.
 cmake -G Ninja -S "$1/tests/consumer" -B "$scratch/shared" -DMOBIL_SUBPROJECT="$1" -DBUILD_SHARED_LIBS=ON \
   -DHOSTS="$1/demo/hello.cpp" -DOWN_HEADERS="$scratch/own"
 ninja -C "$scratch/shared" -t query hello >"$scratch/query"
-grep -q 'mobil/libmobil\.so' "$scratch/query"
+grep -q 'mobil/libmobil_core\.so' "$scratch/query"
 # Without a build type ours are optimised.
 grep -q 'FLAGS = .*-O3' "$scratch/build/build.ninja"

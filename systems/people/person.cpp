@@ -200,7 +200,7 @@ void shift_people(World& world, float x_m, float z_m) {
   });
 }
 
-Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
+Result<void> check_pose(const World& world, Entity person, const Pose<float>& pose) {
   if (!is_person(world, person))
     return fail("set_pose: that person is not there (a stale handle); spawn one first", Status::stale_entity);
   if (!is_posed(world, person))
@@ -216,6 +216,11 @@ Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
       return fail(fmt::format("set_pose: the quaternion of {} has the length {:.4g}; give one of length 1",
                               segment_name[s], std::sqrt(qx * qx + qy * qy + qz * qz + qw * qw)));
   }
+  return {};
+}
+
+Result<void> set_pose(World& world, Entity person, const Pose<float>& pose) {
+  if (auto ok = check_pose(world, person, pose); !ok) return ok;
   world.set(person, joint_angles(pose));
   world.set(person, sole_points(world.get<BodySize>(person)->height_m, pose));
   return result_of("set_pose", world.set(person, pose));

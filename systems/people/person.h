@@ -58,5 +58,7 @@ void shift_people(World& world, float x_m, float z_m);
 /// the centre of mass with the tick. Errors: a stale handle, a walker, a place not within 1000 km, a quaternion whose
 /// length is not 1 within 1 %; the pose then stays.
 Result<void> set_pose(World& world, Entity person, const Pose<float>& pose);
+/// Whether it may be set.
+Result<void> check_pose(const World& world, Entity person, const Pose<float>& pose);
 
 }  // namespace mobil

@@ -19,7 +19,11 @@ struct AxisMap {
 
 /// By PoseAxes.
 inline constexpr AxisMap axes_of[] = {
-    {{0, 1, 2}, {1, 1, 1}}, {{0, 1, 2}, {-1, 1, 1}}, {{2, 0, 1}, {1, 1, 1}}, {{2, 0, 1}, {1, -1, 1}}};
+    {{0, 1, 2}, {1, 1, 1}},
+    {{0, 1, 2}, {-1, 1, 1}},
+    {{2, 0, 1}, {1, 1, 1}},
+    {{2, 0, 1}, {1, -1, 1}},
+    {{0, 1, 2}, {-1, 1, -1}}};
 
 /// A host's place in our axes, m.
 constexpr Vec3<double> place_from(PoseAxes axes, float units_per_m, const Vec3<float>& theirs) {

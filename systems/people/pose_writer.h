@@ -33,6 +33,7 @@ enum class PoseAxes : std::uint8_t {
   y_up_left_handed,  // x to the right, z ahead (Unity)
   z_up,              // x ahead, y to the left (ROS)
   z_up_left_handed,  // x ahead, y to the right (Unreal)
+  y_up_z_back,       // x to the right, z back (Godot)
 };
 
 struct PoseLayout {

@@ -113,7 +113,7 @@ Result<void> check_bones(const SkeletonBones& bones, std::size_t count) {
 /// Where the joints are at rest, m, in our axes.
 Result<std::vector<Vec>> rest_joints(const SkeletonBones& bones, std::span<const BonePlace> rest,
                                      const BoneUnits& units) {
-  if (units.axes > PoseAxes::z_up_left_handed || !(units.units_per_m >= 1e-3F && units.units_per_m <= 1e6F))
+  if (units.axes > PoseAxes::y_up_z_back || !(units.units_per_m >= 1e-3F && units.units_per_m <= 1e6F))
     return fail("retarget: units_per_m must lie between 0.001 and 1e6, axes be one of PoseAxes");
   if (auto ok = check_bones(bones, rest.size()); !ok) return tl::unexpected(ok.error());
   std::vector<Vec> joint;

@@ -198,7 +198,7 @@ Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotT
   try {
     done = restore_checked(scene, present, work, in);
   } catch (const std::bad_alloc&) {
-    done = fail("there is no memory for it; give the simulation more");
+    done = fail(Status::no_memory);
   }
   if (!done) WorldSnapshot::give_up(scene.world);
   return done;

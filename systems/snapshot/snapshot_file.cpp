@@ -88,7 +88,8 @@ Result<void> restore_file(Simulation& simulation, const std::filesystem::path& p
   std::unique_ptr<std::byte[]> bytes(new (std::nothrow) std::byte[size]);
   if (bytes == nullptr)
     return fail(fmt::format("{}: there is no memory for its {} bytes; give a file that `save_file` wrote",
-                            path.string(), size));
+                            path.string(), size),
+                Status::no_memory);
   for (std::size_t at = 0; at < size;) {
     const ssize_t got = ::read(file.number(), bytes.get() + at, size - at);
     if (got < 0 && errno == EINTR) continue;

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/state_hash.h"
 #include "engine/world.h"
 #include "tests/engine/engine_counting_memory.h"
 
@@ -25,6 +26,7 @@ struct Age {
 };
 struct Points {};
 struct Kind {};
+struct Mark {};
 
 constexpr std::uint32_t width = 5;
 
@@ -247,6 +249,46 @@ RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
   }
   expect_parked(together);
   expect_parked(single);
+}
+
+/// Some are remade in pieces and others come, some of whom get one part more; where that is not kept, nothing of it has
+/// been, and where it is, it is as without an attempt.
+RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
+  const auto count = *rc::gen::inRange<std::size_t>(1, 90), more = *rc::gen::inRange<std::size_t>(0, 40);
+  const bool kept = *rc::gen::inRange(0, 2) == 1;
+  World world, twin;
+  const std::vector<Entity> all = create(world, 1, 0, count, backward());
+  create(twin, 1, 0, count, {});
+  std::vector<Entity> some;
+  for (const Entity entity : all)
+    if (*rc::gen::inRange(0, 3) > 0) some.push_back(entity);
+  const auto change = [&](World& of) {
+    constexpr std::array owned = {type_id<Points>()};
+    const std::size_t half = some.size() / 2;
+    for (const auto piece : {std::span(some).first(half), std::span(some).subspan(half)})
+      of.remake_many(piece, std::array{PartValue{component_part<Badge>(), nullptr}}, owned, backward());
+    for (std::size_t i = 0; i < some.size(); i += 3) of.add(some[i], TagValue<Mark>{7});
+    create(of, 3, 0, more, backward());
+    create(of, 4, 0, more, {});
+  };
+  const std::uint64_t before = state_hash(world, {});
+  {
+    World::Attempt attempt(world, backward());
+    change(world);
+    if (kept) attempt.keep();
+  }
+  if (kept) {
+    change(twin);
+  } else {
+    RC_ASSERT(state_hash(world, {}) == before);
+  }
+  RC_ASSERT(state_hash(world, {}) == state_hash(twin, {}));
+  for (const Entity entity : all) {
+    RC_ASSERT(world.get<Age>(entity)->ticks == twin.get<Age>(entity)->ticks);
+    RC_ASSERT(world.has<Points>(entity) == twin.has<Points>(entity));
+  }
+  RC_ASSERT(world.create(Age<float>{}) == twin.create(Age<float>{}));
+  expect_parked(world);
 }
 
 }  // namespace mobil::world_batch_test

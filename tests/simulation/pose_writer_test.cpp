@@ -126,7 +126,8 @@ TEST(PoseWriter, AxesUnitsAndFormsAreAsSaid) {
   const Axes all[] = {{PoseAxes::y_up, Eigen::Matrix3d::Identity()},
                       {PoseAxes::y_up_left_handed, rows({-1, 0, 0, 0, 1, 0, 0, 0, 1})},
                       {PoseAxes::z_up, rows({0, 0, 1, 1, 0, 0, 0, 1, 0})},
-                      {PoseAxes::z_up_left_handed, rows({0, 0, 1, -1, 0, 0, 0, 1, 0})}};
+                      {PoseAxes::z_up_left_handed, rows({0, 0, 1, -1, 0, 0, 0, 1, 0})},
+                      {PoseAxes::y_up_z_back, rows({-1, 0, 0, 0, 1, 0, 0, 0, -1})}};
   const World& world = scene.simulation.world();
   for (const auto& [axes, m] : all) {
     for (const bool to_parent : {false, true}) {

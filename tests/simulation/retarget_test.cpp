@@ -97,7 +97,8 @@ double apart_deg(const Quat<float>& a, const Quat<float>& b) {
 }
 
 TEST(Retarget, AWalkersBonesGiveTheWalkersPose) {
-  for (const PoseAxes axes : {PoseAxes::y_up, PoseAxes::y_up_left_handed, PoseAxes::z_up, PoseAxes::z_up_left_handed}) {
+  for (const PoseAxes axes : {PoseAxes::y_up, PoseAxes::y_up_left_handed, PoseAxes::z_up, PoseAxes::z_up_left_handed,
+                              PoseAxes::y_up_z_back}) {
     const BoneUnits units{axes, axes == PoseAxes::y_up ? 1.0F : 100.0F};
     Simulation walking, posed;
     const Entity walker = *walking.spawn(person(1).body, {.speed_m_s = 1.3F});

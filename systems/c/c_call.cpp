@@ -1,0 +1,257 @@
+#include "systems/c/c_call.h"
+
+#include "assets/muscles/muscle_table.h"
+#include "systems/simulation_world.h"
+
+namespace mobil::c {
+namespace {
+
+void put_text(char* to, std::size_t room, std::size_t& at, std::string_view text) noexcept {
+  for (const char c : text) {
+    if (at + 1 >= room) break;
+    to[at++] = c == '\n' ? ' ' : c;
+  }
+  to[at] = 0;
+}
+
+}  // namespace
+
+std::optional<PoseAxes> pose_axes(int axes) {
+  switch (axes) {
+    case MOBIL_AXES_Y_UP:
+      return PoseAxes::y_up;
+    case MOBIL_AXES_UNITY:
+      return PoseAxes::y_up_left_handed;
+    case MOBIL_AXES_UNREAL:
+      return PoseAxes::z_up_left_handed;
+    case MOBIL_AXES_GODOT:
+      return PoseAxes::y_up_z_back;
+    case MOBIL_AXES_Z_UP:
+      return PoseAxes::z_up;
+    default:
+      return std::nullopt;
+  }
+}
+
+int code_of(Status status) {
+  switch (status) {
+    case Status::ok:
+      return MOBIL_OK;
+    case Status::stale_entity:
+      return MOBIL_STALE;
+    case Status::missing:
+      return MOBIL_MISSING;
+    case Status::already_there:
+      return MOBIL_ALREADY;
+    case Status::no_memory:
+      return MOBIL_MEMORY;
+    case Status::wrong_width:
+    case Status::not_valid:
+    case Status::not_yours:
+      return MOBIL_REFUSED;
+  }
+  return MOBIL_INTERNAL;
+}
+
+int Line::refuse(int code, std::string_view what) noexcept {
+  std::size_t at = 0;
+  put_text(text, sizeof text, at, call);
+  put_text(text, sizeof text, at, ": ");
+  put_text(text, sizeof text, at, what);
+  return code;
+}
+
+int Line::refuse(const Error& error, std::string_view who) noexcept {
+  std::size_t at = 0;
+  for (const std::string_view part : {std::string_view(call), std::string_view(": "), who})
+    put_text(text, sizeof text, at, part);
+  put_text(text, sizeof text, at, error.message.empty() ? status_text(error.status) : error.message);
+  return code_of(error.status);
+}
+
+int Line::refuse_null(const char* what) noexcept {
+  std::size_t at = 0;
+  for (const std::string_view part : {std::string_view(call), std::string_view(": "), std::string_view(what),
+                                      std::string_view(" is null; give memory of your own")}) {
+    put_text(text, sizeof text, at, part);
+  }
+  return MOBIL_REFUSED;
+}
+
+std::string unfilled(const char* name, std::size_t size) {
+  return fmt::format("{} says it has {} bytes; fill it with mobil_defaults first", name, size);
+}
+
+std::string from_the_future(const char* name, std::size_t known) {
+  return fmt::format(
+      "{} asks for something that this library does not know; use a newer one, or leave zero what lies"
+      " behind its first {} bytes",
+      name, known);
+}
+
+int muscle_set(Line& line, unsigned int bits, MuscleSet& out) {
+  const std::size_t known = muscles().size();
+  out = MuscleSet(bits);
+  if ((out >> known).none()) return MOBIL_OK;
+  return line.refuse(MOBIL_REFUSED, fmt::format("muscles {:#x} has bits of muscles that do not exist; there are {}, the"
+                                                " first is bit 0",
+                                                bits, known));
+}
+
+int muscle_number(Line& line, int muscle, Muscle& out) {
+  return one_of(line, muscle, static_cast<Muscle>(muscles().size() - 1), "muscle", out);
+}
+
+template <>
+mobil_options usual() {
+  const SimulationOptions as;
+  return {sizeof(mobil_options), as.tick_s, as.max_frame_s, as.threads, MOBIL_AXES_Y_UP, 1, {}, {}};
+}
+
+template <>
+mobil_person usual() {
+  const BodyRequest as;
+  mobil_person person{};
+  person.size = sizeof person;
+  person.height_m = as.height_m;
+  person.mass_kg = as.mass_kg;
+  person.endo = as.biotype.endo;
+  person.meso = as.biotype.meso;
+  person.ecto = as.biotype.ecto;
+  person.constitution = static_cast<int>(as.constitution);
+  return person;
+}
+
+template <>
+mobil_walk usual() {
+  mobil_walk walk{};
+  walk.size = sizeof walk;
+  return walk;
+}
+
+template <>
+mobil_method usual() {
+  const MuscleMethod as;
+  const ReducedChoice& r = as.reduced;
+  return {sizeof(mobil_method),
+          static_cast<int>(as.method),
+          static_cast<int>(r.vectors),
+          r.moving,
+          r.corrected,
+          r.control_points,
+          r.reported,
+          r.tuned,
+          r.linear_shape,
+          {r.cells[0], r.cells[1], r.cells[2]}};
+}
+
+template <>
+mobil_muscles usual() {
+  const LegMuscles as;
+  const auto method = usual<mobil_method>();
+  mobil_muscles to{};
+  to.size = sizeof to;
+  to.muscles = static_cast<unsigned int>(as.muscles.to_ulong());
+  to.method = method.method;
+  to.vectors = method.vectors;
+  to.moving = method.moving;
+  to.corrected = method.corrected;
+  to.control_points = method.control_points;
+  to.reported = method.reported;
+  to.tuned = method.tuned;
+  to.linear_shape = method.linear_shape;
+  to.element = static_cast<int>(as.element);
+  to.mass = static_cast<int>(as.mass);
+  to.drive = static_cast<int>(as.drive);
+  to.activation = static_cast<int>(as.activation);
+  to.inertia = as.inertia;
+  to.line_motion = as.line_motion;
+  to.finite_shape = -1;
+  for (std::size_t i = 0; i < 3; ++i) {
+    to.reduced_cells[i] = method.reduced_cells[i];
+    to.cells[i] = as.cells[i];
+  }
+  to.density_kg_m3 = as.material.density_kg_m3;
+  to.young_pa = as.material.young_pa;
+  to.poisson = as.material.poisson;
+  to.damping_per_s = as.damping_per_s;
+  to.stiffness_damping_s = as.stiffness_damping_s;
+  to.foundation_hz = -1;
+  to.dt_s = -1;
+  return to;
+}
+
+template <>
+mobil_pose_layout usual() {
+  mobil_pose_layout layout{};
+  layout.size = sizeof layout;
+  return layout;
+}
+
+template <>
+mobil_scene usual() {
+  const SceneNeeds as;
+  const Viewpoint camera;
+  mobil_scene scene{};
+  scene.size = sizeof scene;
+  scene.muscles = static_cast<unsigned int>(as.muscles.to_ulong());
+  scene.tolerance_px = as.tolerance_px;
+  scene.half_angle_rad = camera.half_angle_rad;
+  scene.radians_per_pixel = camera.radians_per_pixel;
+  scene.near_m = camera.near_m;
+  scene.reach_m = camera.reach_m;
+  scene.looked_at = as.looked_at;
+  return scene;
+}
+
+template <>
+mobil_needs usual() {
+  return {sizeof(mobil_needs), 0, 0, -1};
+}
+
+template <>
+mobil_choosing usual() {
+  const RelevanceOptions as;
+  return {sizeof(mobil_choosing), as.slack, as.switches, as.switching_s, as.stagger, as.margin, 0};
+}
+
+template <>
+mobil_chosen usual() {
+  mobil_chosen chosen{};
+  chosen.size = sizeof chosen;
+  chosen.factor = 1;
+  chosen.machine = 1;
+  return chosen;
+}
+
+template <>
+mobil_surface_choice usual() {
+  const SurfaceChoice as;
+  return {sizeof(mobil_surface_choice),
+          as.bones,
+          MOBIL_BOTH,
+          static_cast<unsigned int>(as.simulated.to_ulong()),
+          {as.cells[0], as.cells[1], as.cells[2]},
+          as.detail,
+          as.textured};
+}
+
+template <>
+mobil_surface_target usual() {
+  mobil_surface_target target{};
+  target.size = sizeof target;
+  return target;
+}
+
+}  // namespace mobil::c
+
+const mobil::Jobs& mobil_sim::jobs_of() const {
+  return mobil::SimulationWorld::jobs(*simulation);
+}
+
+int mobil_sim::name_people(const mobil_id* ids, std::size_t count) {
+  if (ids == nullptr && count > 0) return line.refuse_null("ids");
+  people.clear();
+  for (std::size_t i = 0; i < count; ++i) people.push_back(mobil::c::entity_of(ids[i]));
+  return MOBIL_OK;
+}

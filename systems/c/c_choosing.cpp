@@ -1,0 +1,186 @@
+// Methods chosen by what a scene calls for.
+
+#include "systems/c/c_call.h"
+
+namespace {
+
+using namespace mobil;
+using namespace mobil::c;
+
+int chooser_of(mobil_sim& sim, Relevance*& out) {
+  if (!sim.relevance)
+    return sim.line.refuse(MOBIL_MISSING, "nothing chooses methods yet; mobil_start_choosing begins that");
+  out = &*sim.relevance;
+  return MOBIL_OK;
+}
+
+std::optional<float> above_0(float number) {
+  return number > 0 ? std::optional(number) : std::nullopt;
+}
+
+int needs_of(mobil_sim& sim, const mobil_scene* given, SceneNeeds& to) {
+  mobil_scene scene;
+  if (const int code = read_struct(sim.line, given, "scene", scene)) return code;
+  if (const int code = muscle_set(sim.line, scene.muscles, to.muscles)) return code;
+  to.tolerance_m = above_0(scene.tolerance_m);
+  to.tolerance_px = scene.tolerance_px;
+  if (scene.has_camera != 0)
+    to.camera = Viewpoint{sim.axes.place_from(scene.eye),
+                          sim.axes.direction_from(scene.gaze),
+                          scene.half_angle_rad,
+                          scene.radians_per_pixel,
+                          scene.near_m,
+                          scene.reach_m};
+  to.asleep_beyond_m = above_0(scene.asleep_beyond_m);
+  to.compact_unseen = scene.compact_unseen != 0;
+  to.looked_at = scene.looked_at != 0;
+  if (scene.budget_s > 0) to.budget_s = scene.budget_s;
+  return MOBIL_OK;
+}
+
+}  // namespace
+
+int mobil_start_choosing(mobil_sim* sim, const mobil_choosing* options, const mobil_muscles* muscles) {
+  return call(sim, "mobil_start_choosing", [&](mobil_sim& s) {
+    mobil_choosing known;
+    if (const int code = read_struct(s.line, options, "options", known)) return code;
+    RelevanceOptions as;
+    as.slack = known.slack;
+    as.switches = known.switches;
+    as.switching_s = known.switching_s;
+    as.stagger = known.stagger;
+    as.margin = known.margin;
+    if (known.machine_factor > 0) as.machine_factor = known.machine_factor;
+    if (muscles != nullptr) {
+      mobil_muscles of;
+      if (const int code = read_struct(s.line, muscles, "muscles", of)) return code;
+      if (const int code = leg_muscles(s.line, of, as.leg_muscles)) return code;
+    }
+    auto made = Relevance::make(s.world(), as);
+    if (!made) return s.line.refuse(made.error());
+    const bool goes_on = s.relevance.has_value();
+    const SceneNeeds scene = goes_on ? s.relevance->scene() : SceneNeeds{};
+    s.relevance.emplace(std::move(*made));
+    if (goes_on) (void)s.relevance->set_scene(scene);  // it was in range before
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene) {
+  return call(sim, "mobil_set_scene", [&](mobil_sim& s) {
+    Relevance* chooser = nullptr;
+    if (const int code = chooser_of(s, chooser)) return code;
+    SceneNeeds needs;
+    if (const int code = needs_of(s, scene, needs)) return code;
+    const auto done = chooser->set_scene(needs);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_prepare_scene(mobil_sim* sim) {
+  return call(sim, "mobil_prepare_scene", [&](mobil_sim& s) {
+    Relevance* chooser = nullptr;
+    if (const int code = chooser_of(s, chooser)) return code;
+    const auto done = chooser->prepare();
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs) {
+  return call(sim, "mobil_manage", [&](mobil_sim& s) {
+    Relevance* chooser = nullptr;
+    if (const int code = chooser_of(s, chooser)) return code;
+    if (const int code = s.name_people(ids, count)) return code;
+    PersonNeeds own;
+    if (needs != nullptr) {
+      mobil_needs known;
+      if (const int code = read_struct(s.line, needs, "needs", known)) return code;
+      if (known.muscles != 0) {
+        if (const int code = muscle_set(s.line, known.muscles, own.muscles.emplace())) return code;
+      }
+      own.tolerance_m = above_0(known.tolerance_m);
+      if (known.looked_at >= 0) own.looked_at = known.looked_at != 0;
+    }
+    Simulation& world = s.world();
+    for (std::size_t i = 0; i < count; ++i)
+      if (!world.is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+    struct Done {
+      Entity person;
+      bool muscles;  // came with it
+    };
+    std::vector<Done> new_ones;
+    new_ones.reserve(count);
+    const auto undo = [&] {
+      for (const Done& one : new_ones) {
+        (void)chooser->release(one.person);
+        if (one.muscles) (void)world.remove_leg_muscles(one.person);
+      }
+    };
+    try {
+      for (std::size_t i = 0; i < count; ++i) {
+        const Entity person = s.people[i];
+        const bool managed = world.world().has<Needs>(person), muscles = !world.muscles(person).empty();
+        const auto done = chooser->manage(person, own);
+        if (!done) {
+          undo();
+          return s.line.refuse(done.error(), person_number(i));
+        }
+        if (!managed) new_ones.push_back({person, !muscles});
+      }
+    } catch (const std::bad_alloc&) {
+      undo();
+      throw;
+    }
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count) {
+  return call(sim, "mobil_release", [&](mobil_sim& s) {
+    Relevance* chooser = nullptr;
+    if (const int code = chooser_of(s, chooser)) return code;
+    if (const int code = s.name_people(ids, count)) return code;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!s.world().is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+      if (!s.world().world().has<Needs>(s.people[i]))
+        return s.line.refuse(MOBIL_MISSING, fmt::format("person {} is not managed; mobil_manage does that", i));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto done = chooser->release(s.people[i]);
+      if (!done) return s.line.refuse(done.error(), person_number(i));
+    }
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_choose(mobil_sim* sim, mobil_chosen* out) {
+  return call(sim, "mobil_choose", [&](mobil_sim& s) {
+    Relevance* chooser = nullptr;
+    if (const int code = chooser_of(s, chooser)) return code;
+    const RelevanceReport did = chooser->update();
+    if (out == nullptr) return int{MOBIL_OK};
+    const mobil_chosen to = {sizeof to,    did.evaluated, did.switched, did.waiting,    did.refused,
+                             did.woken,    did.slept,     did.begun,    did.ended,      did.compacted,
+                             did.expanded, did.factor,    did.machine,  did.predicted_s};
+    return write_struct(s.line, to, out, "out");
+  });
+}
+
+int mobil_why(mobil_sim* sim, mobil_id id, int muscle, char* line, size_t room, float* error_m, double* cost_us) {
+  return call(sim, "mobil_why", [&](mobil_sim& s) {
+    Relevance* chooser = nullptr;
+    if (const int code = chooser_of(s, chooser)) return code;
+    Muscle of{};
+    if (const int code = muscle_number(s.line, muscle, of)) return code;
+    const auto why = chooser->why(entity_of(id), of);
+    if (!why) return s.line.refuse(why.error());
+    if (line != nullptr && room > 0) {
+      const std::size_t length = std::min(room - 1, why->text.size());
+      std::memcpy(line, why->text.data(), length);
+      line[length] = 0;
+    }
+    if (error_m != nullptr) *error_m = why->predicted_error_m;
+    if (cost_us != nullptr) *cost_us = why->predicted_cost_us;
+    return int{MOBIL_OK};
+  });
+}

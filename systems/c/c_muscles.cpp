@@ -1,0 +1,247 @@
+// Leg muscles: chosen, changed, excited, prepared.
+
+#include "assets/body/anthropometry.h"
+#include "assets/muscles/muscle_table.h"
+#include "systems/c/c_call.h"
+#include "systems/muscles/belly_library.h"
+#include "systems/muscles/leg_moments.h"
+#include "systems/muscles/leg_muscles.h"
+#include "systems/people/person.h"
+#include "systems/simulation_world.h"
+
+namespace mobil::c {
+namespace {
+
+/// What mobil_method and mobil_muscles both say of a method.
+template <class S>
+int method_of(Line& line, const S& given, MuscleMethod& to) {
+  if (const int code = one_of(line, given.method, Method::none, "method", to.method)) return code;
+  if (given.vectors < 0) return line.refuse(MOBIL_REFUSED, fmt::format("{} vectors; choose 1 to 32", given.vectors));
+  to.reduced = {static_cast<std::uint32_t>(given.vectors),
+                given.moving != 0,
+                given.corrected != 0,
+                {given.reduced_cells[0], given.reduced_cells[1], given.reduced_cells[2]},
+                given.control_points != 0,
+                given.reported != 0,
+                given.tuned != 0,
+                given.linear_shape != 0};
+  return MOBIL_OK;
+}
+
+int method_from(Line& line, const mobil_method* given, MuscleMethod& to) {
+  mobil_method known;
+  if (const int code = read_struct(line, given, "method", known)) return code;
+  return method_of(line, known, to);
+}
+
+/// Whether a person may have these muscles. What `mobil_set_muscles` is refused for is found before anybody is changed.
+Result<void> check_muscles(mobil_sim& sim, Entity person, const LegMuscles& choice) {
+  Simulation& simulation = sim.world();
+  const World& world = simulation.world();
+  if (!simulation.is_person(person)) return fail(Status::stale_entity);
+  if (auto ok = check_choice(choice, simulation.tick_s()); !ok) return ok;
+  if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
+  if (!choice.dt_s) return {};
+  const Body body = *make_body(body_request(world, person));
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (!choice.muscles[m]) continue;
+    const MusclePlan plan = *make_muscle_plan(body, static_cast<Muscle>(m));
+    const auto belly = SimulationWorld::library(simulation).belly(plan, choice, simulation.tick_s());
+    if (!belly) return tl::unexpected(belly.error());
+  }
+  return {};
+}
+
+/// The same of a method of one muscle that is there.
+Result<void> check_method(mobil_sim& sim, Entity person, Muscle muscle, const MuscleMethod& method) {
+  Simulation& simulation = sim.world();
+  if (!simulation.is_person(person)) return fail(Status::stale_entity);
+  auto choice = choice_of(simulation.world(), person);
+  if (!choice || !choice->muscles[static_cast<std::size_t>(muscle)])
+    return fail(fmt::format("this person has no {}; mobil_set_muscles gives muscles", muscle_name(muscle)),
+                Status::missing);
+  choice->muscles = MuscleSet(1UL << static_cast<unsigned long>(muscle));
+  choice->method = method.method;
+  choice->reduced = method.reduced;
+  return check_muscles(sim, person, *choice);
+}
+
+bool has_muscles(const Simulation& simulation, Entity person) {
+  return simulation.is_compact(person) ? choice_of(simulation.world(), person).has_value()
+                                       : !simulation.muscles(person).empty();
+}
+
+Result<void> set_muscles(Simulation& simulation, Entity person, const LegMuscles* choice) {
+  const bool there = has_muscles(simulation, person);
+  if (choice == nullptr) return there ? simulation.remove_leg_muscles(person) : Result<void>{};
+  return there ? simulation.change_leg_muscles(person, *choice) : simulation.add_leg_muscles(person, *choice);
+}
+
+}  // namespace
+
+int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& to) {
+  MuscleMethod method;
+  if (const int code = method_of(line, given, method)) return code;
+  to.method = method.method;
+  to.reduced = method.reduced;
+  if (const int code = muscle_set(line, given.muscles, to.muscles)) return code;
+  if (const int code = one_of(line, given.element, Element::one_point, "element", to.element)) return code;
+  if (const int code = one_of(line, given.mass, Mass::consistent, "mass", to.mass)) return code;
+  if (const int code = one_of(line, given.drive, Drive::force, "drive", to.drive)) return code;
+  if (const int code = one_of(line, given.activation, ExcitationSource::moments, "activation", to.activation))
+    return code;
+  to.inertia = given.inertia != 0;
+  to.line_motion = given.line_motion != 0;
+  if (given.finite_shape >= 0) to.finite_shape = given.finite_shape != 0;
+  to.cells = {given.cells[0], given.cells[1], given.cells[2]};
+  to.material = {given.density_kg_m3, given.young_pa, given.poisson};
+  to.damping_per_s = given.damping_per_s;
+  to.stiffness_damping_s = given.stiffness_damping_s;
+  if (!(given.foundation_hz < 0)) to.foundation_hz = given.foundation_hz;
+  if (!(given.dt_s < 0)) to.dt_s = given.dt_s;
+  return MOBIL_OK;
+}
+
+}  // namespace mobil::c
+
+using namespace mobil;
+using namespace mobil::c;
+
+int mobil_find_muscle(const char* name) {
+  const auto muscle = name == nullptr ? std::nullopt : find_muscle(name);
+  return muscle ? static_cast<int>(*muscle) : int{MOBIL_MISSING};
+}
+
+const char* mobil_muscle_name(int muscle) {
+  const auto all = muscles();
+  return muscle < 0 || static_cast<std::size_t>(muscle) >= all.size()
+             ? nullptr
+             : all[static_cast<std::size_t>(muscle)].name.data();
+}
+
+int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles) {
+  return call(sim, "mobil_prepare", [&](mobil_sim& s) {
+    mobil_muscles known;
+    if (const int code = read_struct(s.line, muscles, "muscles", known)) return code;
+    LegMuscles choice;
+    if (const int code = leg_muscles(s.line, known, choice)) return code;
+    const auto done = s.world().prepare(choice);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes) {
+  return call(sim, "mobil_bake", [&](mobil_sim& s) {
+    const std::vector<std::byte> baked = s.world().bake();
+    if (bytes != nullptr) *bytes = baked.size();
+    if (out == nullptr && bytes != nullptr) return int{MOBIL_OK};
+    if (out == nullptr) return s.line.refuse_null("out");
+    if (room < baked.size())
+      return s.line.refuse(MOBIL_ROOM, fmt::format("{} bytes are needed, and there are {}", baked.size(), room));
+    std::memcpy(out, baked.data(), baked.size());
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes) {
+  return call(sim, "mobil_load_baked", [&](mobil_sim& s) {
+    if (baked == nullptr) return s.line.refuse_null("baked");
+    const auto done = s.world().load_baked({static_cast<const std::byte*>(baked), bytes});
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_set_muscles(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_muscles* muscles) {
+  return call(sim, "mobil_set_muscles", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    LegMuscles choice;
+    if (muscles != nullptr) {
+      mobil_muscles known;
+      if (const int code = read_struct(s.line, muscles, "muscles", known)) return code;
+      if (const int code = leg_muscles(s.line, known, choice)) return code;
+    }
+    Simulation& world = s.world();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Entity person = s.people[i];
+      auto ok = muscles != nullptr        ? check_muscles(s, person, choice)
+                : world.is_person(person) ? Result<void>{}
+                                          : fail(Status::stale_entity);
+      if (!ok) return s.line.refuse(ok.error(), person_number(i));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto done = set_muscles(world, s.people[i], muscles == nullptr ? nullptr : &choice);
+      if (!done) return s.line.refuse(done.error(), person_number(i));
+    }
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, const mobil_method* method) {
+  return call(sim, "mobil_set_method", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    Muscle of{};
+    if (const int code = muscle_number(s.line, muscle, of)) return code;
+    MuscleMethod to;
+    if (const int code = method_from(s.line, method, to)) return code;
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto ok = check_method(s, s.people[i], of, to);
+      if (!ok) return s.line.refuse(ok.error(), person_number(i));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto done = s.world().set_method(s.people[i], of, to);
+      if (!done) return s.line.refuse(done.error(), person_number(i));
+    }
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_method* out) {
+  return call(sim, "mobil_get_method", [&](mobil_sim& s) {
+    Muscle of{};
+    if (const int code = muscle_number(s.line, muscle, of)) return code;
+    if (!s.world().is_person(entity_of(id))) return s.line.refuse(Error{{}, Status::stale_entity});
+    const MuscleMethod now = s.world().method(entity_of(id), of);
+    auto to = usual<mobil_method>();
+    to.method = static_cast<int>(now.method);
+    to.vectors = static_cast<int>(now.reduced.vectors);
+    to.moving = now.reduced.moving;
+    to.corrected = now.reduced.corrected;
+    to.control_points = now.reduced.control_points;
+    to.reported = now.reduced.reported;
+    to.tuned = now.reduced.tuned;
+    to.linear_shape = now.reduced.linear_shape;
+    for (std::size_t i = 0; i < 3; ++i) to.reduced_cells[i] = now.reduced.cells[i];
+    return write_struct(s.line, to, out, "out");
+  });
+}
+
+int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, int side,
+                         const float* excitation, size_t stride) {
+  return call(sim, "mobil_set_excitation", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    if (excitation == nullptr && count > 0) return s.line.refuse_null("excitation");
+    Muscle of{};
+    if (const int code = muscle_number(s.line, muscle, of)) return code;
+    Side on{};
+    if (const int code = one_of(s.line, side, Side::left, "side", on)) return code;
+    const Simulation& world = s.world();
+    for (std::size_t i = 0; i < count; ++i) {
+      const Entity one = world.muscle(s.people[i], of, on);
+      const auto source = world.get<ExcitationSource>(one);
+      const bool of_host = source && *source == static_cast<std::uint64_t>(ExcitationSource::host);
+      if (!world.is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+      if (!of_host)
+        return s.line.refuse(MOBIL_MISSING,
+                             fmt::format("person {} has no {} of MOBIL_BY_HOST; mobil_set_muscles makes it"
+                                         " so",
+                                         i, muscle_name(of)));
+      if (const float e = *row_at(excitation, i, stride, sizeof(float)); !std::isfinite(e))
+        return s.line.refuse(MOBIL_REFUSED, fmt::format("person {}: an excitation of {}; choose 0.01 to 1", i, e));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      const auto done = s.world().set_excitation(s.people[i], of, on, *row_at(excitation, i, stride, sizeof(float)));
+      if (!done) return s.line.refuse(done.error(), person_number(i));
+    }
+    return int{MOBIL_OK};
+  });
+}

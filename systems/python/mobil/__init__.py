@@ -1,0 +1,68 @@
+"""mobil: crowds of people who walk, and whose leg muscles deform as they do.
+
+    import mobil
+    world = mobil.World()
+    people = world.spawn(height_m=[1.6, 1.7, 1.8], mass_kg=70, speed_m_s=1.4, place=[[0, 0, 0], [1, 0, 0], [2, 0, 0]],
+                         muscles=mobil.muscles(method="reduced"))
+    world.tick(60)
+    world.poses(people)                                       # (3, 48, 7): place and quaternion of each segment
+    world.joints(people)[:, mobil.JOINTS.index("knee_flexion_right")]
+    world.muscle_rows("report", people, "quadriceps")         # elongation, reaction, volume, energies
+
+    mobil.plot_walk(mobil.walk(height_m=1.8, mass_kg=80, speed_m_s=1.39))
+
+SI units, radians. People are numpy arrays of handles; what is read goes into numpy arrays, yours where you give `out`.
+"""
+
+from ._library import Error, MissingError, OutOfMemoryError, RefusedError, StaleError, lib, text
+from .names import (
+    ACTIVATION,
+    JOINTS,
+    LINE,
+    LINE_MOTION,
+    MOMENTS,
+    MUSCLES,
+    PARENTS,
+    REPORT,
+    SEGMENTS,
+    STYLE,
+    TENDON,
+    StyleParameter,
+)
+from .plots import plot_walk
+from .surfaces import Part, Surfaces
+from .walks import Walk, walk
+from .world import PERSON, Choice, SystemCost, Ticks, World, method, muscles
+
+__version__ = text(lib.mobil_library_version())
+__all__ = [
+    "ACTIVATION",
+    "Choice",
+    "Error",
+    "JOINTS",
+    "LINE",
+    "LINE_MOTION",
+    "MOMENTS",
+    "MUSCLES",
+    "MissingError",
+    "OutOfMemoryError",
+    "PARENTS",
+    "PERSON",
+    "Part",
+    "REPORT",
+    "RefusedError",
+    "SEGMENTS",
+    "STYLE",
+    "StaleError",
+    "StyleParameter",
+    "Surfaces",
+    "SystemCost",
+    "TENDON",
+    "Ticks",
+    "Walk",
+    "World",
+    "method",
+    "muscles",
+    "plot_walk",
+    "walk",
+]

@@ -1,0 +1,85 @@
+"""Bones and muscles as triangles."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import names
+from ._library import fail, ffi, lib, text
+from .world import People, World, _fill, _one
+
+
+class Part(NamedTuple):
+    """A bone, or a muscle or tendon of one side; its vertices and indices lie together."""
+
+    name: str
+    segment: str | None
+    """Of a bone."""
+    muscle: str | None
+    """Of a muscle: whose mesh it follows."""
+    vertices: slice
+    indices: slice
+
+
+class Surfaces:
+    """Bound once to the body of one person, good for everybody of like build.
+
+    choice: fields of mobil_surface_choice: bones, side ("right", "left" or 2 for both), muscles, cells, detail,
+    textured.
+    """
+
+    def __init__(self, world: World, like: People, **choice: Any) -> None:
+        if "side" in choice:
+            choice["side"] = names.number_of(choice["side"], names.SIDES, "side")
+        made = ffi.new("mobil_surfaces**")
+        world._do(lib.mobil_bind_surfaces(world._sim, _one(like), _fill("surface_choice", choice), made))
+        self._surfaces = ffi.gc(made[0], lib.mobil_drop_surfaces)
+        self.triangles: npt.NDArray[np.uint32] = np.empty(lib.mobil_index_count(self._surfaces), np.uint32)
+        code = lib.mobil_indices(
+            self._surfaces, ffi.from_buffer("unsigned int[]", self.triangles), self.triangles.size
+        )
+        if code != 0:
+            fail(code, "the triangles cannot be read")
+        self.triangles = self.triangles.reshape(-1, 3)
+        self.vertex_count: int = lib.mobil_vertex_count(self._surfaces)
+        self.parts = tuple(self._parts())
+
+    def _parts(self):
+        part = ffi.new("mobil_part*")
+        number = 0
+        while lib.mobil_surface_part(self._surfaces, number, part) == lib.MOBIL_OK:
+            yield Part(
+                text(part.name),
+                names.SEGMENTS[part.segment] if part.segment >= 0 else None,
+                names.MUSCLES[part.muscle] if part.muscle >= 0 else None,
+                slice(part.first_vertex, part.first_vertex + part.vertices),
+                slice(part.first_index // 3, (part.first_index + part.indices) // 3),
+            )
+            number += 1
+
+    def vertices(
+        self, world: World, people: People, out: npt.NDArray[np.float32] | None = None
+    ) -> npt.NDArray[np.float32]:
+        """(n, vertices, 6): positions and unit normals after the last tick."""
+        people = np.atleast_1d(people)
+        shape = (len(people), self.vertex_count, 6)
+        out = np.empty(shape, np.float32) if out is None else out
+        if out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous or not out.flags.writeable:
+            raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
+        targets = ffi.new("mobil_surface_target[]", max(len(people), 1))
+        row = 6 * 4
+        for i in range(len(people)):
+            target = targets[i]
+            target.size = ffi.sizeof("mobil_surface_target")
+            target.id = _one(people[i])
+            target.surfaces = self._surfaces
+            at = out[i].ctypes.data
+            target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
+            target.position_stride = target.normal_stride = row
+            target.position_bytes = out[i].nbytes
+            target.normal_bytes = out[i].nbytes - row // 2
+        world._do(lib.mobil_write_surfaces(world._sim, targets, 0, len(people)))
+        return out

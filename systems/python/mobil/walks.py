@@ -1,0 +1,87 @@
+"""One person's walk, tick by tick."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import names
+from .world import World
+
+Floats = npt.NDArray[np.float32]
+
+
+@dataclass
+class Walk:
+    """What a walker did, a row a tick; SI units, rad. Sides: right, left."""
+
+    mass_kg: float
+    time_s: Floats
+    phase: Floats
+    """Of the gait cycle of each side, 0 to 1 from its heel strike: (ticks, 2)."""
+    joints: Floats
+    """(ticks, 13), columns as names.JOINTS."""
+    poses: Floats
+    """(ticks, 48, 7)."""
+    centre_of_mass: Floats
+    ground: Floats
+    """On each foot, N: (ticks, 2, 3)."""
+    moments: Floats
+    """(ticks, 6) N m, columns as names.MOMENTS."""
+    lines: dict[str, Floats] = field(default_factory=dict)
+    """Of each muscle: (ticks, 2, 4), columns as names.LINE."""
+    bellies: dict[str, Floats] = field(default_factory=dict)
+    """(ticks, 2, 5), columns as names.REPORT; of muscles that report."""
+
+    def joint(self, name: str) -> Floats:
+        """One column of joints, rad."""
+        return self.joints[:, names.number_of(name, names.JOINTS, "joint")]
+
+    def moment(self, name: str) -> Floats:
+        """One column of moments, N m."""
+        return self.moments[:, names.number_of(name, names.MOMENTS, "moment")]
+
+
+def walk(*, seconds: float = 2.4, settle_s: float = 2.0, muscles: Any = None, tick_s: float = 1 / 60, **person: Any) -> Walk:
+    """Lets one person walk for so long, and writes down what happens; `person`: as World.spawn takes it.
+
+    settle_s: how long before that, so that bellies swing as in a steady walk.
+    """
+    world = World(tick_s=tick_s)
+    who = world.spawn(1, muscles=muscles, **person)
+    world.set_forces(who)
+    world.tick(round(settle_s / tick_s))
+    ticks = round(seconds / tick_s) + 1
+    chosen = [name for name in names.MUSCLES if muscles is not None and muscles.muscles >> names.MUSCLES.index(name) & 1]
+    reported = muscles is not None and names.METHODS[muscles.method] != "none" and bool(muscles.reported)
+    made = Walk(
+        mass_kg=float(np.max(person.get("mass_kg", 75.0))),
+        time_s=np.empty(ticks, np.float32),
+        phase=np.empty((ticks, 2), np.float32),
+        joints=np.empty((ticks, len(names.JOINTS)), np.float32),
+        poses=np.empty((ticks, len(names.SEGMENTS), 7), np.float32),
+        centre_of_mass=np.empty((ticks, 3), np.float32),
+        ground=np.empty((ticks, 2, 3), np.float32),
+        moments=np.empty((ticks, len(names.MOMENTS)), np.float32),
+        lines={name: np.empty((ticks, 2, len(names.LINE)), np.float32) for name in chosen},
+        bellies={name: np.empty((ticks, 2, len(names.REPORT)), np.float32) for name in chosen if reported},
+    )
+    begin_s = world.time_s
+    for row in range(ticks):
+        here = slice(row, row + 1)
+        made.time_s[row] = world.time_s - begin_s
+        world.joints(who, made.joints[here])
+        world.poses(who, out=made.poses[here])
+        world.centre_of_mass(who, made.centre_of_mass[here])
+        world.moments(who, made.moments[here])
+        made.phase[row] = world.feet(who)[1][0]
+        made.ground[row] = world.ground(who)[0][0]
+        for kind, of in (("line", made.lines), ("report", made.bellies)):
+            for name, rows in of.items():
+                for side, side_name in enumerate(names.SIDES):
+                    world.muscle_rows(kind, who, name, side_name, rows[here, side])
+        world.tick()
+    return made

@@ -1,0 +1,499 @@
+"""A world of walkers."""
+
+from __future__ import annotations
+
+from typing import Any, Iterable, Mapping, NamedTuple, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import names
+from ._library import fail, ffi, lib, struct, text
+from .names import muscle_bits, number_of
+
+PERSON = np.dtype([("index", np.uint32), ("generation", np.uint32)])
+"""One person's handle; people are arrays of these."""
+
+People = npt.NDArray[np.void]
+Floats = npt.NDArray[np.float32]
+
+
+class Ticks(NamedTuple):
+    count: int
+    """Ticks that ran."""
+    alpha: float
+    """How far into the next tick the frame is, 0 to 1."""
+    dropped_s: float
+    """Of a frame that was too long."""
+
+
+class SystemCost(NamedTuple):
+    name: str
+    module: str
+    seconds: float
+    """In the last tick, of all threads together."""
+    entities: int
+
+
+class Choice(NamedTuple):
+    why: str
+    error_m: float
+    cost_us: float
+
+
+_NAMED = {
+    "method": names.METHODS,
+    "element": names.ELEMENTS,
+    "mass": names.MASSES,
+    "drive": names.DRIVES,
+    "activation": names.ACTIVATIONS,
+}
+
+
+def _fill(kind: str, given: Mapping[str, Any]) -> Any:
+    """A struct of the C interface with these fields; names for numbers where there are names."""
+    made = struct(kind)
+    for field, value in given.items():
+        if field == "size" or not hasattr(made, field):
+            known = [name for name, _ in ffi.typeof(made).item.fields if name != "size"]
+            raise TypeError(f"{kind} has no '{field}'; it has {', '.join(known)}")
+        if field == "muscles":
+            value = muscle_bits(value)
+        elif field in _NAMED:
+            value = number_of(value, _NAMED[field], field)
+        setattr(made, field, list(value) if isinstance(value, (tuple, np.ndarray)) else value)
+    return made
+
+
+def muscles(**fields: Any) -> Any:
+    """How leg muscles deform: muscles(method="reduced", vectors=8, activation="phase").
+
+    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "ecd", "icd", "caa", "reduced" or
+    "none"; all other fields are those of mobil_muscles in mobil.h, in SI units.
+    """
+    return _fill("muscles", fields)
+
+
+def method(name: str, **fields: Any) -> Any:
+    """How one muscle is simulated: method("reduced", vectors=4, control_points=0)."""
+    return _fill("method", {"method": name, **fields})
+
+
+class World:
+    """People who walk, in fixed ticks.
+
+    tick_s: 1e-5 to 1 s. threads: 0 for all. axes: of places, directions and rotations: "y_up" (x left, y up, z ahead),
+    "unity", "unreal", "godot" or "z_up"; units_per_m: of places. Numbers are otherwise SI, angles rad. What people are
+    asked for one by one may be given as one value for all. Refusals are exceptions of one line (mobil.Error); what was
+    refused has changed nothing.
+    """
+
+    def __init__(
+        self, *, tick_s: float = 1 / 60, threads: int = 1, axes: str = "y_up", units_per_m: float = 1.0
+    ) -> None:
+        options = struct("options")
+        options.tick_s = tick_s
+        options.threads = threads
+        options.axes = number_of(axes, names.AXES, "axes")
+        options.units_per_m = units_per_m
+        made = ffi.new("mobil_sim**")
+        line = ffi.new("char[512]")
+        code = lib.mobil_create(options, made, line, 512)
+        if code != 0:
+            fail(code, text(line))
+        self._sim = ffi.gc(made[0], lib.mobil_destroy)
+
+    def _do(self, code: int) -> None:
+        if code < 0:
+            fail(code, text(lib.mobil_message(self._sim)))
+
+    # People
+
+    def spawn(
+        self,
+        count: int | None = None,
+        *,
+        height_m: npt.ArrayLike = 1.75,
+        mass_kg: npt.ArrayLike = 75.0,
+        somatotype: npt.ArrayLike | None = None,
+        constitution: str | Sequence[str] = "average",
+        speed_m_s: npt.ArrayLike | None = None,
+        step_length_m: npt.ArrayLike | None = None,
+        step_frequency_hz: npt.ArrayLike | None = None,
+        style: Mapping[str, npt.ArrayLike] | None = None,
+        place: npt.ArrayLike = (0.0, 0.0, 0.0),
+        heading_rad: npt.ArrayLike = 0.0,
+        posed: bool = False,
+        muscles: Any = None,
+    ) -> People:
+        """People come, all or none; an array of handles. As many as `count`, or as the longest of what is given.
+
+        somatotype: endo, meso, ecto. place: (…, 3) in the world's axes. style: by names.STYLE. muscles: mobil.muscles(…).
+        posed: their poses are set by set_poses; else they walk, with 5 km/h where nothing is said.
+        """
+        columns = {
+            "height_m": height_m,
+            "mass_kg": mass_kg,
+            "speed_m_s": speed_m_s,
+            "step_length_m": step_length_m,
+            "step_frequency_hz": step_frequency_hz,
+            "heading_rad": heading_rad,
+        }
+        given = {name: np.asarray(value, np.float32) for name, value in columns.items() if value is not None}
+        places = np.asarray(place, np.float32)
+        types = None if somatotype is None else np.asarray(somatotype, np.float32)
+        builds = [constitution] if isinstance(constitution, str) else list(constitution)
+        styles, style_length = _style_rows(style)
+        if count is None:
+            lengths = [a.shape[0] for a in given.values() if a.ndim] + [len(builds), styles.shape[0]]
+            lengths += [a.shape[0] for a in (places, types) if a is not None and a.ndim == 2]
+            count = max(lengths)
+        bits = {"speed_m_s": lib.MOBIL_SPEED, "step_length_m": lib.MOBIL_STEP_LENGTH}
+        bits["step_frequency_hz"] = lib.MOBIL_STEP_FREQUENCY
+        people = ffi.new("mobil_person[]", count)
+        usual = struct("person")
+        usual.posed = 1 if posed else 0
+        usual.given = sum(bit for name, bit in bits.items() if name in given)
+        rows = {name: np.broadcast_to(value, (count,)) for name, value in given.items()}
+        places = np.broadcast_to(places, (count, 3))
+        types = None if types is None else np.broadcast_to(types, (count, 3))
+        styles = np.ascontiguousarray(np.broadcast_to(styles, (count, styles.shape[1])))
+        for i in range(count):
+            person = people[i]
+            ffi.memmove(ffi.addressof(people, i), usual, ffi.sizeof("mobil_person"))
+            for name, values in rows.items():
+                setattr(person, name, float(values[i]))
+            person.place = places[i].tolist()
+            if types is not None:
+                person.endo, person.meso, person.ecto = types[i].tolist()
+            person.constitution = number_of(builds[i % len(builds)], names.CONSTITUTIONS, "constitution")
+            if style_length:
+                person.style = ffi.cast("const float*", styles[i].ctypes.data)
+                person.style_count = style_length
+        ids = np.zeros(count, PERSON)
+        muscles = ffi.NULL if muscles is None else muscles
+        self._do(lib.mobil_spawn(self._sim, people, 0, count, muscles, _ids(ids)))
+        return ids
+
+    def despawn(self, people: People) -> None:
+        self._do(lib.mobil_despawn(self._sim, *_all(people)))
+
+    @property
+    def people(self) -> People:
+        """Everybody who is there, in no particular order."""
+        count = ffi.new("size_t*")
+        self._do(lib.mobil_people(self._sim, ffi.NULL, 0, count))
+        ids = np.zeros(count[0], PERSON)
+        if ids.size:
+            self._do(lib.mobil_people(self._sim, _ids(ids), ids.size, ffi.NULL))
+        return ids
+
+    def change_walk(
+        self,
+        people: People,
+        *,
+        speed_m_s: float | None = None,
+        step_length_m: float | None = None,
+        step_frequency_hz: float | None = None,
+        style: Mapping[str, float] | None = None,
+        heading_rad: float | None = None,
+    ) -> None:
+        """From the next step on; what is left out stays. A speed of 0 stops."""
+        walk = struct("walk")
+        for name, value, bit in (
+            ("speed_m_s", speed_m_s, lib.MOBIL_SPEED),
+            ("step_length_m", step_length_m, lib.MOBIL_STEP_LENGTH),
+            ("step_frequency_hz", step_frequency_hz, lib.MOBIL_STEP_FREQUENCY),
+            ("heading_rad", heading_rad, lib.MOBIL_HEADING),
+        ):
+            if value is not None:
+                setattr(walk, name, value)
+                walk.given |= bit
+        rows, length = _style_rows(style)
+        if length:
+            walk.given |= lib.MOBIL_STYLE
+            walk.style = ffi.cast("const float*", rows[0].ctypes.data)
+            walk.style_count = length
+        self._do(lib.mobil_change_walk(self._sim, *_all(people), walk))
+
+    def set_poses(self, people: People, poses: npt.ArrayLike, *, jumped: bool = False) -> None:
+        """Of posed people, at the end of the next tick: (n, 48, 7), place x y z and quaternion x y z w in the world."""
+        rows = np.ascontiguousarray(poses, np.float32).reshape(len(np.atleast_1d(people)), len(names.SEGMENTS), 7)
+        self._do(lib.mobil_set_poses(self._sim, *_all(people), _floats(rows), 0, int(jumped)))
+
+    def place(self, person: People, place: Sequence[float], heading_rad: float) -> None:
+        """Puts a walker elsewhere at once; no inertia is felt."""
+        self._do(lib.mobil_place(self._sim, _one(person), list(place), heading_rad))
+
+    def set_forces(self, people: People, on: bool = True) -> None:
+        """Ground reactions and joint moments, or not."""
+        self._do(lib.mobil_set_forces(self._sim, *_all(people), int(on)))
+
+    def sleep(self, people: People) -> int:
+        """How many of them are asleep now."""
+        return self._changed(lib.mobil_sleep, people)
+
+    def wake(self, people: People, within_m: float = 0.005) -> None:
+        self._do(lib.mobil_wake(self._sim, *_all(people), within_m))
+
+    def compact(self, people: People) -> int:
+        """How many of them are compact now."""
+        return self._changed(lib.mobil_compact, people)
+
+    def expand(self, people: People) -> None:
+        self._do(lib.mobil_expand(self._sim, *_all(people)))
+
+    def _changed(self, call: Any, people: People) -> int:
+        count = ffi.new("size_t*")
+        self._do(call(self._sim, *_all(people), count))
+        return int(count[0])
+
+    # Muscles
+
+    def set_muscles(self, people: People, muscles: Any) -> None:
+        """mobil.muscles(…), or None: they go."""
+        self._do(lib.mobil_set_muscles(self._sim, *_all(people), ffi.NULL if muscles is None else muscles))
+
+    def set_method(self, people: People, muscle: str, method: Any) -> None:
+        """mobil.method(…) of one muscle, both sides, without a jump."""
+        self._do(lib.mobil_set_method(self._sim, *_all(people), number_of(muscle, names.MUSCLES, "muscle"), method))
+
+    def method(self, person: People, muscle: str) -> str:
+        """The name of a muscle's method now."""
+        to = struct("method")
+        number = number_of(muscle, names.MUSCLES, "muscle")
+        self._do(lib.mobil_get_method(self._sim, _one(person), number, to))
+        return names.METHODS[to.method]
+
+    def set_excitation(self, people: People, muscle: str, side: str, excitation: npt.ArrayLike) -> None:
+        """0.01 to 1, of muscles with activation="host"."""
+        people = np.atleast_1d(people)
+        values = np.ascontiguousarray(np.broadcast_to(np.asarray(excitation, np.float32), people.shape))
+        self._do(
+            lib.mobil_set_excitation(
+                self._sim,
+                *_all(people),
+                number_of(muscle, names.MUSCLES, "muscle"),
+                number_of(side, names.SIDES, "side"),
+                _floats(values),
+                0,
+            )
+        )
+
+    def prepare(self, muscles: Any) -> None:
+        """Makes what these muscles share, so that nobody waits for it later."""
+        self._do(lib.mobil_prepare(self._sim, muscles))
+
+    def bake(self) -> bytes:
+        """All that was made so far."""
+        size = ffi.new("size_t*")
+        self._do(lib.mobil_bake(self._sim, ffi.NULL, 0, size))
+        out = bytearray(size[0])
+        self._do(lib.mobil_bake(self._sim, ffi.from_buffer(out), len(out), ffi.NULL))
+        return bytes(out)
+
+    def load_baked(self, baked: bytes) -> None:
+        self._do(lib.mobil_load_baked(self._sim, ffi.from_buffer(baked), len(baked)))
+
+    # Choosing
+
+    def start_choosing(self, *, muscles: Any = None, **options: Any) -> None:
+        """Methods follow from the scene from now on; options: those of mobil_choosing."""
+        muscles = ffi.NULL if muscles is None else muscles
+        self._do(lib.mobil_start_choosing(self._sim, _fill("choosing", options), muscles))
+
+    def set_scene(self, **fields: Any) -> None:
+        """What is good enough: the fields of mobil_scene; a camera where `eye` and `gaze` are given."""
+        if "eye" in fields:
+            fields = {"has_camera": 1, **fields}
+        self._do(lib.mobil_set_scene(self._sim, _fill("scene", fields)))
+
+    def prepare_scene(self) -> None:
+        self._do(lib.mobil_prepare_scene(self._sim))
+
+    def manage(self, people: People, **needs: Any) -> None:
+        """Their muscles are chosen from the next choose() on; needs of their own: the fields of mobil_needs."""
+        self._do(lib.mobil_manage(self._sim, *_all(people), _fill("needs", needs)))
+
+    def release(self, people: People) -> None:
+        self._do(lib.mobil_release(self._sim, *_all(people)))
+
+    def choose(self) -> dict[str, float]:
+        """Before a tick; what it did."""
+        did = struct("chosen")
+        self._do(lib.mobil_choose(self._sim, did))
+        return {name: getattr(did, name) for name, _ in ffi.typeof(did).item.fields if name != "size"}
+
+    def why(self, person: People, muscle: str) -> Choice:
+        """Why a muscle has its method; its predicted error and cost, of one leg and tick."""
+        line = ffi.new("char[512]")
+        error, cost = ffi.new("float*"), ffi.new("double*")
+        number = number_of(muscle, names.MUSCLES, "muscle")
+        self._do(lib.mobil_why(self._sim, _one(person), number, line, 512, error, cost))
+        return Choice(text(line), error[0], cost[0])
+
+    # Time and state
+
+    def tick(self, ticks: int = 1) -> None:
+        self._do(lib.mobil_tick(self._sim, ticks))
+
+    def advance(self, seconds: float) -> Ticks:
+        """As many ticks as the time fed so far makes."""
+        ticks = ffi.new("mobil_ticks*")
+        self._do(lib.mobil_advance(self._sim, seconds, ticks))
+        return Ticks(ticks.count, ticks.alpha, ticks.dropped_s)
+
+    @property
+    def time_s(self) -> float:
+        return lib.mobil_time_s(self._sim)
+
+    @property
+    def tick_s(self) -> float:
+        return lib.mobil_tick_s(self._sim)
+
+    def save(self) -> bytes:
+        """The whole state."""
+        out = bytearray(lib.mobil_snapshot_bytes(self._sim))
+        used = ffi.new("size_t*")
+        self._do(lib.mobil_save(self._sim, ffi.from_buffer(out), len(out), used))
+        return bytes(out[: used[0]])
+
+    def restore(self, state: bytes) -> None:
+        self._do(lib.mobil_restore(self._sim, ffi.from_buffer(state), len(state)))
+
+    def hash(self) -> int:
+        """Of the whole state, 64 bits: equal states have equal ones, on any machine and threads."""
+        half = ffi.new("unsigned int[2]")
+        self._do(lib.mobil_hash(self._sim, half))
+        return half[0] | half[1] << 32
+
+    def cost(self) -> list[SystemCost]:
+        """What each system cost in the last tick, in the order of running."""
+        found: list[SystemCost] = []
+        one = ffi.new("mobil_system*")
+        while lib.mobil_cost(self._sim, len(found), one) == lib.MOBIL_OK:
+            found.append(SystemCost(text(one.name), text(one.module), one.seconds, int(one.entities)))
+        return found
+
+    # Reading
+
+    def poses(
+        self,
+        people: People,
+        *,
+        form: str = "quaternion",
+        ahead_s: float = 0.0,
+        to_parent: bool = False,
+        segments: Sequence[str | int] | None = None,
+        out: Floats | None = None,
+    ) -> Floats:
+        """Poses at an instant after the last tick (ahead_s: 0 to 0.2), exactly.
+
+        (n, segments, 7) place x y z and quaternion x y z w, or (…, 3, 4) of "matrix", (…, 8) of "dual_quaternion".
+        """
+        layout = struct("pose_layout")
+        layout.form = number_of(form, names.FORMS, "form")
+        layout.ahead_s = ahead_s
+        layout.to_parent = int(to_parent)
+        chosen = range(len(names.SEGMENTS)) if segments is None else segments
+        numbers = ffi.new("int[]", [number_of(s, names.SEGMENTS, "segment") for s in chosen])
+        layout.segments = numbers
+        layout.segment_count = len(numbers)
+        shape = ((7,), (3, 4), (8,))[layout.form]
+        out = _out(out, (len(np.atleast_1d(people)), len(numbers), *shape))
+        self._do(lib.mobil_poses(self._sim, *_all(people), layout, _floats(out), out.strides[0] if out.size else 0))
+        return out
+
+    def _rows(self, what: int, people: People, out: Floats | None) -> Floats:
+        out = _out(out, (len(np.atleast_1d(people)), lib.mobil_row_floats(what)))
+        self._do(lib.mobil_read(self._sim, what, *_all(people), _floats(out), out.strides[0] if out.size else 0))
+        return out
+
+    def joints(self, people: People, out: Floats | None = None) -> Floats:
+        """(n, 13) angles in rad, columns as names.JOINTS."""
+        return self._rows(lib.MOBIL_JOINTS, people, out)
+
+    def feet(self, people: People) -> tuple[Floats, Floats]:
+        """Points of the soles (n, heel toe tip, right left, 3), and phases of the gait cycle (n, right left)."""
+        rows = self._rows(lib.MOBIL_FEET, people, None)
+        return rows[:, :18].reshape(-1, 3, 2, 3), rows[:, 18:]
+
+    def centre_of_mass(self, people: People, out: Floats | None = None) -> Floats:
+        """(n, 3)."""
+        return self._rows(lib.MOBIL_CENTRE, people, out)
+
+    def ground(self, people: People) -> tuple[Floats, Floats]:
+        """Of who has forces: on each foot (n, right left, 3), N, and centres of pressure (n, right left, 3)."""
+        rows = self._rows(lib.MOBIL_GROUND, people, None).reshape(-1, 2, 2, 3)
+        return rows[:, 0], rows[:, 1]
+
+    def moments(self, people: People, out: Floats | None = None) -> Floats:
+        """Of who has forces: (n, 6) N m, columns as names.MOMENTS."""
+        return self._rows(lib.MOBIL_MOMENTS, people, out)
+
+    def muscle_rows(
+        self, what: str, people: People, muscle: str, side: str = "right", out: Floats | None = None
+    ) -> Floats:
+        """(n, columns) of one muscle.
+
+        what: "line" (names.LINE), "line_motion", "report" (names.REPORT), "activation", "tendon" (names.TENDON), or
+        "nodes": displacements of control points in the muscle's frame, m, three a node.
+        """
+        kinds = ("line", "line_motion", "report", "activation", "tendon", "nodes")
+        number, of = number_of(what, kinds, "row"), number_of(muscle, names.MUSCLES, "muscle")
+        on = number_of(side, names.SIDES, "side")
+        people = np.atleast_1d(people)
+        floats = lib.mobil_muscle_row_floats(self._sim, number, _one(people[0]), of, on) if len(people) else 0
+        self._do(min(floats, 0))
+        out = _out(out, (len(people), floats))
+        stride = out.strides[0] if out.size else 0
+        self._do(lib.mobil_read_muscles(self._sim, number, *_all(people), of, on, _floats(out), stride))
+        return out
+
+
+def _ids(people: People) -> Any:
+    return ffi.from_buffer("mobil_id[]", people)
+
+
+def _one(person: People) -> Any:
+    people = np.atleast_1d(person)
+    if people.dtype != PERSON or people.size != 1:
+        raise TypeError("one person is wanted: an element of what spawn returns")
+    return {"index": int(people["index"][0]), "generation": int(people["generation"][0])}
+
+
+def _all(people: People) -> tuple[Any, int]:
+    """Handles and how many, for a call. The array lives as long as the expression that names it."""
+    people = np.atleast_1d(people)
+    if people.dtype != PERSON:
+        raise TypeError("people are arrays of mobil.PERSON, as spawn returns them")
+    if not people.flags.c_contiguous:
+        people = np.ascontiguousarray(people)
+    return (_ids(people) if people.size else ffi.NULL), people.size
+
+
+def _floats(values: Floats) -> Any:
+    return ffi.cast("float*", values.ctypes.data)
+
+
+def _out(out: Floats | None, shape: tuple[int, ...]) -> Floats:
+    """The caller's array where it fits, rows at any distance; a new one where there is none."""
+    if out is None:
+        return np.empty(shape, np.float32)
+    rows_close = out.dtype == np.float32 and out.shape == shape and (out.size == 0 or out[0].flags.c_contiguous)
+    if not rows_close or not out.flags.writeable or (len(out) > 1 and out.strides[0] < out[0].nbytes):
+        raise ValueError(f"out must be a writable float32 array of shape {shape} whose rows lie together")
+    return out
+
+
+def _style_rows(style: Mapping[str, npt.ArrayLike] | None) -> tuple[Floats, int]:
+    """One row a person (or one for all) of all style numbers, and how many these are; 0 without a style."""
+    if not style:
+        return np.zeros((1, 0), np.float32), 0
+    known = list(names.STYLE)
+    values = {number_of(name, tuple(known), "style parameter"): np.atleast_1d(v) for name, v in style.items()}
+    rows = np.array([p.usual for p in names.STYLE.values()], np.float32)
+    rows = np.tile(rows, (max(len(v) for v in values.values()), 1))
+    for column, value in values.items():
+        rows[:, column] = value
+    return rows, rows.shape[1]

@@ -1,0 +1,17 @@
+"""Only what pyproject.toml cannot say: the wheel holds a library, for one kind of machine and any Python 3."""
+
+from setuptools import Distribution, setup
+from wheel.bdist_wheel import bdist_wheel
+
+
+class OfOneMachine(Distribution):
+    def has_ext_modules(self):
+        return True
+
+
+class AnyPython(bdist_wheel):
+    def get_tag(self):
+        return ("py3", "none", super().get_tag()[2])
+
+
+setup(distclass=OfOneMachine, cmdclass={"bdist_wheel": AnyPython})

@@ -1,0 +1,72 @@
+#pragma once
+// A simulation through the C interface, and its twin in C++.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "systems/c/mobil.h"
+
+namespace mobil::c_test {
+
+template <class S>
+S filled(int which) {
+  S s;
+  EXPECT_EQ(mobil_defaults(which, &s, sizeof s), MOBIL_OK);
+  return s;
+}
+
+class Sim {
+ public:
+  Sim() : Sim(filled<mobil_options>(MOBIL_OPTIONS)) {}
+  explicit Sim(const mobil_options& options) {
+    char line[256] = "";
+    EXPECT_EQ(mobil_create(&options, &sim_, line, sizeof line), MOBIL_OK) << line;
+  }
+  ~Sim() { mobil_destroy(sim_); }
+  Sim(const Sim&) = delete;
+  Sim& operator=(const Sim&) = delete;
+
+  operator mobil_sim*() const { return sim_; }
+  std::uint64_t hash() const {
+    unsigned int half[2] = {};
+    EXPECT_EQ(mobil_hash(sim_, half), MOBIL_OK);
+    return half[0] | std::uint64_t{half[1]} << 32;
+  }
+  std::string message() const { return mobil_message(sim_); }
+
+ private:
+  mobil_sim* sim_ = nullptr;
+};
+
+/// People side by side, of different bodies and walks.
+inline std::vector<mobil_person> some_people(std::size_t count) {
+  std::vector<mobil_person> people(count, filled<mobil_person>(MOBIL_PERSON));
+  for (std::size_t i = 0; i < count; ++i) {
+    people[i].height_m = 1.6F + 0.01F * static_cast<float>(i % 30);
+    people[i].mass_kg = 60 + static_cast<float>(i % 7);
+    people[i].given = MOBIL_SPEED;
+    people[i].speed_m_s = 0.9F + 0.05F * static_cast<float>(i % 9);
+    people[i].place[0] = static_cast<float>(i);
+    people[i].heading_rad = 0.3F * static_cast<float>(i % 5);
+  }
+  return people;
+}
+
+inline std::vector<mobil_id> spawn(const Sim& sim, std::size_t count, const mobil_muscles* muscles = nullptr) {
+  const auto people = some_people(count);
+  std::vector<mobil_id> ids(count);
+  EXPECT_EQ(mobil_spawn(sim, people.data(), 0, count, muscles, ids.data()), MOBIL_OK) << sim.message();
+  return ids;
+}
+
+inline mobil_muscles reduced_muscles() {
+  auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
+  muscles.method = MOBIL_REDUCED;
+  muscles.muscles = 1U << MOBIL_HAMSTRINGS | 1U << MOBIL_TRICEPS_SURAE;
+  muscles.vectors = 4;
+  return muscles;
+}
+
+}  // namespace mobil::c_test

@@ -1,0 +1,301 @@
+// What a host brings to the C interface: axes, memory that runs out, jobs.
+
+#include <Eigen/Dense>
+#include <array>
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "tests/c/c_fixture.h"
+
+namespace mobil::c_test {
+namespace {
+
+using Matrix = Eigen::Matrix3d;
+using Vector = Eigen::Vector3d;
+
+/// What the host calls x, y, z, in ours: ahead, up and left as the header has them, not as the code.
+struct Host {
+  const char* name;
+  int axes;
+  float units_per_m;
+  Vector ahead, up, left;  // in the host's numbers
+
+  /// Ours are x left, y up, z ahead.
+  Matrix from_ours() const {
+    Matrix m;
+    m << left, up, ahead;
+    return m;
+  }
+};
+
+const Host hosts[] = {{"glTF", MOBIL_AXES_Y_UP, 1, {0, 0, 1}, {0, 1, 0}, {1, 0, 0}},
+                      {"Unity", MOBIL_AXES_UNITY, 1, {0, 0, 1}, {0, 1, 0}, {-1, 0, 0}},
+                      {"Unreal", MOBIL_AXES_UNREAL, 100, {1, 0, 0}, {0, 0, 1}, {0, -1, 0}},
+                      {"Godot", MOBIL_AXES_GODOT, 1, {0, 0, -1}, {0, 1, 0}, {-1, 0, 0}},
+                      {"ROS", MOBIL_AXES_Z_UP, 1, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}}};
+
+mobil_options options_of(const Host& host) {
+  auto options = filled<mobil_options>(MOBIL_OPTIONS);
+  options.axes = host.axes;
+  options.units_per_m = host.units_per_m;
+  return options;
+}
+
+Vector vector(const float* at) {
+  return {at[0], at[1], at[2]};
+}
+
+/// A walker at 3 m to the left and 5 ahead of the origin, who looks 0.7 rad to the left.
+mobil_id walker(const Sim& sim, const Host& host) {
+  auto person = filled<mobil_person>(MOBIL_PERSON);
+  const Vector place = host.units_per_m * (3 * host.left + 5 * host.ahead);
+  for (int i = 0; i < 3; ++i) person.place[i] = static_cast<float>(place[i]);
+  person.heading_rad = 0.7F;
+  mobil_id id{};
+  auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);
+  muscles.method = MOBIL_REDUCED;
+  EXPECT_EQ(mobil_spawn(sim, &person, 0, 1, &muscles, &id), MOBIL_OK) << sim.message();
+  EXPECT_EQ(mobil_set_forces(sim, &id, 1, 1), MOBIL_OK);
+  EXPECT_EQ(mobil_tick(sim, 50), MOBIL_OK);
+  return id;
+}
+
+Matrix rotation(const float* q) {
+  return Eigen::Quaterniond(q[3], q[0], q[1], q[2]).toRotationMatrix();
+}
+
+TEST(CHost, EverythingIsInTheHostsAxes) {
+  const Sim plain;
+  const mobil_id us = walker(plain, hosts[0]);
+  std::vector<float> our_pose(48 * 7), our_ground(12);
+  ASSERT_EQ(mobil_poses(plain, &us, 1, nullptr, our_pose.data(), 0), MOBIL_OK);
+  ASSERT_EQ(mobil_read(plain, MOBIL_GROUND, &us, 1, our_ground.data(), 0), MOBIL_OK);
+  for (const Host& host : hosts) {
+    SCOPED_TRACE(host.name);
+    const Sim sim(options_of(host));
+    const mobil_id id = walker(sim, host);
+    EXPECT_EQ(sim.hash(), plain.hash());  // the world is the same whatever it is called
+    const Matrix m = host.from_ours();
+    std::vector<float> pose(48 * 7), ground(12), feet(20);
+    ASSERT_EQ(mobil_poses(sim, &id, 1, nullptr, pose.data(), 0), MOBIL_OK);
+    ASSERT_EQ(mobil_read(sim, MOBIL_GROUND, &id, 1, ground.data(), 0), MOBIL_OK);
+    ASSERT_EQ(mobil_read(sim, MOBIL_FEET, &id, 1, feet.data(), 0), MOBIL_OK);
+    for (std::size_t s = 0; s < 48; ++s) {
+      const Vector place = host.units_per_m * (m * vector(&our_pose[7 * s]));
+      EXPECT_LT((place - vector(&pose[7 * s])).norm(), 1e-5 * place.norm());
+      const Matrix turned = m * rotation(&our_pose[7 * s + 3]) * m.transpose();
+      EXPECT_LT((turned - rotation(&pose[7 * s + 3])).norm(), 1e-5);
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_LT((m * vector(&our_ground[3 * i]) - vector(&ground[3 * i])).norm(), 0.01);  // N
+      EXPECT_LT((host.units_per_m * (m * vector(&our_ground[6 + 3 * i])) - vector(&ground[6 + 3 * i])).norm(),
+                1e-4 * host.units_per_m);
+    }
+    // Up is up: heels near the ground, the pelvis at hip height; ahead is where the person looks.
+    const double height = host.up.dot(vector(&pose[0])) / host.units_per_m;
+    EXPECT_GT(height, 0.8);
+    EXPECT_LT(height, 1.1);
+    EXPECT_LT(std::fabs(host.up.dot(vector(&feet[0]))) / host.units_per_m, 0.2);
+    const Vector looks = std::cos(0.7) * host.ahead + std::sin(0.7) * host.left;
+    const Vector toes = vector(&feet[12]) - vector(&feet[0]);  // from the right heel
+    EXPECT_GT(toes.normalized().dot(looks), 0.8);
+    auto person = filled<mobil_person>(MOBIL_PERSON);
+    ASSERT_EQ(mobil_get_person(sim, id, &person), MOBIL_OK);
+    EXPECT_NEAR(person.heading_rad, 0.7, 1e-5);
+    EXPECT_NEAR(host.up.dot(vector(person.place)), 0, 1e-6);
+  }
+}
+
+TEST(CHost, PosesGoInAsTheyComeOut) {
+  for (const Host& host : hosts) {
+    SCOPED_TRACE(host.name);
+    const Sim sim(options_of(host));
+    const mobil_id id = walker(sim, host);
+    auto doll = filled<mobil_person>(MOBIL_PERSON);
+    doll.posed = 1;
+    mobil_id posed{};
+    ASSERT_EQ(mobil_spawn(sim, &doll, 0, 1, nullptr, &posed), MOBIL_OK);
+    std::vector<float> out(48 * 7), back(48 * 7);
+    ASSERT_EQ(mobil_poses(sim, &id, 1, nullptr, out.data(), 0), MOBIL_OK);
+    ASSERT_EQ(mobil_set_poses(sim, &posed, 1, out.data(), 0, 1), MOBIL_OK) << sim.message();
+    ASSERT_EQ(mobil_poses(sim, &posed, 1, nullptr, back.data(), 0), MOBIL_OK);
+    for (std::size_t i = 0; i < out.size(); ++i) EXPECT_NEAR(out[i], back[i], 1e-6 * std::fabs(out[i]) + 1e-7);
+    float joints[13], theirs[13];
+    ASSERT_EQ(mobil_read(sim, MOBIL_JOINTS, &id, 1, joints, 0), MOBIL_OK);
+    ASSERT_EQ(mobil_read(sim, MOBIL_JOINTS, &posed, 1, theirs, 0), MOBIL_OK);
+    for (int i = 3; i < 9; ++i) EXPECT_NEAR(joints[i], theirs[i], 5e-3) << i;  // of the legs, measured on the pose
+  }
+}
+
+TEST(CHost, SurfacesAreWoundOutwardsInTheHostsAxes) {
+  for (const Host& host : hosts) {
+    SCOPED_TRACE(host.name);
+    const Sim sim(options_of(host));
+    const mobil_id id = walker(sim, host);
+    auto choice = filled<mobil_surface_choice>(MOBIL_SURFACE_CHOICE);
+    choice.textured = 1;
+    mobil_surfaces* surfaces = nullptr;
+    ASSERT_EQ(mobil_bind_surfaces(sim, id, &choice, &surfaces), MOBIL_OK) << sim.message();
+    const std::size_t vertices = mobil_vertex_count(surfaces);
+    std::vector<unsigned int> index(mobil_index_count(surfaces));
+    ASSERT_EQ(mobil_indices(surfaces, index.data(), index.size()), MOBIL_OK);
+    EXPECT_EQ(mobil_indices(surfaces, index.data(), index.size() - 1), MOBIL_ROOM);
+    struct Vertex {
+      float position[3], normal[3], tangent[4];
+    };
+    std::vector<Vertex> vertex(vertices);
+    auto target = filled<mobil_surface_target>(MOBIL_SURFACE_TARGET);
+    target.id = id;
+    target.surfaces = surfaces;
+    target.positions = vertex[0].position;
+    target.normals = vertex[0].normal;
+    target.tangents = vertex[0].tangent;
+    target.position_stride = target.normal_stride = target.tangent_stride = sizeof(Vertex);
+    target.position_bytes = vertices * sizeof(Vertex);
+    target.normal_bytes = target.position_bytes - sizeof vertex[0].position;
+    target.tangent_bytes = target.normal_bytes - sizeof vertex[0].normal;
+    ASSERT_EQ(mobil_write_surfaces(sim, &target, 0, 1), MOBIL_OK) << sim.message();
+    // The product of two edges points outside in every host's numbers: triangles are counter-clockwise in right-handed
+    // axes and clockwise in left-handed ones, as renderers there have it. A closed surface's volume is then positive.
+    mobil_part part;
+    std::size_t with_tangents = 0;
+    double all = 0;
+    for (int p = 0; mobil_surface_part(surfaces, p, &part) == MOBIL_OK; ++p) {
+      double volume = 0, outward = 0;
+      for (unsigned int t = part.first_index; t < part.first_index + part.indices; t += 3) {
+        const Vertex &a = vertex[index[t]], &b = vertex[index[t + 1]], &c = vertex[index[t + 2]];
+        const Vector normal = (vector(b.position) - vector(a.position)).cross(vector(c.position) - vector(a.position));
+        const Vector origin = vector(vertex[index[part.first_index]].position);
+        volume += (vector(a.position) - origin).dot(normal) / 6;
+        outward += normal.dot(vector(a.normal) + vector(b.normal) + vector(c.normal));
+      }
+      EXPECT_GT(volume, 0) << part.name;
+      EXPECT_GT(outward, 0) << part.name;  // normals point outside in any axes
+      all += volume / std::pow(host.units_per_m, 3);
+      for (unsigned int v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
+        EXPECT_NEAR(vector(vertex[v].normal).norm(), 1, 1e-3);
+        with_tangents += std::fabs(vector(vertex[v].tangent).dot(vector(vertex[v].normal))) < 1e-3 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(all, 0.005);  // m³ of bones and thigh and calf muscles
+    EXPECT_LT(all, 0.04);
+    EXPECT_GT(with_tangents, vertices * 9 / 10);
+    std::vector<float> texture(2 * vertices);
+    EXPECT_EQ(mobil_texture_places(surfaces, texture.data(), texture.size()), MOBIL_OK);
+    mobil_drop_surfaces(surfaces);
+  }
+}
+
+/// Memory of which the n-th piece asked for is not there.
+struct Scarce {
+  long asked = 0, fails_at = -1, held = 0;
+  std::map<void*, std::size_t> pieces;
+
+  static void* allocate(void* user, std::size_t bytes, std::size_t alignment) {
+    auto& self = *static_cast<Scarce*>(user);
+    if (++self.asked == self.fails_at) return nullptr;
+    void* const memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    self.pieces[memory] = bytes;
+    return memory;
+  }
+  static void release(void* user, void* memory, std::size_t bytes, std::size_t) {
+    auto& self = *static_cast<Scarce*>(user);
+    const auto piece = self.pieces.find(memory);
+    EXPECT_TRUE(piece != self.pieces.end() && piece->second == bytes);
+    if (piece != self.pieces.end()) self.pieces.erase(piece);
+    std::free(memory);
+  }
+};
+
+TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
+  Scarce memory;
+  {
+    auto options = filled<mobil_options>(MOBIL_OPTIONS);
+    options.memory = {&memory, &Scarce::allocate, &Scarce::release};
+    const Sim sim(options);
+    const auto muscles = reduced_muscles();
+    std::vector<mobil_id> ids(40);
+    const auto people = some_people(ids.size());
+    std::size_t refusals = 0;
+    // Each is tried with the first piece refused, then with the second, until it needs no more.
+    const auto until_done = [&](const char* what, const std::function<int()>& request) {
+      const auto before = sim.hash();
+      for (long n = 1;; ++n) {
+        ASSERT_LT(n, 10000) << what;
+        memory.asked = 0;
+        memory.fails_at = n;
+        const int code = request();
+        memory.fails_at = -1;
+        if (code == MOBIL_OK) return;
+        ASSERT_EQ(code, MOBIL_MEMORY) << what << ": " << sim.message();
+        ASSERT_EQ(sim.hash(), before) << what << ", piece " << n;
+        ++refusals;
+      }
+    };
+    until_done("spawn", [&] { return mobil_spawn(sim, people.data(), 0, ids.size(), &muscles, ids.data()); });
+    ASSERT_EQ(mobil_tick(sim, 30), MOBIL_OK);
+    auto unseen = muscles;
+    unseen.control_points = 0;
+    for (std::size_t i = 0; i < 20; ++i)
+      until_done("set_muscles", [&] { return mobil_set_muscles(sim, &ids[i], 1, &unseen); });
+    until_done("compact", [&] { return mobil_compact(sim, ids.data(), 20, nullptr); });
+    until_done("sleep", [&] { return mobil_sleep(sim, &ids[20], 20, nullptr); });
+    until_done("expand", [&] { return mobil_expand(sim, ids.data(), 20); });
+    until_done("wake", [&] { return mobil_wake(sim, &ids[20], 20, 0.005F); });
+    until_done("forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 1); });
+    std::vector<std::byte> bytes(mobil_snapshot_bytes(sim));
+    std::size_t used = 0;
+    ASSERT_EQ(mobil_save(sim, bytes.data(), bytes.size(), &used), MOBIL_OK);
+    ASSERT_EQ(mobil_despawn(sim, ids.data(), ids.size()), MOBIL_OK);
+    until_done("restore", [&] { return mobil_restore(sim, bytes.data(), used); });
+    EXPECT_GT(refusals, 20U);
+  }
+  EXPECT_TRUE(memory.pieces.empty());
+}
+
+TEST(CHost, ItsJobsDoTheWork) {
+  struct Counted {
+    std::size_t calls = 0, parts = 0;
+  } counted;
+  auto options = filled<mobil_options>(MOBIL_OPTIONS);
+  options.jobs = {&counted,
+                  [](void* user, std::size_t count, mobil_work work, void* context) {
+                    auto& c = *static_cast<Counted*>(user);
+                    ++c.calls;
+                    for (std::size_t i = count; i-- > 0;) {  // backwards, one by one
+                      ++c.parts;
+                      work(context, i, i + 1);
+                    }
+                  },
+                  4};
+  const Sim sim(options), plain;
+  const auto muscles = reduced_muscles();
+  spawn(sim, 100, &muscles);
+  spawn(plain, 100, &muscles);
+  ASSERT_EQ(mobil_tick(sim, 20), MOBIL_OK);
+  ASSERT_EQ(mobil_tick(plain, 20), MOBIL_OK);
+  EXPECT_EQ(sim.hash(), plain.hash());
+  EXPECT_GT(counted.parts, counted.calls);
+}
+
+TEST(CHost, OptionsOutOfRangeSayWhich) {
+  const auto refused = [](const char* names, const std::function<void(mobil_options&)>& change) {
+    auto options = filled<mobil_options>(MOBIL_OPTIONS);
+    change(options);
+    mobil_sim* sim = nullptr;
+    char line[256] = "";
+    EXPECT_EQ(mobil_create(&options, &sim, line, sizeof line), MOBIL_REFUSED) << names;
+    EXPECT_NE(std::string(line).find(names), std::string::npos) << line;
+    EXPECT_EQ(sim, nullptr);
+  };
+  refused("tick", [](mobil_options& o) { o.tick_s = 0; });
+  refused("axes", [](mobil_options& o) { o.axes = 5; });
+  refused("units_per_m", [](mobil_options& o) { o.units_per_m = 0; });
+  refused("threads", [](mobil_options& o) { o.threads = -1; });
+  refused("release", [](mobil_options& o) { o.memory.allocate = &Scarce::allocate; });
+}
+
+}  // namespace
+}  // namespace mobil::c_test

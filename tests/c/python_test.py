@@ -1,0 +1,197 @@
+"""The Python package against the C++ program and against itself. Run by ctest with the package in PYTHONPATH; argument:
+the mobil program. Exit status 77, skipped, where numpy or cffi is missing."""
+
+import csv
+import pathlib
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+
+try:
+    import cffi  # noqa: F401
+    import numpy as np
+except ImportError as error:
+    print(f"skipped: {error}; Debian has python3-numpy and python3-cffi")
+    sys.exit(77)
+
+import mobil
+
+PROGRAM = sys.argv.pop(1)
+
+
+def crowd(world, count=12, **more):
+    return world.spawn(
+        count,
+        height_m=np.linspace(1.6, 1.9, count),
+        mass_kg=70,
+        speed_m_s=np.linspace(0.9, 1.6, count),
+        place=np.stack([np.arange(count), np.zeros(count), np.zeros(count)], axis=1),
+        **more,
+    )
+
+
+class Walks(unittest.TestCase):
+    def test_a_walk_is_that_of_the_program(self):
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run(
+                [PROGRAM, "walk", "--height", "1.8", "--mass", "80", "--speed", "1.39", "--seconds", "2", "--out", folder],
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
+            with open(pathlib.Path(folder, "motion.csv"), newline="", encoding="utf-8") as file:
+                rows = list(csv.DictReader(file))
+        walk = mobil.walk(height_m=1.8, mass_kg=80, speed_m_s=1.39, seconds=2, settle_s=0)
+        theirs = {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+        self.assertEqual(len(rows), len(walk.time_s) - 1)  # a table's first row is after the first tick
+
+        def compare(mine, name, within):
+            np.testing.assert_allclose(mine[1:], theirs[name], rtol=0, atol=within, err_msg=name)
+
+        compare(walk.time_s, "time_s", 1e-4)
+        for joint in ("hip_flexion", "knee_flexion", "ankle_dorsiflexion", "shoulder_flexion", "elbow_flexion"):
+            for side in ("right", "left"):
+                compare(np.degrees(walk.joint(f"{joint}_{side}")), f"{joint}_{side}_deg", 2e-3)
+        compare(walk.ground[:, 0, 1], "grf_vertical_right_n", 0.05)
+        compare(walk.moment("ankle_left"), "ankle_moment_left_nm", 0.02)
+        compare(walk.centre_of_mass[:, 1], "com_y_m", 1e-4)
+
+
+class Worlds(unittest.TestCase):
+    def test_states_come_back_to_the_bit_and_equal_worlds_have_equal_hashes(self):
+        muscles = mobil.muscles(method="reduced", vectors=4, muscles=["hamstrings", "soleus"])
+        one, other = mobil.World(), mobil.World(threads=2)
+        people = crowd(one, muscles=muscles)
+        crowd(other, muscles=muscles)
+        one.tick(30)
+        other.tick(30)
+        self.assertEqual(one.hash(), other.hash())
+        state, before = one.save(), one.hash()
+        one.change_walk(people, speed_m_s=1.2, heading_rad=1, style={"pelvis_list_deg": 6})
+        one.tick(20)
+        self.assertNotEqual(one.hash(), before)
+        one.restore(state)
+        self.assertEqual(one.hash(), before)
+        with self.assertRaises(mobil.RefusedError):
+            one.restore(state[:-1])
+        baked = one.bake()
+        mobil.World().load_baked(baked)
+
+    def test_rows_go_into_the_callers_array(self):
+        world = mobil.World()
+        people = crowd(world)
+        world.tick(10)
+        table = np.full((len(people), 20), 7, np.float32)
+        joints = world.joints(people, out=table[:, 2:15])
+        self.assertTrue(np.shares_memory(joints, table))
+        np.testing.assert_array_equal(table[:, 2:15], world.joints(people))
+        np.testing.assert_array_equal(table[:, :2], 7)
+        np.testing.assert_array_equal(table[:, 15:], 7)
+        every_second = np.zeros((2 * len(people), 48, 7), np.float32)
+        world.poses(people, out=every_second[::2])
+        np.testing.assert_array_equal(every_second[::2], world.poses(people))
+        np.testing.assert_array_equal(every_second[1::2], 0)
+        for bad in (np.zeros((12, 13)), np.zeros((13, 12), np.float32).T, np.zeros((11, 13), np.float32)):
+            with self.assertRaises(ValueError):
+                world.joints(people, out=bad)
+
+    def test_forms_and_instants_of_poses(self):
+        world = mobil.World()
+        people = crowd(world)
+        world.tick(10)
+        plain, matrix = world.poses(people), world.poses(people, form="matrix")
+        self.assertEqual(matrix.shape, (12, 48, 3, 4))
+        np.testing.assert_allclose(matrix[..., 3], plain[..., :3], atol=1e-6)
+        np.testing.assert_allclose(matrix[..., :3] @ matrix[..., :3].swapaxes(-1, -2), np.broadcast_to(np.eye(3), (12, 48, 3, 3)), atol=1e-5)
+        later = world.poses(people, ahead_s=world.tick_s, segments=["head", "foot_left"])
+        world.tick()
+        head = mobil.SEGMENTS.index("head")
+        np.testing.assert_allclose(later[:, 0], world.poses(people)[:, head], atol=1e-4)
+
+    def test_refusals_are_exceptions_of_one_line(self):
+        world = mobil.World()
+        people = crowd(world)
+        before = world.hash()
+        for kind, refused in (
+            (mobil.RefusedError, lambda: world.spawn(mass_kg=31, height_m=2.1)),
+            (mobil.RefusedError, lambda: world.change_walk(people, speed_m_s=90)),
+            (mobil.MissingError, lambda: world.moments(people)),
+            (mobil.MissingError, lambda: world.muscle_rows("line", people, "soleus")),
+            (mobil.MissingError, world.choose),
+            (ValueError, lambda: world.muscle_rows("line", people, "biceps")),
+            (ValueError, lambda: world.spawn(constitution="round")),
+            (TypeError, lambda: mobil.muscles(methods="ecd")),
+            (TypeError, lambda: world.joints(np.arange(3))),
+            (ValueError, lambda: mobil.World(axes="sideways")),
+            (mobil.RefusedError, lambda: mobil.World(tick_s=0)),
+        ):
+            with self.assertRaises(kind) as caught:
+                refused()
+            self.assertNotIn("\n", str(caught.exception))
+            self.assertEqual(world.hash(), before)
+        gone = people[3:4].copy()
+        world.despawn(gone)
+        with self.assertRaises(mobil.StaleError):
+            world.joints(gone)
+        self.assertEqual(len(world.people), 11)
+
+    def test_choosing_follows_the_camera(self):
+        world = mobil.World()
+        people = crowd(world)
+        world.start_choosing(machine_factor=1)
+        world.set_scene(eye=(6, 1.7, -8), gaze=(0, 0, 1), half_angle_rad=0.9)
+        world.manage(people)
+        for _ in range(40):
+            did = world.choose()
+            world.tick()
+        self.assertIn("looked_at", did)
+        self.assertIn(world.method(people[0], "quadriceps"), ("reduced", "ecd", "static"))
+        why = world.why(people[0], "quadriceps")
+        self.assertGreater(why.cost_us, 0)
+        self.assertTrue(why.why)
+        self.assertTrue(any(cost.entities for cost in world.cost()))
+
+    def test_surfaces_are_as_tall_as_the_person(self):
+        world = mobil.World()
+        people = world.spawn(2, height_m=1.7, mass_kg=65, muscles=mobil.muscles(method="reduced"))
+        surfaces = mobil.Surfaces(world, people[0], detail=0.3)
+        vertices = surfaces.vertices(world, people)
+        self.assertEqual(vertices.shape, (2, surfaces.vertex_count, 6))
+        self.assertAlmostEqual(float(vertices[..., 1].max()), 1.67, delta=0.06)
+        self.assertLess(surfaces.triangles.max(), surfaces.vertex_count)
+        self.assertIn("soleus_left", [part.name for part in surfaces.parts])
+        np.testing.assert_allclose(np.linalg.norm(vertices[..., 3:], axis=-1), 1, atol=1e-3)
+
+    def test_worlds_live_side_by_side_in_threads(self):
+        hashes = [0] * 4
+
+        def run(number):
+            world = mobil.World()
+            crowd(world)
+            world.tick(50)
+            hashes[number] = world.hash()
+
+        threads = [threading.Thread(target=run, args=(i,)) for i in range(len(hashes))]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(len(set(hashes)), 1)
+
+    def test_plots(self):
+        try:
+            import matplotlib  # noqa: F401
+        except ImportError:
+            self.skipTest("matplotlib is not there")
+        figure = mobil.plot_walk(mobil.walk(seconds=1.3, muscles=mobil.muscles()))
+        angle, ground, *_, bellies, _ = figure.axes
+        self.assertEqual(len(angle.lines), 3)
+        self.assertEqual(len(bellies.lines), 4)
+        self.assertGreater(ground.lines[0].get_ydata().max(), 9)
+        with tempfile.TemporaryDirectory() as folder:
+            figure.savefig(pathlib.Path(folder, "walk.svg"))
+
+
+if __name__ == "__main__":
+    unittest.main()

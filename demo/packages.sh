@@ -7,6 +7,11 @@ build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev lib
 test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-setuptools python3-wheel"
 
+# For browsers (demo/web/run), and to show that other machines compute the same (tests/portable/run).
+web_packages="cmake ninja-build clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32
+  wasi-libc libeigen3-dev libhwy-dev libexpected-dev libfmt-dev"
+arm_packages="g++-aarch64-linux-gnu qemu-user"
+
 # need PACKAGE…: installs what is missing through apt; a user who is not root gets the line to run instead.
 need() {
   local missing=() p

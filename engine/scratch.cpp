@@ -55,7 +55,12 @@ ScratchPool::Buffer* ScratchPool::take() {
     const bool free = !buffer->taken.load(std::memory_order_relaxed);
     if (free && !buffer->taken.exchange(true, std::memory_order_acquire)) return buffer;
   }
-  const std::lock_guard lock(growth_);
+  while (growing_.test_and_set(std::memory_order_acquire)) {
+  }
+  struct Release {
+    std::atomic_flag& flag;
+    ~Release() { flag.clear(std::memory_order_release); }
+  } const release{growing_};
   return add(true);
 }
 

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstddef>
 #include <memory_resource>
-#include <mutex>
 
 namespace mobil {
 
@@ -41,7 +40,7 @@ class ScratchPool {
 
   std::pmr::memory_resource* memory_;
   std::atomic<Buffer*> first_ = nullptr;
-  std::mutex growth_;
+  std::atomic_flag growing_;  // held for the while, a lock that needs no threads' library
   std::size_t floats_ = 0;
   std::size_t count_ = 0;
 };

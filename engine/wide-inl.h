@@ -16,6 +16,7 @@
 #include <cstdint>
 
 #include "components/lanes.h"
+#include "engine/fused-inl.h"
 
 /// For functions of some ten operations and more. Where sixteen lanes are four registers they are called: their code is
 /// long there, and compiling it everywhere anew would take longer than all other targets together.
@@ -138,13 +139,13 @@ HWY_INLINE Wide operator-(const Wide& a) {
 /// a·b + c, fused where the target can.
 HWY_INLINE Wide fma(const Wide& a, const Wide& b, const Wide& c) {
   Wide r;
-  for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::MulAdd(a.part[i], b.part[i], c.part[i]);
+  for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = mul_add(a.part[i], b.part[i], c.part[i]);
   return r;
 }
 /// c − a·b, fused where the target can.
 HWY_INLINE Wide fnma(const Wide& a, const Wide& b, const Wide& c) {
   Wide r;
-  for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::NegMulAdd(a.part[i], b.part[i], c.part[i]);
+  for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = neg_mul_add(a.part[i], b.part[i], c.part[i]);
   return r;
 }
 HWY_INLINE Wide sqrt(const Wide& a) {

@@ -14,3 +14,42 @@ nm -D --defined-only "$1/libmobil.so" | awk '$2 ~ /[TDBRVW]/ {print $3}' | sed '
 tr '\n' ' ' <"$2/systems/c/mobil.h" | grep -oE 'MOBIL_API [^;(]*\(' | grep -oE 'mobil_[a-z_]+\($' | tr -d '(' | sort >"$scratch/declared"
 [ "$(wc -l <"$scratch/declared")" -gt 40 ]
 diff "$scratch/declared" "$scratch/exported"
+# A host that closes the library while the pool's threads are still about goes on.
+cat >"$scratch/closes.c" <<'C'
+#include <dlfcn.h>
+#include <stdio.h>
+#include <time.h>
+#include "mobil/mobil.h"
+#define CALL(name, type) type name = (type)dlsym(library, #name)
+typedef int (*fills)(int, void*, size_t);
+typedef int (*makes)(const mobil_options*, mobil_sim**, char*, size_t);
+typedef int (*spawns)(mobil_sim*, const mobil_person*, size_t, size_t, const mobil_muscles*, mobil_id*);
+typedef int (*ticks)(mobil_sim*, unsigned);
+typedef void (*ends)(mobil_sim*);
+int main(int count, char** given) {
+  const struct timespec rest = {0, 300000000};
+  for (int round = 0; round < 3; ++round) {
+    void* library = dlopen(given[count - 1], RTLD_NOW | RTLD_LOCAL);
+    if (!library) return puts(dlerror()), 1;
+    CALL(mobil_defaults, fills);
+    CALL(mobil_create, makes);
+    CALL(mobil_spawn, spawns);
+    CALL(mobil_tick, ticks);
+    CALL(mobil_destroy, ends);
+    mobil_options options;
+    mobil_person person[400];
+    mobil_sim* sim;
+    mobil_id id[400];
+    mobil_defaults(MOBIL_OPTIONS, &options, sizeof options);
+    options.threads = 2;
+    for (int i = 0; i < 400; ++i) mobil_defaults(MOBIL_PERSON, &person[i], sizeof person[i]);
+    if (mobil_create(&options, &sim, NULL, 0) || mobil_spawn(sim, person, 0, 400, NULL, id) || mobil_tick(sim, 10)) return 1;
+    mobil_destroy(sim);
+    dlclose(library);
+    nanosleep(&rest, NULL);
+  }
+  return 0;
+}
+C
+"${CC:-cc}" -I"$1/include" "$scratch/closes.c" -ldl -o "$scratch/closes"
+"$scratch/closes" "$1/libmobil.so"

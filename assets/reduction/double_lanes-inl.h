@@ -9,35 +9,111 @@
 
 #include <hwy/highway.h>
 
+#include <cmath>
+
 #include "assets/reduction/reduced_bellies.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
 
 // Multiplications and additions are never fused here: the same bits with and without that instruction.
-using Tag = hn::CappedTag<double, 8>;
-using V = hn::Vec<Tag>;
-constexpr std::size_t width = hn::MaxLanes(Tag{});
+#if HWY_HAVE_FLOAT64
+namespace dn = hwy::HWY_NAMESPACE;
+using Tag = dn::CappedTag<double, 8>;
+using V = dn::Vec<Tag>;
+constexpr std::size_t width = dn::MaxLanes(Tag{});
+#else
+// Highway 1.0 has no vectors of doubles for WebAssembly: one body at a time.
+namespace dn {
+struct Tag {};
+using V = double;
+HWY_INLINE V Set(Tag, double x) {
+  return x;
+}
+HWY_INLINE V Load(Tag, const double* p) {
+  return *p;
+}
+HWY_INLINE void Store(V v, Tag, double* p) {
+  *p = v;
+}
+HWY_INLINE V Add(V a, V b) {
+  return a + b;
+}
+HWY_INLINE V Sub(V a, V b) {
+  return a - b;
+}
+HWY_INLINE V Mul(V a, V b) {
+  return a * b;
+}
+HWY_INLINE V Div(V a, V b) {
+  return a / b;
+}
+HWY_INLINE V Neg(V a) {
+  return -a;
+}
+HWY_INLINE V Max(V a, V b) {
+  return a > b ? a : b;
+}
+HWY_INLINE V Abs(V a) {
+  return std::fabs(a);
+}
+HWY_INLINE V Sqrt(V a) {
+  return std::sqrt(a);
+}
+HWY_INLINE V Floor(V a) {
+  return std::floor(a);
+}
+HWY_INLINE V CopySign(V a, V sign) {
+  return std::copysign(a, sign);
+}
+HWY_INLINE bool Gt(V a, V b) {
+  return a > b;
+}
+HWY_INLINE bool Ge(V a, V b) {
+  return a >= b;
+}
+HWY_INLINE bool Eq(V a, V b) {
+  return a == b;
+}
+HWY_INLINE bool Or(bool a, bool b) {
+  return a || b;
+}
+HWY_INLINE bool AllFalse(Tag, bool a) {
+  return !a;
+}
+HWY_INLINE V IfThenElse(bool m, V yes, V no) {
+  return m ? yes : no;
+}
+HWY_INLINE V IfThenElseZero(bool m, V yes) {
+  return m ? yes : 0.0;
+}
+HWY_INLINE V IfThenZeroElse(bool m, V no) {
+  return m ? 0.0 : no;
+}
+}  // namespace dn
+using Tag = dn::Tag;
+using V = dn::V;
+constexpr std::size_t width = 1;
+#endif
 constexpr std::size_t most = most_vectors;
 
 HWY_INLINE V all(double x) {
-  return hn::Set(Tag{}, x);
+  return dn::Set(Tag{}, x);
 }
 HWY_INLINE V load(const double* p) {
-  return hn::Load(Tag{}, p);
+  return dn::Load(Tag{}, p);
 }
 HWY_INLINE void store(V v, double* p) {
-  hn::Store(v, Tag{}, p);
+  dn::Store(v, Tag{}, p);
 }
 HWY_INLINE V mul(V a, V b) {
-  return hn::Mul(a, b);
+  return dn::Mul(a, b);
 }
 HWY_INLINE V add(V a, V b) {
-  return hn::Add(a, b);
+  return dn::Add(a, b);
 }
 HWY_INLINE V sub(V a, V b) {
-  return hn::Sub(a, b);
+  return dn::Sub(a, b);
 }
 
 }  // namespace mobil::HWY_NAMESPACE

@@ -196,7 +196,7 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
   }
   Training training = given;
   const auto bodies = static_cast<Index>(others.size() + 1);
-  training.most_columns = pool / bodies - Index{input_count(o.far_end, o.frame_loads)};
+  training.most_columns = pool / bodies - static_cast<Index>(input_count(o.far_end, o.frame_loads));
   const Scale middle = scale_of(o.middle_ratio, o.middle_product);
   const auto first = train(training, middle.across, middle.along);
   if (!first) return tl::unexpected(first.error());
@@ -217,9 +217,10 @@ Result<Columns> trained_vectors(const Training& given, Index lifts) {
   }
   const auto columns = all.leftCols(size);
   const SymmetricEigen gram = symmetric_eigen(inner(columns, mass_times(given.terms, columns)));
-  // smaller ones are rounding's
+  // Smaller ones are rounding's, and so are more than there are rows that move.
+  const Index moving = (columns.rowwise().squaredNorm().array() > 0).count();
   const Index real = (gram.values.array() > 1e-14 * gram.values(size - 1)).count();
-  const Index count = std::min(Index{most_vectors}, real);
+  const Index count = std::min({Index{most_vectors}, real, moving});
   Columns vectors = columns * gram.vectors.rowwise().reverse().leftCols(count);
   orthonormalise(given.terms, Columns(vectors.rows(), 0), Columns(vectors.rows(), 0), vectors);
   Columns fields(vectors.rows(), lifts + vectors.cols());
@@ -265,7 +266,7 @@ Result<ReducedBasis> make_reduced_basis(const HexahedralMesh& fine, const Materi
   }
   make_orthonormal(p, *fields, lifts);
   const Index count = fields->cols() - lifts;
-  if (count < Index{options.vectors}) {
+  if (count < static_cast<Index>(options.vectors)) {
     return fail(fmt::format("{} vectors asked of a mesh of {}x{}x{} cells that has {}; ask for no more",
                             options.vectors, fine.cells[0], fine.cells[1], fine.cells[2], count));
   }

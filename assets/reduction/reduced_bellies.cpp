@@ -39,17 +39,17 @@ struct Turn {
 /// Half an element below zero, lane by lane: what makes a_pq vanish. Lanes where it has vanished stay as they are.
 HWY_INLINE Turn turn_of(Eigen& x, std::size_t p, std::size_t q) {
   const V app = load(x.at(p, p)), aqq = load(x.at(q, q)), apq = load(x.at(p, q));
-  const auto active = hn::Gt(mul(apq, apq), mul(all(1e-22), hn::Abs(mul(app, aqq))));
-  Turn turn{p, q, all(1), all(0), !hn::AllFalse(Tag{}, active)};
+  const auto active = dn::Gt(mul(apq, apq), mul(all(1e-22), dn::Abs(mul(app, aqq))));
+  Turn turn{p, q, all(1), all(0), !dn::AllFalse(Tag{}, active)};
   if (!turn.any) return turn;
   const V apart = sub(aqq, app), twice = add(apq, apq);
-  const V root = hn::Sqrt(add(mul(apart, apart), mul(twice, twice)));
-  const V t = hn::IfThenElseZero(active, hn::Div(twice, add(apart, hn::CopySign(root, apart))));
-  turn.c = hn::Div(all(1), hn::Sqrt(add(all(1), mul(t, t))));
+  const V root = dn::Sqrt(add(mul(apart, apart), mul(twice, twice)));
+  const V t = dn::IfThenElseZero(active, dn::Div(twice, add(apart, dn::CopySign(root, apart))));
+  turn.c = dn::Div(all(1), dn::Sqrt(add(all(1), mul(t, t))));
   turn.s = mul(t, turn.c);
   store(sub(app, mul(t, apq)), x.at(p, p));
   store(add(aqq, mul(t, apq)), x.at(q, q));
-  store(hn::IfThenZeroElse(active, apq), x.at(p, q));
+  store(dn::IfThenZeroElse(active, apq), x.at(p, q));
   return turn;
 }
 
@@ -117,11 +117,11 @@ void sort(Eigen& x, std::size_t n) {
     for (std::size_t j = 0; j + 1 < n - done; ++j) {
       const auto swap = [&](double* low, double* high, auto mask) HWY_ATTR {
         const V l = load(low), h = load(high);
-        store(hn::IfThenElse(mask, h, l), low);
-        store(hn::IfThenElse(mask, l, h), high);
+        store(dn::IfThenElse(mask, h, l), low);
+        store(dn::IfThenElse(mask, l, h), high);
       };
-      const auto wrong = hn::Gt(load(x.at(j, j)), load(x.at(j + 1, j + 1)));
-      if (hn::AllFalse(Tag{}, wrong)) continue;
+      const auto wrong = dn::Gt(load(x.at(j, j)), load(x.at(j + 1, j + 1)));
+      if (dn::AllFalse(Tag{}, wrong)) continue;
       swap(x.at(j, j), x.at(j + 1, j + 1), wrong);
       for (std::size_t i = 0; i < n; ++i) swap(x.row(j, i), x.row(j + 1, i), wrong);
     }
@@ -135,14 +135,14 @@ void solve_in_place(double* k, std::size_t n, V* rhs) {
     for (std::size_t j = 0; j <= i; ++j) {
       V sum = load(at(i, j));
       for (std::size_t c = 0; c < j; ++c) sum = sub(sum, mul(load(at(i, c)), load(at(j, c))));
-      store(i == j ? hn::Sqrt(sum) : hn::Div(sum, load(at(j, j))), at(i, j));
+      store(i == j ? dn::Sqrt(sum) : dn::Div(sum, load(at(j, j))), at(i, j));
     }
     for (std::size_t c = 0; c < i; ++c) rhs[i] = sub(rhs[i], mul(load(at(i, c)), rhs[c]));
-    rhs[i] = hn::Div(rhs[i], load(at(i, i)));
+    rhs[i] = dn::Div(rhs[i], load(at(i, i)));
   }
   for (std::size_t i = n; i-- > 0;) {
     for (std::size_t c = i + 1; c < n; ++c) rhs[i] = sub(rhs[i], mul(load(at(c, i)), rhs[c]));
-    rhs[i] = hn::Div(rhs[i], load(at(i, i)));
+    rhs[i] = dn::Div(rhs[i], load(at(i, i)));
   }
 }
 
@@ -150,8 +150,8 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
   const std::size_t n = basis.vectors, even = n + n % 2;
   const bool held = !basis.lift_mass.empty(), braced = !basis.foundation.empty(), framed = !basis.frame.empty();
   const std::size_t inputs = basis.inputs, ends = inputs - (framed ? frame_inputs : 0);
-  const V size = mul(across, along), ratio = hn::Div(across, along), mass = mul(across, size);
-  const V a = hn::Div(all(1), mul(ratio, size)), b = hn::Div(all(1), size), c = hn::Div(ratio, size);
+  const V size = mul(across, along), ratio = dn::Div(across, along), mass = mul(across, size);
+  const V a = dn::Div(all(1), mul(ratio, size)), b = dn::Div(all(1), size), c = dn::Div(ratio, size);
   const V brace = all(basis.foundation_1_s2);
 
   const ReducedBasis::Turned& turned = basis.turned;
@@ -161,7 +161,7 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
   const double* const pc = warm ? turned.c.data() : basis.c.data();
   const double* const pf = warm ? turned.foundation.data() : basis.foundation.data();
   const double* const pt = warm ? turned.tension.data() : basis.tension.data();
-  const V slender = hn::Div(all(1), mul(along, along)), tone = mul(all(tuned_activation), slender);
+  const V slender = dn::Div(all(1), mul(along, along)), tone = mul(all(tuned_activation), slender);
   to.scratch.resize(3 * even * even);
   Eigen x{to.scratch[0].lane, to.scratch[even * even].lane, even};
   for (std::size_t i = 0; i < even; ++i) {
@@ -212,7 +212,7 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
   for (std::size_t k = 0; k < frame_inputs; ++k) field[k] = k < 3 ? all(1) : k % 3 == 2 ? along : across;
   for (std::size_t j = 0; j < n; ++j) {
     const V value = load(x.at(j, j));
-    store(hn::Sqrt(value), &to.omega_1_s(j).lane[lane]);
+    store(dn::Sqrt(value), &to.omega_1_s(j).lane[lane]);
     V share = all(0), tied = all(0), moved = all(0), taut = all(0), p[3 + frame_inputs];
     for (std::size_t k = 0; k < inputs; ++k) p[k] = all(0);
     for (std::size_t i = 0; i < n; ++i) {
@@ -238,15 +238,15 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
     store(mul(taut, slender), &to.tension_1_s2(j).lane[lane]);
     store(share, &to.lift_share(j).lane[lane]);
     if (held) {
-      if (!to.tuned) moved = hn::Div(tied, value);
+      if (!to.tuned) moved = dn::Div(tied, value);
       p[0] = sub(share, moved);
       kinetic = sub(kinetic, mul(share, share));
-      if (!to.tuned) energy = sub(energy, hn::Div(mul(tied, tied), value));
+      if (!to.tuned) energy = sub(energy, dn::Div(mul(tied, tied), value));
     } else {
-      for (std::size_t k = 0; k < ends; ++k) p[k] = hn::Div(p[k], mul(mass, value));
+      for (std::size_t k = 0; k < ends; ++k) p[k] = dn::Div(p[k], mul(mass, value));
     }
     for (std::size_t k = ends; k < inputs; ++k) {
-      p[k] = mul(p[k], hn::Div(field[k - ends], value));
+      p[k] = mul(p[k], dn::Div(field[k - ends], value));
       if (held) reaction[k] = add(reaction[k], mul(mul(mass, tied), p[k]));
     }
     for (std::size_t k = 0; k < inputs; ++k) store(p[k], &to.participation(j, k).lane[lane]);

@@ -15,7 +15,7 @@ namespace {
 
 /// Sine and cosine of 0 ≤ x < 1e6 to some 1e-15: π/2 in three parts, Taylor's series.
 HWY_INLINE void sin_cos(V x, V& sine, V& cosine) {
-  const V quadrant = hn::Floor(add(mul(x, all(0.6366197723675814)), all(0.5)));
+  const V quadrant = dn::Floor(add(mul(x, all(0.6366197723675814)), all(0.5)));
   V r = sub(x, mul(quadrant, all(0x1.921fb54400000p+0)));
   r = sub(r, mul(quadrant, all(0x1.0b4611a600000p-34)));
   r = sub(r, mul(quadrant, all(0x1.3198a2e037073p-69)));
@@ -30,16 +30,20 @@ HWY_INLINE void sin_cos(V x, V& sine, V& cosine) {
   }
   s = sub(r, mul(mul(r, square), s));
   c = sub(all(1), mul(square, c));
-  const V turn = sub(quadrant, mul(all(4), hn::Floor(mul(quadrant, all(0.25)))));
-  const auto odd = hn::Or(hn::Eq(turn, all(1)), hn::Eq(turn, all(3)));
-  const V s0 = hn::IfThenElse(odd, c, s), c0 = hn::IfThenElse(odd, s, c);
-  sine = hn::IfThenElse(hn::Ge(turn, all(2)), hn::Neg(s0), s0);
-  cosine = hn::IfThenElse(hn::Or(hn::Eq(turn, all(1)), hn::Eq(turn, all(2))), hn::Neg(c0), c0);
+  const V turn = sub(quadrant, mul(all(4), dn::Floor(mul(quadrant, all(0.25)))));
+  const auto odd = dn::Or(dn::Eq(turn, all(1)), dn::Eq(turn, all(3)));
+  const V s0 = dn::IfThenElse(odd, c, s), c0 = dn::IfThenElse(odd, s, c);
+  sine = dn::IfThenElse(dn::Ge(turn, all(2)), dn::Neg(s0), s0);
+  cosine = dn::IfThenElse(dn::Or(dn::Eq(turn, all(1)), dn::Eq(turn, all(2))), dn::Neg(c0), c0);
 }
 
 HWY_INLINE void store_floats(V v, float* to) {
-  const hn::Rebind<float, Tag> floats;
-  hn::StoreU(hn::DemoteTo(floats, v), floats, to);
+#if HWY_HAVE_FLOAT64
+  const dn::Rebind<float, Tag> floats;
+  dn::StoreU(dn::DemoteTo(floats, v), floats, to);
+#else
+  *to = static_cast<float>(v);
+#endif
 }
 
 /// Of motions that swing; the others are made over again.
@@ -49,16 +53,16 @@ void swings(const ReducedBellies& bellies, double half, double tick_s, double de
     float* const to = motion + j * stride * lane_count;
     for (std::size_t lane = 0; lane < bellies.count; lane += width) {
       const V omega = load(&bellies.omega_1_s(j).lane[lane]);
-      const V square = hn::Max(sub(mul(omega, omega), all(half * half)), all(0)), swing = hn::Sqrt(square);
+      const V square = dn::Max(sub(mul(omega, omega), all(half * half)), all(0)), swing = dn::Sqrt(square);
       const V angle = mul(swing, all(tick_s));
       V sine, cosine;
       sin_cos(angle, sine, cosine);
-      sine = hn::IfThenElse(hn::Gt(angle, all(1e-8)), hn::Div(sine, swing), all(tick_s));
+      sine = dn::IfThenElse(dn::Gt(angle, all(1e-8)), dn::Div(sine, swing), all(tick_s));
       sine = mul(all(decay), sine);
       cosine = mul(all(decay), cosine);
       store_floats(add(cosine, mul(all(half), sine)), to + lane);
       store_floats(mul(omega, sine), to + lane_count + lane);
-      store_floats(hn::Div(all(2 * half), omega), to + 2 * lane_count + lane);
+      store_floats(dn::Div(all(2 * half), omega), to + 2 * lane_count + lane);
     }
   }
 }
@@ -70,7 +74,7 @@ void shapes(const ReducedBellies& of, double damping_per_s, float* to) {
     for (std::size_t j = 0; j < n; ++j, to += lane_count) {
       for (std::size_t l = 0; l < of.count; l += width) {
         const V unit = inputs == 1 ? load(&of.participation(j, 0).lane[l]) : all(1);
-        put(mul(load(&of.eigenvector(j, i).lane[l]), hn::Div(unit, load(&of.omega_1_s(j).lane[l]))), l);
+        put(mul(load(&of.eigenvector(j, i).lane[l]), dn::Div(unit, load(&of.omega_1_s(j).lane[l]))), l);
       }
     }
     for (std::size_t k = 0; k < inputs; ++k, to += lane_count) {

@@ -24,7 +24,7 @@ void write_rows(const FiniteElement& element, const HexahedralMesh& mesh, const 
     for (std::size_t a = 0; a < fibre.size(); ++a) {
       const auto& at = mesh.node[element.node[a]];
       direction += fibre[a] * Eigen::Vector3d(at.x, at.y, at.z);
-      along += fibre[a] * fields.middleRows<3>(3 * Index{element.node[a]});
+      along += fibre[a] * fields.middleRows<3>(3 * static_cast<Index>(element.node[a]));
     }
     const double volume = element.fibre_volume_m3[static_cast<std::size_t>(q)];
     const double growth = volume * (tension.slope_pa - tension.stress_pa);

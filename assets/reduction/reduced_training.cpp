@@ -65,14 +65,16 @@ Vibrations vibrations(const Training& training, const MovingOperator& inverse, c
   const Index enough = training.options.ratio_width > 1 ? krylov_vectors : krylov_vectors_alone;
   const Index depth = std::max(least_depth, (enough + block - 1) / block);
   Columns space(start.rows(), depth * block), mass_space(start.rows(), depth * block);
-  Index size = 0;
-  for (Index step = 0; step < depth && start.cols() > 0; ++step) {
+  Index size = 0, moving = 0;
+  for (Index step = 0; step < depth && start.cols() > 0 && (step == 0 || size < moving); ++step) {
     Columns next = start;
     hold(terms.cells, training.options.far_end, next);
+    if (step == 0) moving = (next.rowwise().squaredNorm().array() > 0).count();  // more vectors would be rounding's
     const Columns mass_next = orthonormalise(terms, space.leftCols(size), mass_space.leftCols(size), next);
-    space.middleCols(size, next.cols()) = next;
-    mass_space.middleCols(size, next.cols()) = mass_next;
-    size += next.cols();
+    const Index added = std::min(next.cols(), moving - size);
+    space.middleCols(size, added) = next.leftCols(added);
+    mass_space.middleCols(size, added) = mass_next.leftCols(added);
+    size += added;
     // a held face's own mass pulls along at first
     start = step == 0 ? mass_times(terms, start) : mass_next;
     inverse.solve(start);
@@ -132,7 +134,7 @@ Result<TrainedBody> train(const Training& training, double across, double along)
 
   // At rest under 1 of each input, and what that pulls with where it moves.
   const Index ends = o.far_end == FarEnd::free ? 3 : 1, inputs = ends + (o.frame_loads ? Index{frame_inputs} : 0);
-  Columns rest(3 * Index{node_count(terms.cells)}, inputs);
+  Columns rest(3 * static_cast<Index>(node_count(terms.cells)), inputs);
   if (held) {
     rest.leftCols(1) = -applied(terms, stiffness, far_step(terms.cells));
   } else {

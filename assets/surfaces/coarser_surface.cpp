@@ -1,6 +1,8 @@
 #include "assets/surfaces/coarser_surface.h"
 
+#if !defined(MOBIL_PORTABLE)
 #include <meshoptimizer.h>
+#endif
 
 #include <cmath>
 #include <cstddef>
@@ -8,6 +10,22 @@
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil {
+
+#if defined(MOBIL_PORTABLE)
+
+bool can_be_coarser() {
+  return false;
+}
+
+SurfaceMesh coarser(const SurfaceMesh& mesh, double) {
+  return mesh;
+}
+
+#else
+
+bool can_be_coarser() {
+  return true;
+}
 
 SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
   if (share >= 1 || mesh.triangle.empty()) return mesh;
@@ -25,5 +43,7 @@ SurfaceMesh coarser(const SurfaceMesh& mesh, double share) {
   drop_unused(light);
   return light;
 }
+
+#endif
 
 }  // namespace mobil

@@ -10,4 +10,7 @@ namespace mobil {
 /// returned as it is where `share` is 1.
 SurfaceMesh coarser(const SurfaceMesh& mesh, double share);
 
+/// Whether the library was built with it; where not, meshes stay as they are.
+bool can_be_coarser();
+
 }  // namespace mobil

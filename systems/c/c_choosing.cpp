@@ -1,6 +1,7 @@
 // Methods chosen by what a scene calls for.
 
 #include "systems/c/c_call.h"
+#include "systems/relevance/ladder.h"
 
 namespace {
 
@@ -183,4 +184,23 @@ int mobil_why(mobil_sim* sim, mobil_id id, int muscle, char* line, size_t room, 
     if (cost_us != nullptr) *cost_us = why->predicted_cost_us;
     return int{MOBIL_OK};
   });
+}
+
+int mobil_way(int way, int muscle, float speed_m_s, float height_m, int inertia, int pulling, mobil_way_figures* out) {
+  static const RungLadder ladder(accuracy_table());
+  if (out == nullptr) return MOBIL_REFUSED;
+  if (muscle < 0 || static_cast<std::size_t>(muscle) >= most_muscles) return MOBIL_REFUSED;
+  if (!(speed_m_s >= 0) || !(height_m > 0)) return MOBIL_REFUSED;
+  if (way < 0 || static_cast<std::size_t>(way) >= rung_count) return MOBIL_MISSING;
+  const RungCase of{static_cast<std::uint32_t>(muscle), RungLadder::speed_step(speed_m_s, height_m), inertia != 0, true,
+                    pulling != 0};
+  const auto rung = static_cast<std::uint32_t>(way);
+  const Rung& is = rungs_of(of.living)[rung];
+  *out = {is.name.data(),
+          static_cast<int>(is.method),
+          static_cast<int>(is.vectors),
+          is.moving ? 1 : 0,
+          ladder.error_m(of, rung) * height_m / static_cast<float>(reference_body_height_m),
+          static_cast<float>(ladder.cost_ps(of, rung)) * 1e-6F};
+  return MOBIL_OK;
 }

@@ -9,6 +9,7 @@
 #endif
 
 #include "assets/fem/belly_solver.h"
+#include "engine/fused-inl.h"
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -29,8 +30,7 @@ template <std::uint32_t components>
 HWY_INLINE Vector sum_couplings(std::uint32_t count, const float* p, std::ptrdiff_t stride, const float*& block) {
   const float* q = block;
   const V none = hn::Zero(d);
-  const auto add = [&q](std::size_t word, V value, V sum)
-                       HWY_ATTR { return hn::MulAdd(hn::Set(d, q[word]), value, sum); };
+  const auto add = [&q](std::size_t word, V value, V sum) HWY_ATTR { return mul_add(hn::Set(d, q[word]), value, sum); };
   if constexpr (components == 3) {
     V s0 = none, s1 = none, s2 = none, s3 = none, s4 = none, s5 = none, s6 = none, s7 = none, s8 = none;
     for (std::uint32_t m = 0; m < count; ++m, p += stride, q += 9) {
@@ -88,15 +88,15 @@ HWY_INLINE V solve_forward(const BandFactor& factor, float* y, Right&& right) {
     Vector solved;
     if constexpr (components == 3) {
       solved.x = hn::Mul(word(0), left.x);
-      solved.y = hn::MulAdd(word(2), left.y, hn::Mul(word(1), left.x));
-      solved.z = hn::MulAdd(word(5), left.z, hn::MulAdd(word(4), left.y, hn::Mul(word(3), left.x)));
+      solved.y = mul_add(word(2), left.y, hn::Mul(word(1), left.x));
+      solved.z = mul_add(word(5), left.z, mul_add(word(4), left.y, hn::Mul(word(3), left.x)));
       own += 6;
     } else {
       solved = {hn::Mul(word(0), left.x), hn::Mul(word(0), left.y), hn::Mul(word(0), left.z)};
       ++own;
     }
     store_vector(solved, at);
-    square = hn::MulAdd(solved.x, solved.x, hn::MulAdd(solved.y, solved.y, hn::MulAdd(solved.z, solved.z, square)));
+    square = mul_add(solved.x, solved.x, mul_add(solved.y, solved.y, mul_add(solved.z, solved.z, square)));
   }
   return square;
 }
@@ -117,8 +117,8 @@ HWY_INLINE void solve_backward(const BandFactor& factor, float* y, Take&& take) 
     if constexpr (components == 3) {
       own -= 6;
       const auto word = [own](std::size_t w) HWY_ATTR { return hn::Set(d, own[w]); };
-      solved.x = hn::MulAdd(word(0), left.x, hn::MulAdd(word(1), left.y, hn::Mul(word(3), left.z)));
-      solved.y = hn::MulAdd(word(2), left.y, hn::Mul(word(4), left.z));
+      solved.x = mul_add(word(0), left.x, mul_add(word(1), left.y, hn::Mul(word(3), left.z)));
+      solved.y = mul_add(word(2), left.y, hn::Mul(word(4), left.z));
       solved.z = hn::Mul(word(5), left.z);
     } else {
       --own;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 
+#include "engine/fused-inl.h"
 #include "engine/wide-inl.h"
 #include "systems/deformation/deformation.h"
 
@@ -49,7 +50,7 @@ HWY_INLINE Factors factors(const BellyScale<Lanes<float>>& scale, std::size_t fi
   const V across = hn::Load(d, scale.across.lane + first_lane), along = hn::Load(d, scale.along.lane + first_lane);
   const V area = hn::Mul(across, across);
   const V c = hn::Div(area, along);
-  const V c_rest = hn::Div(hn::Add(hn::NegMulAdd(c, along, area), hn::MulSub(across, across, area)), along);
+  const V c_rest = hn::Div(hn::Add(neg_mul_add(c, along, area), mul_sub(across, across, area)), along);
   return {along, across, c, c_rest, hn::Mul(area, along)};
 }
 
@@ -69,7 +70,7 @@ struct Sums {
 };
 
 HWY_INLINE V add(float coefficient, V value, V sum) {
-  return hn::MulAdd(hn::Set(d, coefficient), value, sum);
+  return mul_add(hn::Set(d, coefficient), value, sum);
 }
 
 /// Adds the coupling `q` to the neighbour whose displacement is at `p`.
@@ -140,7 +141,7 @@ HWY_INLINE Vector elastic_force(const Cells& cells, std::uint32_t i, std::uint32
   coefficient = c;
   if constexpr (stiffness == Stiffness::individual) {
     const auto join = [&factor](V a, V b, V e) HWY_ATTR {
-      return hn::MulAdd(factor.a, a, hn::MulAdd(factor.b, b, hn::MulAdd(factor.c, e, hn::Mul(factor.c_rest, e))));
+      return mul_add(factor.a, a, mul_add(factor.b, b, mul_add(factor.c, e, hn::Mul(factor.c_rest, e))));
     };
     return {join(s.a0, s.b0, s.c0), join(s.a1, s.b1, s.c1), join(s.a2, s.b2, s.c2)};
   } else {
@@ -155,7 +156,7 @@ struct FrameField {
   HWY_INLINE Vector at(const float* rest) const {
     const V px = hn::Set(d, rest[0]), py = hn::Set(d, rest[1]), pz = hn::Set(d, rest[2]);
     const auto row = [&](V c, const Vector& g)
-                         HWY_ATTR { return hn::MulAdd(g.x, px, hn::MulAdd(g.y, py, hn::MulAdd(g.z, pz, c))); };
+                         HWY_ATTR { return mul_add(g.x, px, mul_add(g.y, py, mul_add(g.z, pz, c))); };
     return {row(constant.x, x), row(constant.y, y), row(constant.z, z)};
   }
 };
@@ -165,7 +166,7 @@ HWY_INLINE FrameField frame_field(const FrameLoad<Lanes<float>>& load, const Bel
                                   std::size_t first_lane) {
   const auto between = [&](const Lanes<float>& from, const Lanes<float>& to) HWY_ATTR {
     const V a = hn::Load(d, from.lane + first_lane);
-    return hn::MulAdd(hn::Sub(hn::Load(d, to.lane + first_lane), a), part, a);
+    return mul_add(hn::Sub(hn::Load(d, to.lane + first_lane), a), part, a);
   };
   const V across = hn::Load(d, scale.across.lane + first_lane), along = hn::Load(d, scale.along.lane + first_lane);
   const auto row = [&](const Vec3<Lanes<float>>& from, const Vec3<Lanes<float>>& to) HWY_ATTR {

@@ -6,6 +6,7 @@
 
 #include <numbers>
 
+#include "engine/fused-inl.h"
 #include "engine/wide-inl.h"
 #include "systems/deformation/elastic-inl.h"
 #include "systems/deformation/report-inl.h"
@@ -46,16 +47,16 @@ HWY_NOINLINE void advance_velocity(const Bellies& belly, std::uint32_t first, st
       for (std::uint32_t i = 0; i <= cells[0]; ++i, v += node_stride, u += node_stride) {
         const Vector elastic = elastic_force<stiffness>(cells, i, j, k, strained, factor, coefficient);
         if constexpr (way == FarEnd::held) {
-          sum = hn::MulAdd(elastic.z, end.z, sum);
+          sum = mul_add(elastic.z, end.z, sum);
         } else {
           const V over_mass = hn::Mul(push, hn::Set(d, *inverse_mass++));
           const V part = loaded ? hn::Set(d, *share++) : hn::Zero(d);
           const auto component = [&](std::size_t at, V inner, V outer) HWY_ATTR {
             const V old = hn::Mul(keep, hn::Load(d, v + at));
-            const V next = loaded ? hn::MulAdd(hn::MulSub(part, outer, inner), over_mass, old)
-                                  : hn::NegMulAdd(inner, over_mass, old);
+            const V next =
+                loaded ? mul_add(mul_sub(part, outer, inner), over_mass, old) : neg_mul_add(inner, over_mass, old);
             hn::Store(next, d, v + at);
-            if constexpr (energy) sum = hn::MulAdd(inner, hn::MulAdd(step, next, hn::Load(d, u + at)), sum);
+            if constexpr (energy) sum = mul_add(inner, mul_add(step, next, hn::Load(d, u + at)), sum);
           };
           if constexpr (way == FarEnd::free) {
             component(0, elastic.x, end.x);
@@ -81,7 +82,7 @@ HWY_INLINE void substep(const Bellies& belly, const Vector& end, V& work) {
   const std::size_t far = node_stride * first_insertion_node(cells), past = node_stride * node_count(cells);
   const std::size_t moving_end = far_end == FarEnd::held ? far : past;
   for (std::size_t at = node_stride * plane_nodes(cells); at < moving_end; at += lane_count) {
-    hn::Store(hn::MulAdd(belly.step, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.u + at);
+    hn::Store(mul_add(belly.step, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.u + at);
   }
   if constexpr (far_end == FarEnd::held) {
     for (std::size_t at = far; at < past; at += node_stride) hn::Store(end.z, d, belly.u + at + 2 * lane_count);
@@ -116,11 +117,11 @@ HWY_NOINLINE void push_masses(const Bellies& belly, const FrameField& field, V p
     float* const v = belly.v + node_stride * n;
     const float* const u = belly.u + node_stride * n;
     const auto component = [&](std::size_t at, V acceleration) HWY_ATTR {
-      hn::Store(hn::MulAdd(push, acceleration, hn::Mul(belly.keep, hn::Load(d, v + at))), d, v + at);
+      hn::Store(mul_add(push, acceleration, hn::Mul(belly.keep, hn::Load(d, v + at))), d, v + at);
     };
     if (far_end == FarEnd::free || n < far) {
-      component(0, hn::NegMulAdd(foundation, hn::Load(d, u), a.x));
-      component(lane_count, hn::NegMulAdd(foundation, hn::Load(d, u + lane_count), a.y));
+      component(0, neg_mul_add(foundation, hn::Load(d, u), a.x));
+      component(lane_count, neg_mul_add(foundation, hn::Load(d, u + lane_count), a.y));
     }
     component(2 * lane_count, a.z);
   }
@@ -129,7 +130,7 @@ HWY_NOINLINE void push_masses(const Bellies& belly, const FrameField& field, V p
 /// scratch ← u + β·v.
 HWY_INLINE void add_rates(const Bellies& belly, V beta, float* scratch) {
   for (std::size_t at = 0; at < node_stride * node_count(belly.cells); at += lane_count) {
-    hn::Store(hn::MulAdd(beta, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, scratch + at);
+    hn::Store(mul_add(beta, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, scratch + at);
   }
 }
 
@@ -162,8 +163,7 @@ void tick_of_lanes(const BellyBlock& block, const FarFaceDrive& end, std::uint32
   const auto at_substep = [&](std::uint32_t s) HWY_ATTR {
     if (s == substeps) return to;
     const V part = part_of_tick(s);
-    return Vector{hn::MulAdd(change.x, part, from.x), hn::MulAdd(change.y, part, from.y),
-                  hn::MulAdd(change.z, part, from.z)};
+    return Vector{mul_add(change.x, part, from.x), mul_add(change.y, part, from.y), mul_add(change.z, part, from.z)};
   };
   if constexpr (far_end != FarEnd::free) {
     hold_far_face<far_end>(belly, from.z, hn::Div(change.z, hn::Set(d, tick_s)));

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "assets/fem/belly_solver.h"
+#include "engine/fused-inl.h"
 #include "engine/wide-inl.h"
 #include "systems/deformation/band_solve-inl.h"
 #include "systems/deformation/elastic-inl.h"
@@ -53,12 +54,12 @@ HWY_NOINLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
   if (held) set_far_z(belly, belly.v, step.far_speed);
   for_each_component(belly, node_count(belly.cells), [&](std::size_t c, std::size_t at) HWY_ATTR {
     const V u = hn::Load(d, belly.u + at), v = hn::Load(d, belly.v + at);
-    hn::Store(hn::MulAdd(strain_v, v, u), d, strained + at);
-    const V middle = hn::MulAdd(half_v, v, u);
+    hn::Store(mul_add(strain_v, v, u), d, strained + at);
+    const V middle = mul_add(half_v, v, u);
     hn::Store(middle, d, belly.u + at);
     if (rated) {
       const V rate = hn::Mul(alpha, v);
-      hn::Store(c < 2 ? hn::MulAdd(foundation, middle, rate) : rate, d, rates + at);
+      hn::Store(c < 2 ? mul_add(foundation, middle, rate) : rate, d, rates + at);
     }
   });
   write_residual<stiffness, mass>(belly, strained, rated ? rates : nullptr, step.loads);
@@ -67,7 +68,7 @@ HWY_NOINLINE void step_caa(const Bellies& belly, const Step& step, bool exact) {
   const V along = hn::Mul(belly.factor.mass, hn::Set(d, inertia_factor));
   solve<stiffness, mass>(belly, {sideways, sideways, along, strain_v}, exact, 2 * belly.solver.correction, belly.v);
   for_each_component(belly, belly.past, [&](std::size_t, std::size_t at) HWY_ATTR {
-    hn::Store(hn::MulAdd(half_v, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.u + at);
+    hn::Store(mul_add(half_v, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.u + at);
   });
   if (held) set_far_z(belly, belly.u, step.far_to);
 }
@@ -81,7 +82,7 @@ HWY_NOINLINE void step_icd(const Bellies& belly, const Step& step) {
   if (step.beta > 0) {
     const V beta = hn::Set(d, step.beta);
     for_each_component(belly, node_count(belly.cells), [&](std::size_t, std::size_t at) HWY_ATTR {
-      hn::Store(hn::MulAdd(beta, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.image + at);
+      hn::Store(mul_add(beta, hn::Load(d, belly.v + at), hn::Load(d, belly.u + at)), d, belly.image + at);
     });
     strained = belly.image;
   }
@@ -91,7 +92,7 @@ HWY_NOINLINE void step_icd(const Bellies& belly, const Step& step) {
     const V drag = hn::Mul(hn::Mul(hn::Set(d, step.alpha), step.far_speed), belly.factor.mass);
     float* r = belly.residual + node_stride * (far - plane_nodes(belly.cells)) + 2 * lane_count;
     for (std::uint32_t i = 0; i < plane_nodes(belly.cells); ++i, r += node_stride) {
-      hn::Store(hn::NegMulAdd(hn::Set(d, belly.solver.far_mass_kg[i]), drag, hn::Load(d, r)), d, r);
+      hn::Store(neg_mul_add(hn::Set(d, belly.solver.far_mass_kg[i]), drag, hn::Load(d, r)), d, r);
     }
   }
   const float half_damping = 0.5F * step.alpha * step.dt;
@@ -114,10 +115,10 @@ HWY_NOINLINE void step_icd(const Bellies& belly, const Step& step) {
     const std::size_t at = from + node_stride * n;
     const auto component = [&](std::size_t offset, V acceleration, V stiff) HWY_ATTR {
       const V u = hn::Load(d, belly.u + offset);
-      V v = hn::MulAdd(push, acceleration, hn::Mul(keep, hn::Load(d, belly.v + offset)));
-      v = hn::NegMulAdd(hn::Mul(field_push, stiff), u, v);
+      V v = mul_add(push, acceleration, hn::Mul(keep, hn::Load(d, belly.v + offset)));
+      v = neg_mul_add(hn::Mul(field_push, stiff), u, v);
       hn::Store(v, d, belly.v + offset);
-      hn::Store(hn::MulAdd(dt, v, u), d, belly.u + offset);
+      hn::Store(mul_add(dt, v, u), d, belly.u + offset);
     };
     if (!held_sideways(n)) {
       component(at, a.x, foundation);
@@ -157,7 +158,7 @@ HWY_NOINLINE void report_consistent_kinetic_energy(const Bellies& belly) {
   for_each_moving_node(all, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
     const Vector m = inertia<Mass::consistent>(belly, n, i, j, k, belly.v, pair);
     const Vector v = load_vector(belly.v + node_stride * n);
-    sum = hn::MulAdd(v.x, m.x, hn::MulAdd(v.y, m.y, hn::MulAdd(v.z, m.z, sum)));
+    sum = mul_add(v.x, m.x, mul_add(v.y, m.y, mul_add(v.z, m.z, sum)));
   });
   hn::Store(hn::Mul(hn::Set(d, 0.5F), hn::Mul(belly.factor.mass, sum)), d,
             belly.block.report.kinetic_energy_j.lane + belly.first_lane);
@@ -175,9 +176,9 @@ HWY_NOINLINE void report_strain_across_step(const Bellies& belly, const Step& st
   for_each_moving_node(all, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
     const Vector f = elastic_force<stiffness>(cells, i, j, k, belly.u, belly.factor, coefficient);
     const Vector u = load_vector(belly.u + node_stride * n), v = load_vector(belly.v + node_stride * n);
-    sum = hn::MulAdd(f.x, hn::NegMulAdd(dt, v.x, u.x), sum);
-    sum = hn::MulAdd(f.y, hn::NegMulAdd(dt, v.y, u.y), sum);
-    sum = hn::MulAdd(f.z, hn::NegMulAdd(dt, v.z, u.z), sum);
+    sum = mul_add(f.x, neg_mul_add(dt, v.x, u.x), sum);
+    sum = mul_add(f.y, neg_mul_add(dt, v.y, u.y), sum);
+    sum = mul_add(f.z, neg_mul_add(dt, v.z, u.z), sum);
   });
   hn::Store(hn::Mul(hn::Set(d, 0.5F), sum), d, belly.block.report.strain_energy_j.lane + belly.first_lane);
 }
@@ -222,8 +223,7 @@ void tick_of_lanes(const BellyBlock& block, const BellySolver& solver, const Far
   const Vector from = at(end.from), to = at(end.to);
   const Vector change{hn::Sub(to.x, from.x), hn::Sub(to.y, from.y), hn::Sub(to.z, from.z)};
   const auto place = [&](V part) HWY_ATTR {
-    return Vector{hn::MulAdd(change.x, part, from.x), hn::MulAdd(change.y, part, from.y),
-                  hn::MulAdd(change.z, part, from.z)};
+    return Vector{mul_add(change.x, part, from.x), mul_add(change.y, part, from.y), mul_add(change.z, part, from.z)};
   };
   const auto loads_at = [&](V part) HWY_ATTR {
     Loads loads{end.way == FarEnd::held ? zero_vector() : place(part), {}};

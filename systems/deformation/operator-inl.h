@@ -11,6 +11,7 @@
 #include <algorithm>
 
 #include "assets/fem/belly_solver.h"
+#include "engine/fused-inl.h"
 #include "systems/deformation/band_solve-inl.h"
 #include "systems/deformation/elastic-inl.h"
 
@@ -81,9 +82,9 @@ HWY_INLINE Vector inertia(const Bellies& belly, std::uint32_t n, std::uint32_t i
         const float* p = x + node_stride * node_index(cells, i_low, jj, kk);
         for (std::uint32_t ii = i_low; ii <= i_high; ++ii, p += node_stride) {
           const V w = hn::Set(d, *m++);
-          sum.x = hn::MulAdd(w, hn::Load(d, p), sum.x);
-          sum.y = hn::MulAdd(w, hn::Load(d, p + lane_count), sum.y);
-          sum.z = hn::MulAdd(w, hn::Load(d, p + 2 * lane_count), sum.z);
+          sum.x = mul_add(w, hn::Load(d, p), sum.x);
+          sum.y = mul_add(w, hn::Load(d, p + lane_count), sum.y);
+          sum.z = mul_add(w, hn::Load(d, p + 2 * lane_count), sum.z);
         }
       }
     }
@@ -96,9 +97,8 @@ HWY_INLINE Vector inertia(const Bellies& belly, std::uint32_t n, std::uint32_t i
 HWY_INLINE Vector field_inertia(const FrameField& field, float mass_kg, const float* moment_kg_m) {
   const V m = hn::Set(d, mass_kg), mx = hn::Set(d, moment_kg_m[0]), my = hn::Set(d, moment_kg_m[1]),
           mz = hn::Set(d, moment_kg_m[2]);
-  const auto row = [&](V c, const Vector& g) HWY_ATTR {
-    return hn::MulAdd(g.x, mx, hn::MulAdd(g.y, my, hn::MulAdd(g.z, mz, hn::Mul(c, m))));
-  };
+  const auto row = [&](V c, const Vector& g)
+                       HWY_ATTR { return mul_add(g.x, mx, mul_add(g.y, my, mul_add(g.z, mz, hn::Mul(c, m)))); };
   return {row(field.constant.x, field.x), row(field.constant.y, field.y), row(field.constant.z, field.z)};
 }
 
@@ -124,13 +124,12 @@ HWY_NOINLINE void write_residual(const Bellies& belly, const float* strained, co
         const Vector m = inertia<mass>(belly, n, i, j, k, rates, pair);
         inert = {hn::Sub(inert.x, m.x), hn::Sub(inert.y, m.y), hn::Sub(inert.z, m.z)};
       }
-      r = {hn::MulAdd(factor.mass, inert.x, r.x), hn::MulAdd(factor.mass, inert.y, r.y),
-           hn::MulAdd(factor.mass, inert.z, r.z)};
+      r = {mul_add(factor.mass, inert.x, r.x), mul_add(factor.mass, inert.y, r.y), mul_add(factor.mass, inert.z, r.z)};
     }
     if (n >= far) {
       const V share = hn::Set(d, belly.kernel.far_share[n - far]);
-      r = {hn::MulAdd(share, loads.traction.x, r.x), hn::MulAdd(share, loads.traction.y, r.y),
-           hn::MulAdd(share, loads.traction.z, r.z)};
+      r = {mul_add(share, loads.traction.x, r.x), mul_add(share, loads.traction.y, r.y),
+           mul_add(share, loads.traction.z, r.z)};
     }
     store_vector(r, belly.residual + node_stride * n);
   });
@@ -147,11 +146,11 @@ HWY_NOINLINE V apply(const Bellies& belly, const Operator& what) {
   for_each_moving_node(belly, [&](std::uint32_t n, std::uint32_t i, std::uint32_t j, std::uint32_t k) HWY_ATTR {
     const Vector elastic = elastic_force<stiffness>(cells, i, j, k, belly.direction, factor, coefficient);
     const Vector m = inertia<mass>(belly, n, i, j, k, belly.direction, pair);
-    const Vector q{hn::MulAdd(what.mass_x, m.x, hn::Mul(what.stiffness, elastic.x)),
-                   hn::MulAdd(what.mass_y, m.y, hn::Mul(what.stiffness, elastic.y)),
-                   hn::MulAdd(what.mass_z, m.z, hn::Mul(what.stiffness, elastic.z))};
+    const Vector q{mul_add(what.mass_x, m.x, hn::Mul(what.stiffness, elastic.x)),
+                   mul_add(what.mass_y, m.y, hn::Mul(what.stiffness, elastic.y)),
+                   mul_add(what.mass_z, m.z, hn::Mul(what.stiffness, elastic.z))};
     const Vector p = load_vector(belly.direction + node_stride * n);
-    work = hn::MulAdd(p.x, q.x, hn::MulAdd(p.y, q.y, hn::MulAdd(p.z, q.z, work)));
+    work = mul_add(p.x, q.x, mul_add(p.y, q.y, mul_add(p.z, q.z, work)));
     store_vector(q, belly.image + node_stride * n);
   });
   return work;
@@ -184,7 +183,7 @@ HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, 
       float* const p = belly.direction + from + node_stride * n;
       if (anew) return store_vector(z, p);
       const Vector old = load_vector(p);
-      store_vector({hn::MulAdd(keep, old.x, z.x), hn::MulAdd(keep, old.y, z.y), hn::MulAdd(keep, old.z, z.z)}, p);
+      store_vector({mul_add(keep, old.x, z.x), mul_add(keep, old.y, z.y), mul_add(keep, old.z, z.z)}, p);
     });
     const bool more = sweep + 1 < sweeps;
     V step = hn::Set(d, 1.0F);
@@ -196,9 +195,9 @@ HWY_NOINLINE void solve(const Bellies& belly, const Operator& what, bool exact, 
     }
     const V advance = hn::Mul(hn::Set(d, gain), step);
     for (std::size_t at = from; at < to; at += lane_count) {
-      hn::Store(hn::MulAdd(advance, hn::Load(d, belly.direction + at), hn::Load(d, target + at)), d, target + at);
+      hn::Store(mul_add(advance, hn::Load(d, belly.direction + at), hn::Load(d, target + at)), d, target + at);
       if (more) {
-        const V left = hn::NegMulAdd(step, hn::Load(d, belly.image + at), hn::Load(d, belly.residual + at));
+        const V left = neg_mul_add(step, hn::Load(d, belly.image + at), hn::Load(d, belly.residual + at));
         hn::Store(left, d, belly.residual + at);
       }
     }

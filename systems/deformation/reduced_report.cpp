@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "systems/deformation/reduced_report.cpp"
 #include <hwy/foreach_target.h>
 
+#include "engine/fused-inl.h"
 #include "engine/wide-inl.h"
 #include "systems/deformation/reduced-inl.h"
 #include "systems/deformation/report-inl.h"
@@ -18,7 +19,7 @@ HWY_INLINE V mean_of_far_face(const MuscleTemplate& control, const float* u) {
   const std::vector<float>& share = control.kernel.far_share;
   V sum = hn::Zero(d);
   for (std::size_t n = 0; n < share.size(); ++n) {
-    sum = hn::MulAdd(hn::Set(d, share[n]), hn::Load(d, u + node_stride * (far + n) + 2 * lane_count), sum);
+    sum = mul_add(hn::Set(d, share[n]), hn::Load(d, u + node_stride * (far + n) + 2 * lane_count), sum);
   }
   return sum;
 }
@@ -53,33 +54,33 @@ void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, c
     } else {
       const float* participation = motion + 3 * lane_count;
       for (std::size_t i = 0; i < full; ++i, participation += lane_count) {
-        if (i > 0 || !held) s = hn::MulAdd(at(participation, 0), input(i), s);
+        if (i > 0 || !held) s = mul_add(at(participation, 0), input(i), s);
       }
       for (std::size_t i = full; i < inputs.count; i += 2, participation += lane_count) {
         const auto word = hn::BitCast(WordTag{}, at(participation, 0));
-        s = hn::MulAdd(hn::BitCast(d, hn::ShiftLeft<16>(word)), input(i), s);
-        s = hn::MulAdd(hn::BitCast(d, hn::And(word, hn::Set(WordTag{}, 0xFFFF0000U))), input(i + 1), s);
+        s = mul_add(hn::BitCast(d, hn::ShiftLeft<16>(word)), input(i), s);
+        s = mul_add(hn::BitCast(d, hn::And(word, hn::Set(WordTag{}, 0xFFFF0000U))), input(i + 1), s);
       }
       motion = participation;
     }
-    const V strained = hn::MulAdd(omega, s, x);
-    kinetic = hn::MulAdd(w, w, kinetic);
-    strain = hn::MulAdd(strained, strained, strain);
-    pull = hn::MulAdd(hn::Mul(omega, first), x, pull);
+    const V strained = mul_add(omega, s, x);
+    kinetic = mul_add(w, w, kinetic);
+    strain = mul_add(strained, strained, strain);
+    pull = mul_add(hn::Mul(omega, first), x, pull);
   }
   kinetic = hn::Mul(kinetic, mass);
   strain = hn::Mul(strain, mass);
 
   V elongation = end_z, reaction = end_z;
   if (held) {
-    strain = hn::MulAdd(hn::Mul(at(tail.reaction, 0), end_z), end_z, strain);
+    strain = mul_add(hn::Mul(at(tail.reaction, 0), end_z), end_z, strain);
     reaction = none;
-    for (std::size_t i = 0; i < inputs.count; ++i) reaction = hn::MulAdd(at(tail.reaction, i), input(i), reaction);
-    reaction = hn::NegMulAdd(mass, pull, reaction);
+    for (std::size_t i = 0; i < inputs.count; ++i) reaction = mul_add(at(tail.reaction, i), input(i), reaction);
+    reaction = neg_mul_add(mass, pull, reaction);
     if (moving) {
       const V speed = hn::Div(hn::Sub(end_z, hn::Load(d, end.from[2]->lane + lane)), hn::Set(d, tick_s));
-      reaction = hn::MulAdd(at(tail.drag, 0), speed, reaction);
-      kinetic = hn::MulAdd(hn::Mul(hn::Mul(mass, hn::Set(d, lift_mass)), speed), speed, kinetic);
+      reaction = mul_add(at(tail.drag, 0), speed, reaction);
+      kinetic = mul_add(hn::Mul(hn::Mul(mass, hn::Set(d, lift_mass)), speed), speed, kinetic);
     }
   } else {
     elongation = mean_of_far_face(control, points.displacement + lane);

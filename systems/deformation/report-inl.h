@@ -7,6 +7,7 @@
 #define MOBIL_SYSTEMS_DEFORMATION_REPORT_INL_H_
 #endif
 
+#include "engine/fused-inl.h"
 #include "systems/deformation/elastic-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -15,10 +16,10 @@ namespace mobil::HWY_NAMESPACE {
 /// Volume inside the deformed boundary, m³: each bilinear patch sweeps the mean of its two triangulations.
 HWY_INLINE V enclosed_volume(const KernelArrays& kernel, V across, V along, const float* u) {
   const auto determinant = [](const Vector& a, const Vector& b, const Vector& c) HWY_ATTR {
-    const V x = hn::NegMulAdd(b.z, c.y, hn::Mul(b.y, c.z));
-    const V y = hn::NegMulAdd(b.x, c.z, hn::Mul(b.z, c.x));
-    const V z = hn::NegMulAdd(b.y, c.x, hn::Mul(b.x, c.y));
-    return hn::MulAdd(a.x, x, hn::MulAdd(a.y, y, hn::Mul(a.z, z)));
+    const V x = neg_mul_add(b.z, c.y, hn::Mul(b.y, c.z));
+    const V y = neg_mul_add(b.x, c.z, hn::Mul(b.z, c.x));
+    const V z = neg_mul_add(b.y, c.x, hn::Mul(b.x, c.y));
+    return mul_add(a.x, x, mul_add(a.y, y, hn::Mul(a.z, z)));
   };
   const auto minus = [](const Vector& a, const Vector& b) HWY_ATTR {
     return Vector{hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
@@ -26,9 +27,9 @@ HWY_INLINE V enclosed_volume(const KernelArrays& kernel, V across, V along, cons
   const auto place = [&](std::uint32_t n) HWY_ATTR {
     const float* p = u + node_stride * n;
     const float* rest = kernel.rest_m.data() + 3 * std::size_t{n};
-    return Vector{hn::MulAdd(across, hn::Set(d, rest[0]), hn::Load(d, p)),
-                  hn::MulAdd(across, hn::Set(d, rest[1]), hn::Load(d, p + lane_count)),
-                  hn::MulAdd(along, hn::Set(d, rest[2]), hn::Load(d, p + 2 * lane_count))};
+    return Vector{mul_add(across, hn::Set(d, rest[0]), hn::Load(d, p)),
+                  mul_add(across, hn::Set(d, rest[1]), hn::Load(d, p + lane_count)),
+                  mul_add(along, hn::Set(d, rest[2]), hn::Load(d, p + 2 * lane_count))};
   };
   V sum = hn::Zero(d);
   for (const Quad& quad : kernel.skin) {
@@ -51,8 +52,8 @@ HWY_NOINLINE void report_shape(const BellyBlock& block, const Factors& factor, s
   for (std::uint32_t j = 0; j <= cells[1]; ++j) {
     for (std::uint32_t i = 0; i <= cells[0]; ++i, ++n) {
       reaction = hn::Add(reaction, elastic_force<stiffness>(cells, i, j, cells[2], u, factor, coefficient).z);
-      elongation = hn::MulAdd(hn::Set(d, kernel.far_share[n - far]), hn::Load(d, u + node_stride * n + 2 * lane_count),
-                              elongation);
+      elongation =
+          mul_add(hn::Set(d, kernel.far_share[n - far]), hn::Load(d, u + node_stride * n + 2 * lane_count), elongation);
     }
   }
   const V volume = enclosed_volume(kernel, factor.b, factor.a, u);
@@ -70,9 +71,9 @@ HWY_NOINLINE inline void report_kinetic_energy(const BellyBlock& block, const Fa
     V square = hn::Zero(d);
     for (std::size_t c = 0; c < node_stride; c += lane_count) {
       const V speed = hn::Load(d, block.velocity + first_lane + node_stride * n + c);
-      square = hn::MulAdd(speed, speed, square);
+      square = mul_add(speed, speed, square);
     }
-    sum = hn::MulAdd(square, hn::Set(d, block.muscle.kernel.mass_kg[n]), sum);
+    sum = mul_add(square, hn::Set(d, block.muscle.kernel.mass_kg[n]), sum);
   }
   hn::Store(hn::Mul(hn::Set(d, 0.5F), hn::Mul(factor.mass, sum)), d, block.report.kinetic_energy_j.lane + first_lane);
 }
@@ -89,9 +90,9 @@ HWY_NOINLINE void report_strain_energy(const BellyBlock& block, const Factors& f
     for (std::uint32_t j = 0; j <= cells[1]; ++j) {
       for (std::uint32_t i = 0; i <= cells[0]; ++i, at += node_stride) {
         const Vector f = elastic_force<stiffness>(cells, i, j, k, u, factor, coefficient);
-        sum = hn::MulAdd(f.x, hn::Load(d, at), sum);
-        sum = hn::MulAdd(f.y, hn::Load(d, at + lane_count), sum);
-        sum = hn::MulAdd(f.z, hn::Load(d, at + 2 * lane_count), sum);
+        sum = mul_add(f.x, hn::Load(d, at), sum);
+        sum = mul_add(f.y, hn::Load(d, at + lane_count), sum);
+        sum = mul_add(f.z, hn::Load(d, at + 2 * lane_count), sum);
       }
     }
   }

@@ -31,7 +31,7 @@ struct Column {
 class Columns {
  public:
   void add(const KeyPart& part, std::size_t blocks) {
-    all_.push_back({part.id, part.value, std::make_unique_for_overwrite<Lanes<float>[]>(blocks * part.value)});
+    all_.push_back({part.id, static_cast<std::size_t>(part.value), std::make_unique_for_overwrite<Lanes<float>[]>(blocks * part.value)});
   }
   /// Null where there is none.
   const Column* find(std::uint64_t part) const {

@@ -115,7 +115,7 @@ std::uint64_t hash_of(const LegMuscles& choice) {
   std::uint64_t hash = 1;
   for (std::size_t w = 0; w < words.size(); ++w) {
     if (w < first_words || words[w] != 0)
-      hash = mix64((hash + 0x9e3779b97f4a7c15) ^ (w < first_words ? 0 : w << 32) ^ words[w]);
+      hash = mix64((hash + 0x9e3779b97f4a7c15) ^ (w < first_words ? 0 : std::uint64_t{w} << 32) ^ words[w]);
   }
   return hash;
 }

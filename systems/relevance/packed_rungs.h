@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "components/leg_muscles.h"
 #include "components/relevance.h"
 #include "systems/relevance/ladder.h"
 

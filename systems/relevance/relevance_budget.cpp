@@ -120,7 +120,7 @@ bool Relevance::change(const Switch& one, RelevanceReport& report) {
   std::uint32_t rung = one.rung;
   if (rung != now && !at_hand(one, rung, true)) {
     const auto& order = ladder_.by_cost(of);
-    const auto* cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(rung));
+    auto cheaper = std::find(order.begin(), order.end(), static_cast<std::uint8_t>(rung));
     while (cheaper != order.begin() && !at_hand(one, *cheaper, false)) --cheaper;
     rung = *cheaper;
     if (rung == now || ladder_.error_m(of, rung) >= ladder_.error_m(of, now)) return false;

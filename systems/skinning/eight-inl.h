@@ -11,6 +11,7 @@
 
 #include <cstddef>
 
+#include "engine/fused-inl.h"
 #include "systems/skinning/packed_surface.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -47,7 +48,7 @@ HWY_INLINE WideEight multiply(const WideEight& a, const WideEight& b) {
 }
 HWY_INLINE WideEight multiply_add(const WideEight& a, const WideEight& b, const WideEight& c) {
   WideEight r;
-  for (std::size_t i = 0; i < eight_parts; ++i) r.part[i] = hn::MulAdd(a.part[i], b.part[i], c.part[i]);
+  for (std::size_t i = 0; i < eight_parts; ++i) r.part[i] = mul_add(a.part[i], b.part[i], c.part[i]);
   return r;
 }
 HWY_INLINE WideEight all(float s) {

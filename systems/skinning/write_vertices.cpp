@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "engine/fused-inl.h"
 #include "systems/skinning/eight-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -38,15 +39,15 @@ HWY_INLINE Vector ring_area(const float* places, std::size_t i, const Ring& ring
   const Vector c = hn::Sub(corner(4), p0), d = hn::Sub(corner(5), p3);
   Vector r = hn::Mul(a, hn::Shuffle0321(b));
   Vector s = hn::Mul(c, hn::Shuffle0321(d));
-  r = hn::NegMulAdd(hn::Shuffle0321(a), b, r);
-  s = hn::NegMulAdd(hn::Shuffle0321(c), d, s);
+  r = neg_mul_add(hn::Shuffle0321(a), b, r);
+  s = neg_mul_add(hn::Shuffle0321(c), d, s);
   return hn::Add(r, s);
 }
 
 /// Makes rows z x y as long as `sense` says; those without a length point up.
 HWY_INLINE void normalise(float sense, Rows& normal) {
   const Rows v = transposed(normal);
-  const auto square = hn::MulAdd(v.row[2], v.row[2], hn::MulAdd(v.row[1], v.row[1], hn::Mul(v.row[0], v.row[0])));
+  const auto square = mul_add(v.row[2], v.row[2], mul_add(v.row[1], v.row[1], hn::Mul(v.row[0], v.row[0])));
   const auto has_length = hn::Gt(square, hn::Set(tag, 1e-36F));  // a triangle of a square micrometre: 1e-24
   const Vector factor = hn::Div(hn::Set(tag, sense), hn::Sqrt(square));
   if (HWY_LIKELY(hn::AllTrue(tag, has_length))) {

@@ -1,0 +1,293 @@
+// The page: one person of the reader's choosing, a crowd, and the library under both.
+import { MobilError, METHODS, canRun, constants as c, load } from 'mobil';
+import { attempt, choice, slider, toggle } from './controls.js';
+import { Crowd } from './crowd.js';
+import { Figure } from './figure.js';
+import { download, strideAsGlb } from './files.js';
+import { drawTrace, drawWays } from './plots.js';
+import { fromAddress, methodNames, request, toAddress, usual } from './scene.js';
+import { Stage } from './stage.js';
+import { Trace, groups } from './trace.js';
+
+const query = new URLSearchParams(location.search), still = query.has('still');
+const element = (id) => document.getElementById(id);
+
+class Page {
+  constructor(mobil, baked) {
+    this.mobil = mobil;
+    this.scene = fromAddress(location.search);
+    this.world = mobil.world();
+    if (baked) this.#takeBaked(baked);
+    this.stage = new Stage(element('view'), { still });
+    this.trace = new Trace();
+    this.told = { tick: 0, draw: 0 };
+    this.play(still);
+    this.#controls();
+    if (!attempt(() => this.respawn())) {  // a link that nobody can walk
+      const why = element('refusal').textContent;
+      this.scene = structuredClone(usual);
+      this.respawn();
+      element('refusal').textContent = `${why}; what is usual is shown instead`;
+    }
+    this.crowded();
+    this.chosen();
+  }
+  // Bases of another version are refused, and made here instead.
+  #takeBaked(baked) {
+    try { this.world.loadBaked(baked); } catch (error) { console.warn(error.message); }
+  }
+
+  // ---- One person
+  #muscles() {
+    const { scene } = this, reduced = scene.methods.includes('reduced');
+    return {
+      method: METHODS[scene.methods[0]], vectors: reduced ? scene.vectors : undefined, control_points: 1, reported: 1,
+      activation: [c.MOBIL_NO_ACTIVATION, c.MOBIL_BY_PHASE, c.MOBIL_BY_MOMENTS][scene.pull], inertia: scene.inertia,
+    };
+  }
+  #setMethods(person) {
+    this.scene.methods.forEach((m, i) => {
+      if (i > 0 && m !== this.scene.methods[0]) this.setMethod(i, person);
+    });
+  }
+  setMethod(i, person = this.person) {
+    const method = METHODS[this.scene.methods[i]];
+    this.world.setMethod(person, i, { method, vectors: this.scene.vectors, control_points: 1, reported: 1 });
+  }
+  /** A new body; all or nothing. */
+  respawn() {
+    const { world, scene } = this;
+    const at = this.figure ? world.matrices(this.person).slice(0, 12) : [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    const muscles = Object.fromEntries(Object.entries(this.#muscles()).filter(([, v]) => v !== undefined));
+    const person = world.spawn([{ ...request(scene, this.mobil.style), place: [0, 0, at[11]] }], muscles);
+    try {
+      this.#setMethods(person);
+      if (scene.forces || scene.pull === 2) world.setForces(person);
+      const figure = new Figure(world, person, this.stage.scene);
+      if (this.person) {
+        this.figure.drop();
+        world.despawn(this.person);
+      }
+      this.figure = figure;
+    } catch (error) {
+      world.despawn(person);
+      throw error;
+    }
+    this.person = person;
+    this.trace.clear();
+    this.#curves();
+    if (this.choosing) this.world.manage(this.person);
+  }
+  /** Muscles anew in the same body. */
+  remuscle() {
+    if (this.choosing) this.world.letGo(this.person);
+    this.respawn();
+  }
+  walk() {
+    this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
+    this.#curves();
+  }
+  #curves() {
+    const { scene } = this;
+    this.ways = groups.map((_, i) => this.mobil.ways(i, { speed_m_s: scene.speed / 3.6, height_m: scene.height, inertia: !!scene.inertia, pulling: scene.pull > 0 }));
+  }
+  /** Of each group the name of the way that it has now. */
+  #chosenWays() {
+    return groups.map((_, i) => {
+      const has = this.world.method(this.person, i);
+      return this.ways[i].find((way) => way.method === has.method && (has.method !== METHODS.reduced || (way.vectors === has.vectors && !!way.moving === !!has.moving)) && (way.method !== METHODS.none || true))?.name ?? '';
+    });
+  }
+
+  // ---- The crowd
+  crowded() {
+    if (this.crowd) this.crowd.drop();
+    this.crowd = undefined;
+    if (this.scene.crowd > 0) this.crowd = new Crowd(this.world, this.scene.crowd, this.figure, this.scene.height, this.stage.scene);
+    if (this.choosing && this.crowd) this.world.manage(this.crowd.people);
+  }
+  /** Methods as the scene calls for, or as they are set. */
+  chosen() {
+    const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
+    if (this.choosing) {
+      for (const people of everybody) world.letGo(people);
+      if (this.crowd) {
+        world.expand(this.crowd.people);
+        world.setMuscles(this.crowd.people, null);
+        this.crowd.clothes();
+      }
+      this.choosing = false;
+      this.respawn();
+    }
+    if (!scene.choose) return;
+    const { activation, inertia } = this.#muscles();
+    world.startChoosing({}, { activation, inertia });
+    this.choosing = true;
+    this.#lookAt();
+    for (const people of everybody) world.manage(people);
+  }
+  #lookAt() {
+    const { scene } = this;
+    this.world.setScene({ tolerance_px: scene.tolerance, ...this.stage.viewpoint(), budget_s: scene.budget / 1000, compact_unseen: 1 });
+  }
+
+  // ---- Time
+  step(ticks) {
+    const { world } = this, began = performance.now();
+    for (let i = 0; i < ticks; ++i) {
+      if (this.choosing) this.did = world.choose();
+      world.tick();
+      this.trace.sample(world, this.person);
+    }
+    if (ticks) this.told.tick = soft(this.told.tick, (performance.now() - began) / ticks);
+  }
+  draw() {
+    const began = performance.now();
+    const { x, z } = this.figure.pose(this.person);
+    this.stage.follow(x, z);
+    if (this.choosing) this.#lookAt();
+    if (this.crowd) {
+      this.crowd.pose(z);
+      if (this.choosing && this.scene.heat) this.crowd.heat();
+    }
+    if (this.scene.pull) {
+      const pulls = groups.map((_, g) => [0, 1].map((side) => { try { return this.world.readMuscle(c.MOBIL_ACTIVATION, this.person, g, side)[1]; } catch { return 0; } }));
+      this.figure.colour((muscle, side) => pulls[muscle]?.[side] ?? 0);
+    }
+    this.stage.draw();
+    this.told.draw = soft(this.told.draw, performance.now() - began);
+  }
+  /** Plots and figures, less often than pictures. */
+  tell() {
+    drawTrace(this.trace, this.scene.mass * 9.81);
+    drawWays(this.ways, this.#chosenWays());
+    const did = this.choosing && this.did ? `, muscles predicted ${(1000 * this.did.predicted_s).toFixed(2)} ms a tick, ${this.did.compacted} far people compact` : '';
+    element('told').textContent = `tick ${this.told.tick.toFixed(2)} ms, picture ${this.told.draw.toFixed(1)} ms, ${(1 + (this.crowd?.people.count ?? 0)).toLocaleString('en')} people, ${(this.mobil.library.memory.buffer.byteLength / 2 ** 20).toFixed(0)} MB${did}${this.mobil.fused ? '' : '; this browser does not fuse multiply-adds: bits differ from desktops’'}`;
+  }
+  run() {
+    let last = performance.now(), rest = 0, told = 0;
+    const frame = (now) => {
+      if (!this.paused) {
+        rest = Math.min(rest + ((now - last) / 1000) * +element('pace').value, 0.1);
+        const ticks = Math.floor(rest / this.world.tick_s);
+        rest -= ticks * this.world.tick_s;
+        this.step(ticks);
+      }
+      last = now;
+      this.draw();
+      if (now - told > 90) {
+        this.tell();
+        told = now;
+      }
+      requestAnimationFrame(frame);
+    };
+    requestAnimationFrame(frame);
+  }
+
+  // ---- Controls
+  #controls() {
+    const { scene } = this, anew = () => this.respawn(), walk = () => this.walk();
+    slider('body', { id: 'height', name: 'height', holder: scene, key: 'height', low: 1.2, high: 2.2, step: 0.01, unit: ' m', act: anew });
+    slider('body', { id: 'mass', name: 'mass', holder: scene, key: 'mass', low: 30, high: 200, step: 1, unit: ' kg', act: anew });
+    choice('body', { id: 'build', name: 'build', holder: scene, key: 'build', options: ['thin', 'average', 'athletic', 'heavy'], numbers: true, act: anew });
+    slider('walk', { id: 'speed', name: 'speed', holder: scene, key: 'speed', low: 0, high: 8, step: 0.1, unit: ' km/h', act: walk });
+    slider('walk', { id: 'step-length', name: 'step length', title: '0: as people of that leg would', holder: scene, key: 'step', low: 0, high: 1.1, step: 0.01, unit: ' m', act: walk });
+    for (const n of this.mobil.style) {
+      const unit = n.unit === '1' ? '' : ` ${n.unit}`, name = n.name.replace(/_(deg|h|m|cycle|n_per_m)$/, '').replaceAll('_', ' ');
+      slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step: (n.high - n.low) / 100, unit, usual: n.usual, act: walk });
+    }
+    groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
+    slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
+    choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: () => this.remuscle() });
+    toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: () => this.remuscle() });
+    toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.setForces(this.person, !!scene.forces) });
+    slider('crowd', { id: 'people', name: 'people', holder: scene, key: 'crowd', low: 0, high: 5000, step: 20, act: () => this.crowded() });
+    toggle('crowd', { id: 'choose', name: 'choose', title: 'each muscle by the cheapest method that this camera calls for', holder: scene, key: 'choose', act: () => this.chosen() });
+    slider('crowd', { id: 'tolerance', name: 'error', title: 'how many pixels a muscle may be off, where methods are chosen', holder: scene, key: 'tolerance', low: 0.25, high: 8, step: 0.25, unit: ' px', act: () => {} });
+    slider('crowd', { id: 'budget', name: 'budget', title: 'of muscles a tick; 0: none', holder: scene, key: 'budget', low: 0, high: 10, step: 0.1, unit: ' ms', act: () => {} });
+    toggle('crowd', { id: 'heat', name: 'show cost', title: 'where methods are chosen: grey nothing, blue cheap, red dear', holder: scene, key: 'heat', act: () => { if (!scene.heat) this.crowd?.clothes(); } });
+    element('panel').addEventListener('submit', (event) => event.preventDefault());
+    element('play').onclick = () => this.play(!this.paused);
+    element('step').onclick = () => this.oneStep();
+    element('link').onclick = () => this.copyLink();
+    element('csv').onclick = () => download('walk.csv', [this.trace.csv()], 'text/csv');
+    element('glb').onclick = async () => download('walk.glb', [await this.glb()], 'model/gltf-binary');
+    element('hide').onclick = () => {
+      const away = document.body.classList.toggle('away');
+      element('hide').textContent = away ? 'Show' : 'Hide';
+      element('hide').setAttribute('aria-expanded', String(!away));
+    };
+    addEventListener('keydown', (event) => {
+      if (/^(INPUT|SELECT|BUTTON|SUMMARY)$/.test(event.target.tagName)) return;
+      if (event.key === ' ') this.play(!this.paused);
+      else if (event.key === '.') this.oneStep();
+      else return;
+      event.preventDefault();
+    });
+  }
+  play(paused) {
+    this.paused = paused;
+    element('play').textContent = paused ? 'Play' : 'Pause';
+  }
+  oneStep() {
+    this.play(true);
+    this.step(1);
+  }
+  address() { return `${location.origin}${location.pathname}?${toAddress(this.scene)}`; }
+  async copyLink() {
+    history.replaceState(null, '', this.address());
+    try {
+      await navigator.clipboard.writeText(this.address());
+      element('link').textContent = 'Copied';
+      setTimeout(() => { element('link').textContent = 'Copy link'; }, 1500);
+    } catch { /* the address bar has it */ }
+  }
+  /** One stride, as glTF. */
+  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride()); }
+  // How long the right leg's cycle lasts: until its phase is again what it is.
+  #stride() {
+    const before = this.world.save(), phase = () => this.world.read(c.MOBIL_FEET, this.person)[18];
+    let turned = 0, last = phase(), ticks = 0;
+    while (turned < 1 && ticks < 300) {
+      this.world.tick();
+      ++ticks;
+      const now = phase();
+      turned += (now - last + 1) % 1;
+      last = now;
+    }
+    this.world.restore(before);
+    return ticks < 300 ? ticks * this.world.tick_s : 1;
+  }
+}
+
+const soft = (old, now) => (old ? 0.95 * old + 0.05 * now : now);
+
+async function bytes(address) {
+  const answer = await fetch(address);
+  return answer.ok ? new Uint8Array(await answer.arrayBuffer()) : null;
+}
+
+async function start() {
+  const webgl2 = !!document.createElement('canvas').getContext('webgl2');
+  if (!canRun() || !webgl2 || query.has('poster')) {
+    element('poster').hidden = false;
+    document.querySelector('main').hidden = true;
+    element('poster').querySelector('p').textContent = `This page needs ${canRun() ? 'WebGL 2' : 'WebAssembly with SIMD'}, which this browser does not have. Here is what it shows elsewhere.`;
+    document.title = 'mobil: poster';
+    return;
+  }
+  const [mobil, baked] = await Promise.all([load('.'), bytes('bases.bin')]);
+  const page = new Page(mobil, baked);
+  globalThis.mobilPage = page;
+  page.constants = { METHODS };
+  page.step(still ? Math.round(60 * Number(query.get('t') ?? 2)) : 1);
+  page.draw();
+  page.tell();
+  if (!still) page.run();
+  document.body.dataset.ready = Math.round(performance.now());
+}
+
+start().catch((error) => {
+  element('refusal').textContent = error.message;
+  if (!(error instanceof MobilError)) throw error;
+});

@@ -1,0 +1,138 @@
+// The WebAssembly module: its memory as typed arrays, the structs of mobil.h in it, and errors. No glue is generated.
+import { constants, structs } from './interface.js';
+
+/** What mobil refused, in its own words: what, where, the valid range, and how to mend it. `code` is that of mobil.h. */
+export class MobilError extends Error {
+  constructor(line, code) {
+    super(line);
+    this.name = 'MobilError';
+    this.code = code;
+  }
+}
+
+const views = { pointer: 'Uint32', size_t: 'Uint32', int: 'Int32', 'unsigned int': 'Uint32', float: 'Float32', double: 'Float64' };
+
+/** Whether this engine runs the library: SIMD of 128 bits. */
+export function canRun() {
+  // (module (func (drop (i8x16.splat (i32.const 0)))))
+  return typeof WebAssembly === 'object' && WebAssembly.validate(new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 4, 1, 96, 0, 0, 3, 2, 1, 0, 10, 9, 1, 7, 0, 65, 0, 253, 15, 26, 11]));
+}
+
+/** Whether this engine has relaxed SIMD and its multiply-add is fused. Only then are the library's bits those of
+ *  desktops, and only then can the module `mobil.wasm` run; `mobil-plain.wasm` runs wherever `canRun()` says so. */
+export function canFuse() {
+  // f32x4.relaxed_madd of a = 1 + 2⁻¹², a·a − (1 + 2⁻¹¹): 2⁻²⁴ where it is fused, 0 where the product is rounded.
+  const module = new Uint8Array([0, 97, 115, 109, 1, 0, 0, 0, 1, 8, 1, 96, 3, 125, 125, 125, 1, 125, 3, 2, 1, 0, 7, 5, 1, 1, 109, 0, 0, 10, 22, 1, 20, 0, 32, 0, 253, 19, 32, 1, 253, 19, 32, 2, 253, 19, 253, 133, 2, 253, 31, 0, 11]);
+  if (!canRun() || !WebAssembly.validate(module)) return false;
+  const { m } = new WebAssembly.Instance(new WebAssembly.Module(module)).exports;
+  const a = 1 + 2 ** -12;
+  return m(a, a, -(1 + 2 ** -11)) === 2 ** -24;
+}
+
+export class Library {
+  /** `source`: the address of a module, or its bytes. */
+  static async load(source) {
+    const self = new Library();
+    const imports = { wasi_snapshot_preview1: self.#wasi() };
+    let made;
+    if (source instanceof Uint8Array) made = await WebAssembly.instantiate(source, imports);
+    else made = await WebAssembly.instantiateStreaming(fetch(source), imports);
+    self.x = made.instance.exports;
+    self.memory = self.x.memory;
+    self.x._initialize();
+    return self;
+  }
+
+  // Memory may grow in any call: views are made anew when it has.
+  get u8() { return this.#view('bytes', Uint8Array); }
+  get u32() { return this.#view('words', Uint32Array); }
+  get f32() { return this.#view('floats', Float32Array); }
+  get data() { return this.#view('mixed', DataView); }
+
+  /** Memory of the module; release it. */
+  allocate(bytes) {
+    const at = this.x.malloc(Math.max(bytes, 1));
+    if (at === 0) throw new MobilError(`no memory for ${bytes} bytes; this page has ${this.memory.buffer.byteLength}`, constants.MOBIL_MEMORY);
+    return at;
+  }
+  release(at) { this.x.free(at); }
+
+  /** Runs `body` with memory that is released when it returns. */
+  within(body) {
+    const taken = [];
+    try {
+      return body((bytes) => {
+        taken.push(this.allocate(bytes));
+        return taken.at(-1);
+      });
+    } finally {
+      for (const at of taken) this.release(at);
+    }
+  }
+
+  text(at) {
+    let end = at;
+    while (this.u8[end]) ++end;
+    return new TextDecoder().decode(this.u8.slice(at, end));
+  }
+  /** A string as the C interface takes it. */
+  string(text, take) {
+    const bytes = new TextEncoder().encode(text), at = take(bytes.length + 1);
+    this.u8.set(bytes, at);
+    this.u8[at + bytes.length] = 0;
+    return at;
+  }
+
+  /** Fills a struct at `at` with usual values (`which`: MOBIL_PERSON and so on), then with those of `given`. */
+  fill(name, which, at, given = {}) {
+    const { size } = structs[name];
+    const code = this.x.mobil_defaults(constants[which], at, size);
+    if (code !== 0) throw new MobilError(`${name} is not as this module knows it`, code);
+    for (const [field, value] of Object.entries(given)) this.set(name, at, field, value);
+  }
+  set(name, at, field, value) {
+    const place = structs[name].fields[field];
+    if (!place) throw new MobilError(`${name} has no ${field}; it has ${Object.keys(structs[name].fields).join(', ')}`, constants.MOBIL_REFUSED);
+    const put = `set${views[place.type]}`;
+    if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + 4 * i, value[i], true);
+    else this.data[put](at + place.at, Number(value), true);
+  }
+  get(name, at, field) {
+    const place = structs[name].fields[field];
+    return this.data[`get${views[place.type]}`](at + place.at, true);
+  }
+  /** A struct as an object; strings are read. */
+  object(name, at, strings = []) {
+    return Object.fromEntries(Object.keys(structs[name].fields).filter((f) => f !== 'size')
+      .map((f) => [f, strings.includes(f) ? this.text(this.get(name, at, f)) : this.get(name, at, f)]));
+  }
+
+  #views = {};
+  #view(name, Type) {
+    if (this.#views[name]?.buffer !== this.memory.buffer) this.#views[name] = new Type(this.memory.buffer);
+    return this.#views[name];
+  }
+
+  // All of the system that the library calls for: a clock, and lines where it ends.
+  #wasi() {
+    const refuse = () => 8;  // EBADF
+    return {
+      environ_get: () => 0,
+      environ_sizes_get: (count, bytes) => { this.u32[count >> 2] = 0; this.u32[bytes >> 2] = 0; return 0; },
+      clock_time_get: (clock, precision, out) => { this.data.setBigUint64(out, BigInt(Math.round(performance.now() * 1e6)), true); return 0; },
+      fd_close: refuse, fd_seek: refuse, fd_read: refuse, fd_fdstat_get: refuse,
+      fd_write: (fd, list, count, out) => {
+        let bytes = 0, text = '';
+        for (let i = 0; i < count; ++i) {
+          const [at, length] = this.u32.subarray((list >> 2) + 2 * i);
+          text += new TextDecoder().decode(this.u8.slice(at, at + length));
+          bytes += length;
+        }
+        console.error(text.trimEnd());
+        this.u32[out >> 2] = bytes;
+        return 0;
+      },
+      proc_exit: (code) => { throw new MobilError(`the library ended with ${code}`, constants.MOBIL_INTERNAL); },
+    };
+  }
+}

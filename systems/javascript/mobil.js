@@ -1,0 +1,55 @@
+// mobil for JavaScript: the C interface as WebAssembly.
+//   import { load } from './mobil.js';
+//   const mobil = await load('.');                       // the folder of mobil.wasm and mobil-plain.wasm
+//   const world = mobil.world();
+//   const people = world.spawn([{ height_m: 1.8, mass_kg: 80, speed_m_s: 1.4 }], { method: METHODS.ecd });
+//   world.tick(60);
+//   world.matrices(people);                              // 48 × 3 × 4 floats
+import { constants as c, structs } from './interface.js';
+import { Library, MobilError, canFuse, canRun } from './library.js';
+import { World } from './world.js';
+
+export { AXES, CONSTITUTIONS, METHODS, People, World } from './world.js';
+export { Surfaces } from './surfaces.js';
+export { MobilError, canFuse, canRun };
+export const constants = c;
+
+const listed = (name) => {
+  const all = [];
+  for (let at; (at = name(all.length)) !== null;) all.push(at);
+  return all;
+};
+
+class Mobil {
+  constructor(library, fused) {
+    const { x } = library, text = (at) => (at === 0 ? null : library.text(at));
+    this.library = library;
+    /** Whether bits are those of desktops. */
+    this.fused = fused;
+    this.version = library.text(x.mobil_library_version());
+    this.segments = listed((i) => text(x.mobil_segment_name(i)));
+    this.parents = this.segments.map((_, i) => x.mobil_segment_parent(i));
+    this.muscles = listed((i) => text(x.mobil_muscle_name(i)));
+    /** A walk's style: {name, unit, meaning, low, high, usual}, in the order in which spawn and changeWalk take it. */
+    this.style = library.within((take) => {
+      const at = take(structs.mobil_style_number.size);
+      return listed((i) => (x.mobil_style(i, at) === 0 ? library.object('mobil_style_number', at, ['name', 'unit', 'meaning']) : null));
+    });
+  }
+  /** Ways to deform a muscle, among which is chosen, as measured: {name, method, vectors, moving, error_m, cost_us}. */
+  ways(muscle, { speed_m_s = 1.4, height_m = 1.8, inertia = false, pulling = false } = {}) {
+    return this.library.within((take) => {
+      const at = take(structs.mobil_way_figures.size);
+      return listed((i) => (this.library.x.mobil_way(i, muscle, speed_m_s, height_m, inertia ? 1 : 0, pulling ? 1 : 0, at) === 0 ? this.library.object('mobil_way_figures', at, ['name']) : null));
+    });
+  }
+  /** `options`: fields of mobil_options. */
+  world(options = {}) { return new World(this.library, options); }
+}
+
+/** `from`: the folder that holds the modules, or a module's bytes (Uint8Array), of which `fused` says which it is. */
+export async function load(from = '.', fused = canFuse()) {
+  if (!canRun()) throw new MobilError('this browser has no WebAssembly SIMD; Chrome 91, Firefox 89, Safari 16.4 and later have', c.MOBIL_REFUSED);
+  const source = from instanceof Uint8Array ? from : `${from}/${fused ? 'mobil' : 'mobil-plain'}.wasm`;
+  return new Mobil(await Library.load(source), fused);
+}

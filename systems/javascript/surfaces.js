@@ -1,0 +1,45 @@
+// Bones and muscles of one body as triangles: bound once, written for anybody of like build.
+import { structs } from './interface.js';
+
+export class Surfaces {
+  constructor(world, like, choice) {
+    const { library } = world;
+    this.world = world;
+    library.within((take) => {
+      const at = take(structs.mobil_surface_choice.size), out = take(4), id = take(8);
+      library.fill('mobil_surface_choice', 'MOBIL_SURFACE_CHOICE', at, choice);
+      library.u32.copyWithin(id >> 2, like.ids >> 2, (like.ids >> 2) + 2);
+      world.must(library.x.mobil_bind_surfaces(world.at, id, at, out));
+      this.at = library.u32[out >> 2];
+      this.vertices = library.x.mobil_vertex_count(this.at);
+      const indices = library.x.mobil_index_count(this.at), index = take(4 * indices);
+      world.must(library.x.mobil_indices(this.at, index, indices));
+      /** Three a triangle. */
+      this.indices = library.u32.slice(index >> 2, (index >> 2) + indices);
+      /** {name, segment, muscle, side, first_vertex, vertices, first_index, indices}; of a bone `muscle` is below 0. */
+      this.parts = [];
+      const part = take(structs.mobil_part.size);
+      while (library.x.mobil_surface_part(this.at, this.parts.length, part) === 0) this.parts.push(library.object('mobil_part', part, ['name']));
+    });
+    this.buffer = library.allocate(24 * this.vertices);
+  }
+  /** Of each vertex place and normal, six floats, after the last tick: a view, good until the next call. `origin` is
+   *  subtracted first. */
+  write(person, origin = [0, 0, 0]) {
+    const { library } = this.world, bytes = 24 * this.vertices;
+    library.within((take) => {
+      const at = take(structs.mobil_surface_target.size);
+      library.fill('mobil_surface_target', 'MOBIL_SURFACE_TARGET', at, {
+        surfaces: this.at, positions: this.buffer, normals: this.buffer + 12, position_stride: 24, normal_stride: 24,
+        position_bytes: bytes, normal_bytes: bytes - 12, origin,
+      });
+      library.u32.copyWithin((at + structs.mobil_surface_target.fields.id.at) >> 2, person.ids >> 2, (person.ids >> 2) + 2);
+      this.world.must(library.x.mobil_write_surfaces(this.world.at, at, 0, 1));
+    });
+    return library.f32.subarray(this.buffer >> 2, (this.buffer >> 2) + 6 * this.vertices);
+  }
+  drop() {
+    this.world.library.x.mobil_drop_surfaces(this.at);
+    this.world.library.release(this.buffer);
+  }
+}

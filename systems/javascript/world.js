@@ -1,0 +1,267 @@
+// People, their walks and muscles, choosing, time and reading: mobil.h as a class. Arrays that come out are views into
+// the library's memory, good until the next call: copy what you keep (`.slice()`).
+import { constants as c, structs } from './interface.js';
+import { MobilError } from './library.js';
+import { Surfaces } from './surfaces.js';
+
+export const METHODS = { static: c.MOBIL_STATIC, ecd: c.MOBIL_ECD, icd: c.MOBIL_ICD, caa: c.MOBIL_CAA, reduced: c.MOBIL_REDUCED, none: c.MOBIL_NONE };
+export const AXES = { yUp: c.MOBIL_AXES_Y_UP, unity: c.MOBIL_AXES_UNITY, unreal: c.MOBIL_AXES_UNREAL, godot: c.MOBIL_AXES_GODOT, zUp: c.MOBIL_AXES_Z_UP };
+export const CONSTITUTIONS = ['thin', 'average', 'athletic', 'heavy'];
+const given = { speed_m_s: c.MOBIL_SPEED, step_length_m: c.MOBIL_STEP_LENGTH, step_frequency_hz: c.MOBIL_STEP_FREQUENCY, heading_rad: c.MOBIL_HEADING };
+const idBytes = structs.mobil_id.size;
+
+/** Some people of one world: their handles, in the library's memory. */
+export class People {
+  constructor(library, ids, count) {
+    this.library = library;
+    this.ids = ids;
+    this.count = count;
+  }
+  /** One of them, or some: a view, good as long as these are. */
+  slice(begin, end = begin + 1) {
+    return new People(this.library, this.ids + idBytes * begin, Math.min(end, this.count) - begin);
+  }
+  /** These handles are forgotten; the people stay. */
+  forget() {
+    this.library.release(this.ids);
+    this.library.release(this.rows ?? 0);
+  }
+}
+
+export class World {
+  /** `options`: fields of mobil_options, as tick_s. */
+  constructor(library, options = {}) {
+    this.library = library;
+    library.within((take) => {
+      const at = take(structs.mobil_options.size), out = take(4), line = take(256);
+      library.fill('mobil_options', 'MOBIL_OPTIONS', at, options);
+      const code = library.x.mobil_create(at, out, line, 256);
+      if (code !== 0) throw new MobilError(library.text(line), code);
+      this.at = library.u32[out >> 2];
+    });
+    this.tick_s = library.x.mobil_tick_s(this.at);
+  }
+  destroy() { this.library.x.mobil_destroy(this.at); this.at = 0; }
+
+  /** Throws what the library refused. */
+  must(code) {
+    if (code < 0) throw new MobilError(this.library.text(this.library.x.mobil_message(this.at)), code);
+    return code;
+  }
+  #call(name, ...rest) { return this.must(this.library.x[`mobil_${name}`](this.at, ...rest)); }
+  #struct(take, name, which, fields) {
+    const at = take(structs[name].size);
+    this.library.fill(name, which, at, fields);
+    return at;
+  }
+  #muscles(take, fields) { return fields ? this.#struct(take, 'mobil_muscles', 'MOBIL_MUSCLES', fields) : 0; }
+  #style(take, style) {
+    const at = take(4 * style.length);
+    this.library.f32.set(style, at >> 2);
+    return at;
+  }
+  /** Which numbers are said, and the style's place; `at` is a filled mobil_person or mobil_walk. */
+  #walk(take, name, at, request) {
+    const { style, ...fields } = request;
+    let bits = 0;
+    for (const [field, bit] of Object.entries(given)) if (fields[field] !== undefined) bits |= bit;
+    if (style) {
+      bits |= c.MOBIL_STYLE;
+      fields.style = this.#style(take, style);
+      fields.style_count = style.length;
+    }
+    for (const [field, value] of Object.entries(fields)) if (value !== undefined) this.library.set(name, at, field, value);
+    this.library.set(name, at, 'given', name === 'mobil_person' ? bits & ~c.MOBIL_HEADING : bits);
+  }
+
+  /** `requests`: fields of mobil_person, as {height_m: 1.8, mass_kg: 80, speed_m_s: 1.4, place: [0, 0, 0]}; `style`
+   *  is an array in the order of `library.style`. `muscles`: fields of mobil_muscles, or null. All come or none. */
+  spawn(requests, muscles = null) {
+    return this.library.within((take) => {
+      const { size } = structs.mobil_person, at = take(size * requests.length);
+      requests.forEach((request, i) => {
+        this.library.fill('mobil_person', 'MOBIL_PERSON', at + size * i);
+        this.#walk(take, 'mobil_person', at + size * i, request);
+      });
+      const which = this.#muscles(take, muscles), ids = this.library.allocate(idBytes * requests.length);
+      try {
+        this.#call('spawn', at, size, requests.length, which, ids);
+      } catch (error) {
+        this.library.release(ids);
+        throw error;
+      }
+      return new People(this.library, ids, requests.length);
+    });
+  }
+  despawn(people) {
+    this.#call('despawn', people.ids, people.count);
+    people.forget();
+  }
+  /** One walk for all of them, from their next step on; what is not said stays. */
+  changeWalk(people, walk) {
+    this.library.within((take) => {
+      const at = this.#struct(take, 'mobil_walk', 'MOBIL_WALK');
+      this.#walk(take, 'mobil_walk', at, walk);
+      this.#call('change_walk', people.ids, people.count, at);
+    });
+  }
+  /** Puts a walker elsewhere at once; no inertia is felt. */
+  place(person, place, heading_rad) {
+    this.library.within((take) => {
+      const at = take(12);
+      this.library.f32.set(place, at >> 2);
+      this.#call('place', ...this.#passed(take, this.#id(person)), at, heading_rad);
+    });
+  }
+  setForces(people, on = true) { this.#call('set_forces', people.ids, people.count, on ? 1 : 0); }
+
+  // ---- Muscles
+  /** Fields of mobil_muscles; null: they go. */
+  setMuscles(people, muscles) { this.library.within((take) => this.#call('set_muscles', people.ids, people.count, this.#muscles(take, muscles))); }
+  /** Another method of one muscle, both sides: fields of mobil_method. */
+  setMethod(people, muscle, method) {
+    this.library.within((take) => this.#call('set_method', people.ids, people.count, muscle, this.#struct(take, 'mobil_method', 'MOBIL_METHOD', method)));
+  }
+  /** Makes what these muscles share, so that nobody waits for it later. */
+  prepare(muscles) { this.library.within((take) => this.#call('prepare', this.#muscles(take, muscles))); }
+  bake() {
+    return this.library.within((take) => {
+      const bytes = take(4);
+      this.#call('bake', 0, 0, bytes);
+      const room = this.library.u32[bytes >> 2], at = take(room);
+      this.#call('bake', at, room, bytes);
+      return this.library.u8.slice(at, at + room);
+    });
+  }
+  /** `baked`: a Uint8Array that bake() of this version gave. */
+  loadBaked(baked) {
+    this.library.within((take) => {
+      const at = take(baked.length);
+      this.library.u8.set(baked, at);
+      this.#call('load_baked', at, baked.length);
+    });
+  }
+
+  // ---- Choosing methods by what a scene calls for
+  /** Fields of mobil_choosing; `muscles` as of spawn. */
+  startChoosing(options = {}, muscles = null) {
+    this.library.within((take) => this.#call('start_choosing', this.#struct(take, 'mobil_choosing', 'MOBIL_CHOOSING', options), this.#muscles(take, muscles)));
+  }
+  /** Fields of mobil_scene. */
+  setScene(scene) { this.library.within((take) => this.#call('set_scene', this.#struct(take, 'mobil_scene', 'MOBIL_SCENE', scene))); }
+  manage(people, needs = {}) {
+    this.library.within((take) => this.#call('manage', people.ids, people.count, this.#struct(take, 'mobil_needs', 'MOBIL_NEEDS', needs)));
+  }
+  letGo(people) { this.#call('release', people.ids, people.count); }
+  /** Before a tick, or less often; what it did. */
+  choose() {
+    return this.library.within((take) => {
+      const at = this.#struct(take, 'mobil_chosen', 'MOBIL_CHOSEN');
+      this.#call('choose', at);
+      return this.library.object('mobil_chosen', at);
+    });
+  }
+  /** Why a muscle has its method, its predicted error and its cost. */
+  why(person, muscle) {
+    return this.library.within((take) => {
+      const line = take(256), error = take(4), cost = take(8), id = this.#id(person);
+      this.#call('why', ...this.#passed(take, id), muscle, line, 256, error, cost);
+      return { why: this.library.text(line), error_m: this.library.f32[error >> 2], cost_us: this.library.data.getFloat64(cost, true) };
+    });
+  }
+  /** What a muscle has now: fields of mobil_method. */
+  method(person, muscle) {
+    return this.library.within((take) => {
+      const at = this.#struct(take, 'mobil_method', 'MOBIL_METHOD');
+      this.#call('get_method', ...this.#passed(take, this.#id(person)), muscle, at);
+      return this.library.object('mobil_method', at);
+    });
+  }
+  #id(person) { return this.library.u32.slice(person.ids >> 2, (person.ids >> 2) + 2); }
+  // A struct by value goes by pointer to a copy, as wasm's C convention has it.
+  #passed(take, id) {
+    const at = take(idBytes);
+    this.library.u32.set(id, at >> 2);
+    return [at];
+  }
+
+  // ---- Time
+  tick(ticks = 1) { this.#call('tick', ticks); }
+  /** As many ticks as the time fed so far makes: {count, alpha, dropped_s}. */
+  advance(seconds) {
+    return this.library.within((take) => {
+      const at = take(structs.mobil_ticks.size);
+      this.#call('advance', seconds, at);
+      return this.library.object('mobil_ticks', at);
+    });
+  }
+  get time_s() { return this.library.x.mobil_time_s(this.at); }
+
+  // ---- Reading
+  #rows(people, floats) {
+    if (!(people.room >= floats * people.count)) {
+      this.library.release(people.rows ?? 0);
+      people.rows = this.library.allocate(4 * floats * people.count);
+      people.room = floats * people.count;
+    }
+    return people.rows;
+  }
+  #floats(at, count) { return this.library.f32.subarray(at >> 2, (at >> 2) + count); }
+  /** Three rows of four a segment, 48 a person: 576 floats, as a shader's texels take them. `ahead_s`: an instant after
+   *  the last tick. */
+  matrices(people, ahead_s = 0) {
+    const out = this.#rows(people, 576);
+    this.library.within((take) => {
+      const layout = this.#struct(take, 'mobil_pose_layout', 'MOBIL_POSE_LAYOUT', { form: c.MOBIL_MATRIX, ahead_s });
+      this.#call('poses', people.ids, people.count, layout, out, 0);
+    });
+    return this.#floats(out, 576 * people.count);
+  }
+  /** Rows of MOBIL_JOINTS, MOBIL_FEET and so on. */
+  read(what, people) {
+    const floats = this.library.x.mobil_row_floats(what), out = this.#rows(people, floats);
+    this.#call('read', what, people.ids, people.count, out, 0);
+    return this.#floats(out, floats * people.count);
+  }
+  /** Rows of MOBIL_LINE, MOBIL_REPORT and so on, of one muscle and side. */
+  readMuscle(what, people, muscle, side = c.MOBIL_RIGHT) {
+    const floats = this.library.within((take) => this.must(this.library.x.mobil_muscle_row_floats(this.at, what, ...this.#passed(take, this.#id(people)), muscle, side)));
+    const out = this.#rows(people, floats);
+    this.#call('read_muscles', what, people.ids, people.count, muscle, side, out, 0);
+    return this.#floats(out, floats * people.count);
+  }
+  /** What each system cost in the last tick: {name, module, seconds, entities}. */
+  cost() {
+    return this.library.within((take) => {
+      const at = take(structs.mobil_system.size), all = [];
+      while (this.library.x.mobil_cost(this.at, all.length, at) === 0) all.push(this.library.object('mobil_system', at, ['name', 'module']));
+      return all;
+    });
+  }
+  /** Bones and muscles as triangles: fields of mobil_surface_choice. */
+  surfaces(like, choice = {}) { return new Surfaces(this, like, choice); }
+
+  // ---- State
+  save() {
+    return this.library.within((take) => {
+      const room = this.library.x.mobil_snapshot_bytes(this.at), at = take(room), bytes = take(4);
+      this.#call('save', at, room, bytes);
+      return this.library.u8.slice(at, at + this.library.u32[bytes >> 2]);
+    });
+  }
+  restore(state) {
+    this.library.within((take) => {
+      const at = take(state.length);
+      this.library.u8.set(state, at);
+      this.#call('restore', at, state.length);
+    });
+  }
+  /** 64 bits in hexadecimal: equal states, equal hashes, on every machine that fuses multiply-adds. */
+  hash() {
+    return this.library.within((take) => {
+      const at = take(8);
+      this.#call('hash', at);
+      return [1, 0].map((i) => this.library.u32[(at >> 2) + i].toString(16).padStart(8, '0')).join('');
+    });
+  }
+}

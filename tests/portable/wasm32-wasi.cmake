@@ -1,0 +1,18 @@
+# WebAssembly with Debian's clang-19, lld-19, wasi-libc and libc++-19-dev-wasm32. Relaxed SIMD is what fuses
+# multiply-adds: without it bits are those of machines that do not fuse.
+set(CMAKE_SYSTEM_NAME Generic)
+set(CMAKE_SYSTEM_PROCESSOR wasm32)
+set(CMAKE_CXX_COMPILER clang++-19)
+set(CMAKE_C_COMPILER clang-19)
+set(CMAKE_CXX_COMPILER_TARGET wasm32-wasi)
+set(CMAKE_C_COMPILER_TARGET wasm32-wasi)
+set(CMAKE_TRY_COMPILE_TARGET_TYPE STATIC_LIBRARY)
+find_program(CMAKE_AR NAMES llvm-ar-19 llvm-ar llvm-ar-14 REQUIRED)
+find_program(CMAKE_RANLIB NAMES llvm-ranlib-19 llvm-ranlib llvm-ranlib-14 REQUIRED)
+option(MOBIL_RELAXED_SIMD "Fused multiply-adds where the browser's processor has them" ON)
+set(CMAKE_CXX_FLAGS_INIT "-msimd128 -fno-rtti -fignore-exceptions -D_WASI_EMULATED_GETPID")
+if(MOBIL_RELAXED_SIMD)
+  string(APPEND CMAKE_CXX_FLAGS_INIT " -mrelaxed-simd")
+endif()
+# -O0 as a link option: clang runs any wasm-opt in PATH otherwise, and older ones do not know relaxed SIMD.
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-O0 -lwasi-emulated-getpid -Wl,-z,stack-size=1048576")

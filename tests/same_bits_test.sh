@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# This machine has the hashes of tests/portable/hashes.txt, which ARM and browsers have too (tests/portable/run).
+# Usage: same_bits_test.sh BUILD_FOLDER SOURCE_FOLDER. Exit status 77: skipped.
+set -euo pipefail
+if [ -r /proc/cpuinfo ] && [ "$(uname -m)" = x86_64 ] && ! grep -qw fma /proc/cpuinfo; then
+  echo "this processor does not fuse multiply-adds: its bits are others"
+  exit 77
+fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+cc -std=c89 -Wall -Wextra -pedantic -Werror -ffp-contract=off -I"$2" "$2/tests/portable/hashes.c" -o "$scratch/hashes" \
+  -L"$1" -lmobil -Wl,-rpath,"$1"
+"$scratch/hashes" | diff "$2/tests/portable/hashes.txt" -

@@ -1,5 +1,6 @@
 // Fused multiply-add of a register of floats, where the target can. Highway 1.0 does not use WebAssembly's relaxed one,
-// which is fused wherever the processor can fuse; the library then has the bits that it has elsewhere. For inclusion
+// which is fused wherever the processor can fuse, nor that of 128-bit registers on x86; the library then has the bits
+// that it has elsewhere. For inclusion
 // inside Highway's targets only.
 
 #if defined(MOBIL_ENGINE_FUSED_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -10,6 +11,9 @@
 #endif
 
 #include <hwy/highway.h>
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -19,6 +23,8 @@ template <class V>
 HWY_INLINE V mul_add(V a, V b, V c) {
 #if HWY_TARGET == HWY_WASM && defined(__wasm_relaxed_simd__)
   return V(__builtin_wasm_relaxed_madd_f32x4(a.raw, b.raw, c.raw));
+#elif HWY_TARGET == HWY_SSE4 && defined(__FMA__)
+  return V{_mm_fmadd_ps(a.raw, b.raw, c.raw)};
 #else
   return hwy::HWY_NAMESPACE::MulAdd(a, b, c);
 #endif
@@ -28,6 +34,8 @@ template <class V>
 HWY_INLINE V neg_mul_add(V a, V b, V c) {
 #if HWY_TARGET == HWY_WASM && defined(__wasm_relaxed_simd__)
   return V(__builtin_wasm_relaxed_nmadd_f32x4(a.raw, b.raw, c.raw));
+#elif HWY_TARGET == HWY_SSE4 && defined(__FMA__)
+  return V{_mm_fnmadd_ps(a.raw, b.raw, c.raw)};
 #else
   return hwy::HWY_NAMESPACE::NegMulAdd(a, b, c);
 #endif
@@ -37,6 +45,8 @@ template <class V>
 HWY_INLINE V mul_sub(V a, V b, V c) {
 #if HWY_TARGET == HWY_WASM && defined(__wasm_relaxed_simd__)
   return mul_add(a, b, hwy::HWY_NAMESPACE::Neg(c));
+#elif HWY_TARGET == HWY_SSE4 && defined(__FMA__)
+  return V{_mm_fmsub_ps(a.raw, b.raw, c.raw)};
 #else
   return hwy::HWY_NAMESPACE::MulSub(a, b, c);
 #endif

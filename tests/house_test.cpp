@@ -72,7 +72,7 @@ const std::map<std::string, std::vector<std::string>> order = {
     {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "c"}},  // modules, front doors
     {"demo",
      {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "compare", "gait_fit", "paper",
-      "bake", "crowd", "bench", "effects", "frontier", "stress"}},
+      "bake", "crowd", "view", "bench", "effects", "frontier", "stress"}},
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.

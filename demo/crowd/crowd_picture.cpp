@@ -15,7 +15,6 @@
 namespace mobil {
 namespace {
 
-constexpr int width = 1920, height = 1080;
 constexpr std::size_t most_figures = 64;
 constexpr float person_m = 1;  // half the height of the box that a person is taken for
 
@@ -29,11 +28,12 @@ Camera crowd_camera(const CrowdScene& scene) {
   return camera;
 }
 
-bool in_picture(const Camera& camera, const Vec3<float>& pelvis) {
+bool in_picture(const Camera& camera, int width, int height, const Vec3<float>& pelvis) {
   const Vec3<float> at = project(camera, width, height, pelvis);
   const Vec3<float> above = project(camera, width, height, {pelvis.x, pelvis.y + person_m, pelvis.z});
   const float margin = 2 * std::abs(above.y - at.y) + 50;
-  return at.z > 1 && at.x > -margin && at.x < width + margin && at.y > -margin && at.y < height + margin;
+  return at.z > 1 && at.x > -margin && at.x < static_cast<float>(width) + margin && at.y > -margin &&
+         at.y < static_cast<float>(height) + margin;
 }
 
 }  // namespace
@@ -46,9 +46,10 @@ struct CrowdCamera::Parts {
     RecordedScene drawn;
   };
 
-  explicit Parts(Renderer made) : renderer(std::move(made)) {}
+  Parts(Renderer made, int wide, int high) : renderer(std::move(made)), width(wide), height(high) {}
 
   Renderer renderer;
+  int width, height;
   Mannequins mannequins;
   std::map<std::uint64_t, Shown> figures;  // by person
   std::vector<DrawMesh> meshes;
@@ -61,10 +62,10 @@ CrowdCamera::CrowdCamera(CrowdCamera&&) noexcept = default;
 CrowdCamera& CrowdCamera::operator=(CrowdCamera&&) noexcept = default;
 CrowdCamera::~CrowdCamera() = default;
 
-Result<CrowdCamera> CrowdCamera::create() {
+Result<CrowdCamera> CrowdCamera::create(int width, int height) {
   auto renderer = Renderer::create(width, height);
   if (!renderer) return tl::unexpected(renderer.error());
-  return CrowdCamera(std::make_unique<Parts>(std::move(*renderer)));
+  return CrowdCamera(std::make_unique<Parts>(std::move(*renderer), width, height));
 }
 
 Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const Simulation& simulation, const Drawn& person) {
@@ -85,6 +86,10 @@ Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const Simulatio
   return &shown;
 }
 
+void CrowdCamera::forget(std::uint64_t number) {
+  parts_->figures.erase(number);
+}
+
 Result<void> CrowdCamera::take(const CrowdScene& scene, Image& image) {
   std::vector<Drawn> people;
   for (const CrowdWalker& walker : scene.walkers()) people.push_back({walker.entity, walker.number, walker.near});
@@ -99,9 +104,10 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
     Pose<float> pose;
   };
   std::vector<Seen> seen;
+  const int width = parts_->width, height = parts_->height;
   for (const Drawn& person : people) {
     const auto pose = simulation.get<Pose>(person.entity);
-    if (!pose || !in_picture(camera, pose->position_m[0])) continue;
+    if (!pose || !in_picture(camera, width, height, pose->position_m[0])) continue;
     const float distance = project(camera, width, height, pose->position_m[0]).z;
     seen.push_back({distance, &person, *pose});
   }

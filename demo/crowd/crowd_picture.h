@@ -16,8 +16,8 @@ namespace mobil {
 
 class CrowdCamera {
  public:
-  /// Pictures of 1920×1080. Errors: no driver.
-  static Result<CrowdCamera> create();
+  /// Errors: a size out of range (Renderer::create), no driver.
+  static Result<CrowdCamera> create(int width = 1920, int height = 1080);
   CrowdCamera(CrowdCamera&&) noexcept;
   CrowdCamera& operator=(CrowdCamera&&) noexcept;
   ~CrowdCamera();
@@ -31,6 +31,8 @@ class CrowdCamera {
     bool near;
   };
   Result<void> take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people, Image& image);
+  /// Lets go of the surfaces of who had this number.
+  void forget(std::uint64_t number);
 
  private:
   struct Parts;

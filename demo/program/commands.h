@@ -30,5 +30,6 @@ Subcommand paper_command();
 Subcommand frontier_command();
 Subcommand effects_command();
 Subcommand crowd_command();
+Subcommand view_command();
 
 }  // namespace mobil

@@ -30,6 +30,7 @@ int main(int argc, char** argv) {
       .footer = "Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out",
       .commands = {mobil::walk_command(), mobil::muscle_command(), mobil::body_command(), mobil::bench_command(),
                    mobil::compare_command(), mobil::stress_command(), mobil::paper_command(), mobil::frontier_command(),
-                   mobil::effects_command(), mobil::crowd_command(), mobil::bake_command(), mobil::gait_fit_command()}};
+                   mobil::effects_command(), mobil::crowd_command(), mobil::view_command(), mobil::bake_command(),
+                   mobil::gait_fit_command()}};
   return finish(mobil::run_program(program, argc, argv));
 }

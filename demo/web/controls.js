@@ -18,6 +18,7 @@ export function attempt(act, undo = () => {}) {
 function control(place, name, title, element) {
   const label = document.createElement('label'), text = document.createElement('span');
   text.textContent = name;
+  element.setAttribute('aria-label', name);
   if (title) label.title = title;
   label.append(text, element);
   document.getElementById(place).append(label);

@@ -89,13 +89,13 @@ export class Crowd {
     for (let i = 0; i < this.people.count; ++i) this.#colour(i, 0.2 + 0.3 * next(), 0.22 + 0.3 * next(), 0.26 + 0.3 * next());
   }
   /** Colours of the next `some` people by what their muscles cost a tick: grey where nothing is simulated, then blue to
-   *  red from 0.5 to 50 µs. */
+   *  red from 0.2 to 5 µs. */
   heat(some = 200) {
     for (let k = 0; k < Math.min(some, this.people.count); ++k) {
       const i = this.next++ % this.people.count, person = this.people.slice(i);
       let cost = 0;
       for (let muscle = 0; muscle < 4; ++muscle) cost += this.world.why(person, muscle).cost_us;
-      const hot = Math.min(1, Math.max(0, Math.log10(cost / 0.5) / 2));
+      const hot = Math.min(1, Math.max(0, Math.log10(cost / 0.2) / Math.log10(25)));
       if (cost < 0.01) this.#colour(i, 0.3, 0.3, 0.3);
       else this.#colour(i, 0.05 + 0.9 * hot, 0.25 * (1 - Math.abs(2 * hot - 1)) + 0.05, 0.9 * (1 - hot) + 0.03);
     }

@@ -59,10 +59,12 @@ class Page {
     const { world, scene } = this;
     const at = this.figure ? world.matrices(this.person).slice(0, 12) : [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
     const muscles = Object.fromEntries(Object.entries(this.#muscles()).filter(([, v]) => v !== undefined));
-    const person = world.spawn([{ ...request(scene, this.mobil.style), place: [0, 0, at[11]] }], muscles);
+    // Muscles that follow moments want forces first.
+    const person = world.spawn([{ ...request(scene, this.mobil.style), place: [0, 0, at[11]] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
     try {
-      this.#setMethods(person);
       if (scene.forces || scene.pull === 2) world.setForces(person);
+      if (scene.pull) world.setMuscles(person, muscles);
+      this.#setMethods(person);
       const figure = new Figure(world, person, this.stage.scene);
       if (this.person) {
         this.figure.drop();
@@ -159,6 +161,12 @@ class Page {
   }
   /** Plots and figures, less often than pictures. */
   tell() {
+    groups.forEach((_, i) => {
+      const select = element(`method${i}`), { method } = this.world.method(this.person, i);
+      select.disabled = !!this.choosing;
+      if (this.choosing) select.value = methodNames.find((name) => METHODS[name] === method);
+      else select.value = this.scene.methods[i];
+    });
     drawTrace(this.trace, this.scene.mass * 9.81);
     drawWays(this.ways, this.#chosenWays());
     const did = this.choosing && this.did ? `, muscles predicted ${(1000 * this.did.predicted_s).toFixed(2)} ms a tick, ${this.did.compacted} far people compact` : '';
@@ -193,14 +201,14 @@ class Page {
     slider('walk', { id: 'speed', name: 'speed', holder: scene, key: 'speed', low: 0, high: 8, step: 0.1, unit: ' km/h', act: walk });
     slider('walk', { id: 'step-length', name: 'step length', title: '0: as people of that leg would', holder: scene, key: 'step', low: 0, high: 1.1, step: 0.01, unit: ' m', act: walk });
     for (const n of this.mobil.style) {
-      const unit = n.unit === '1' ? '' : ` ${n.unit}`, name = n.name.replace(/_(deg|h|m|cycle|n_per_m)$/, '').replaceAll('_', ' ');
-      slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step: (n.high - n.low) / 100, unit, usual: n.usual, act: walk });
+      const unit = n.unit === '1' ? '' : ` ${n.unit}`, step = 10 ** Math.floor(Math.log10((n.high - n.low) / 50)), name = n.name.replace(/_(deg|h|m|cycle|n_per_m)$/, '').replaceAll('_', ' ');
+      slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step, unit, usual: n.usual, act: walk });
     }
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
     choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: () => this.remuscle() });
     toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: () => this.remuscle() });
-    toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.setForces(this.person, !!scene.forces) });
+    toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.setForces(this.person, !!scene.forces || scene.pull === 2) });
     slider('crowd', { id: 'people', name: 'people', holder: scene, key: 'crowd', low: 0, high: 5000, step: 20, act: () => this.crowded() });
     toggle('crowd', { id: 'choose', name: 'choose', title: 'each muscle by the cheapest method that this camera calls for', holder: scene, key: 'choose', act: () => this.chosen() });
     slider('crowd', { id: 'tolerance', name: 'error', title: 'how many pixels a muscle may be off, where methods are chosen', holder: scene, key: 'tolerance', low: 0.25, high: 8, step: 0.25, unit: ' px', act: () => {} });
@@ -277,7 +285,9 @@ async function start() {
     return;
   }
   const [mobil, baked] = await Promise.all([load('.'), bytes('bases.bin')]);
+  performance.mark('library');
   const page = new Page(mobil, baked);
+  performance.mark('people');
   globalThis.mobilPage = page;
   page.constants = { METHODS };
   page.step(still ? Math.round(60 * Number(query.get('t') ?? 2)) : 1);

@@ -1,6 +1,6 @@
 // Serves a folder of static files on this machine alone: node serve.mjs FOLDER [PORT]
 import http from 'node:http';
-import { readFile } from 'node:fs/promises';
+import { readFile, stat } from 'node:fs/promises';
 import path from 'node:path';
 
 const types = { '.html': 'text/html', '.js': 'text/javascript', '.css': 'text/css', '.wasm': 'application/wasm', '.jpg': 'image/jpeg' };
@@ -13,9 +13,10 @@ export async function serve(folder, port = 0) {
       const asked = decodeURIComponent(new URL(question.url, 'http://x').pathname);
       const file = path.join(root, asked.endsWith('/') ? `${asked}index.html` : asked);
       if (!file.startsWith(root + path.sep)) throw new Error('outside');
-      const body = await readFile(file);
-      answer.writeHead(200, { 'content-type': types[path.extname(file)] ?? 'application/octet-stream', 'cache-control': 'no-cache' });
-      answer.end(body);
+      const { mtimeMs, size } = await stat(file), etag = `"${mtimeMs}-${size}"`;
+      const known = question.headers['if-none-match'] === etag;
+      answer.writeHead(known ? 304 : 200, { 'content-type': types[path.extname(file)] ?? 'application/octet-stream', 'cache-control': 'no-cache', etag });
+      answer.end(known ? undefined : await readFile(file));
     } catch {
       answer.writeHead(404);
       answer.end();

@@ -18,7 +18,12 @@ export class Trace {
     const angles = world.read(c.MOBIL_JOINTS, person), row = [world.time_s, ...joints.map(([i]) => degrees * angles[i])];
     const force = orNaN(() => world.read(c.MOBIL_GROUND, person).slice(0, 6));
     row.push(force[1], force[4]);
-    for (let g = 0; g < 4; ++g) row.push(orNaN(() => 1000 * world.readMuscle(c.MOBIL_REPORT, person, g)[0]));
+    for (let g = 0; g < 4; ++g) {
+      row.push(orNaN(() => {
+        const [length, rest] = world.readMuscle(c.MOBIL_LINE, person, g);
+        return 1000 * (length - rest);
+      }));
+    }
     for (let g = 0; g < 4; ++g) row.push(orNaN(() => world.readMuscle(c.MOBIL_ACTIVATION, person, g)[1]));
     this.rows.push(row.map((v) => v ?? NaN));
     while (this.rows[0][0] < row[0] - keep_s) this.rows.shift();

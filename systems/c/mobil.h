@@ -31,7 +31,9 @@
 
 #include <stddef.h>
 
-#if defined(_WIN32) && defined(MOBIL_BUILD)
+#if defined(MOBIL_STATIC)
+#define MOBIL_API
+#elif defined(_WIN32) && defined(MOBIL_BUILD)
 #define MOBIL_API __declspec(dllexport)
 #elif defined(_WIN32)
 #define MOBIL_API __declspec(dllimport)

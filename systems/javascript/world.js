@@ -115,6 +115,19 @@ export class World {
   }
   setForces(people, on = true) { this.#call('set_forces', people.ids, people.count, on ? 1 : 0); }
 
+  /** Who is not looked at costs less so (mobil.h says what of them is kept); how many are so now. */
+  sleep(people) { return this.#changed('sleep', people); }
+  compact(people) { return this.#changed('compact', people); }
+  wake(people, within_m = 0.005) { this.#call('wake', people.ids, people.count, within_m); }
+  expand(people) { this.#call('expand', people.ids, people.count); }
+  #changed(name, people) {
+    return this.library.within((take) => {
+      const changed = take(4);
+      this.#call(name, people.ids, people.count, changed);
+      return this.library.u32[changed >> 2];
+    });
+  }
+
   // ---- Muscles
   /** Fields of mobil_muscles; null: they go. */
   setMuscles(people, muscles) { this.library.within((take) => this.#call('set_muscles', people.ids, people.count, this.#muscles(take, muscles))); }

@@ -11,6 +11,7 @@ test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calcul
 web_packages="cmake ninja-build clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32
   wasi-libc libeigen3-dev libhwy-dev libexpected-dev libfmt-dev"
 arm_packages="g++-aarch64-linux-gnu qemu-user"
+windows_packages="g++-mingw-w64-x86-64-posix wine64"
 
 # need PACKAGE…: installs what is missing through apt; a user who is not root gets the line to run instead.
 need() {

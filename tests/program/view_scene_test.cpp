@@ -52,7 +52,7 @@ TEST(ViewScene, WhatIsSetIsAndABodyComesWhereTheOldOneWas) {
   ASSERT_TRUE(scene->set(choice));
   EXPECT_EQ(scene->gone(), 0U);
   EXPECT_EQ(scene->gone(), std::nullopt);
-  EXPECT_NEAR(scene->place().z, z, 0.3F);
+  EXPECT_NEAR(scene->place().z, z, 0.45F);  // half a step: who comes strikes with the heel, the pelvis behind it
   for (std::size_t g = 0; g < view_groups; ++g) EXPECT_EQ(scene->method(g).method.method, choice.method[g]);
   EXPECT_EQ(scene->drawn().size(), 13U);
   choice.people = 30;

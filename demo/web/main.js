@@ -22,13 +22,13 @@ class Page {
     this.trace = new Trace();
     this.told = { tick: 0, draw: 0 };
     this.play(still);
-    this.#controls();
     if (!attempt(() => this.respawn())) {  // a link that nobody can walk
       const why = element('refusal').textContent;
       this.scene = structuredClone(usual);
       this.respawn();
       element('refusal').textContent = `${why}; what is usual is shown instead`;
     }
+    this.#controls();  // which hold the scene that is shown
     this.crowded();
     this.chosen();
   }
@@ -80,11 +80,6 @@ class Page {
     this.#curves();
     if (this.choosing) this.world.manage(this.person);
   }
-  /** Muscles anew in the same body. */
-  remuscle() {
-    if (this.choosing) this.world.letGo(this.person);
-    this.respawn();
-  }
   walk() {
     this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
     this.#curves();
@@ -97,7 +92,7 @@ class Page {
   #chosenWays() {
     return groups.map((_, i) => {
       const has = this.world.method(this.person, i);
-      return this.ways[i].find((way) => way.method === has.method && (has.method !== METHODS.reduced || (way.vectors === has.vectors && !!way.moving === !!has.moving)) && (way.method !== METHODS.none || true))?.name ?? '';
+      return this.ways[i].find((way) => way.method === has.method && (has.method !== METHODS.reduced || (way.vectors === has.vectors && !!way.moving === !!has.moving)))?.name ?? '';
     });
   }
 
@@ -206,8 +201,8 @@ class Page {
     }
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
-    choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: () => this.remuscle() });
-    toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: () => this.remuscle() });
+    choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: anew });
+    toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: anew });
     toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.setForces(this.person, !!scene.forces || scene.pull === 2) });
     slider('crowd', { id: 'people', name: 'people', holder: scene, key: 'crowd', low: 0, high: 5000, step: 20, act: () => this.crowded() });
     toggle('crowd', { id: 'choose', name: 'choose', title: 'each muscle by the cheapest method that this camera calls for', holder: scene, key: 'choose', act: () => this.chosen() });

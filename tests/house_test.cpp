@@ -71,8 +71,8 @@ const std::map<std::string, std::vector<std::string>> order = {
     {"assets", {"fem", "reduction", "body", "gait", "muscles", "surfaces", "finite", "files", "import", "export"}},
     {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "c"}},  // modules, front doors
     {"demo",
-     {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "compare", "gait_fit", "paper",
-      "bake", "crowd", "view", "bench", "effects", "frontier", "stress"}},
+     {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "anatomy", "compare",
+      "gait_fit", "paper", "bake", "crowd", "view", "bench", "effects", "frontier", "stress"}},
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.

@@ -4,103 +4,158 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cmath>
 #include <filesystem>
+#include <system_error>
 #include <thread>
+#include <utility>
 
 #include "assets/import/anatomy_manifest.h"
+#include "assets/import/mesh_check.h"
 #include "assets/import/mesh_file.h"
+#include "assets/import/mesh_place.h"
 #include "assets/import/simplify_surface.h"
-#include "assets/surfaces/surface_mesh.h"
 
 namespace mobil {
 namespace {
 
-constexpr double reach_limit_m = 1.5;
-constexpr double smallest_extent_m = 0.002;
+/// A row's mesh, whole and in mobil's frame, and its box in the file's.
+struct LoadedMesh {
+  SurfaceMesh mesh;
+  MeshBox raw, box;
+};
 
-/// In one unit with the landmarks: neither far away nor a speck.
-Result<void> check_place(const ManifestRow& row, const SurfaceMesh& mesh, const AnatomyLandmarks& landmarks) {
-  double reach = 0, extent = 0;
-  const auto& first = mesh.position.front();
-  for (const auto& p : mesh.position) {
-    const auto& h = landmarks.hip;
-    reach = std::max<double>(reach, std::hypot(p.x - h.x, p.y - h.y, p.z - h.z));
-    extent = std::max<double>(extent, std::hypot(p.x - first.x, p.y - first.y, p.z - first.z));
-  }
-  if (reach <= reach_limit_m && extent >= smallest_extent_m) return {};
-  return fail(
-      fmt::format("{} ({}): reaches {:.4g} m from the hip and is {:.4g} m large; valid: at most {} m and at least "
-                  "{} m: write every mesh in the units and frame of landmarks.csv",
-                  row.file, row.where, reach, extent, reach_limit_m, smallest_extent_m));
+tl::unexpected<Error> fault_of(const ManifestRow& row, std::string_view what) {
+  return fail(fmt::format("{} ({}): {}", row.file, row.where, what));
 }
 
-Result<SurfaceMesh> load_mesh(const ManifestRow& row, const LandmarkTable& frame, const AnatomyOptions& options) {
+/// Reads a row's mesh and mends it. What is known of it is in the part's report in any case.
+Result<LoadedMesh> load_mesh(ManifestRow& row, const LandmarkTable& table, const AnatomyOptions& options) {
+  SurfaceReport& report = row.part.report;
   auto file = read_mesh(row.file);
   if (!file) return fail(fmt::format("{} ({})", file.error().message, row.where));
+  report.triangles = file->triangles_in_file;
   if (row.triangles && *row.triangles != file->triangles_in_file) {
     return fail(
         fmt::format("{}: {} triangles, {} says {}; the file may be cut short: copy it again, or mend the manifest",
                     row.file, file->triangles_in_file, row.where, *row.triangles));
   }
-  SurfaceMesh& mesh = file->mesh;
-  const EdgeCount edges = count_edges(mesh);
-  if (edges.overused > 0) {
-    return fail(
-        fmt::format("{} ({}): {} edges are used by more than two triangles, valid: 0; take the extra faces away "
-                    "or split the edges in a mesh editor",
-                    row.file, row.where, edges.overused));
-  }
-  if (row.watertight && edges.border > 0) {
+  LoadedMesh loaded{std::move(file->mesh), {}, {}};
+  SurfaceMesh& mesh = loaded.mesh;
+  if (auto done = check_edges(mesh, report); !done) return fault_of(row, done.error().message);
+  if (row.watertight && report.open_edges > 0) {
     return fail(
         fmt::format("{}: {} open edges where {} says watertight; the file may be damaged: copy it again, close "
                     "the holes, or write 'no' there",
-                    row.file, edges.border, row.where));
+                    row.file, report.open_edges, row.where));
   }
-  for (auto& p : mesh.position) p = to_mobil(p.x, p.y, p.z, frame.metres_per_unit);
-  if (auto place = check_place(row, mesh, frame.landmarks); !place) return fail(place.error().message);
-  if (edges.border == 0 && enclosed_volume(mesh) < 0) turn_over(mesh.triangle);
-  const bool bone = row.part.kind == AnatomyKind::bone;
-  if (!bone) remove_specks(mesh, options.speck_share);
-  SurfaceMesh light = clustered(mesh, bone ? options.bone_cell_m : options.muscle_cell_m);
+  loaded.raw = box_of(mesh);
+  for (auto& p : mesh.position) {
+    p = to_mobil(static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z), row.frame);
+  }
+  loaded.box = box_of(mesh);
+  if (const auto wrong = misplaced(loaded.box, row.part, table.landmarks, {})) {
+    return fault_of(row, *wrong + frames_that_fit(loaded.raw, row.part, table.landmarks, {}));
+  }
+  if (!row.part.midline) {
+    if (auto done = keep_right_side(mesh, table.landmarks.middle_x, report); !done) {
+      return fault_of(row, done.error().message);
+    }
+    loaded.box = box_of(mesh);
+  }
+  if (auto done = mend_and_check(mesh, row.part.kind, options.speck_share, report); !done) {
+    return fault_of(row, done.error().message);
+  }
+  return loaded;
+}
+
+/// The part with its mesh as light as `options` says.
+Result<void> finish_part(const ManifestRow& row, const LoadedMesh& loaded, const AnatomyOptions& options,
+                         AnatomyPart& part) {
+  const bool bone = part.kind == AnatomyKind::bone;
+  SurfaceMesh light = clustered(loaded.mesh, bone ? options.bone_cell_m : options.muscle_cell_m);
   if (light.triangle.empty()) {
-    return fail(fmt::format("{} ({}): no triangle is left after simplification; choose cells smaller than the mesh",
-                            row.file, row.where));
+    return fault_of(row, "no triangle is left after simplification; choose cells smaller than the mesh");
   }
-  light.name = row.part.mesh.name;
-  return light;
+  light.name = std::move(part.mesh.name);
+  part.mesh = std::move(light);
+  return {};
+}
+
+/// Calls `work` with each number below `count`, on several threads.
+template <class Work>
+void on_threads(std::size_t count, unsigned threads, const Work& work) {
+  std::atomic<std::size_t> next{0};
+  const auto take = [&] {
+    for (std::size_t i = next++; i < count; i = next++) work(i);
+  };
+  std::vector<std::thread> helpers;
+  for (unsigned t = 1; t < threads; ++t) helpers.emplace_back(take);
+  take();
+  for (auto& helper : helpers) helper.join();
+}
+
+void survey_rows(std::vector<ManifestRow>& row, const LandmarkTable& table, const AnatomyOptions& options,
+                 AnatomySurvey& survey) {
+  std::vector<Result<LoadedMesh>> loaded(row.size(), fail("not read"));
+  on_threads(row.size(), options.threads, [&](std::size_t i) { loaded[i] = load_mesh(row[i], table, options); });
+  std::vector<PlacedBone> bones;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (loaded[i] && row[i].part.kind == AnatomyKind::bone) bones.push_back({row[i].part.origin, loaded[i]->box});
+  }
+  survey.mesh.resize(row.size());
+  on_threads(row.size(), options.threads, [&](std::size_t i) {
+    SurveyedMesh& mesh = survey.mesh[i];
+    mesh.file = row[i].name;
+    mesh.part = std::move(row[i].part);
+    Result<void> done;
+    if (!loaded[i]) {
+      done = tl::unexpected(loaded[i].error());
+    } else if (const auto wrong = misplaced(loaded[i]->box, mesh.part, table.landmarks, bones)) {
+      done = fault_of(row[i], *wrong + frames_that_fit(loaded[i]->raw, mesh.part, table.landmarks, bones));
+    } else {
+      done = finish_part(row[i], *loaded[i], options, mesh.part);
+    }
+    if (!done) mesh.fault = std::move(done.error());
+    loaded[i] = fail("taken");
+  });
 }
 
 }  // namespace
 
-Result<Anatomy> load_anatomy(const std::string& folder, const AnatomyOptions& options) {
-  if (!std::filesystem::is_directory(folder)) {
-    return fail(
+AnatomySurvey survey_anatomy(const std::string& folder, const AnatomyOptions& options) {
+  AnatomySurvey survey;
+  std::error_code error;
+  if (!std::filesystem::is_directory(folder, error)) {
+    survey.faults.push_back(
         fmt::format("{}: no such folder; name one that holds manifest.csv, landmarks.csv and the meshes", folder));
+    return survey;
   }
-  const auto frame = read_landmarks(folder);
-  if (!frame) return fail(frame.error().message);
-  auto rows = read_manifest(folder, frame->metres_per_unit, options);
-  if (!rows) return fail(rows.error().message);
-
-  std::vector<Result<SurfaceMesh>> mesh(rows->size(), fail("not read"));
-  std::atomic<std::size_t> next{0};
-  const auto work = [&] {
-    for (std::size_t i = next++; i < rows->size(); i = next++) mesh[i] = load_mesh((*rows)[i], *frame, options);
-  };
-  std::vector<std::thread> helpers;
-  for (unsigned t = 1; t < options.threads; ++t) helpers.emplace_back(work);
-  work();
-  for (auto& helper : helpers) helper.join();
-
-  Anatomy anatomy{frame->metres_per_unit, frame->landmarks, {}};
-  for (std::size_t i = 0; i < rows->size(); ++i) {
-    if (!mesh[i]) return fail(mesh[i].error().message);
-    AnatomyPart part = std::move((*rows)[i].part);
-    part.mesh = std::move(*mesh[i]);
-    anatomy.part.push_back(std::move(part));
+  const auto table = read_landmarks(folder);
+  if (!table) {
+    survey.faults.push_back(table.error().message);
+    return survey;
   }
-  return anatomy;
+  survey.anatomy.metres_per_unit = table->frame.metres_per_unit;
+  survey.anatomy.landmarks = table->landmarks;
+  survey.anatomy.said = table->said;
+  auto manifest = read_manifest(folder, table->frame, options);
+  if (!manifest) {
+    survey.faults.push_back(manifest.error().message);
+    return survey;
+  }
+  survey.faults = std::move(manifest->faults);
+  survey_rows(manifest->row, *table, options, survey);
+  return survey;
+}
+
+Result<Anatomy> load_anatomy(const std::string& folder, const AnatomyOptions& options) {
+  AnatomySurvey survey = survey_anatomy(folder, options);
+  if (!survey.faults.empty()) return fail(std::move(survey.faults.front()));
+  for (SurveyedMesh& mesh : survey.mesh) {
+    if (mesh.fault) return tl::unexpected(std::move(*mesh.fault));
+    survey.anatomy.part.push_back(std::move(mesh.part));
+  }
+  return std::move(survey.anatomy);
 }
 
 }  // namespace mobil

@@ -10,10 +10,12 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <tuple>
 #include <utility>
 
 #include "assets/files/csv_table.h"
+#include "assets/import/mesh_text.h"
 #include "assets/muscles/muscle_table.h"
 
 namespace mobil {
@@ -131,7 +133,7 @@ bool wanted(const AnatomyPart& part, const AnatomyOptions& options) {
 
 /// A point of three columns PREFIX_x, _y, _z; nothing where the columns or all three cells are empty.
 Result<std::optional<Vec3<float>>> point(const CsvTable& table, std::size_t row, const std::string& prefix,
-                                         double metres_per_unit) {
+                                         const MeshFrame& frame) {
   const std::array<std::string_view, 3> text = {cell(table, row, prefix + "_x"), cell(table, row, prefix + "_y"),
                                                 cell(table, row, prefix + "_z")};
   if (text[0].empty() && text[1].empty() && text[2].empty()) return std::optional<Vec3<float>>();
@@ -140,10 +142,10 @@ Result<std::optional<Vec3<float>>> point(const CsvTable& table, std::size_t row,
     return fail(fmt::format("{} line {}: {}_x, _y, _z are '{}', '{}', '{}'; write three numbers or leave all empty",
                             table.path, table.line[row], prefix, text[0], text[1], text[2]));
   }
-  return std::optional(to_mobil(*x, *y, *z, metres_per_unit));
+  return std::optional(to_mobil(*x, *y, *z, frame));
 }
 
-Result<void> read_attachments(const CsvTable& table, std::size_t row, double metres_per_unit, AnatomyPart& part) {
+Result<void> read_attachments(const CsvTable& table, std::size_t row, const MeshFrame& frame, AnatomyPart& part) {
   std::tie(part.origin, part.insertion) = usual_ends(part.kind, part.group);
   for (const bool origin : {true, false}) {
     const std::string prefix = origin ? "origin" : "insertion";
@@ -156,124 +158,204 @@ Result<void> read_attachments(const CsvTable& table, std::size_t row, double met
       }
       (origin ? part.origin : part.insertion) = *segment;
     }
-    auto place = point(table, row, prefix, metres_per_unit);
+    auto place = point(table, row, prefix, frame);
     if (!place) return fail(place.error().message);
     (origin ? part.origin_m : part.insertion_m) = *place;
   }
   return {};
 }
 
+using LandmarkPoint = std::array<double, 3>;
+
+/// Nothing where the table has no such row.
+Result<std::optional<LandmarkPoint>> landmark(const CsvTable& table, std::string_view name, std::string_view side) {
+  for (std::size_t row = 0; row < table.row.size(); ++row) {
+    if (cell(table, row, "name") != name || cell(table, row, "side") != side) continue;
+    const auto x = number(cell(table, row, "x")), y = number(cell(table, row, "y")), z = number(cell(table, row, "z"));
+    if (!x || !y || !z) {
+      return fail(fmt::format("{} line {}: {} is not three finite numbers; write x, y and z", table.path,
+                              table.line[row], name));
+    }
+    return std::optional(LandmarkPoint{*x, *y, *z});
+  }
+  return std::optional<LandmarkPoint>();
+}
+
+/// What the columns unit and up say of all rows; the cells of the first.
+Result<std::pair<std::string_view, std::string_view>> frame_cells(const CsvTable& table) {
+  const auto unit = cell(table, 0, "unit"), up = cell(table, 0, "up");
+  for (std::size_t row = 1; row < table.row.size(); ++row) {
+    if (cell(table, row, "unit") == unit && cell(table, row, "up") == up) continue;
+    return fail(
+        fmt::format("{} line {}: unit and up are '{}' and '{}', in the first row '{}' and '{}'; write the same "
+                    "in every row",
+                    table.path, table.line[row], cell(table, row, "unit"), cell(table, row, "up"), unit, up));
+  }
+  return std::pair(unit, up);
+}
+
+bool stands(const std::array<LandmarkPoint, 3>& joint, std::size_t up, double length) {
+  return joint[0][up] > joint[1][up] && joint[1][up] > joint[2][up] && joint[0][up] - joint[2][up] > 0.8 * length;
+}
+
+/// The frame by the columns, and where they are silent by the distance from hip to ankle.
+Result<MeshFrame> landmark_frame(const CsvTable& table, const std::array<LandmarkPoint, 3>& joint, double x_left) {
+  const auto cells = frame_cells(table);
+  if (!cells) return tl::unexpected(cells.error());
+  const auto [unit, up] = *cells;
+  auto frame = read_frame(unit, up, {}, fmt::format("{} line {}", table.path, table.line[0]));
+  if (!frame) return frame;
+  const double length = std::hypot(joint[0][0] - joint[2][0], joint[0][1] - joint[2][1], joint[0][2] - joint[2][2]);
+  const auto is_leg = [&](double metres_per_unit) {
+    return length * metres_per_unit >= 0.4 && length * metres_per_unit <= 1.3;
+  };
+  for (const double metres : {1.0, 0.01, 0.001}) {
+    if (unit.empty() && is_leg(metres)) frame->metres_per_unit = metres;
+  }
+  if (!is_leg(frame->metres_per_unit)) {
+    return fail(
+        unit.empty()
+            ? fmt::format("{}: hip to ankle is {:.4g}; expected 0.4 to 1.3 (metres), 40 to 130 (centimetres) or 400 to "
+                          "1300 (millimetres): write the folder in one of them, or name its unit in a column 'unit'",
+                          table.path, length)
+            : fmt::format("{}: hip to ankle is {:.4g} {}; expected 0.4 to 1.3 m: mend the column 'unit'", table.path,
+                          length, unit));
+  }
+  const bool upright_z = stands(joint, 2, length), upright_y = stands(joint, 1, length);
+  if (up.empty()) frame->y_up = upright_y;
+  if (!(frame->y_up ? upright_y : upright_z) || x_left <= joint[0][0]) {
+    return fail(
+        fmt::format("{}: hip, knee and ankle do not lie one below the other along z or y with the right leg at smaller "
+                    "x; expected a standing leg, axes +x left, +y back, +z up, or +x left, +y up, +z forward: turn the "
+                    "folder's frame",
+                    table.path));
+  }
+  return frame;
+}
+
+/// The path of a mesh that lies in the folder; links are followed.
+Result<std::string> file_in_folder(const std::string& folder, std::string_view file, const std::string& where) {
+  const std::filesystem::path named(file);
+  const bool plain = std::none_of(file.begin(), file.end(), [](unsigned char c) { return c < ' ' || c == 127; });
+  bool inside = plain && named.is_relative() && std::find(named.begin(), named.end(), "..") == named.end();
+  const std::filesystem::path path = folder / named;
+  std::error_code error;
+  if (inside && std::filesystem::exists(std::filesystem::symlink_status(path, error))) {
+    const auto home = std::filesystem::canonical(folder, error), resolved = std::filesystem::canonical(path, error);
+    inside = !error && std::mismatch(home.begin(), home.end(), resolved.begin(), resolved.end()).first == home.end();
+  }
+  if (inside) return folder + "/" + std::string(file);
+  return fail(
+      fmt::format("{}: file {} leads out of the folder; valid: a path below it without '..' and links: copy the "
+                  "mesh into the folder",
+                  where, shown(file)));
+}
+
+/// A row of the manifest; nothing where it is not wanted.
+Result<std::optional<ManifestRow>> read_row(const CsvTable& table, std::size_t row, const std::string& folder,
+                                            const MeshFrame& usual, const AnatomyOptions& options) {
+  const std::optional<ManifestRow> passed_over;
+  ManifestRow read;
+  read.where = fmt::format("{} line {}", table.path, table.line[row]);
+  const auto file = cell(table, row, "file"), side = cell(table, row, "side");
+  if (file.empty()) return fail(fmt::format("{}: the cell 'file' is empty; name a mesh in the folder", read.where));
+  if (side != "left" && side != "right" && side != "mid") {
+    return fail(fmt::format("{}: side '{}' is not known; valid: right, left, mid", read.where, side));
+  }
+  const auto kind = kind_of(cell(table, row, "kind"));
+  if (!kind) {
+    return fail(fmt::format("{}: kind '{}' is not known; valid: bone, muscle, tendon, skin", read.where,
+                            cell(table, row, "kind")));
+  }
+  if (side == "left") return passed_over;
+  const auto group = cell(table, row, "group");
+  read.part.kind = *kind;
+  if (*kind == AnatomyKind::muscle || *kind == AnatomyKind::tendon) {
+    find_muscle_of(read.part, group, cell(table, row, "name"), std::filesystem::path(file).stem().string());
+  }
+  if (!wanted(read.part, options)) return passed_over;
+  auto path = file_in_folder(folder, file, read.where);
+  if (!path) return tl::unexpected(path.error());
+  const auto frame = read_frame(cell(table, row, "unit"), cell(table, row, "up"), usual, read.where);
+  if (!frame) return tl::unexpected(frame.error());
+  read.frame = *frame;
+  read.part.midline = side == "mid";
+  read.part.mesh.name = std::filesystem::path(file).stem().string();
+  read.name = file;
+  read.file = std::move(*path);
+  if (*kind == AnatomyKind::bone) {
+    const auto segment = segment_of(read.part.mesh.name);
+    if (!segment) {
+      return fail(fmt::format("{}: '{}' is not a bone of the leg; valid beginnings of the file's name: {}", read.where,
+                              file, known_bones()));
+    }
+    read.part.origin = read.part.insertion = *segment;
+  } else if (auto done = read_attachments(table, row, *frame, read.part); !done) {
+    return tl::unexpected(done.error());
+  }
+  const auto triangles = cell(table, row, "triangles");
+  if (!triangles.empty()) {
+    const auto count = number(triangles);
+    if (!count || *count < 1 || *count > 1e9) {
+      return fail(fmt::format("{}: triangles '{}' is not a count; write a number from 1, or leave it empty", read.where,
+                              triangles));
+    }
+    read.triangles = static_cast<std::size_t>(*count);
+  }
+  read.watertight = cell(table, row, "watertight") == "yes";
+  return std::optional(std::move(read));
+}
+
 }  // namespace
 
 Result<LandmarkTable> read_landmarks(const std::string& folder) {
   const auto table = read_csv(folder + "/landmarks.csv", landmark_columns);
-  if (!table) return fail(table.error().message);
-  using Point = std::array<double, 3>;
-  const auto find = [&](std::string_view name, std::string_view side) -> Result<std::optional<Point>> {
-    for (std::size_t row = 0; row < table->row.size(); ++row) {
-      if (cell(*table, row, "name") != name || cell(*table, row, "side") != side) continue;
-      const auto x = number(cell(*table, row, "x")), y = number(cell(*table, row, "y")),
-                 z = number(cell(*table, row, "z"));
-      if (!x || !y || !z) {
-        return fail(fmt::format("{} line {}: {} is not three finite numbers; write x, y and z", table->path,
-                                table->line[row], name));
-      }
-      return std::optional(Point{*x, *y, *z});
-    }
-    return std::optional<Point>();
-  };
-  std::array<Point, 3> joint{};
+  if (!table) return tl::unexpected(table.error());
+  std::array<LandmarkPoint, 3> joint{};
   constexpr std::array<std::string_view, 3> names = {"hip_joint_centre", "knee_joint_centre", "ankle_joint_centre"};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto found = find(names[i], "right");
-    if (!found) return fail(found.error().message);
+    const auto found = landmark(*table, names[i], "right");
+    if (!found) return tl::unexpected(found.error());
     if (!*found)
       return fail(fmt::format("{}: no row '{},right'; add the joint centre's x, y, z", table->path, names[i]));
     joint[i] = **found;
   }
-  const auto hip_left = find(names[0], "left");
-  if (!hip_left) return fail(hip_left.error().message);
-
-  const double length = std::hypot(joint[0][0] - joint[2][0], joint[0][1] - joint[2][1], joint[0][2] - joint[2][2]);
-  LandmarkTable read;
-  if (length >= 0.4 && length <= 1.3) {
-    read.metres_per_unit = 1;
-  } else if (length < 400 || length > 1300) {
-    return fail(
-        fmt::format("{}: hip to ankle is {:.4g}; expected 0.4 to 1.3 (metres) or 400 to 1300 (millimetres): "
-                    "write the folder in one of the two",
-                    table->path, length));
-  }
+  const auto hip_left = landmark(*table, names[0], "left");
+  if (!hip_left) return tl::unexpected(hip_left.error());
   const double x_left = *hip_left ? (**hip_left)[0] : -joint[0][0];
-  const bool upright =
-      joint[0][2] > joint[1][2] && joint[1][2] > joint[2][2] && joint[0][2] - joint[2][2] > 0.8 * length;
-  if (!upright || x_left <= joint[0][0]) {
-    return fail(
-        fmt::format("{}: hip, knee and ankle do not lie one below the other along z with the right leg at "
-                    "smaller x; expected a standing leg, axes +x left, +y back, +z up: turn the folder's frame",
-                    table->path));
+  const auto frame = landmark_frame(*table, joint, x_left);
+  if (!frame) return tl::unexpected(frame.error());
+  LandmarkTable read;
+  read.frame = *frame;
+  const bool told = !cell(*table, 0, "unit").empty() && !cell(*table, 0, "up").empty();
+  const bool usual = !frame->y_up && (frame->metres_per_unit == 1 || frame->metres_per_unit == 0.001);
+  if (!told && !usual) {
+    read.said.push_back(fmt::format("{}: taken as {}, by hip to ankle; columns 'unit' and 'up' would say it",
+                                    table->path, frame_name(*frame)));
   }
-  const auto metres = [&](const Point& p) { return to_mobil(p[0], p[1], p[2], read.metres_per_unit); };
+  const auto metres = [&](const LandmarkPoint& p) { return to_mobil(p[0], p[1], p[2], *frame); };
   read.landmarks = {metres(joint[0]), metres(joint[1]), metres(joint[2]),
-                    static_cast<float>((x_left + joint[0][0]) / 2 * read.metres_per_unit)};
+                    static_cast<float>((x_left + joint[0][0]) / 2 * frame->metres_per_unit)};
   return read;
 }
 
-Result<std::vector<ManifestRow>> read_manifest(const std::string& folder, double metres_per_unit,
-                                               const AnatomyOptions& options) {
+Result<Manifest> read_manifest(const std::string& folder, const MeshFrame& frame, const AnatomyOptions& options) {
   const auto table = read_csv(folder + "/manifest.csv", manifest_columns);
-  if (!table) return fail(table.error().message);
-  std::vector<ManifestRow> rows;
+  if (!table) return tl::unexpected(table.error());
+  Manifest manifest;
   for (std::size_t row = 0; row < table->row.size(); ++row) {
-    ManifestRow read;
-    read.where = fmt::format("{} line {}", table->path, table->line[row]);
-    const auto file = cell(*table, row, "file"), side = cell(*table, row, "side");
-    if (file.empty()) return fail(fmt::format("{}: the cell 'file' is empty; name a mesh in the folder", read.where));
-    if (side != "left" && side != "right" && side != "mid") {
-      return fail(fmt::format("{}: side '{}' is not known; valid: right, left, mid", read.where, side));
+    auto read = read_row(*table, row, folder, frame, options);
+    if (!read) {
+      manifest.faults.push_back(std::move(read.error().message));
+    } else if (*read) {
+      manifest.row.push_back(std::move(**read));
     }
-    const auto kind = kind_of(cell(*table, row, "kind"));
-    if (!kind) {
-      return fail(fmt::format("{}: kind '{}' is not known; valid: bone, muscle, tendon, skin", read.where,
-                              cell(*table, row, "kind")));
-    }
-    if (side == "left") continue;
-    const auto group = cell(*table, row, "group");
-    read.part.kind = *kind;
-    if (*kind == AnatomyKind::muscle || *kind == AnatomyKind::tendon) {
-      find_muscle_of(read.part, group, cell(*table, row, "name"), std::filesystem::path(file).stem().string());
-    }
-    if (!wanted(read.part, options)) continue;
-    read.part.midline = side == "mid";
-    read.part.mesh.name = std::filesystem::path(file).stem().string();
-    read.file = folder + "/" + std::string(file);
-    if (*kind == AnatomyKind::bone) {
-      const auto segment = segment_of(read.part.mesh.name);
-      if (!segment) {
-        return fail(fmt::format("{}: '{}' is not a bone of the leg; valid beginnings of the file's name: {}",
-                                read.where, file, known_bones()));
-      }
-      read.part.origin = read.part.insertion = *segment;
-    } else if (auto done = read_attachments(*table, row, metres_per_unit, read.part); !done) {
-      return fail(done.error().message);
-    }
-    const auto triangles = cell(*table, row, "triangles");
-    if (!triangles.empty()) {
-      const auto count = number(triangles);
-      if (!count || *count < 1 || *count > 1e9) {
-        return fail(fmt::format("{}: triangles '{}' is not a count; write a number from 1, or leave it empty",
-                                read.where, triangles));
-      }
-      read.triangles = static_cast<std::size_t>(*count);
-    }
-    read.watertight = cell(*table, row, "watertight") == "yes";
-    rows.push_back(std::move(read));
   }
-  if (rows.empty()) {
+  if (manifest.row.empty() && manifest.faults.empty()) {
     return fail(
         fmt::format("{}: no row of kind bone, muscle or tendon on the right side; add at least one", table->path));
   }
-  return rows;
+  return manifest;
 }
 
 }  // namespace mobil

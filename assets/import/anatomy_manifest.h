@@ -7,34 +7,38 @@
 #include <vector>
 
 #include "assets/import/anatomy_folder.h"
+#include "assets/import/mesh_frame.h"
 
 namespace mobil {
 
 /// One wanted row: everything about a part but its mesh (whose name is set).
 struct ManifestRow {
   std::string where;  // "FOLDER/manifest.csv line N", for messages
+  std::string name;   // of the mesh's file, as written there
   std::string file;   // path of the mesh
+  MeshFrame frame;
   AnatomyPart part;
   std::optional<std::size_t> triangles;
   bool watertight = false;
 };
 
-struct LandmarkTable {
-  AnatomyLandmarks landmarks;
-  double metres_per_unit = 0.001;
+/// The rows that can be read and are wanted, in their order, and the faults of the others.
+struct Manifest {
+  std::vector<ManifestRow> row;
+  std::vector<std::string> faults;
 };
 
-/// Millimetres or metres are told from the distance hip to ankle (0.4–1.3 m). See load_anatomy for what fails.
+struct LandmarkTable {
+  AnatomyLandmarks landmarks;
+  MeshFrame frame;
+  std::vector<std::string> said;
+};
+
+/// Units and axes are told from hip to ankle (0.4–1.3 m) where the columns unit and up do not say them. See
+/// load_anatomy for what fails.
 Result<LandmarkTable> read_landmarks(const std::string& folder);
 
-/// The rows that `options` wants, in their order.
-Result<std::vector<ManifestRow>> read_manifest(const std::string& folder, double metres_per_unit,
-                                               const AnatomyOptions& options);
-
-/// anatomy (+x left, +y back, +z up; folder's units) → mobil (+x left, +y up, +z forward; m).
-inline Vec3<float> to_mobil(double x, double y, double z, double metres_per_unit) {
-  return {static_cast<float>(x * metres_per_unit), static_cast<float>(z * metres_per_unit),
-          static_cast<float>(-y * metres_per_unit)};
-}
+/// The rows that `options` wants; fails for a table that cannot be read, or has no such row.
+Result<Manifest> read_manifest(const std::string& folder, const MeshFrame& frame, const AnatomyOptions& options);
 
 }  // namespace mobil

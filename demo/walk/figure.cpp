@@ -53,6 +53,14 @@ Result<void> bind(const Human& human, const SurfaceChoice& choice, FittedMuscle&
   return {};
 }
 
+std::vector<std::string> all_said(const Anatomy& anatomy) {
+  std::vector<std::string> said = anatomy.said;
+  for (const AnatomyPart& part : anatomy.part) {
+    for (const std::string& line : part.report.said) said.push_back(part.mesh.name + ": " + line);
+  }
+  return said;
+}
+
 Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, const std::filesystem::path& folder) {
   const auto anatomy = load_anatomy(folder.string());
   if (!anatomy) return tl::unexpected(anatomy.error());
@@ -69,7 +77,9 @@ Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, cons
   for (auto& muscle : fitted->muscles) {
     if (auto done = bind(human, choice, muscle, drawn); !done) return tl::unexpected(done.error());
   }
-  return bound_figure(human, std::move(drawn), choice);
+  auto figure = bound_figure(human, std::move(drawn), choice);
+  if (figure) figure->said = all_said(*anatomy);
+  return figure;
 }
 
 }  // namespace

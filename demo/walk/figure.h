@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "assets/export/walk_recording.h"
@@ -15,6 +16,7 @@ struct Figure {
   std::vector<BoneSurface> bones;
   BodySurfaces muscles;              // muscles alone, of each right and left
   std::vector<Vec3<float>> colours;  // linear; of each part
+  std::vector<std::string> said;     // about the folder and its meshes, "FILE: …"
 };
 
 /// Surfaces for one person with muscles. Without a folder they are generated from published dimensions. Errors: those

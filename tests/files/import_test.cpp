@@ -401,11 +401,11 @@ TEST(BadAnatomy, Landmarks) {
   expect_refused(folder, {"landmarks.csv", "knee_joint_centre"});
   folder.write("landmarks.csv", head + hip + knee + "ankle_joint_centre,right,-80,nan,60\n");
   expect_refused(folder, {"landmarks.csv line 4", "ankle_joint_centre"});
-  folder.write("landmarks.csv", head + hip + knee + "ankle_joint_centre,right,-80,-54,800\n");
+  folder.write("landmarks.csv", head + hip + knee + "ankle_joint_centre,right,-80,-90,800\n");
   expect_refused(folder, {"landmarks.csv", "0.4 to 1.3"});
   folder.write("landmarks.csv", head +
-                                    "hip_joint_centre,right,-82,820,93\nknee_joint_centre,right,-74,434,65\nankle_"
-                                    "joint_centre,right,-80,60,54\n");
+                                    "hip_joint_centre,right,820,-82,93\nknee_joint_centre,right,434,-74,65\nankle_"
+                                    "joint_centre,right,60,-80,54\n");
   expect_refused(folder, {"landmarks.csv", "axes"});
   folder.write("landmarks.csv", "name,x,y,z\nhip,0,0,0\n");
   expect_refused(folder, {"landmarks.csv", "'side'"});

@@ -1,0 +1,32 @@
+#pragma once
+// What the readers of mesh formats share: triangles by index from what a file names.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "assets/import/mesh_file.h"
+#include "components/lanes.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// Vertices and triangles as a file names them: three indices each, all below the count of positions, which are finite.
+struct RawMesh {
+  std::vector<Vec3<float>> position;
+  std::vector<std::uint32_t> triangle;
+};
+
+/// See MeshFile. Vertices stand in the order in which triangles name them; those that none names are left out. Fails
+/// where no triangle has three different corners.
+Result<MeshFile> join_mesh(const RawMesh& raw, std::string_view path);
+
+/// "PATH line N: what", for faults of a text.
+tl::unexpected<Error> fault_in_line(std::string_view path, std::size_t line, std::string_view what);
+
+/// Fails for more triangles than most_mesh_triangles.
+tl::unexpected<Error> too_many_triangles(std::string_view path);
+
+}  // namespace mobil

@@ -1,0 +1,160 @@
+#include "assets/import/mesh_stl.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "assets/import/mesh_join.h"
+#include "assets/import/mesh_text.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t stl_head = 84, stl_facet = 50;
+
+std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
+  std::uint32_t word = 0;
+  for (std::size_t i = 0; i < 4; ++i) {
+    word |= static_cast<std::uint32_t>(static_cast<unsigned char>(bytes[at + i])) << (8 * i);
+  }
+  return word;
+}
+
+void add_facet(RawMesh& raw, const std::array<Vec3<float>, 3>& corner) {
+  for (const auto& p : corner) {
+    raw.triangle.push_back(static_cast<std::uint32_t>(raw.position.size()));
+    raw.position.push_back(p);
+  }
+}
+
+Result<MeshFile> read_binary_stl(std::string_view bytes, std::string_view path, std::size_t facets) {
+  if (facets > most_mesh_triangles) return too_many_triangles(path);
+  RawMesh raw;
+  raw.position.reserve(3 * facets);
+  raw.triangle.reserve(3 * facets);
+  for (std::size_t f = 0; f < facets; ++f) {
+    std::array<Vec3<float>, 3> corner{};
+    for (std::size_t c = 0; c < 3; ++c) {
+      const std::size_t at = stl_head + f * stl_facet + 12 * (c + 1);
+      const auto read = [&](std::size_t i) { return std::bit_cast<float>(little_endian(bytes, at + 4 * i)); };
+      corner[c] = {read(0), read(1), read(2)};
+      if (!std::isfinite(corner[c].x) || !std::isfinite(corner[c].y) || !std::isfinite(corner[c].z)) {
+        return fail(
+            fmt::format("{}: facet {} has a corner at ({}, {}, {}); every coordinate must be a finite number: export "
+                        "the mesh again",
+                        path, f + 1, corner[c].x, corner[c].y, corner[c].z));
+      }
+    }
+    add_facet(raw, corner);
+  }
+  return join_mesh(raw, path);
+}
+
+struct StlReader {
+  MeshText text;
+  std::string_view path;
+  RawMesh raw;
+};
+
+/// The words of the grammar in their order, wherever the lines end.
+Result<void> expect(StlReader& reader, std::string_view wanted) {
+  const auto word = next_word_of_any_line(reader.text);
+  if (same_word(word, wanted)) return {};
+  return fault_in_line(reader.path, reader.text.line,
+                       word.empty()
+                           ? fmt::format("the file ends where '{}' should stand; it is cut short: copy or "
+                                         "export it again",
+                                         wanted)
+                           : fmt::format("{} where '{}' should stand; export the mesh again", shown(word), wanted));
+}
+
+Result<void> read_facet(StlReader& reader) {
+  if (auto done = expect(reader, "normal"); !done) return done;
+  for (int i = 0; i < 3; ++i) {
+    const auto word = next_word_of_any_line(reader.text);
+    if (!is_number(word)) {
+      return fault_in_line(reader.path, reader.text.line,
+                           fmt::format("{} in a normal is not a number; export the mesh again", shown(word)));
+    }
+  }
+  if (auto done = expect(reader, "outer"); !done) return done;
+  if (auto done = expect(reader, "loop"); !done) return done;
+  std::array<Vec3<float>, 3> corner{};
+  for (auto& p : corner) {
+    if (auto done = expect(reader, "vertex"); !done) return done;
+    for (float* value : {&p.x, &p.y, &p.z}) {
+      const auto word = next_word_of_any_line(reader.text);
+      const auto number = coordinate(word);
+      if (!number) {
+        return fault_in_line(
+            reader.path, reader.text.line,
+            fmt::format("{} is not a finite number; write three decimals with a point: export the mesh again",
+                        shown(word)));
+      }
+      *value = *number;
+    }
+  }
+  if (auto done = expect(reader, "endloop"); !done) return done;
+  if (auto done = expect(reader, "endfacet"); !done) return done;
+  if (reader.raw.triangle.size() == 3 * most_mesh_triangles) return too_many_triangles(reader.path);
+  add_facet(reader.raw, corner);
+  return {};
+}
+
+/// From after "solid" to the end of the line of "endsolid".
+Result<void> read_solid(StlReader& reader) {
+  next_line(reader.text);  // the rest of the line is a name
+  for (;;) {
+    const auto word = next_word_of_any_line(reader.text);
+    if (same_word(word, "endsolid")) {
+      next_line(reader.text);
+      return {};
+    }
+    if (!same_word(word, "facet")) {
+      return fault_in_line(reader.path, reader.text.line,
+                           word.empty() ? std::string("no 'endsolid' in it; the file is cut short: copy or export it "
+                                                      "again")
+                                        : fmt::format("{} where 'facet' or 'endsolid' should stand; export the mesh "
+                                                      "again",
+                                                      shown(word)));
+    }
+    if (auto done = read_facet(reader); !done) return done;
+  }
+}
+
+}  // namespace
+
+Result<MeshFile> read_stl(std::string_view bytes, std::string_view path) {
+  if (bytes.size() >= stl_head) {
+    const std::size_t facets = little_endian(bytes, stl_head - 4);
+    if (facets > 0 && bytes.size() == stl_head + stl_facet * facets) return read_binary_stl(bytes, path, facets);
+  }
+  StlReader reader{.text = mesh_text(bytes), .path = path, .raw = {}};
+  auto word = next_word_of_any_line(reader.text);
+  if (!same_word(word, "solid")) {
+    if (bytes.size() < stl_head) {
+      return fail(
+          fmt::format("{}: {} bytes, and no 'solid' at the beginning; a binary STL has more than {}: copy or "
+                      "export it again",
+                      path, bytes.size(), stl_head));
+    }
+    const std::size_t facets = little_endian(bytes, stl_head - 4);
+    return fail(
+        fmt::format("{}: {} bytes where its count of {} facets makes {}; the file is cut short or damaged: copy "
+                    "or export it again",
+                    path, bytes.size(), facets, stl_head + stl_facet * facets));
+  }
+  for (; !word.empty(); word = next_word_of_any_line(reader.text)) {
+    if (!same_word(word, "solid")) {
+      return fault_in_line(path, reader.text.line,
+                           fmt::format("{} after 'endsolid'; take it away, or export the mesh again", shown(word)));
+    }
+    if (auto done = read_solid(reader); !done) return tl::unexpected(done.error());
+  }
+  return join_mesh(reader.raw, path);
+}
+
+}  // namespace mobil

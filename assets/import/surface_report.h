@@ -1,0 +1,22 @@
+#pragma once
+// What is said about one surface of an anatomy.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace mobil {
+
+enum class AnatomyKind : std::uint8_t { bone, muscle, tendon, skin };
+
+/// What a mesh was in its file and became; one line for all that was done to it.
+struct SurfaceReport {
+  std::size_t triangles = 0, open_edges = 0, overused_edges = 0;  // in the file
+  std::size_t pieces = 0;                                         // that hang together, of what is kept
+  std::size_t self_intersections = 0;  // pairs of triangles without a common vertex that cut each other
+  double volume_cm3 = 0, area_cm2 = 0;
+  std::vector<std::string> said;
+};
+
+}  // namespace mobil

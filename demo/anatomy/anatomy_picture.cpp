@@ -1,0 +1,76 @@
+#include "demo/anatomy/anatomy_picture.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "demo/pictures/contact_sheet.h"
+#include "engine/geometry.h"
+#include "systems/capture/renderer.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr int panel_width = 560, panel_height = 1080;
+constexpr Colour other_rose{0.66F, 0.42F, 0.38F}, sinew_cream{0.81F, 0.75F, 0.67F};
+constexpr float narrow_view_deg = 12;  // nearly without perspective, as in an atlas
+
+Colour colour_of(const AnatomyPart& part) {
+  if (part.kind == AnatomyKind::bone) return bone_ivory;
+  if (part.kind == AnatomyKind::tendon) return sinew_cream;
+  return part.group ? muscle_red : other_rose;
+}
+
+struct Ball {
+  Vec3<float> centre{0, 0, 0};
+  float radius = 0;
+};
+
+/// About all vertices' box.
+Ball ball_about(const std::vector<DrawMesh>& meshes) {
+  Vec3<float> least = meshes.front().position.front(), most = least;
+  for (const DrawMesh& mesh : meshes) {
+    for (const auto& p : mesh.position) {
+      least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
+      most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
+    }
+  }
+  return {0.5F * (least + most), 0.5F * length(most - least)};
+}
+
+}  // namespace
+
+Result<Image> anatomy_picture(const AnatomySurvey& survey) {
+  std::vector<DrawMesh> meshes;
+  for (const auto& mesh : survey.mesh) {
+    if (mesh.fault || mesh.part.kind == AnatomyKind::skin) continue;
+    meshes.push_back({.position = mesh.part.mesh.position,
+                      .triangle = mesh.part.mesh.triangle,
+                      .colour = colour_of(mesh.part),
+                      .wetness = mesh.part.kind == AnatomyKind::bone ? 0.0F : 0.5F});
+  }
+  if (meshes.empty()) return fail("no usable mesh to draw; mend the faults first");
+  auto renderer = Renderer::create(panel_width, panel_height);
+  if (!renderer) return tl::unexpected(renderer.error());
+  const Ball ball = ball_about(meshes);
+  const float far = 1.05F * ball.radius / std::tan(0.5F * narrow_view_deg * static_cast<float>(M_PI) / 180);
+  std::vector<Image> pair;
+  for (const Vec3<float>& from : {Vec3<float>{0, 0, 1}, Vec3<float>{-1, 0, 0}}) {
+    Scene scene;
+    scene.camera.target = ball.centre;
+    scene.camera.eye = ball.centre + far * from;
+    scene.camera.vertical_fov_deg = narrow_view_deg;
+    scene.meshes = meshes;
+    scene.light = 0.5F * from + Vec3<float>{-0.2F, 1.1F, 0.1F};
+    auto image = renderer->render(scene);
+    if (!image) return image;
+    pair.push_back(std::move(*image));
+  }
+  return contact_sheet({&pair, 1}, 0);
+}
+
+}  // namespace mobil

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "assets/body/fat_distribution.h"
+#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -57,7 +58,7 @@ MassRange living_mass_kg(double height_m) {
 }
 
 double height_weight_ratio(double height_m, double mass_kg) {
-  return 100 * height_m / std::cbrt(mass_kg);
+  return 100 * height_m / exact::cbrt(mass_kg);
 }
 
 double ectomorphy(double ratio) {
@@ -73,7 +74,7 @@ double fat_share_of_endomorphy(double endomorphy) {
 
 double endomorphy_of_fat_share(double fat_share) {
   const double density = 4.95 / (fat_share + 4.5);
-  const double folds_mm = std::pow(10, (density_at_1_mm - density) / density_per_decade) / fold_sum_per_three;
+  const double folds_mm = exact::pow(10, (density_at_1_mm - density) / density_per_decade) / fold_sum_per_three;
   return std::clamp(endomorphy_of_folds(folds_mm), 0.1, 12.0);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "assets/fem/critical_step.h"
+#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -110,10 +111,10 @@ double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_
 AxialStiffness tabulate_axial_stiffness(const StiffnessTerms& terms, std::span<const float> far_share, double lowest,
                                         double highest) {
   const auto steps =
-      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(std::log(highest / lowest) / std::log(1.2))));
+      std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(exact::log(highest / lowest) / exact::log(1.2))));
   AxialStiffness table;
   for (std::size_t i = 0; i <= steps; ++i) {
-    const double r = lowest * std::pow(highest / lowest, static_cast<double>(i) / static_cast<double>(steps));
+    const double r = lowest * exact::pow(highest / lowest, static_cast<double>(i) / static_cast<double>(steps));
     table.ratio.push_back(r);
     table.per_ratio.push_back(pulled_stiffness(terms, far_share, r, 1.0) / (r * r));
   }

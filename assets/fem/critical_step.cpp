@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "assets/fem/top_eigenvalue.h"
+#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -151,10 +152,10 @@ CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCas
   table.foundation_1_s2 = step_case.foundation_1_s * step_case.foundation_1_s;
   Tabulation tabulation(table, terms, step_case);
   table.foundation.push_back(0);
-  const double intervals = highest > lowest ? std::ceil(std::log(highest / lowest) / std::log(1.12)) : 0;
+  const double intervals = highest > lowest ? std::ceil(exact::log(highest / lowest) / exact::log(1.12)) : 0;
   for (double i = 0; i <= intervals; ++i) {
     tabulation.insert_ratio(table.ratio.size(),
-                            intervals > 0 ? lowest * std::pow(highest / lowest, i / intervals) : lowest);
+                            intervals > 0 ? lowest * exact::pow(highest / lowest, i / intervals) : lowest);
   }
   const bool founded = table.foundation_1_s2 > 0;
   const auto foundation_at = [&](double across) { return across * across * table.foundation_1_s2; };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/exact_math.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -69,11 +70,11 @@ Result<void> check_grading(const Grading& grading) {
 /// alone, so that meshes nest, and rounded, so that machines whose logarithms differ make the same mesh.
 std::vector<double> graded_planes(std::uint32_t count, double ratio) {
   std::vector<double> planes(count + 1);
-  const double steepness = std::log(ratio);
+  const double steepness = exact::log(ratio);
   for (std::uint32_t i = 0; i <= count / 2; ++i) {
     const double part = 2.0 * i / count;  // of the way to the middle
     const double share =
-        ratio == 1 ? part : std::ldexp(std::round(std::ldexp(std::expm1(part * steepness) / (ratio - 1), 40)), -40);
+        ratio == 1 ? part : std::ldexp(std::round(std::ldexp(exact::expm1(part * steepness) / (ratio - 1), 40)), -40);
     planes[i] = 0.5 * count * share;
     planes[count - i] = count - planes[i];
   }

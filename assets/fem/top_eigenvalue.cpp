@@ -10,6 +10,7 @@
 #include <random>
 
 #include "assets/fem/stiffness_terms.h"
+#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -174,8 +175,8 @@ Numbers random_start(const std::vector<bool>& moving) {
   const auto uniform = [&] { return (static_cast<double>(bits()) + 0.5) / 4294967296.0; };
   Numbers v(moving.size());
   for (std::size_t i = 0; i < v.size(); ++i) {
-    const double radius = std::sqrt(-2 * std::log(uniform())), angle = 2 * std::numbers::pi * uniform();
-    if (moving[i]) v[i] = radius * std::cos(angle);
+    const double radius = std::sqrt(-2 * exact::log(uniform())), angle = 2 * std::numbers::pi * uniform();
+    if (moving[i]) v[i] = radius * exact::cos(angle);
   }
   const double norm = std::sqrt(inner(v, v));
   for (double& x : v) x /= norm;
@@ -250,7 +251,7 @@ double top_eigenvalue_bound(const StencilPencil& pencil) {
   constexpr double rounding = 1 + 1e-9;
   if (size * band * band > 2e10) {
     constexpr double share = 0.02, risk = 1e-12;
-    const double steps = 0.5 * (1 + std::log(1.648 * std::sqrt(size) / risk) / std::sqrt(share));
+    const double steps = 0.5 * (1 + exact::log(1.648 * std::sqrt(size) / risk) / std::sqrt(share));
     return lanczos_top(op, pencil.moving, static_cast<std::size_t>(std::ceil(steps)), true) / (1 - share);
   }
   const double below = lanczos_top(op, pencil.moving, 240, false);

@@ -9,6 +9,7 @@
 
 #include "assets/finite/control_points.h"
 #include "assets/reduction/symmetric_eigen.h"
+#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -39,7 +40,7 @@ std::vector<std::array<double, shape_amount_count>> body_coefficients(const Shap
     for (std::size_t v = 0; v < rows.size(); ++v) {
       for (std::size_t f = 0; f < shape_amount_count; ++f) rows[v][f] += power * term[v][f];
     }
-    power *= std::log(ratio);
+    power *= exact::log(ratio);
   }
   return rows;
 }
@@ -83,7 +84,7 @@ Result<ShapeTable> fit_shape_table(std::span<const ShapeSample> samples, const H
       for (std::size_t f = 0; f < shape_amount_count; ++f) {
         terms(static_cast<Index>(s), static_cast<Index>(t * shape_amount_count + f)) = power * amounts[f];
       }
-      power *= std::log(sample.ratio);
+      power *= exact::log(sample.ratio);
     }
     for (std::size_t i = 0; i < count; ++i) {
       const double height = rest.node[(first + i) / 3].z - rest.node.front().z;

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "components/activation.h"
+#include "engine/exact_math.h"
 
 namespace mobil {
 namespace {
@@ -44,7 +45,7 @@ double excitation(const MemberExcitation& of, double cycle, double speed) {
   double sum = term(0);
   for (std::size_t k = 1; k <= excitation_harmonics; ++k) {
     const double angle = 2 * std::numbers::pi * static_cast<double>(k) * cycle;
-    sum += term(2 * k - 1) * std::cos(angle) + term(2 * k) * std::sin(angle);
+    sum += term(2 * k - 1) * exact::cos(angle) + term(2 * k) * exact::sin(angle);
   }
   const double part = std::clamp(speed / least, 0.0, 1.0), standing = static_cast<double>(of.standing);
   return std::clamp(standing + part * (static_cast<double>(excitation_scale) * sum - standing),

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "assets/body/anthropometry.h"
+#include "engine/exact_math.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -58,7 +59,7 @@ constexpr std::array<LegSection, 11> fibula = {{{1.132F, 38.1F, -9.8F, 9.2F, 7, 
                                                 {2.034F, 25.1F, -3.8F, 10.7F, 5.3F, 164}}};
 
 LegEllipse ellipse(const LegSection& s) {
-  const double a = static_cast<double>(s.angle_deg) * std::numbers::pi / 180, c = std::cos(a), n = std::sin(a);
+  const double a = static_cast<double>(s.angle_deg) * std::numbers::pi / 180, c = exact::cos(a), n = exact::sin(a);
   const auto p = static_cast<double>(s.semi_1), q = static_cast<double>(s.semi_2);
   return {static_cast<double>(s.lateral), static_cast<double>(s.anterior), p * c * c + q * n * n, (p - q) * c * n,
           p * n * n + q * c * c};

@@ -5,13 +5,14 @@
 
 #include "assets/muscles/muscle_path.h"
 #include "assets/muscles/muscle_plan.h"
+#include "engine/exact_math.h"
 #include "engine/geometry.h"
 
 namespace mobil {
 namespace {
 
 double cosine_deg(double angle) {
-  return std::cos(angle * std::numbers::pi / 180);
+  return exact::cos(angle * std::numbers::pi / 180);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "assets/body/anthropometry.h"
+#include "engine/exact_math.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -114,7 +115,7 @@ LegFrames<double> anatomical_leg(const Body& body) {
 
 double knee_flexion(const LegFrames<double>& leg) {
   const Quat<double> q = product(conjugate(leg.thigh), leg.shank);
-  return 2 * std::atan2(q.w < 0 ? -q.x : q.x, std::abs(q.w));
+  return 2 * exact::atan2(q.w < 0 ? -q.x : q.x, std::abs(q.w));
 }
 
 LegFrames<double> rolled(const LegScale<double>& scale, const LegFrames<double>& leg) {

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "assets/body/anthropometry.h"
+#include "engine/exact_math.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -62,7 +63,7 @@ MemberPlan plan_member(const Body& body, const MemberMuscle& member, double rest
   }
   const double pennation = member.pennation_deg * std::numbers::pi / 180;
   plan.fibre_m = static_cast<double>(body.request.height_m) / cadaver_stature_m * member.fibre_m;
-  plan.tendon_m = rest_length_m - plan.fibre_m * std::cos(pennation);
+  plan.tendon_m = rest_length_m - plan.fibre_m * exact::cos(pennation);
   return plan;
 }
 

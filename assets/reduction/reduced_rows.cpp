@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "assets/reduction/double_lanes-inl.h"
+#include "engine/exact_math.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -144,8 +145,8 @@ std::uint32_t upper_half(double x) {
 /// Of a motion that creeps home: a and b.
 void creep(double omega, double half, double tick_s, float& a, float& b) {
   const double apart = std::sqrt(half * half - omega * omega);
-  const double slow = std::exp(-omega * omega / (half + apart) * tick_s);
-  const double fast = std::expm1(-2 * apart * tick_s);  // of the slow one, less 1
+  const double slow = exact::exp(-omega * omega / (half + apart) * tick_s);
+  const double fast = exact::expm1(-2 * apart * tick_s);  // of the slow one, less 1
   const double cosine = slow * (1 + fast / 2), sine = slow * (apart * tick_s > 1e-8 ? -fast / (2 * apart) : tick_s);
   a = static_cast<float>(cosine + half * sine);
   b = static_cast<float>(omega * sine);
@@ -154,7 +155,7 @@ void creep(double omega, double half, double tick_s, float& a, float& b) {
 void write_swings(const ReducedBellies& bellies, double damping_per_s, double tick_s, std::size_t stride,
                   float* motion) {
   const double half = damping_per_s / 2;
-  HWY_DYNAMIC_DISPATCH(swings)(bellies, half, tick_s, std::exp(-half * tick_s), stride, motion);
+  HWY_DYNAMIC_DISPATCH(swings)(bellies, half, tick_s, exact::exp(-half * tick_s), stride, motion);
   for (std::size_t j = 0; j < bellies.vectors; ++j) {
     float* const to = motion + j * stride * lane_count;
     for (std::size_t lane = 0; lane < bellies.count; ++lane) {

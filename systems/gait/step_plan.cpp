@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/exact_math.h"
 #include "systems/gait/balance-inl.h"
 #include "systems/gait/forward_swing-inl.h"
 #include "systems/gait/gait.h"
@@ -272,7 +273,7 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
                 way = std::sqrt(left_m * left_m + ahead_m * ahead_m);
     if (!(way > 0.0F)) continue;
     begins[l] = 1.0F;
-    plan.slant_rad[l] = std::atan2(left_m, ahead_m);
+    plan.slant_rad[l] = exact::atan2(left_m, ahead_m);
     const std::uint32_t stance = left_m > 0.0F ? Side::right : left_m < 0.0F ? Side::left : state.stance_side[l];
     plan.swaps[l] = static_cast<std::uint32_t>(stance != state.stance_side[l]);
     if (plan.swaps[l] != 0) {
@@ -285,7 +286,7 @@ HWY_NOINLINE WideMask displace(const BodySize<Lanes<float>>& size, const Gait<La
     plan.to.shape[step_shape::hips_forward.first][l] = -0.5F * way;
     // Legs that stand apart reach less high.
     const float apart =
-        0.25F * way * way + way * std::abs(std::sin(plan.slant_rad[l])) * ankle_outward * size.height_m[l];
+        0.25F * way * way + way * std::abs(exact::sin(plan.slant_rad[l])) * ankle_outward * size.height_m[l];
     plan.to.shape[step_shape::hips_up.first][l] -=
         sinks_apart * 0.5F * apart / (static_cast<float>(fraction::hip_height) * size.height_m[l]);
   }

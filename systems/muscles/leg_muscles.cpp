@@ -8,6 +8,7 @@
 #include "assets/body/anthropometry.h"
 #include "components/fade.h"
 #include "engine/each.h"
+#include "engine/exact_math.h"
 #include "engine/geometry.h"
 #include "systems/muscles/choice_words.h"
 #include "systems/muscles/finite_shape_effect.h"
@@ -344,7 +345,7 @@ void move_muscles(World& world, Entity person, const Placing& way) {
       const float mirrored = side == Side::left ? -1.0F : 1.0F;
       const Vec3<float> from = {mirrored * way.from_x_m, 0, way.from_z_m}, to = {mirrored * way.to_x_m, 0, way.to_z_m};
       const double half = 0.5 * double{mirrored} * double{way.turn_rad};
-      const Quat<float> turn = {0, static_cast<float>(std::sin(half)), 0, static_cast<float>(std::cos(half))};
+      const Quat<float> turn = {0, static_cast<float>(exact::sin(half)), 0, static_cast<float>(exact::cos(half))};
       const auto moved = [&](const Vec3<float>& at) { return to + geometry::rotated(turn, at - from); };
       if (auto line = world.get<LineOfAction>(muscle)) {
         line->start_m = moved(line->start_m);

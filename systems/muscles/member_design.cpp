@@ -4,12 +4,14 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/exact_math.h"
+
 namespace mobil {
 
 MemberDesign<float> member_design(const MemberMuscle& member, const MemberPlan& plan) {
   constexpr double specific_force_pa = 30e4;
   const double angle = member.model_path_m > 0 ? member.model_pennation_deg : member.pennation_deg;
-  const double height = plan.fibre_m * std::sin(angle * std::numbers::pi / 180);
+  const double height = plan.fibre_m * exact::sin(angle * std::numbers::pi / 180);
   return {static_cast<float>(plan.fibre_m), static_cast<float>(plan.tendon_m), static_cast<float>(height), 0,
           static_cast<float>(specific_force_pa * plan.volume_m3 / plan.fibre_m)};
 }

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "engine/exact_math.h"
+
 namespace mobil {
 
 std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<float>& plan, float seconds) {
@@ -12,8 +14,8 @@ std::optional<GaitState<float>> earlier(GaitState<float> state, const StepPlan<f
   if (!steady) return std::nullopt;
   state.time_s += plan.duration_s;
   state.stance_side ^= 1U;
-  state.line_x_m -= plan.length_before_m * std::sin(state.heading_rad);
-  state.line_z_m -= plan.length_before_m * std::cos(state.heading_rad);
+  state.line_x_m -= plan.length_before_m * exact::sin(state.heading_rad);
+  state.line_z_m -= plan.length_before_m * exact::cos(state.heading_rad);
   state.turn_rad = state.chord_rad = state.bend_next_per_m = 0.0F;
   state.shift_next_m = state.shift_m;
   state.shift_m = state.shift_before_m;  // and the one before that is too long ago to matter

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "components/sleep.h"
+#include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/relevance/basis_orders.h"
@@ -37,7 +38,7 @@ Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, 
   const float distance = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
   const float along = (v.x * f.x + v.y * f.y + v.z * f.z) / std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
   const float aside = std::sqrt(std::max(distance * distance - along * along, 0.0F));
-  const float outside_m = aside * std::cos(camera.half_angle_rad) - along * std::sin(camera.half_angle_rad);
+  const float outside_m = aside * exact::cos(camera.half_angle_rad) - along * exact::sin(camera.half_angle_rad);
   const float grace = (before == View::seen ? leave_m : 0.0F) + blur_m;
   const bool reached = distance <= camera.reach_m + grace, in_cone = outside_m <= person_radius_m + grace;
   const bool near = distance <= camera.near_m + (before == View::near ? leave_m : 0.0F) + blur_m;

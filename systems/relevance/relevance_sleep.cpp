@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/sleep.h"
+#include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/muscles/leg_muscles.h"
@@ -32,7 +33,7 @@ float camera_moved_m(const Viewpoint& now, const Vec3<float>& eye, const Vec3<fl
   const Vec3<float>& p = now.position_m;
   const float along =
       (now.forward.x * gaze.x + now.forward.y * gaze.y + now.forward.z * gaze.z) / (length(now.forward) * length(gaze));
-  const float turned = std::acos(std::clamp(along, -1.0F, 1.0F));
+  const float turned = exact::acos(std::clamp(along, -1.0F, 1.0F));
   return length({p.x - eye.x, p.y - eye.y, p.z - eye.z}) + turned * now.reach_m;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/lanes.h"
+#include "engine/exact_math.h"
 #include "systems/relevance/relevance.h"
 
 namespace mobil {
@@ -18,7 +19,7 @@ inline constexpr float pelvis_m = 0.95F;
 class Gap {
  public:
   explicit Gap(const Viewpoint& camera)
-      : camera_(camera), cos_(std::cos(camera.half_angle_rad)), sin_(std::sin(camera.half_angle_rad)) {
+      : camera_(camera), cos_(exact::cos(camera.half_angle_rad)), sin_(exact::sin(camera.half_angle_rad)) {
     const Vec3<float>& f = camera.forward;
     const float length = std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
     forward_ = {f.x / length, f.y / length, f.z / length};

@@ -12,12 +12,12 @@ namespace mobil {
 /// A default for a field of one row or of sixteen.
 template <class F>
 constexpr F in_every_lane(float value) {
-  if constexpr (std::is_same_v<F, float>) {
-    return value;
-  } else {
+  if constexpr (std::is_same_v<F, Lanes<float>>) {
     F lanes{};
     for (auto& lane : lanes.lane) lane = value;
     return lanes;
+  } else {
+    return F(value);
   }
 }
 

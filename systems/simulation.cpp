@@ -14,6 +14,7 @@
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
 #include "engine/state_hash.h"
+#include "systems/gait/gait.h"
 #include "systems/muscles/compact.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
@@ -21,6 +22,7 @@
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
+#include "systems/people/style_limits.h"
 #include "systems/people/whole.h"
 #include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
@@ -175,10 +177,7 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
   if (!gait) return tl::unexpected(gait.error());
   const SleepTime now{tick_, static_cast<float>(tick_s())};
   if (is_asleep(human)) {
-    const GaitStyle present = gait_of(*world_, human)->style;
-    const bool same_style = std::ranges::all_of(
-        gait_parameters, [&](const GaitParameter& p) { return present.*p.value == gait->style.*p.value; });
-    if (same_style && !is_busy(*world_, human, now)) {
+    if (same_style(gait_of(*world_, human)->style, gait->style) && !is_busy(*world_, human, now)) {
       ask_sleepers(*world_, jobs_, std::array{AskedSleeper{human, *gait}}, now);
       return {};
     }
@@ -188,11 +187,23 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
 }
 
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
-  return ask(human, changed_gait(*world_, human, change));
+  auto gait = changed_gait(*world_, human, change);
+  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1});
+  return ask(human, gait);
 }
 
-Result<void> Simulation::set_gait(Entity human, const GaitRequest& gait) {
-  return ask(human, new_gait(*world_, human, gait));
+Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
+  auto gait = new_gait(*world_, human, asked);
+  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1});
+  return ask(human, gait);
+}
+
+Result<std::vector<StyleChange>> Simulation::style_changes(const BodyRequest& body, const GaitRequest& asked) {
+  const auto made = make_body(body);
+  if (!made) return tl::unexpected(made.error());
+  auto gait = resolve_gait(*made, asked);
+  if (!gait) return tl::unexpected(gait.error());
+  return keep_walk_limits(body_size(body), *gait);
 }
 
 std::optional<GaitRequest> Simulation::gait_request(Entity human) const {
@@ -214,6 +225,21 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
   in_parallel(jobs_, changes.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) asked[i] = asked_walk(*world_, changes[i].human, changes[i], now);
   });
+  people.clear();
+  std::vector<Gait<float>>& gaits = sleep_work_->gaits;
+  gaits.clear();
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    if (!asked[i].gait || !changes[i].gait) continue;
+    people.push_back(changes[i].human);
+    gaits.push_back(*asked[i].gait);
+  }
+  keep_walk_limits(*world_, jobs_, people, gaits);
+  for (std::size_t i = 0, k = 0; i < changes.size(); ++i) {
+    if (!asked[i].gait || !changes[i].gait) continue;
+    asked[i].gait = gaits[k++];
+    if (asked[i].asleep && !same_style(gait_of(*world_, changes[i].human)->style, asked[i].gait->style))
+      asked[i].must_wake = true;
+  }
   people.clear();
   for (std::size_t i = 0; i < changes.size(); ++i)
     if (asked[i].gait && asked[i].must_wake) people.push_back(changes[i].human);
@@ -411,9 +437,9 @@ Result<std::size_t> Simulation::save(std::span<std::byte> out) const {
                        snapshot_work(), out);
 }
 
-Result<void> Simulation::restore(std::span<const std::byte> in) {
+Result<void> Simulation::restore(std::span<const std::byte> in, const RestoreLimits& limits) {
   const auto done =
-      restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), in);
+      restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), limits, in);
   if (!done) return fail("restore: " + done.error().message, done.error().status);
   work_->recent = {};
   tick_ = done->tick;

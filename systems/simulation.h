@@ -44,6 +44,8 @@
 #include "engine/world.h"
 #include "systems/muscles/own_muscle.h"
 #include "systems/people/spawn.h"
+#include "systems/people/style_limits.h"
+#include "systems/snapshot/restore_limits.h"
 #include "systems/surfaces/nodal_view.h"
 
 namespace mobil {
@@ -122,6 +124,11 @@ class Simulation {
   /// What was moved from may be destroyed or assigned to. References to the world go along.
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
+
+  /// What of a walk's manner is otherwise than asked, in that order, because a limit of joints or ground would be
+  /// broken (systems/people/style_limits.h): spawn, change_gait, set_gait and change_walks keep to it, `gait_request`
+  /// then says what is walked. Empty: nothing. Errors: as of spawn.
+  static Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
 
   /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
   /// unreachable, one line each; the simulation is unchanged.
@@ -282,9 +289,9 @@ class Simulation {
   /// Restores what was saved to the last bit, handles included, here or in another simulation whose tick is as long and
   /// which has the modules of the rows saved, in the same versions; where rows and people are as many as they were,
   /// without taking memory. Bytes are never trusted: what was cut, altered or made by another format version is refused
-  /// in one line, and so is what does not fit in memory; the simulation is then unchanged. Threads and reports are not
-  /// state.
-  Result<void> restore(std::span<const std::byte> in);
+  /// in one line, and so is what does not fit in memory or is beyond the limits; the simulation is then unchanged
+  /// (meshes made on the way stay, for the next time). Threads and reports are not state.
+  Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits = {});
   /// Hash of the whole state; independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
 

@@ -67,19 +67,29 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                      {"hip_height_m", decimal(human.body.hip_height_m)},
                      {"notes", body_notes(human.body)}};
   Json parameters = Json::object();
-  for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(options.gait.style.*p.value);
+  for (const GaitParameter& p : gait_parameters) parameters[std::string(p.name)] = decimal(outcome.gait.style.*p.value);
+  Json changes = Json::array();
+  for (const StyleChange& change : outcome.style_changes) {
+    const bool in_table = change.parameter < gait_parameters.size();
+    changes.push_back({{"parameter", in_table ? gait_parameters[change.parameter].name : "step_length_m"},
+                       {"asked", decimal(change.asked)},
+                       {"walked", decimal(change.walked)},
+                       {"why", described(change)}});
+  }
   summary["gait"] = {{"speed_m_s", decimal(outcome.gait.speed_m_s)},
                      {"step_length_m", decimal(outcome.gait.step_length_m)},
                      {"clamped_steps", outcome.clamped_steps},
                      {"step_frequency_hz", decimal(outcome.gait.step_frequency_hz)},
                      {"double_support_cycle", decimal(outcome.gait.double_support_cycle)},
-                     {"parameters", parameters}};
+                     {"parameters", parameters},
+                     {"style_changes", changes}};
   if (options.script) summary["script"] = {{"file", options.script->path}, {"changes", outcome.changes}};
   summary["drive"] = options.muscles.drive == Drive::force ? "force" : "displacement";
   summary["method"] = method_name[static_cast<std::size_t>(options.muscles.method)];
   summary["element"] = element_name[static_cast<std::size_t>(options.muscles.element)];
   summary["inertia"] = options.muscles.inertia;
   summary["anatomy"] = options.anatomy ? Json(options.anatomy->string()) : Json("built-in");
+  if (options.anatomy) summary["anatomy_said"] = outcome.anatomy_said;
 
   const double simulated = outcome.simulated_s;
   const double ticks = outcome.ticks;

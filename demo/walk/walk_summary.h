@@ -12,14 +12,16 @@
 namespace mobil {
 
 struct WalkOutcome {
-  decltype(Human::gait) gait{};     // at the start
-  std::size_t changes = 0;          // of the script that fell within the walk
-  std::uint32_t clamped_steps = 0;  // that no forces within bounds make as asked
+  decltype(Human::gait) gait{};            // at the start
+  std::size_t changes = 0;                 // of the script that fell within the walk
+  std::uint32_t clamped_steps = 0;         // that no forces within bounds make as asked
+  std::vector<StyleChange> style_changes;  // what of the styles asked for, the script's too, was moved
   std::uint32_t ticks = 0;
   double simulated_s = 0;
   std::vector<Timing> stages;  // one a system
   double simulation_s = 0;     // wall time of the ticks alone
   double wall_s = 0;           // of the whole command
+  std::vector<std::string> anatomy_said;
 };
 
 /// The whole file as text.

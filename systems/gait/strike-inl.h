@@ -59,9 +59,9 @@ struct StyleAmounts {
   Lanes<float> most;
 };
 
-/// How far the pelvis of somebody sinks whose steps are uneven, of the height, per part by which they are: so that
-/// neither leg has to be longer than it is.
-constexpr float limping_sink = 0.06F;
+/// How far the pelvis of somebody sinks whose steps are uneven, of the height, per part by which their lengths or their
+/// times are: so that neither leg has to be longer than it is.
+constexpr float limping_sink = 0.06F, late_sink = 0.12F;
 
 /// How much lower than with straight legs people stand, of the height: their knees are bent by some 6°.
 constexpr float soft_knees = 0.0006F;
@@ -138,6 +138,21 @@ HWY_NOINLINE inline void look_up(const Wide& height, const Wide& speed, const Wi
   }
 }
 
+/// The foot comes down flat in `times` the time that its numbers are for, from the same landing: pitch, its rate and
+/// two more derivatives stay at heel strike, where the swing meets them. Where `times` is 1, to the bit.
+HWY_NOINLINE inline void flatten_within(const Wide& times, Strike<Lanes<float>>& strike) {
+  Lanes<float>* const k = strike.shape + step_shape::strike.first;
+  const Wide pitch = load(k[0]), k1 = load(k[1]), k2 = load(k[2]), k3 = load(k[3]);
+  const Wide times2 = times * times;
+  const Wide first = times * k1, second = fma(times2, k2, 3.0F * k1 * (times - times2));
+  const Wide cubic = 3.0F * (k1 - k2) + k3 - 10.0F * pitch;  // of the pitch by the part of that time
+  const Wide third = fma(times2 * times, cubic, 10.0F * pitch) - 3.0F * (first - second);
+  const WideMask other = abs(times - 1.0F) > 0.0F;
+  store(select(other, first, k1), k[1]);
+  store(select(other, second, k2), k[2]);
+  store(select(other, third, k3), k[3]);
+}
+
 HWY_INLINE Wide step_width(const StrikeRequest& r, const GaitStyleOf<Lanes<float>>& style) {
   return load(style.step_width_h) * wider_steps(r.height, r.mass);
 }
@@ -178,6 +193,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
       store(load(strike.shape[i]) * by, strike.shape[i]);
   };
   auto beyond = [](const Lanes<float>& value, float than) { return load(value) - than; };
+  const Wide flat_as_tabled = load(strike.shape[step_shape::times.first]);
   more(step_shape::times, 0, walking(beyond(style.foot_flat_cycle, usual.foot_flat_cycle)));
   // A foot lands heel first, foot flat comes after heel strike and toe-off after heel rise, however manners add up.
   auto within = [&](const ShapePart& part, std::size_t i, float low, float high) {
@@ -187,6 +203,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   within(step_shape::strike, 0, 0, 0.7F);
   within(step_shape::times, 0, -0.05F, 0.08F);
   within(step_shape::times, 1, -0.27F, 0.15F);
+  flatten_within((usual_flat + load(strike.shape[step_shape::times.first])) / (usual_flat + flat_as_tabled), strike);
   // Uneven steps: hips that go at one speed all the same. A table's step that is longer has them further back already.
   constexpr float further_back = 0.42F;
   more(step_shape::hips_forward, 0, walking(fma(wide(further_back - 0.5F), r.length - step, 0.5F * step * r.slower)));
@@ -194,7 +211,7 @@ HWY_NOINLINE inline void make_strike(const StrikeRequest& r, const GaitStyleOf<L
   more(step_shape::hips_up, 0,
        select(stands, sink - soft_knees * r.height,
               sink - (usual.mid_stance_height - 1.0F) * ratio(fraction::hip_height, r.height) -
-                  limping_sink * r.height * abs(r.length / step - 1.0F)));
+                  r.height * fma(wide(late_sink), abs(r.slower), limping_sink * abs(r.length / step - 1.0F))));
   more(step_shape::trunk, 0, select(stands, lean, wide(0.0F)));
   times(step_shape::aside, width * (1.0F / usual.step_width_h) +
                                beyond(style.pelvis_shift_h, usual.pelvis_shift_h) * (1.0F / usual.pelvis_shift_h));

@@ -51,6 +51,7 @@ struct SleepWork {
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
+  std::vector<Gait<float>> gaits;
   std::vector<AskedSleeper> asked_sleepers;
 };
 

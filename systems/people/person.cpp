@@ -45,6 +45,12 @@ BodySize<float> body_size(const BodyRequest& request) {
   return {request.height_m, request.mass_kg, static_cast<float>(extra_fat_of(body_composition(request)))};
 }
 
+BodySize<float> body_size(const World& world, Entity person) {
+  if (const auto size = world.get<BodySize>(person)) return *size;
+  const Asleep<float> asleep = *world.get<Asleep>(person);
+  return {asleep.height_m, asleep.mass_kg, asleep.extra_fat};
+}
+
 Physique<float> physique(const BodyRequest& request) {
   const Biotype& of = request.biotype;
   return {of.endo, of.meso, of.ecto, static_cast<std::uint32_t>(request.constitution)};
@@ -60,11 +66,6 @@ Result<void> is_walker(const World& world, Entity person, std::string_view asked
   if (is_posed(world, person))
     return fail(fmt::format("{}: this person's host animates the skeleton; {}", asked, mend), Status::missing);
   return {};
-}
-
-float height_of(const World& world, Entity person) {
-  const auto size = world.get<BodySize>(person);
-  return size ? size->height_m : world.get<Asleep>(person)->height_m;
 }
 
 /// The number of the next request; a sleeper keeps 16 bits of it.
@@ -103,7 +104,7 @@ Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitCh
 Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& request) {
   if (auto walks = is_walker(world, person, "set_gait", "spawn a walker instead"); !walks)
     return tl::unexpected(walks.error());
-  auto gait = resolve_gait(height_of(world, person), request);
+  auto gait = resolve_gait(body_size(world, person).height_m, request);
   if (!gait) return tl::unexpected(gait.error());
   const Gait<float> before = *gait_of(world, person);
   gait->heading_rad = before.heading_rad;

@@ -16,6 +16,7 @@
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/person.h"
 #include "systems/people/pose_measures.h"
+#include "systems/people/style_limits.h"
 
 namespace mobil {
 namespace {
@@ -108,7 +109,14 @@ tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const Spawn
     }
   });
   const std::size_t i = wrong;
-  if (i == people.size()) return {};
+  if (i == people.size()) {
+    std::vector<BodySize<float>> sizes(people.size());
+    in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) sizes[k] = body_size(people[k].body);
+    });
+    keep_walk_limits(jobs, sizes, gait);
+    return {};
+  }
   return tl::unexpected(NotMade{i, check(people[i], gait[i], i, each).error()});
 }
 

@@ -33,8 +33,9 @@ struct NotMade {
   Error error;
 };
 
-/// Checks all people, with jobs, and resolves their gaits into `gait`, as long as `people`. `each(person, body)` looks
-/// at more of each; several threads call it. Errors: those of the first person who has one.
+/// Checks all people, with jobs, and resolves their gaits into `gait`, as long as `people`, drawn nearer to the usual
+/// ones where they break limits (systems/people/style_limits.h). `each(person, body)` looks at more of each; several
+/// threads call it. Errors: those of the first person who has one.
 tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
                                          std::span<Gait<float>> gait,
                                          const std::function<Result<void>(std::size_t, const Body&)>& each);

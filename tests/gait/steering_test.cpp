@@ -223,6 +223,7 @@ TEST(Steering, AHeadingIsReachedByTheShorterWayAndThenKept) {
   }
 }
 
+/// Or as much of that as keeps the limits of a walk.
 TEST(Steering, ALimpsStepsAreUnevenAsAsked) {
   Source random{std::mt19937_64(700)};
   int limping = 0;
@@ -244,10 +245,10 @@ TEST(Steering, ALimpsStepsAreUnevenAsAsked) {
       const auto there = static_cast<double>(one.state().line_z_m);
       const double sign = one.state().stance_side == Side::right ? 1 : -1;  // whose foot landed
       EXPECT_NEAR((there - place) / static_cast<double>(gait.step_length_m),
-                  1 + sign * static_cast<double>(request.style.step_asymmetry), 1e-3)
+                  1 + sign * static_cast<double>(gait.style.step_asymmetry), 1e-3)
           << i;
       EXPECT_NEAR((next - at) * static_cast<double>(gait.step_frequency_hz),
-                  1 + sign * static_cast<double>(request.style.time_asymmetry), 2e-3)
+                  1 + sign * static_cast<double>(gait.style.time_asymmetry), 2e-3)
           << i;
       at = next;
       place = there;

@@ -1,0 +1,38 @@
+#pragma once
+// How far a walk may go, and how far one goes.
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "components/body.h"
+#include "components/gait.h"
+#include "systems/kinematics/step_bounds.h"
+
+namespace mobil {
+
+/// Limits of a walk. Of joints: assets/body/joint_limits.h; the column's from pelvis to chest and from chest to head,
+/// of the joint between that comes to its end first (its turns are left out: five lumbar vertebrae take two thirds of
+/// them). Under the ground: 5 mm. The pelvis up and down: 16 m/s²; usual walks of all bodies have up to 6.3 up, at 2.3
+/// m/s, and up to 15.1 down, where at 0.3 m/s a leg comes to its end.
+struct WalkLimit {
+  WalkBound bound;
+  double limit;           // m, rad or m/s²: what is more is too far
+  double shown;           // of these one of the unit in which people read it
+  std::string_view says;  // what would be, {} for the number
+};
+/// By WalkBound.
+std::span<const WalkLimit, bound_count> walk_limits();
+
+/// How far each bound goes in a steady walk, by WalkBound: two steps.
+struct WalkExtremes {
+  Lanes<float> value[bound_count];
+};
+/// Sixty or 240 instants a second. Between sixty a joint goes up to 1.5° further, the pelvis is shaken up to 4 m/s²
+/// more.
+enum class Looking : std::uint8_t { roughly, closely };
+/// Of sixteen walkers. A lane's bits depend on no other lane.
+void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
+                   WalkExtremes& extremes);
+
+}  // namespace mobil

@@ -1,0 +1,377 @@
+// Walks of any style in range keep to the ground, to what joints can do and to what a pelvis does; who asked for more
+// is told what was moved. Seen in poses, tick by tick.
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/body/column.h"
+#include "assets/body/joint_limits.h"
+#include "engine/geometry.h"
+#include "engine/rows.h"
+#include "systems/gait/gait.h"
+#include "systems/people/style_estimate.h"
+#include "systems/people/walk_limits.h"
+#include "systems/simulation.h"
+#include "tests/gait/walkers.h"
+
+namespace mobil::style_limits_test {
+using namespace geometry;
+using enum Segment;
+
+constexpr double degree = 3.14159265358979324 / 180, tick = 1.0 / 60;
+
+struct Asked {
+  BodyRequest body;
+  GaitRequest gait;
+};
+
+/// One number at an end, two of them, three anywhere, all anywhere, all at their ends, all a part of the way there.
+GaitStyle any_style(Dice& dice, unsigned kind) {
+  GaitStyle style;
+  const auto end = [&](const GaitParameter& p) { return dice(0, 1) < 0.5 ? p.low : p.high; };
+  const auto anywhere = [&](const GaitParameter& p) { return dice.single(double{p.low}, double{p.high}); };
+  const auto any = [&]() -> const GaitParameter& { return gait_parameters[dice.engine() % gait_parameters.size()]; };
+  const double part = dice(0, 1);
+  for (unsigned i = 0; i < (kind < 3 ? kind + 1 : 0); ++i) {
+    const GaitParameter& p = any();
+    style.*p.value = kind < 2 ? end(p) : anywhere(p);
+  }
+  if (kind >= 3) {
+    for (const GaitParameter& p : gait_parameters) style.*p.value = kind == 4 ? end(p) : anywhere(p);
+  }
+  return kind == 5 ? random_style(dice, part) : style;
+}
+
+/// Any body, at any speed that it may be asked; `steps`: now and then with steps of any length or frequency, too.
+Asked anyone(Dice& dice, unsigned kind, bool steps) {
+  for (;;) {
+    Asked asked{random_body(dice), {.style = any_style(dice, kind)}};
+    const double leg = (fraction::thigh + fraction::shank) * double{asked.body.height_m}, scale = std::sqrt(leg / 0.9);
+    asked.gait.speed_m_s = dice.single(0.3 * scale, 2.3 * scale);
+    const double which = steps ? dice(0, 3) : 1.5;
+    if (which < 1) asked.gait.step_length_m = dice.single(0.25 * leg, 1.25 * leg);
+    if (which > 2) asked.gait.step_frequency_hz = dice.single(0.5 / scale, 3.0 / scale);
+    const auto body = make_body(asked.body);
+    if (body && resolve_gait(*body, asked.gait)) return asked;
+  }
+}
+
+/// What a walk may not do, and how far it went.
+enum Measure { under_mm, slides_mm, shaken_m_s2, joint_deg, measures };
+constexpr std::array<const char*, measures> measure_name = {"mm under the ground", "mm slid in a tick",
+                                                            "m/s2 of the pelvis", "deg beyond a joint's limit"};
+constexpr std::array<double, measures> most = {5, 2, 16, 0.01};
+
+struct Walked {
+  std::array<double, measures> worst{};
+  const char* joint = "";
+
+  void note(Measure m, double value) { worst[m] = std::max(worst[m], value); }
+  void joint_at(const char* name, double value_deg, double low_deg, double high_deg) {
+    const double by = std::max(low_deg - value_deg, value_deg - high_deg);
+    if (by > worst[joint_deg]) joint = name;
+    note(joint_deg, by);
+  }
+  bool keeps_limits() const {
+    for (std::size_t m = 0; m < measures; ++m)
+      if (worst[m] > most[m]) return false;
+    return true;
+  }
+};
+
+/// Looks at one walker tick by tick.
+class Watch {
+ public:
+  Watch(const Simulation& simulation, Entity who) : simulation_(simulation), who_(who) {
+    height_ = double{simulation.human(who)->body.request.height_m};
+  }
+
+  void look(Walked& out) {
+    pose_ = *simulation_.get<Pose>(who_);
+    angles_ = *simulation_.get<JointAngles>(who_);
+    feet_ = *simulation_.get<Feet>(who_);
+    const auto state = *simulation_.get<GaitState>(who_);
+    const auto plan = *simulation_.get<StepPlan>(who_);
+    for (const Side side : {Side::right, Side::left}) {
+      sole(state, plan, side, out);
+      leg(side, out);
+      arm(side, out);
+    }
+    column(out);
+    const double up = double{pose_.position_m[index(pelvis)].y};
+    if (ticks_ >= 2) out.note(shaken_m_s2, std::abs(up - 2 * up_[0] + up_[1]) / (tick * tick));
+    up_[1] = up_[0];
+    up_[0] = up;
+    ++ticks_;
+  }
+
+ private:
+  Quat<double> of(Segment s) const { return to_double(pose_.rotation[index(s)]); }
+  /// The pelvis as in the anatomical position.
+  Quat<double> level_pelvis() const {
+    return product(of(pelvis), {std::sin(-neutral_tilt / 2), 0, 0, std::cos(neutral_tilt / 2)});
+  }
+  static double heading(const Quat<double>& q) {
+    const Vec to_left = rotated(q, {1, 0, 0});
+    return std::atan2(-to_left.z, to_left.x) / degree;
+  }
+  static double about(double sine_half) { return 2 * std::asin(std::clamp(sine_half, -1.0, 1.0)) / degree; }
+
+  void sole(const GaitState<float>& state, const StepPlan<float>& plan, Side side, Walked& out) {
+    const Quat<double> foot = of(on_side(foot_right, side));
+    const Vec ankle = to_double(pose_.position_m[index(on_side(foot_right, side))]), tip = to_double(feet_.tip_m[side]);
+    const Vec ahead = rotated(foot, {0, 0, 1});
+    const Vec rim = ankle + rotated(foot, {0, -height_ * (fraction::ankle_height - fraction::heel_radius),
+                                           -height_ * fraction::heel_back});
+    const double lowest = std::min({rim.y - height_ * fraction::heel_radius, double{feet_.toe_m[side].y}, tip.y});
+    out.note(under_mm, -1000 * lowest);
+    // Planted: from when the heel's pad has yielded, a twentieth of the cycle after the strike, to toe-off.
+    const bool stance = state.stance_side == static_cast<std::uint32_t>(side);
+    const bool planted = stance ? state.time_s > 0.1F * plan.duration_s : state.time_s < plan.double_support_s;
+    const double pitch = std::asin(std::clamp(ahead.y, -1.0, 1.0)), level = std::hypot(ahead.x, ahead.z);
+    Sole& before = sole_[side];
+    if (planted && before.planted) {
+      // On its heel a foot rolls, else its tips stand.
+      const double rolled = height_ * fraction::heel_radius * (pitch - before.pitch) / level;
+      const double heel = std::hypot(rim.x - before.rim.x + rolled * ahead.x, rim.z - before.rim.z + rolled * ahead.z);
+      const double toes = std::hypot(tip.x - before.tip.x, tip.z - before.tip.z);
+      const bool on_heel = pitch >= 0 && before.pitch >= 0, on_toes = pitch < 0 && before.pitch < 0;
+      out.note(slides_mm, 1000 * (on_heel ? heel : on_toes ? toes : std::min(heel, toes)));
+    }
+    before = {planted, rim, tip, pitch};
+  }
+
+  void leg(Side side, Walked& out) const {
+    const double outward = side == Side::left ? 1 : -1;
+    const auto deg = [](float rad) { return double{rad} / degree; };
+    out.joint_at("hip flexion", deg(angles_.hip_flexion[side]) - neutral_tilt / degree, -30, 120);
+    out.joint_at("knee flexion", deg(angles_.knee_flexion[side]), -1.6, 143.8);
+    out.joint_at("ankle dorsiflexion", deg(angles_.ankle_dorsiflexion[side]), -50, 39);
+    const auto from = [&](const Quat<double>& upper, Segment lower) { return product(conjugate(upper), of(lower)); };
+    const Vec down = rotated(from(level_pelvis(), on_side(thigh_right, side)), {0, -1, 0});
+    out.joint_at("hip abduction", outward * std::asin(std::clamp(down.x, -1.0, 1.0)) / degree, -30, 45);
+    const double turned = std::remainder(heading(of(on_side(foot_right, side))) - heading(of(pelvis)), 360) * -outward;
+    out.joint_at("hip rotation", turned, -45, 45);
+    const Quat<double> toes = from(of(on_side(foot_right, side)), on_side(toes_right, side));
+    out.joint_at("toes' extension", -about(toes.w < 0 ? -toes.x : toes.x), -45, 70);
+  }
+
+  void arm(Side side, Walked& out) const {
+    out.joint_at("shoulder flexion", double{angles_.shoulder_flexion[side]} / degree, -60, 180);
+    out.joint_at("elbow flexion", double{angles_.elbow_flexion[side]} / degree, 0, 150);
+  }
+
+  /// Bending; turns are left out (systems/people/walk_limits.h).
+  void column(Walked& out) const {
+    Quat<double> below = level_pelvis();
+    for (std::size_t v = 0; v < vertebra_limits.size(); ++v) {
+      const Quat<double> own = of(static_cast<Segment>(index(L5) + v));
+      Quat<double> joint = product(conjugate(below), own);
+      if (joint.w < 0) joint = {-joint.x, -joint.y, -joint.z, -joint.w};
+      const VertebraLimit& limit = vertebra_limits[v];
+      out.joint_at("vertebra's flexion", about(joint.x), -limit.flexion_extension / 2, limit.flexion_extension / 2);
+      out.joint_at("vertebra's bending", about(joint.z), -limit.lateral_bending, limit.lateral_bending);
+      below = own;
+    }
+  }
+
+  struct Sole {
+    bool planted = false;
+    Vec rim{}, tip{};
+    double pitch = 0;
+  };
+  const Simulation& simulation_;
+  Entity who_;
+  double height_ = 0;
+  int ticks_ = 0;
+  std::array<double, 2> up_{};
+  std::array<Sole, 2> sole_;
+  Pose<float> pose_;
+  JointAngles<float> angles_;
+  Feet<float> feet_;
+};
+
+std::vector<Walked> walk(const std::vector<Asked>& asked, double seconds) {
+  Simulation simulation({.tick_s = tick});
+  std::vector<SpawnRequest> requests;
+  for (const Asked& one : asked) requests.push_back({.body = one.body, .gait = one.gait});
+  std::vector<Entity> people(asked.size());
+  if (const auto done = simulation.spawn(requests, people); !done) throw std::runtime_error(done.error().message);
+  std::vector<Watch> watches;
+  for (const Entity person : people) watches.emplace_back(simulation, person);
+  std::vector<Walked> walked(asked.size());
+  for (double t = 0; t < seconds; t += tick) {
+    for (std::size_t i = 0; i < people.size(); ++i) watches[i].look(walked[i]);
+    simulation.tick();
+  }
+  return walked;
+}
+
+std::string told(const Asked& asked, const Walked& walked) {
+  std::string text = "height " + std::to_string(asked.body.height_m) + ", mass " + std::to_string(asked.body.mass_kg) +
+                     ", speed " + std::to_string(*asked.gait.speed_m_s);
+  if (asked.gait.step_length_m) text += ", step " + std::to_string(*asked.gait.step_length_m);
+  if (asked.gait.step_frequency_hz) text += ", frequency " + std::to_string(*asked.gait.step_frequency_hz);
+  for (const GaitParameter& p : gait_parameters)
+    if (asked.gait.style.*p.value != GaitStyle{}.*p.value)
+      text += ", " + std::string(p.name) + " " + std::to_string(asked.gait.style.*p.value);
+  for (std::size_t m = 0; m < measures; ++m) text += "; " + std::to_string(walked.worst[m]) + " " + measure_name[m];
+  return text + " (" + walked.joint + ")";
+}
+
+/// Some hundred; ten thousand with MOBIL_LONG in the environment.
+TEST(StyleLimits, WalksOfAnyStyleKeepThem) {
+  const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 10000 : 480;
+  constexpr std::size_t together = 240;
+  Dice dice{std::mt19937(7)};
+  Walked worst;
+  std::size_t moved = 0;
+  for (std::size_t first = 0; first < count; first += together) {
+    std::vector<Asked> asked;
+    for (std::size_t i = 0; i < std::min(together, count - first); ++i)
+      asked.push_back(anyone(dice, static_cast<unsigned>(i % 6), i % 5 == 0));
+    const std::vector<Walked> walked = walk(asked, 3.5);
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      EXPECT_TRUE(walked[i].keeps_limits()) << told(asked[i], walked[i]);
+      for (std::size_t m = 0; m < measures; ++m) worst.note(static_cast<Measure>(m), walked[i].worst[m]);
+      if (count <= 1000 && !Simulation::style_changes(asked[i].body, asked[i].gait)->empty()) ++moved;
+    }
+  }
+  for (std::size_t m = 0; m < measures; ++m)
+    std::printf("%zu walks: %.2f %s at most\n", count, worst.worst[m], measure_name[m]);
+  if (count <= 1000) {
+    EXPECT_GT(moved, count / 5);  // else this shows little
+  }
+}
+
+/// Usual walks of all bodies and speeds are far enough from the limits to be what they always were.
+RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
+  Dice dice{std::mt19937(seed)};
+  Asked asked = anyone(dice, 0, false);
+  asked.gait.style = {};
+  RC_ASSERT(Simulation::style_changes(asked.body, asked.gait)->empty());
+  RC_ASSERT(walk({asked}, 2).front().keeps_limits());
+}
+
+/// What is walked is what is told, and it does not matter who else comes, in which order and by whose hands.
+TEST(StyleLimits, AreTheSameForOneAndForMany) {
+  Dice dice{std::mt19937(3)};
+  std::vector<Asked> asked;
+  for (unsigned i = 0; i < 40; ++i) asked.push_back(anyone(dice, i % 6, i % 4 == 0));
+  std::vector<SpawnRequest> requests;
+  for (const Asked& one : asked) requests.push_back({.body = one.body, .gait = one.gait});
+  std::ranges::reverse(requests);
+  Simulation many({.threads = 2});
+  std::vector<Entity> people(asked.size());
+  ASSERT_TRUE(many.spawn(requests, people));
+  std::ranges::reverse(people);
+  Simulation alone;
+  std::size_t moved = 0;
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    GaitStyle expected = asked[i].gait.style;
+    std::optional<float> step_m;
+    const auto changes = Simulation::style_changes(asked[i].body, asked[i].gait);
+    ASSERT_TRUE(changes);
+    for (const StyleChange& change : *changes) {
+      EXPECT_NE(described(change).find(" m/s"), std::string::npos);
+      if (change.parameter == gait_parameters.size()) {
+        step_m = change.walked;
+        continue;
+      }
+      const GaitParameter& p = gait_parameters[change.parameter];
+      EXPECT_EQ(change.asked, asked[i].gait.style.*p.value);
+      EXPECT_GE(change.walked, p.low);
+      EXPECT_LE(change.walked, p.high);
+      expected.*p.value = change.walked;
+      ++moved;
+    }
+    const auto walks = many.gait_request(people[i]);
+    EXPECT_TRUE(same_style(walks->style, expected));
+    if (step_m) {
+      EXPECT_EQ(walks->step_length_m, step_m);
+    }
+    // Who comes another way to the same walk, walks it so.
+    const Entity one = *alone.spawn(asked[i].body);
+    ASSERT_TRUE(alone.set_gait(one, asked[i].gait));
+    EXPECT_TRUE(same_style(alone.gait_request(one)->style, expected));
+  }
+  EXPECT_GT(moved, 20U);
+}
+
+/// Where limits are told to be kept without a look, a close look finds that they are.
+TEST(StyleLimits, AreKeptWhereTheEstimateIsSure) {
+  Dice dice{std::mt19937(8)};
+  std::vector<BodySize<float>> sizes;
+  std::vector<Gait<float>> gaits;
+  std::size_t sure = 0, asked = 0;
+  for (; sizes.size() < 640; ++asked) {
+    BodySize<float> size{};
+    size.height_m = dice.single(1.4, 2.1);
+    size.mass_kg = dice.single(18, 34) * size.height_m * size.height_m;
+    GaitRequest request;
+    request.speed_m_s = dice.single(0.4, 2.2);
+    for (const GaitParameter& p : gait_parameters) {
+      const double off = dice(0, 3) < 1 ? (dice(0, 1) < 0.5 ? -0.1 : 0.1) : dice(-0.1, 0.1);
+      request.style.*p.value *= static_cast<float>(1 + off);
+    }
+    const auto gait = resolve_gait(size.height_m, request);
+    if (!gait || !surely_keeps_limits(size, *gait)) continue;
+    ++sure;
+    sizes.push_back(size);
+    gaits.push_back(*gait);
+  }
+  EXPECT_GT(sure, asked / 3) << "an estimate that is rarely sure is of no use";
+  BodySize<Lanes<float>> size{};
+  Gait<Lanes<float>> gait{};
+  WalkExtremes found{};
+  for (std::size_t first = 0; first < sizes.size(); first += lane_count) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      put_row(sizes[first + l], size, l);
+      put_row(gaits[first + l], gait, l);
+    }
+    walk_extremes(size, gait, Looking::closely, found);
+    for (std::size_t b = 0; b < bound_count; ++b) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        EXPECT_LE(double{found.value[b][l]}, walk_limits()[b].limit) << walk_limits()[b].says;
+      }
+    }
+  }
+}
+
+/// Who walks otherwise asleep does as who is awake.
+TEST(StyleLimits, HoldForSleepers) {
+  const BodyRequest body{.height_m = 1.8F, .mass_kg = 75};
+  const GaitRequest slow{.speed_m_s = 0.6F, .style = {.foot_flat_cycle = 0.06F}};
+  const WalkChange faster{{}, GaitChange{.speed_m_s = 2.2F}, {}};
+  Simulation simulation, awake;
+  std::vector<GaitStyle> after;
+  for (Simulation* const world : {&simulation, &awake}) {
+    const Entity person = *world->spawn(body, slow);
+    for (int i = 0; i < 300; ++i) world->tick();
+    EXPECT_TRUE(same_style(world->gait_request(person)->style, slow.style));
+    WalkChange change = faster;
+    change.human = person;
+    if (world == &simulation) {
+      ASSERT_EQ(world->sleep({&person, 1}).value(), 1U);
+      ASSERT_TRUE(world->change_gait(person, *change.gait));
+    } else {
+      ASSERT_EQ(world->change_walks({&change, 1}).value(), 0U);
+    }
+    after.push_back(world->gait_request(person)->style);
+    EXPECT_GT(after.back().foot_flat_cycle, slow.style.foot_flat_cycle);
+  }
+  EXPECT_TRUE(same_style(after[0], after[1]));
+}
+
+}  // namespace mobil::style_limits_test

@@ -1,10 +1,40 @@
 #include "engine/error.h"
 
+#include <algorithm>
+#include <cstddef>
 #include <new>
+#include <string_view>
 
 namespace mobil {
 
 namespace {
+
+constexpr std::size_t longest_word = 255, start_of_word = 60, longest_line = 2000;
+
+bool is_control(char c) {
+  const auto u = static_cast<unsigned char>(c);
+  return u < 0x20 || u == 0x7F;
+}
+
+/// The first `count` bytes, or up to three fewer, so that no character of UTF-8 is cut.
+std::string_view start_of(std::string_view text, std::size_t count) {
+  while (count > 0 && count < text.size() && (static_cast<unsigned char>(text[count]) & 0xC0U) == 0x80U) --count;
+  return text.substr(0, count);
+}
+
+void add_escaped(char c, std::string& to) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  if (c == '\n') {
+    to += "\\n";
+  } else if (c == '\t') {
+    to += "\\t";
+  } else {
+    const auto u = static_cast<unsigned char>(c);
+    to += "\\x";
+    to += digits[u >> 4U];
+    to += digits[u & 15U];
+  }
+}
 
 Error error_of(const char* call, Status status) noexcept {
   Error error{{}, status};
@@ -18,6 +48,29 @@ Error error_of(const char* call, Status status) noexcept {
 }
 
 }  // namespace
+
+std::string one_line(std::string text) {
+  const bool clean = std::ranges::none_of(text, is_control);
+  if (clean && text.size() <= longest_word) return text;
+  std::string line;
+  for (std::size_t from = 0; from < text.size() && line.size() < longest_line;) {
+    const std::size_t end = std::min(text.find(' ', from), text.size());
+    const std::string_view word = std::string_view(text).substr(from, end - from);
+    const bool whole = word.size() <= longest_word;
+    for (const char c : whole ? word : start_of(word, start_of_word)) {
+      if (is_control(c)) {
+        add_escaped(c, line);
+      } else {
+        line += c;
+      }
+    }
+    if (!whole) line += "... (" + std::to_string(word.size()) + " characters)";
+    if (end < text.size()) line += ' ';
+    from = end + 1;
+  }
+  if (line.size() > longest_line) line = std::string(start_of(line, longest_line)) + "...";
+  return line;
+}
 
 tl::unexpected<Error> fail(Status status) noexcept {
   return tl::unexpected<Error>(error_of(nullptr, status));

@@ -20,8 +20,13 @@ inline bool operator==(const Error& error, Status status) {
 template <class T>
 using Result = tl::expected<T, Error>;
 
+/// The text on one line that a terminal shows as it stands: control characters as \n or \x1b, words of more than 255
+/// characters cut to their first 60, and at most 2000 characters in all. Texts within that stay as they are.
+std::string one_line(std::string text);
+
+/// The message is made one line.
 inline tl::unexpected<Error> fail(std::string message, Status status = Status::not_valid) {
-  return tl::unexpected<Error>(Error{std::move(message), status});
+  return tl::unexpected<Error>(Error{one_line(std::move(message)), status});
 }
 /// With the status' own line, or none where there is no memory for it.
 tl::unexpected<Error> fail(Status status) noexcept;

@@ -1,49 +1,207 @@
 #include "assets/files/output_file.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <atomic>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <system_error>
+#include <utility>
+#include <vector>
+
+#include "assets/files/unfinished.h"
 
 namespace mobil {
+namespace {
 
-Result<void> write_file(const std::filesystem::path& path, std::string_view text) {
-  auto temporary = path;
-  temporary += ".partial";
-  std::error_code ignored;
-  {
-    std::ofstream out(temporary, std::ios::binary | std::ios::trunc);
-    out.write(text.data(), static_cast<std::streamsize>(text.size()));
-    out.flush();
-    if (!out) {
-      std::filesystem::remove(temporary, ignored);
-      return fail(
-          fmt::format("{}: cannot be written; choose a folder that exists, is writable and has space", path.string()));
-    }
-  }
+namespace fs = std::filesystem;
+
+constexpr int most_links = 40;  // as the kernel has it
+constexpr std::string_view advice = "choose a folder that exists, is writable and has space";
+
+/// Short, so that it fits wherever the final name does; hidden, so that nobody takes it for a result.
+fs::path temporary_in(const fs::path& folder) {
+  static std::atomic<unsigned> count{0};
+  return folder / fmt::format(".mobil-{}-{}.partial", ::getpid(), count++);
+}
+
+fs::path folder_of_file(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// What the path leads to, which need not exist.
+Result<fs::path> followed(const fs::path& path) {
+  fs::path at = path;
   std::error_code error;
-  std::filesystem::rename(temporary, path, error);
-  if (error) {
-    std::filesystem::remove(temporary, ignored);
-    return fail(fmt::format("{}: cannot be put in place ({}); remove what is there or choose another name",
-                            path.string(), error.message()));
+  for (int links = 0; fs::is_symlink(fs::symlink_status(at, error)); ++links) {
+    if (links == most_links) return fail(fmt::format("{}: its links go round in a circle; name a file", path.string()));
+    const fs::path next = fs::read_symlink(at, error);
+    if (error) break;
+    at = next.is_absolute() ? next : folder_of_file(at) / next;
   }
+  if (error && error != std::errc::no_such_file_or_directory) {
+    return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), error.message(), advice));
+  }
+  return at;
+}
+
+bool copied(const fs::path& from, const fs::path& to) {
+  std::ifstream in(from, std::ios::binary);
+  std::ofstream out(to, std::ios::binary | std::ios::trunc);
+  std::vector<char> piece(std::size_t{1} << 20U);
+  while (in.read(piece.data(), static_cast<std::streamsize>(piece.size())), in.gcount() > 0) {
+    if (!out.write(piece.data(), in.gcount())) return false;
+  }
+  return in.eof() && out.flush().good();
+}
+
+/// Moves a complete file to its place, wherever links lead and whatever is there.
+Result<void> move_file(const fs::path& from, const fs::path& path) {
+  auto place = OutputFile::at(path);
+  if (!place) return tl::unexpected(place.error());
+  std::error_code error;
+  if (!place->in_place()) fs::rename(from, place->temporary(), error);  // fails where a link leads to another disk
+  if ((place->in_place() || error) && !copied(from, place->temporary())) {
+    return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), std::strerror(errno), advice));
+  }
+  return place->put();
+}
+
+}  // namespace
+
+Result<OutputFile> OutputFile::at(const fs::path& path) {
+  auto target = followed(path);
+  if (!target) return tl::unexpected(target.error());
+  std::error_code error;
+  const fs::file_status there = fs::status(*target, error);
+  if (fs::is_directory(there)) return fail(fmt::format("{}: a folder has that name; choose another", path.string()));
+  const fs::path folder = folder_of_file(*target);
+  if (!fs::is_directory(folder, error)) {
+    return fail(
+        fmt::format("{}: cannot be written, there is no folder {}; {}", path.string(), folder.string(), advice));
+  }
+  const bool in_place = fs::exists(there) && !fs::is_regular_file(there);
+  if (::access((in_place ? *target : folder).c_str(), W_OK) != 0) {
+    return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), std::strerror(errno), advice));
+  }
+  OutputFile file;
+  file.path_ = path;
+  file.target_ = std::move(*target);
+  file.in_place_ = in_place;
+  file.temporary_ = file.in_place_ ? file.target_ : temporary_in(folder);
+  file.open_ = !file.in_place_;
+  if (file.open_) note_unfinished(file.temporary_);
+  return file;
+}
+
+Result<void> OutputFile::put() {
+  if (!open_) return {};
+  std::error_code error;
+  fs::rename(temporary_, target_, error);
+  if (error) {
+    return fail(fmt::format("{}: cannot be put in place ({}); remove what is there or choose another name",
+                            path_.string(), error.message()));
+  }
+  open_ = false;
+  forget_unfinished(temporary_);
   return {};
 }
 
-Result<void> make_output_folder(const std::filesystem::path& folder) {
+OutputFile::OutputFile(OutputFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      target_(std::move(other.target_)),
+      temporary_(std::move(other.temporary_)),
+      in_place_(other.in_place_),
+      open_(std::exchange(other.open_, false)) {}
+
+OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(target_, other.target_);
+  std::swap(temporary_, other.temporary_);
+  std::swap(in_place_, other.in_place_);
+  std::swap(open_, other.open_);
+  return *this;
+}
+
+OutputFile::~OutputFile() {
+  if (!open_) return;
+  std::error_code ignored;
+  fs::remove(temporary_, ignored);
+  forget_unfinished(temporary_);
+}
+
+Result<void> write_file(const fs::path& path, std::string_view text) {
+  auto file = OutputFile::at(path);
+  if (!file) return tl::unexpected(file.error());
+  {
+    errno = 0;
+    std::ofstream out(file->temporary(), std::ios::binary | std::ios::trunc);
+    out.write(text.data(), static_cast<std::streamsize>(text.size()));
+    out.flush();
+    if (!out) {
+      return fail(fmt::format("{}: cannot be written ({}); {}", path.string(),
+                              errno != 0 ? std::strerror(errno) : "unknown reason", advice));
+    }
+  }
+  return file->put();
+}
+
+Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder)) {
+  OutputFolder made;
+  made.path_ = folder;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error) && !error; at = at.parent_path()) {
+    made.made_ = at;
+    if (at == at.parent_path()) break;
+  }
+  made.inside_ = temporary_in(folder);
+  note_unfinished(made.inside_, made.made_);
+  if (!error) fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error)) {
     return fail(fmt::format("{}: cannot be made a folder ({}); choose another with --out", folder.string(),
                             error ? error.message() : "a file of that name is there"));
   }
-  const auto probe = folder / ".mobil-probe";
-  if (!write_file(probe, "")) {
-    return fail(fmt::format("{}: cannot be written to; choose another folder with --out", folder.string()));
+  if (!fs::create_directory(made.inside_, error)) {
+    return fail(fmt::format("{}: cannot be written to ({}); choose another folder with --out", folder.string(),
+                            error ? error.message() : "a name is taken"));
   }
-  std::filesystem::remove(probe, error);
+  return made;
+}
+
+Result<void> OutputFolder::put() {
+  std::error_code error;
+  std::vector<fs::path> names;
+  for (const auto& entry : fs::directory_iterator(inside_, error)) {
+    names.push_back(entry.path().filename());
+    if (auto place = OutputFile::at(path_ / names.back()); !place) return tl::unexpected(place.error());
+  }
+  if (error) return fail(fmt::format("{}: cannot be read again ({})", inside_.string(), error.message()));
+  const auto hold = hold_unfinished();
+  for (const fs::path& name : names) {
+    if (auto moved = move_file(inside_ / name, path_ / name); !moved) return moved;
+  }
+  remove_with_folders(inside_, {});
+  forget_unfinished(inside_);
+  inside_.clear();
   return {};
+}
+
+OutputFolder::OutputFolder(OutputFolder&& other) noexcept
+    : path_(std::move(other.path_)), inside_(std::exchange(other.inside_, {})), made_(std::exchange(other.made_, {})) {}
+
+OutputFolder& OutputFolder::operator=(OutputFolder&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(inside_, other.inside_);
+  std::swap(made_, other.made_);
+  return *this;
+}
+
+OutputFolder::~OutputFolder() {
+  if (inside_.empty()) return;
+  remove_with_folders(inside_, made_);
+  forget_unfinished(inside_);
 }
 
 }  // namespace mobil

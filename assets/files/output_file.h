@@ -1,5 +1,5 @@
 #pragma once
-// Results on disk: complete under their final name, or not there at all.
+// Results on disk: complete under their final name, or not there at all; and those of one run together.
 
 #include <filesystem>
 #include <string_view>
@@ -8,11 +8,60 @@
 
 namespace mobil {
 
-/// Writes the text to a temporary file beside `path` and renames it. Errors: folder missing or not writable, disk full;
-/// nothing is left behind.
+/// Where one result is written until it is complete. Symbolic links are followed. What is no regular file (a device, a
+/// pipe) is written to itself and never replaced. Dropped before `put`, it leaves nothing behind.
+class OutputFile {
+ public:
+  /// Error: the path is a folder, its folder is missing or not writable, or its links go round in a circle.
+  static Result<OutputFile> at(const std::filesystem::path& path);
+
+  /// Open this for writing: a new name in the same folder, or the device itself.
+  const std::filesystem::path& temporary() const { return temporary_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Whether that is the device itself.
+  bool in_place() const { return in_place_; }
+
+  /// Gives the file its name, over what was there. Error: the folder is not writable, or a folder has taken the name.
+  Result<void> put();
+
+  OutputFile(OutputFile&& other) noexcept;
+  OutputFile& operator=(OutputFile&& other) noexcept;
+  ~OutputFile();
+
+ private:
+  OutputFile() = default;
+  std::filesystem::path path_, target_, temporary_;  // target: path with its links followed
+  bool in_place_ = false;
+  bool open_ = false;  // not put yet: the temporary file is ours to remove
+};
+
+/// Writes the text by an OutputFile. Errors: those, not writable, disk full; nothing is left behind.
 Result<void> write_file(const std::filesystem::path& path, std::string_view text);
 
-/// Makes a folder for results (with its parents) and proves that a file can be written in it.
-Result<void> make_output_folder(const std::filesystem::path& folder);
+/// The results of one run, which appear in their folder together: until `put` they lie in a hidden folder inside it.
+/// Dropped before, nothing is left behind, nor the folder where it was made for them.
+class OutputFolder {
+ public:
+  /// Makes the folder with its parents. Error: it cannot be made, or nothing can be written in it.
+  static Result<OutputFolder> make(const std::filesystem::path& folder);
+
+  /// Where to write results: all files in it are moved by `put`. No folders in it.
+  const std::filesystem::path& inside() const { return inside_; }
+  const std::filesystem::path& path() const { return path_; }
+
+  /// Moves all files to their place, over files of their names; links and devices as OutputFile. Error: a folder has
+  /// one of the names, and then none is moved; or the disk fails half way.
+  Result<void> put();
+
+  OutputFolder(OutputFolder&& other) noexcept;
+  OutputFolder& operator=(OutputFolder&& other) noexcept;
+  ~OutputFolder();
+
+ private:
+  OutputFolder() = default;
+  std::filesystem::path path_, inside_;
+  std::filesystem::path made_;  // the outermost folder that was not there before; empty where all were
+};
 
 }  // namespace mobil

@@ -31,8 +31,7 @@ Result<void> bake(const BakeText& text) {
   const auto threads = parse_count(text.threads, 0, 256);
   if (!threads) return fail(fmt::format("--threads {}: give a whole number of 0 to 256", text.threads));
   const std::filesystem::path file = text.out;
-  if (file.has_parent_path() && !std::filesystem::is_directory(file.parent_path()))
-    return fail(fmt::format("--out {}: there is no folder {}; make it first", text.out, file.parent_path().string()));
+  if (auto place = check_result_place("--out", file); !place) return place;
   const double start_s = wall_now_s();
   Simulation simulation({.threads = static_cast<int>(*threads)});
   RelevanceOptions options;

@@ -27,4 +27,17 @@ Result<void> load_baked(Simulation& simulation, const std::filesystem::path& fil
   return {};
 }
 
+Result<void> load_baked_option(Simulation& simulation, const std::filesystem::path& named) {
+  if (!named.empty()) {
+    auto done = load_baked(simulation, named);
+    return done ? done : fail("--baked " + done.error().message);
+  }
+  std::error_code none;
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  for (const char* const place : {"mobil.baked", "../mobil.baked", "../share/mobil/mobil.baked"}) {
+    if (std::filesystem::is_regular_file(program / place, none) && load_baked(simulation, program / place)) break;
+  }
+  return {};
+}
+
 }  // namespace mobil

@@ -15,5 +15,8 @@ namespace mobil {
 Result<void> write_baked(const std::filesystem::path& file, std::span<const std::byte> bytes);
 /// Errors: a file that cannot be read; what `load_baked` refuses.
 Result<void> load_baked(Simulation& simulation, const std::filesystem::path& file);
+/// Of the file that `--baked` names; where it names none, of the mobil.baked beside the program or installed with it,
+/// if there is one that fits. Bits are the same with and without. Errors: those of a file that was named.
+Result<void> load_baked_option(Simulation& simulation, const std::filesystem::path& named);
 
 }  // namespace mobil

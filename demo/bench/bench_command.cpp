@@ -64,7 +64,7 @@ Result<BenchRequest> read_request(const BenchText& text) {
   if (!humans) return tl::unexpected(humans.error());
   request.humans = *humans;
   if (text.json) {
-    if (auto ok = check_json_place(*text.json); !ok) return tl::unexpected(ok.error());
+    if (auto ok = check_result_place("--json", *text.json); !ok) return tl::unexpected(ok.error());
     request.json = *text.json;
   }
   return request;

@@ -25,16 +25,15 @@ struct BodyCommand {
 };
 
 Result<void> write_body(const Body& body, const std::filesystem::path& out) {
-  const bool folder_was_there = std::filesystem::exists(out);
-  if (auto made = make_output_folder(out); !made) return made;
+  auto results = OutputFolder::make(out);
+  if (!results) return tl::unexpected(results.error());
   const auto picture = body_picture(body);
-  auto done = picture ? write_png((out / "body.png").string(), *picture) : Result<void>{};
-  if (done) done = write_file(out / "body.json", body_json(body));
-  std::error_code ignored;
-  if (!done) {
-    if (!folder_was_there) std::filesystem::remove(out, ignored);  // if it is empty
-    return done;
+  if (picture) {
+    if (auto done = write_png((results->inside() / "body.png").string(), *picture); !done) return done;
   }
+  if (auto done = write_file(results->inside() / "body.json", body_json(body)); !done) return done;
+  if (auto done = results->put(); !done) return done;
+  std::error_code ignored;
   if (!picture) std::filesystem::remove(out / "body.png", ignored);  // another body's
   fmt::print("{}\nlook at {}: body.json{}\n", body_table(body), out.string(), picture ? " body.png" : "");
   if (!picture) fmt::print(stderr, "mobil body: no picture: {}\n", picture.error().message);

@@ -97,12 +97,14 @@ Result<void> walk_variations(const Walker& walker, Comparison& comparison) {
 
 Result<void> write_all(const std::filesystem::path& out, const Comparison& comparison,
                        const std::vector<Verdict>& verdicts) {
-  if (auto done = make_output_folder(out); !done) return done;
-  if (auto done = write_file(out / "compare.json", comparison_json(comparison, verdicts)); !done) return done;
+  auto results = OutputFolder::make(out);
+  if (!results) return tl::unexpected(results.error());
+  const auto& inside = results->inside();
+  if (auto done = write_file(inside / "compare.json", comparison_json(comparison, verdicts)); !done) return done;
   for (const auto& plot : comparison_plots(comparison)) {
-    if (auto done = write_file(out / plot.file, plot.text); !done) return done;
+    if (auto done = write_file(inside / plot.file, plot.text); !done) return done;
   }
-  return {};
+  return results->put();
 }
 
 /// True where every bound held.

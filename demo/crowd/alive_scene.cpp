@@ -47,10 +47,7 @@ AliveScene::AliveScene(const AliveRequest& request) : request_(request), threads
 Result<std::unique_ptr<AliveScene>> AliveScene::make(const AliveRequest& request,
                                                      const CrowdScene::Progress& progress) {
   std::unique_ptr<AliveScene> scene(new AliveScene(request));
-  if (!request.baked.empty()) {
-    if (auto done = load_baked(*scene->simulation_, request.baked); !done)
-      return fail("--baked " + done.error().message);
-  }
+  if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
   SceneNeeds needs;
   needs.camera = scene->camera_;
   needs.tolerance_px = tolerance_px;

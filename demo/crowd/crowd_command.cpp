@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "assets/files/output_file.h"
@@ -32,8 +33,11 @@ Result<void> write_report(const CrowdOptions& options, const std::string& json) 
 /// Of the crowd as it is, and as it goes on.
 Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
   if (options.capture.empty()) return {};
+  std::optional<OutputFolder> results;
   if (options.frames > 0) {
-    if (auto done = make_output_folder(options.capture); !done) return fail("--capture " + done.error().message);
+    auto made = OutputFolder::make(options.capture);
+    if (!made) return fail("--capture " + made.error().message);
+    results = std::move(*made);
   }
   auto camera = CrowdCamera::create();
   if (!camera) return tl::unexpected(camera.error());
@@ -47,13 +51,16 @@ Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
       scene.tick();
     }
     if (auto done = camera->take(scene, image); !done) return done;
-    const auto file = options.frames > 0 ? options.capture / fmt::format("frame_{:04}.png", i) : options.capture;
+    const auto file = results ? results->inside() / fmt::format("frame_{:04}.png", i) : options.capture;
     const PngEffort effort = options.frames > 0 ? PngEffort::quick : PngEffort::small;
     if (auto done = write_png(file.string(), image, effort); !done) return fail("--capture " + done.error().message);
     show_progress("pictures", i + 1, pictures);
   }
   show("");
-  fmt::print("written {}\n", options.capture.string());
+  if (results) {
+    if (auto done = results->put(); !done) return done;
+  }
+  fmt::print("written {}\n", one_line(options.capture.string()));
   return {};
 }
 
@@ -88,15 +95,10 @@ Result<void> run(const CrowdOptions& options) {
 
 /// Before minutes of work are done for nothing.
 Result<void> check_places(const CrowdOptions& options) {
-  const auto folder_of = [](const std::filesystem::path& file) {
-    return file.has_parent_path() ? file.parent_path() : std::filesystem::path(".");
-  };
-  if (!options.report.empty() && !std::filesystem::is_directory(folder_of(options.report)))
-    return fail(fmt::format("--report {}: there is no folder {}; make it first", options.report.string(),
-                            folder_of(options.report).string()));
-  if (options.frames == 0 && !options.capture.empty() && !std::filesystem::is_directory(folder_of(options.capture)))
-    return fail(fmt::format("--capture {}: there is no folder {}; make it first", options.capture.string(),
-                            folder_of(options.capture).string()));
+  if (!options.report.empty()) {
+    if (auto place = check_result_place("--report", options.report); !place) return place;
+  }
+  if (options.frames == 0 && !options.capture.empty()) return check_result_place("--capture", options.capture);
   return {};
 }
 

@@ -53,10 +53,7 @@ std::size_t CrowdScene::bytes_of_people() const {
 
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request, const Progress& progress) {
   std::unique_ptr<CrowdScene> scene(new CrowdScene(request));
-  if (!request.baked.empty()) {
-    if (auto done = load_baked(*scene->simulation_, request.baked); !done)
-      return fail("--baked " + done.error().message);
-  }
+  if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
   if (request.effects.muscles) {
     RelevanceOptions options;
     options.switches = 8;  // near ones change every second: spread over it

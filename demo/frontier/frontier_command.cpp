@@ -25,7 +25,8 @@ struct FrontierText {
 };
 
 Result<void> run_finite(const std::string& out) {
-  if (auto made = make_output_folder(out); !made) return made;
+  auto results = OutputFolder::make(out);
+  if (!results) return tl::unexpected(results.error());
   const auto shapes = measure_finite(&show_part);
   if (!shapes) return tl::unexpected(shapes.error());
   std::vector<Muscle> all;
@@ -33,10 +34,11 @@ Result<void> run_finite(const std::string& out) {
   const auto living = measure_living(all, &show_part);
   show("");
   if (!living) return tl::unexpected(living.error());
-  const std::filesystem::path folder = out;
+  const auto& folder = results->inside();
   if (auto done = write_file(folder / "finite.csv", finite_csv(*shapes)); !done) return done;
   if (auto done = write_file(folder / "living.csv", living_csv(*living)); !done) return done;
   if (auto done = write_file(folder / "living.svg", svg(living_figure(*living))); !done) return done;
+  if (auto done = results->put(); !done) return done;
   fmt::print("{}\n{}\nwritten {}: finite.csv living.csv living.svg\n", finite_text(*shapes), living_text(*living), out);
   return {};
 }
@@ -44,7 +46,8 @@ Result<void> run_finite(const std::string& out) {
 Result<void> run_frontier(const FrontierText& text) {
   if (text.finite) return run_finite(text.out);
   if (text.short_form && text.long_form) return fail("--short and --long are both asked for; give one of them");
-  if (auto made = make_output_folder(text.out); !made) return made;
+  auto results = OutputFolder::make(text.out);
+  if (!results) return tl::unexpected(results.error());
   FrontierRequest request = text.long_form ? long_frontier() : short_frontier();
   if (text.loads != "both") request.scenes = {text.loads == "frame"};
   if (text.check) request.checks = {{8, 8, 32}, {16, 16, 64}};
@@ -52,10 +55,11 @@ Result<void> run_frontier(const FrontierText& text) {
   const auto frontier = measure_frontier(request);
   show("");
   if (!frontier) return tl::unexpected(frontier.error());
-  const std::filesystem::path out = text.out;
+  const auto& out = results->inside();
   if (auto done = write_file(out / "frontier.csv", frontier_csv(*frontier)); !done) return done;
   if (auto done = write_file(out / "frontier.svg", svg(frontier_figure(*frontier))); !done) return done;
   if (auto done = write_file(out / "frontier.json", frontier_json(*frontier)); !done) return done;
+  if (auto done = results->put(); !done) return done;
   fmt::print("{}\nwritten {}: frontier.csv frontier.svg frontier.json\n", frontier_text(*frontier), text.out);
   return {};
 }

@@ -18,8 +18,7 @@ namespace mobil {
 /// What an entry is made with, and what it made.
 class PaperRun {
  public:
-  PaperRun(std::filesystem::path out, std::optional<std::filesystem::path> anatomy_folder)
-      : anatomy(std::move(anatomy_folder)), out_(std::move(out)) {}
+  explicit PaperRun(std::optional<std::filesystem::path> anatomy_folder) : anatomy(std::move(anatomy_folder)) {}
 
   /// How far the entry is, 0–1; `what` is said on a terminal.
   void progress(std::string_view what, double part) const;
@@ -31,14 +30,14 @@ class PaperRun {
   /// the picture.
   Result<void> write_picture(std::string_view caption, const std::function<Result<Image>()>& make);
 
-  std::string entry;  // the one that is being made
+  std::string entry;          // the one that is being made
+  std::filesystem::path out;  // where its files are written until it is done
   std::optional<std::filesystem::path> anatomy;
   std::string text;  // what is to be told of it when it is done
   std::vector<std::string> written;
 
  private:
   Result<void> wrote(const Result<void>& done, const std::string& file);
-  std::filesystem::path out_;
   bool blind_ = false;  // there is no graphics device
 };
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "assets/files/output_file.h"
@@ -76,12 +77,16 @@ Result<std::vector<Entry>> choose(const PaperText& text) {
   return chosen;
 }
 
-Result<void> make(const Entry& entry, PaperRun& run) {
+Result<void> make(const Entry& entry, const std::string& folder, PaperRun& run) {
+  auto results = OutputFolder::make(folder);
+  if (!results) return tl::unexpected(results.error());
   run.entry = entry.name;
+  run.out = results->inside();
   run.text.clear();
   run.written.clear();
   run.progress("walking", 0);
-  const auto done = entry.make(run);
+  auto done = entry.make(run);
+  if (done) done = results->put();
   show("");
   if (!done) return fail(fmt::format("{}: {}", entry.name, done.error().message));
   fmt::print("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
@@ -95,14 +100,14 @@ Result<void> run_paper(const PaperText& text) {
   if (!chosen) return tl::unexpected(chosen.error());
   std::optional<std::filesystem::path> anatomy;
   if (!text.anatomy.empty()) anatomy = text.anatomy;
-  if (anatomy && !std::filesystem::exists(*anatomy / "manifest.csv")) {
+  std::error_code ignored;
+  if (anatomy && !std::filesystem::exists(*anatomy / "manifest.csv", ignored)) {
     return fail(fmt::format("--anatomy {}: there is no manifest.csv; name a folder with manifest.csv and landmarks.csv",
                             anatomy->string()));
   }
-  if (auto made = make_output_folder(text.out); !made) return made;
-  PaperRun run(text.out, anatomy);
+  PaperRun run(anatomy);
   for (const Entry& entry : *chosen) {
-    if (auto done = make(entry, run); !done) return done;
+    if (auto done = make(entry, text.out, run); !done) return done;
   }
   fmt::print("look at {}\n", text.out);
   return {};

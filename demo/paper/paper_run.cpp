@@ -17,11 +17,11 @@ Result<void> PaperRun::wrote(const Result<void>& done, const std::string& file) 
 }
 
 Result<void> PaperRun::write(const PlotFigure& figure) {
-  return wrote(write_file(out_ / (entry + ".svg"), svg(figure)), entry + ".svg");
+  return wrote(write_file(out / (entry + ".svg"), svg(figure)), entry + ".svg");
 }
 
 Result<void> PaperRun::write_csv(const std::string& csv_text) {
-  return wrote(write_file(out_ / (entry + ".csv"), csv_text), entry + ".csv");
+  return wrote(write_file(out / (entry + ".csv"), csv_text), entry + ".csv");
 }
 
 Result<void> PaperRun::write_picture(std::string_view caption, const std::function<Result<Image>()>& make) {
@@ -34,7 +34,7 @@ Result<void> PaperRun::write_picture(std::string_view caption, const std::functi
     return {};
   }
   text += fmt::format("{}{}\n", text.empty() ? "" : "\n", caption);
-  return wrote(write_png((out_ / (entry + ".png")).string(), *image, PngEffort::small), entry + ".png");
+  return wrote(write_png((out / (entry + ".png")).string(), *image, PngEffort::small), entry + ".png");
 }
 
 BodyRequest paper_body() {

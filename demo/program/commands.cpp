@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string>
 
 #include "assets/files/output_file.h"
 
 namespace mobil {
 
 int complain(std::string_view command, std::string_view message, int status) {
-  fmt::print(stderr, "mobil {}: {}\n", command, message);
+  fmt::print(stderr, "mobil {}: {}\n", command, one_line(std::string(message)));
   return status;
 }
 
@@ -17,9 +18,15 @@ int exit_status_of(std::string_view command, const Result<void>& done) {
   return done ? 0 : complain(command, done.error().message);
 }
 
+Result<void> check_result_place(std::string_view option, const std::filesystem::path& file) {
+  if (file.empty()) return fail(fmt::format("{} is empty; give it a file's name", option));
+  const auto place = OutputFile::at(file);
+  return place ? Result<void>{} : fail(fmt::format("{} {}", option, place.error().message));
+}
+
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text) {
   if (auto done = write_file(file, text); !done) return fail(fmt::format("{} {}", option, done.error().message));
-  fmt::print("written {}\n", file.string());
+  fmt::print("written {}\n", one_line(file.string()));
   return {};
 }
 

@@ -15,12 +15,17 @@ int exit_status_of(std::string_view command, const Result<void>& done);
 /// The line alone, and `status`.
 int complain(std::string_view command, std::string_view message, int status = 2);
 
+/// Fails where the file that `option` names could not be written, empty names included: so that nobody waits minutes
+/// for results that then cannot be.
+Result<void> check_result_place(std::string_view option, const std::filesystem::path& file);
+
 /// Writes a file of results that `option` names, and says so on stdout. Errors begin with the option.
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
 
 Subcommand walk_command();
 Subcommand muscle_command();
 Subcommand body_command();
+Subcommand anatomy_command();
 Subcommand bake_command();
 Subcommand bench_command();
 Subcommand compare_command();

@@ -1,17 +1,20 @@
 // The `mobil` program: the face of the library for people and for scripts.
-// Exit status: 0 done, 1 ran but did not hold, or standard output could not be written, 2 bad usage or input (one line
-// on stderr says what and how to mend it).
+// Exit status: 0 done, or nobody reads what is printed any more (`| head`); 1 ran but did not hold, or standard output
+// could not be written; 2 bad usage or input (one line on stderr says what and how to mend it).
 
+#include <cerrno>
 #include <cstdio>
 
 #include "demo/program/commands.h"
+#include "demo/program/interruption.h"
 
 namespace {
 
 /// What was printed may still be in a buffer: only now is it known whether it reached anybody.
 int finish(int status) {
+  errno = 0;
   const bool written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-  if (written || status != 0) return status;
+  if (written || status != 0 || errno == EPIPE) return status;
   std::fputs("mobil: standard output cannot be written (full, or closed); redirect it elsewhere\n", stderr);
   return 1;
 }
@@ -19,6 +22,7 @@ int finish(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mobil::handle_interruption();
   const mobil::Program program = {
       .name = "mobil",
       .about =
@@ -28,9 +32,9 @@ int main(int argc, char** argv) {
           "surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
       .version = MOBIL_VERSION,
       .footer = "Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out",
-      .commands = {mobil::walk_command(), mobil::muscle_command(), mobil::body_command(), mobil::bench_command(),
-                   mobil::compare_command(), mobil::stress_command(), mobil::paper_command(), mobil::frontier_command(),
-                   mobil::effects_command(), mobil::crowd_command(), mobil::view_command(), mobil::bake_command(),
-                   mobil::gait_fit_command()}};
+      .commands = {mobil::walk_command(), mobil::muscle_command(), mobil::body_command(), mobil::anatomy_command(),
+                   mobil::bench_command(), mobil::compare_command(), mobil::stress_command(), mobil::paper_command(),
+                   mobil::frontier_command(), mobil::effects_command(), mobil::crowd_command(), mobil::view_command(),
+                   mobil::bake_command(), mobil::gait_fit_command()}};
   return finish(mobil::run_program(program, argc, argv));
 }

@@ -1,6 +1,5 @@
 #pragma once
-// What commands share that run the entries of a list, `mobil bench` and `mobil stress`: choosing them by name, and the
-// file that their figures go to.
+// What commands share that run the entries of a list, `mobil bench` and `mobil stress`: choosing them by name.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -50,9 +49,5 @@ template <class Entries>
 Option named_option(const Entries& entries, std::vector<std::string>& names, std::string_view what) {
   return {"name", &names, fmt::format("What to {}, of {}; all by default", what, fmt::join(names_of(entries), ", "))};
 }
-
-/// Fails where --json names no file that could be written: so that nobody waits minutes for figures that then cannot
-/// be.
-Result<void> check_json_place(const std::string& text);
 
 }  // namespace mobil

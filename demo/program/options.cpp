@@ -7,10 +7,13 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
 #include <span>
 #include <string_view>
+#include <system_error>
 
 #include "demo/program/nearest_name.h"
+#include "engine/error.h"
 
 namespace mobil {
 namespace {
@@ -65,7 +68,7 @@ std::string first_left_over(const CLI::App& app, int argc, const char* const* ar
   return first;
 }
 
-/// One line, with its newline: the subcommand it is about, what was not understood, the nearest known name, where to
+/// One line: the subcommand it is about, what was not understood, the nearest known name, where to
 /// read on. `app` is the one that threw `error` while it parsed `argv`.
 std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int argc, const char* const* argv) {
   const auto chosen = app.get_subcommands();
@@ -96,7 +99,7 @@ std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int
   } else if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) != nullptr) {
     what = fmt::format("{} needs one value", what.substr(0, what.find(':')));
   }
-  return fmt::format("{}: {}; see '{} --help'\n", name, what, name);
+  return fmt::format("{}: {}; see '{} --help'", name, what, name);
 }
 
 }  // namespace
@@ -117,10 +120,19 @@ int run_program(const Program& program, int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const bool unknown_subcommand = app.get_subcommands().empty() && !app.remaining().empty();
     if (error.get_exit_code() == 0 && !unknown_subcommand) return app.exit(error);  // --help, --version
-    std::fputs(explain_usage(app, error, argc, argv).c_str(), stderr);
+    std::fputs((one_line(explain_usage(app, error, argc, argv)) + "\n").c_str(), stderr);
     return 2;
+  } catch (const std::filesystem::filesystem_error& error) {
+    std::fputs(
+        (one_line(fmt::format("{}: {}; name another file or folder", program.name, error.what())) + "\n").c_str(),
+        stderr);
+    return 2;
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::broken_pipe) return exit_status;  // nobody reads what is printed any more
+    std::fputs((one_line(fmt::format("{}: {}", program.name, error.what())) + "\n").c_str(), stderr);
+    return 1;
   } catch (const std::exception& error) {
-    std::fputs(fmt::format("{}: {}\n", program.name, error.what()).c_str(), stderr);
+    std::fputs((one_line(fmt::format("{}: {}", program.name, error.what())) + "\n").c_str(), stderr);
     return 1;
   }
   return exit_status;

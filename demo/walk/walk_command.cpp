@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -80,15 +81,25 @@ void add_muscle_rows(const Simulation& simulation, const Human& human, std::stri
   }
 }
 
+/// Says what of a style asked for cannot be walked, one line each.
+void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::vector<StyleChange>& all) {
+  const auto changes = Simulation::style_changes(body, asked);
+  if (!changes) return;
+  for (const StyleChange& change : *changes) fmt::print(stderr, "note: {}\n", described(change));
+  all.insert(all.end(), changes->begin(), changes->end());
+}
+
 /// Hands over the changes that are due. Errors name the script's line.
 Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std::string& script, Entity entity,
-                           Simulation& simulation, std::size_t& applied) {
+                           Simulation& simulation, WalkOutcome& outcome) {
+  std::size_t& applied = outcome.changes;
   const double due = simulation.time_s() + 1e-9;
   for (; applied < changes.size() && changes[applied].time_s <= due; ++applied) {
     const ScriptedChange& change = changes[applied];
     if (change.gait) {
       const auto done = simulation.set_gait(entity, *change.gait);
       if (!done) return fail(fmt::format("--script {} line {}: {}", script, change.line, done.error().message));
+      tell_style_changes(simulation.human(entity)->body.request, *change.gait, outcome.style_changes);
     }
     if (change.heading_rad) {
       const auto done = simulation.turn_to(entity, *change.heading_rad);
@@ -112,6 +123,8 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
                 {}};
   WalkOutcome& outcome = walked.outcome;
   outcome.gait = human.gait;
+  outcome.anatomy_said = figure.said;
+  tell_style_changes(options.body, options.gait, outcome.style_changes);
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
   const std::string method = method_label(options.muscles);
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
@@ -119,7 +132,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   std::uint32_t steps_before = 0;
   for (std::uint32_t i = 0; i < total; ++i) {
     if (options.script) {
-      auto done = apply_changes(changes, options.script->path, human.entity, simulation, outcome.changes);
+      auto done = apply_changes(changes, options.script->path, human.entity, simulation, outcome);
       if (!done) return tl::unexpected(done.error());
     }
     const auto start = SteadyClock::now();
@@ -145,31 +158,41 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   return walked;
 }
 
-/// Everything that is written, in an order that leaves nothing behind when pictures cannot be made.
+/// The first few lines about an anatomy folder.
+void print_said(const std::vector<std::string>& said, const WalkOptions& options) {
+  constexpr std::size_t most = 3;
+  for (std::size_t i = 0; i < std::min(said.size(), most); ++i) fmt::print("anatomy: {}\n", said[i]);
+  if (said.size() <= most) return;
+  fmt::print("anatomy: {} more such lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
+}
+
 Result<void> write_results(const Walked& walked, const Simulation& simulation, const Human& human,
-                           const WalkOptions& options, SteadyClock::time_point start) {
+                           const WalkOptions& options, SteadyClock::time_point start, OutputFolder& results) {
+  const auto& folder = results.inside();
   if (options.frames || options.video) {  // first, as they may lack a driver or a program
     const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
     const std::size_t frames = walked.recording.frames.size();
-    auto done = write_pictures(drawing, options, [&](std::size_t i) { show_progress("pictures", i, frames); });
+    auto done = write_pictures(drawing, options, folder, [&](std::size_t i) { show_progress("pictures", i, frames); });
     show("");
     if (!done) return done;
   }
-  if (auto done = write_file(options.out / "motion.csv", walked.motion.text); !done) return done;
-  if (auto done = write_file(options.out / "muscles.csv", walked.muscles.text); !done) return done;
-  const auto exported = write_glb(options.out / "walk.glb", walked.recording);
+  if (auto done = write_file(folder / "motion.csv", walked.motion.text); !done) return done;
+  if (auto done = write_file(folder / "muscles.csv", walked.muscles.text); !done) return done;
+  const auto exported = write_glb(folder / "walk.glb", walked.recording);
   if (!exported) return tl::unexpected(exported.error());
   WalkOutcome outcome = walked.outcome;
   outcome.wall_s = seconds_since(start);
   const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
-  if (auto done = write_file(options.out / "summary.json", summary); !done) return done;
+  if (auto done = write_file(folder / "summary.json", summary); !done) return done;
+  if (auto done = results.put(); !done) return done;
 
   for (const std::string& note : body_notes(human.body)) fmt::print("note: {}\n", note);
+  print_said(outcome.anatomy_said, options);
   fmt::print("walked {:.2f} s at {:.2f} m/s, steps of {:.3f} m at {:.2f} Hz\n", outcome.simulated_s,
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
   fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
              1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
-  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}\n", options.out.string(),
+  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}\n", one_line(options.out.string()),
              options.frames ? " frame_*.png" : "", options.video ? " walk.mp4" : "");
   return {};
 }
@@ -191,15 +214,13 @@ Result<void> run_walk(const WalkOptions& options) {
   const Human human = *simulation.human(*entity);
   const auto figure = make_figure(simulation, human, options.anatomy);
   if (!figure) return tl::unexpected(figure.error());
-  const bool folder_was_there = std::filesystem::exists(options.out);
-  if (auto made = make_output_folder(options.out); !made) return made;
+  auto results = OutputFolder::make(options.out);
+  if (!results) return tl::unexpected(results.error());
 
   const auto walked = walk(simulation, human, *figure, options, changes);
-  auto done =
-      walked ? write_results(*walked, simulation, human, options, start) : Result<void>(tl::unexpected(walked.error()));
+  auto done = walked ? write_results(*walked, simulation, human, options, start, *results)
+                     : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
-  std::error_code ignored;
-  if (!done && !folder_was_there) std::filesystem::remove(options.out, ignored);  // if it is empty
   if (done && changes.size() > walked->outcome.changes) {
     fmt::print("script: {} of {} changes lie after the end; lengthen --seconds to see them\n",
                changes.size() - walked->outcome.changes, changes.size());

@@ -118,14 +118,14 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
 
 }  // namespace
 
-Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options,
+Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options, const std::filesystem::path& folder,
                             const std::function<void(std::size_t)>& progress) {
   const int eye_width = options.stereo ? width / 2 : width;
   auto renderer = Renderer::create(eye_width, height);
   if (!renderer) return tl::unexpected(renderer.error());
   std::optional<VideoWriter> video;
   if (options.video) {
-    auto opened = VideoWriter::create((options.out / "walk.mp4").string(), width, height,
+    auto opened = VideoWriter::create((folder / "walk.mp4").string(), width, height,
                                       static_cast<int>(std::lround(1 / drawing.recording->frame_s)));
     if (!opened) return tl::unexpected(opened.error());
     video = std::move(*opened);
@@ -157,7 +157,7 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
       return done;
     }
     if (options.frames) {
-      const auto file = options.out / fmt::format("frame_{:04}.png", frame);
+      const auto file = folder / fmt::format("frame_{:04}.png", frame);
       if (auto done = write_png(file.string(), whole); !done) return done;
     }
     if (video) {

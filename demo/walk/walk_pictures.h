@@ -2,6 +2,7 @@
 // A recorded walk as pictures: frame_*.png, walk.mp4.
 
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <vector>
 
@@ -20,9 +21,9 @@ struct WalkDrawing {
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
 };
 
-/// Renders every frame at 1280×720 with the camera following, as PNGs and/or a video, as `options` says; `progress` is
-/// called with the number of frames done. Errors: no driver, no ffmpeg, an unwritable folder.
-Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options,
+/// Renders every frame at 1280×720 with the camera following, as PNGs and/or a video in `folder`, as `options` says;
+/// `progress` is called with the number of frames done. Errors: no driver, no ffmpeg, an unwritable folder.
+Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options, const std::filesystem::path& folder,
                             const std::function<void(std::size_t)>& progress);
 
 }  // namespace mobil

@@ -8,6 +8,8 @@
 #include <cstdio>
 #include <cstring>
 
+#include "assets/files/output_file.h"
+
 namespace mobil {
 namespace {
 
@@ -51,7 +53,8 @@ Result<void> write_png(const std::string& path, const Image& image, PngEffort ef
     return fail(fmt::format("{}: a picture of {} x {} pixels with {} bytes cannot be written; it needs 4 bytes a pixel",
                             path, image.width, image.height, image.rgba.size()));
   }
-  const std::string partial = path + ".partial";
+  auto place = OutputFile::at(path);
+  if (!place) return tl::unexpected(place.error());
   const auto refused = [&](const char* what) {
     const int reason = errno;
     return fail(
@@ -59,16 +62,14 @@ Result<void> write_png(const std::string& path, const Image& image, PngEffort ef
                     path, what, reason != 0 ? std::strerror(reason) : "unknown reason"));
   };
   errno = 0;
-  std::FILE* file = std::fopen(partial.c_str(), "wb");
+  std::FILE* file = std::fopen(place->temporary().c_str(), "wb");
   if (file == nullptr) return refused("create");
   bool written = encode(file, image, !opaque(image), effort);
   written = std::fflush(file) == 0 && written;
   const int reason = errno;
-  if (std::fclose(file) == 0 && written && std::rename(partial.c_str(), path.c_str()) == 0) return {};
+  if (std::fclose(file) == 0 && written) return place->put();
   if (!written) errno = reason;
-  auto error = refused("write");
-  std::remove(partial.c_str());
-  return error;
+  return refused("write");
 }
 
 }  // namespace mobil

@@ -13,8 +13,12 @@
 #include <csignal>
 #include <cstdio>
 #include <cstring>
+#include <optional>
 #include <utility>
 #include <vector>
+
+#include "assets/files/output_file.h"
+#include "assets/files/unfinished.h"
 
 extern char** environ;
 
@@ -83,7 +87,8 @@ std::vector<std::string> ffmpeg_arguments(const std::string& to, int width, int 
 }
 // clang-format on
 
-/// Starts ffmpeg from the PATH, without a shell. Returns 0 or an errno.
+/// Starts ffmpeg from the PATH, without a shell and with no signal blocked or ignored, whatever its host does with
+/// them. Returns 0 or an errno.
 int start(const std::vector<std::string>& arguments, int input, int log, pid_t& process) {
   std::vector<char*> argv;
   argv.reserve(arguments.size() + 1);
@@ -94,15 +99,26 @@ int start(const std::vector<std::string>& arguments, int input, int log, pid_t& 
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, log, STDERR_FILENO);
-  const int error = posix_spawnp(&process, argv[0], &actions, nullptr, argv.data(), environ);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none, all;
+  sigemptyset(&none);
+  sigfillset(&all);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  const int error = posix_spawnp(&process, argv[0], &actions, &attributes, argv.data(), environ);
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
+  if (error == 0) note_started(process);
   return error;
 }
 
 }  // namespace
 
 struct VideoWriter::Encoder {
-  std::string path, partial;
+  std::string path;
+  std::optional<OutputFile> place;
   int width = 0, height = 0, pictures = 0;
   Descriptor pictures_in, log;
   pid_t process = 0;
@@ -111,7 +127,6 @@ struct VideoWriter::Encoder {
     if (process <= 0) return;
     kill(process, SIGKILL);
     finish();
-    std::remove(partial.c_str());
   }
 
   /// Ends the stream and waits; true where ffmpeg is content.
@@ -121,6 +136,7 @@ struct VideoWriter::Encoder {
     pid_t ended = 0;
     do ended = waitpid(process, &status, 0);
     while (ended < 0 && errno == EINTR);
+    forget_started(process);
     const bool content = ended == process && WIFEXITED(status) && WEXITSTATUS(status) == 0;
     process = 0;
     return content;
@@ -129,7 +145,7 @@ struct VideoWriter::Encoder {
   /// After ffmpeg failed: its first words, and nothing left behind.
   tl::unexpected<Error> give_up() {
     if (process > 0) finish();
-    std::remove(partial.c_str());
+    place.reset();
     std::array<char, 400> text{};
     const ssize_t size = pread(log.get(), text.data(), text.size(), 0);
     std::string said(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
@@ -159,9 +175,11 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
     return fail(fmt::format("{}: a film of {} pictures a second was asked for; it must be within 1-240", path,
                             pictures_per_second));
   }
+  auto place = OutputFile::at(path);
+  if (!place) return tl::unexpected(place.error());
   auto encoder = std::make_unique<Encoder>();
   encoder->path = path;
-  encoder->partial = path.substr(0, path.size() - 4) + ".partial.mp4";
+  encoder->place = std::move(*place);
   encoder->width = width;
   encoder->height = height;
   encoder->log = Descriptor(memfd_create("ffmpeg errors", MFD_CLOEXEC));
@@ -173,8 +191,8 @@ Result<VideoWriter> VideoWriter::create(const std::string& path, int width, int 
   }
   encoder->pictures_in = Descriptor(ends[0]);
   const Descriptor ffmpeg_reads(ends[1]);
-  const int error = start(ffmpeg_arguments(encoder->partial, width, height, pictures_per_second), ffmpeg_reads.get(),
-                          encoder->log.get(), encoder->process);
+  const int error = start(ffmpeg_arguments(encoder->place->temporary().string(), width, height, pictures_per_second),
+                          ffmpeg_reads.get(), encoder->log.get(), encoder->process);
   if (error != 0) {
     encoder->process = 0;
     if (error == ENOENT) {
@@ -208,17 +226,10 @@ Result<void> VideoWriter::close() {
   Encoder& e = *encoder_;
   if (e.process <= 0) return fail(fmt::format("{}: this film is closed; begin another", e.path));
   if (!e.finish()) return e.give_up();
-  if (e.pictures == 0) {
-    std::remove(e.partial.c_str());
-    return fail(fmt::format("{}: a film needs at least one picture", e.path));
-  }
-  if (std::rename(e.partial.c_str(), e.path.c_str()) != 0) {
-    const int reason = errno;
-    std::remove(e.partial.c_str());
-    return fail(
-        fmt::format("{}: cannot give the film its name ({}); name a writable file", e.path, std::strerror(reason)));
-  }
-  return {};
+  const bool empty = e.pictures == 0;
+  auto done = empty ? fail(fmt::format("{}: a film needs at least one picture", e.path)) : e.place->put();
+  e.place.reset();
+  return done;
 }
 
 }  // namespace mobil

@@ -10,7 +10,7 @@
 namespace mobil {
 
 /// A film being written: H.264, yuv420p, BT.709, playable while it downloads. Until close() succeeds it lies under a
-/// temporary name beside `path` (walk.mp4: walk.partial.mp4); a writer destroyed before that leaves nothing.
+/// temporary name beside `path`, as an OutputFile; a writer destroyed before that leaves nothing.
 class VideoWriter {
  public:
   /// `path` ends in .mp4; width and height even, 2–8192 pixels; 1–240 pictures a second. Errors: those ranges, ffmpeg

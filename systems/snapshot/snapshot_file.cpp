@@ -12,6 +12,7 @@
 #include <string>
 #include <utility>
 
+#include "assets/files/output_file.h"
 #include "systems/snapshot/snapshot_file.h"
 
 namespace mobil {
@@ -58,26 +59,21 @@ Result<void> save_file(const Simulation& simulation, const std::filesystem::path
   const auto saved = simulation.save({bytes.get(), size});
   if (!saved) return tl::unexpected(saved.error());
 
-  auto temporary = path;
-  temporary += fmt::format(".{}.partial", ::getpid());
-  const auto give_up = [&](const char* what) {
-    auto error = refused(path, what, "choose a folder that exists, is writable and has space");
-    ::unlink(temporary.c_str());
-    return error;
-  };
-  Handle file(temporary, O_WRONLY | O_CREAT | O_TRUNC);
-  if (!file.open()) return give_up("written");
-  if (!write_all(file, {bytes.get(), *saved}) || ::fsync(file.number()) != 0 || !file.close())
-    return give_up("written");
-  if (::rename(temporary.c_str(), path.c_str()) != 0) return give_up("put in place");
-  const auto folder = path.has_parent_path() ? path.parent_path() : std::filesystem::path(".");
-  const Handle place(folder, O_RDONLY | O_DIRECTORY);
-  if (!place.open() || ::fsync(place.number()) != 0)
+  auto place = OutputFile::at(path);
+  if (!place) return tl::unexpected(place.error());
+  Handle file(place->temporary(), O_WRONLY | O_CREAT | O_TRUNC);
+  const bool written = file.open() && write_all(file, {bytes.get(), *saved}) &&
+                       (place->in_place() || ::fsync(file.number()) == 0) && file.close();
+  if (!written) return refused(path, "written", "choose a folder that exists, is writable and has space");
+  if (auto put = place->put(); !put) return put;
+  if (place->in_place()) return {};
+  const Handle folder(place->temporary().parent_path(), O_RDONLY | O_DIRECTORY);
+  if (!folder.open() || ::fsync(folder.number()) != 0)
     return refused(path, "made safe on the disk", "the file is there, but may not outlive a loss of power");
   return {};
 }
 
-Result<void> restore_file(Simulation& simulation, const std::filesystem::path& path) {
+Result<void> restore_file(Simulation& simulation, const std::filesystem::path& path, const RestoreLimits& limits) {
   const Handle file(path, O_RDONLY);
   struct stat about {};
   if (!file.open() || ::fstat(file.number(), &about) != 0)
@@ -87,9 +83,9 @@ Result<void> restore_file(Simulation& simulation, const std::filesystem::path& p
   const auto size = static_cast<std::size_t>(about.st_size);
   std::unique_ptr<std::byte[]> bytes(new (std::nothrow) std::byte[size]);
   if (bytes == nullptr)
-    return fail(fmt::format("{}: there is no memory for its {} bytes; give a file that `save_file` wrote",
-                            path.string(), size),
-                Status::no_memory);
+    return fail(
+        fmt::format("{}: there is no memory for its {} bytes; give a file that `save_file` wrote", path.string(), size),
+        Status::no_memory);
   for (std::size_t at = 0; at < size;) {
     const ssize_t got = ::read(file.number(), bytes.get() + at, size - at);
     if (got < 0 && errno == EINTR) continue;
@@ -97,7 +93,7 @@ Result<void> restore_file(Simulation& simulation, const std::filesystem::path& p
     if (got == 0) return fail(fmt::format("{}: became shorter while it was read; try again", path.string()));
     at += static_cast<std::size_t>(got);
   }
-  if (auto done = simulation.restore({bytes.get(), size}); !done)
+  if (auto done = simulation.restore({bytes.get(), size}, limits); !done)
     return fail(fmt::format("{}: {}", path.string(), done.error().message), done.error().status);
   return {};
 }
@@ -119,7 +115,8 @@ Result<void> Rollback::back(Simulation& simulation, std::size_t times) {
   if (times == 0 || times > depth_)
     return fail(fmt::format("back: {} times is out of range; choose 1 to the {} that are kept", times, depth_));
   const std::size_t at = (next_ + kept_.size() - times) % kept_.size();
-  if (auto done = simulation.restore(std::span(kept_[at].bytes).first(kept_[at].used)); !done) return done;
+  if (auto done = simulation.restore(std::span(kept_[at].bytes).first(kept_[at].used), RestoreLimits::none()); !done)
+    return done;
   next_ = at;
   depth_ -= times;
   return {};

@@ -19,8 +19,10 @@ namespace mobil {
 /// the last good file, or this one whole. Errors, one line each: a folder that is not there or not writable, a full
 /// disk, what `save` refuses; what was there stays.
 Result<void> save_file(const Simulation& simulation, const std::filesystem::path& path);
-/// Errors: a file that cannot be read, what `restore` refuses; the simulation is as it was.
-Result<void> restore_file(Simulation& simulation, const std::filesystem::path& path);
+/// Errors: a file that cannot be read, what `restore` refuses; the simulation is unchanged. Without limits on how large
+/// a crowd is or how fine its meshes are: the file is one's own.
+Result<void> restore_file(Simulation& simulation, const std::filesystem::path& path,
+                          const RestoreLimits& limits = RestoreLimits::none());
 
 /// The last snapshots of one simulation, in memory of its own that grows with the crowd and is kept.
 class Rollback {
@@ -32,7 +34,7 @@ class Rollback {
   /// How many can be gone back.
   std::size_t depth() const { return depth_; }
   /// As it was when it was kept for the `times`-th last time (1: the last). That one and those after it are forgotten:
-  /// running on, they are kept anew. Errors: not so many kept, what `restore` refuses; all is as it was.
+  /// running on, they are kept anew. Errors: not so many kept, what `restore` refuses; the simulation is unchanged.
   Result<void> back(Simulation& simulation, std::size_t times);
 
  private:

@@ -1,0 +1,31 @@
+#include "demo/program/interruption.h"
+
+#include <csignal>
+#include <thread>
+
+#include "assets/files/unfinished.h"
+
+namespace mobil {
+
+void handle_interruption() {
+  std::signal(SIGPIPE, SIG_IGN);
+  static sigset_t signals;
+  sigemptyset(&signals);
+  for (const int s : {SIGINT, SIGTERM, SIGHUP}) {
+    struct sigaction now {};
+    if (sigaction(s, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) continue;  // as under nohup
+    sigaddset(&signals, s);
+  }
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // all threads that are started from here on inherit that
+  // A thread of its own instead of a handler, because removing folders allocates.
+  std::thread([] {
+    int signal = 0;
+    if (sigwait(&signals, &signal) != 0) return;
+    remove_unfinished();
+    std::signal(signal, SIG_DFL);
+    pthread_sigmask(SIG_UNBLOCK, &signals, nullptr);
+    raise(signal);
+  }).detach();
+}
+
+}  // namespace mobil

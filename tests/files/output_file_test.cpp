@@ -1,0 +1,170 @@
+// Results on disk: whole or not there; links are followed, devices written to; those of one run come together.
+
+#include "assets/files/output_file.h"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <thread>
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Output : public testing::Test {
+ protected:
+  Output() : folder(fs::temp_directory_path() / ("mobil_output_" + std::to_string(::getpid()))) {
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+  }
+  ~Output() override { fs::remove_all(folder); }
+
+  std::ptrdiff_t entries() const { return std::distance(fs::directory_iterator(folder), {}); }
+  static std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  static void expect_refused(const Result<void>& done, const std::string& piece) {
+    ASSERT_FALSE(done.has_value());
+    EXPECT_NE(done.error().message.find(piece), std::string::npos) << done.error().message;
+    EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+  }
+
+  fs::path folder;
+};
+
+TEST_F(Output, ANameIsWrittenAnewAndOver) {
+  for (const std::string text : {"first", "second, and longer", ""}) {
+    ASSERT_TRUE(write_file(folder / "a.txt", text).has_value());
+    EXPECT_EQ(text_of(folder / "a.txt"), text);
+    EXPECT_EQ(entries(), 1);
+  }
+}
+
+TEST_F(Output, ALinkIsFollowedAndStays) {
+  fs::create_directories(folder / "far");
+  fs::create_symlink("far/b.txt", folder / "a.txt");  // where nothing is yet
+  for (const std::string text : {"first", "second"}) {
+    ASSERT_TRUE(write_file(folder / "a.txt", text).has_value());
+    EXPECT_TRUE(fs::is_symlink(folder / "a.txt"));
+    EXPECT_TRUE(fs::is_regular_file(fs::symlink_status(folder / "far" / "b.txt")));
+    EXPECT_EQ(text_of(folder / "far" / "b.txt"), text);
+  }
+}
+
+TEST_F(Output, APipeIsWrittenToAndStays) {
+  const fs::path pipe = folder / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const bool through_link : {false, true}) {
+    if (through_link) fs::create_symlink(pipe, folder / "link");
+    std::string got;
+    std::thread reader([&] { got = text_of(pipe); });
+    EXPECT_TRUE(write_file(through_link ? folder / "link" : pipe, "through").has_value());
+    reader.join();
+    EXPECT_EQ(got, "through");
+    EXPECT_TRUE(fs::is_fifo(pipe));
+  }
+}
+
+TEST_F(Output, ADeviceIsNeverReplaced) {
+  if (!fs::exists("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  fs::create_symlink("/dev/null", folder / "null");
+  EXPECT_TRUE(write_file(folder / "null", "gone").has_value());
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+  expect_refused(write_file("/dev/full", "more than it holds"), "No space");
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(Output, WhatCannotBeWrittenIsRefusedAndLeavesNothing) {
+  fs::create_directories(folder / "taken");
+  fs::create_symlink("loop", folder / "loop");
+  fs::create_symlink("ping", folder / "pong");
+  fs::create_symlink("pong", folder / "ping");
+  expect_refused(write_file(folder / "taken", "x"), "a folder has that name");
+  expect_refused(write_file(folder / "missing" / "a.txt", "x"), "there is no folder");
+  expect_refused(write_file(folder / "loop", "x"), "circle");
+  expect_refused(write_file(folder / "ping", "x"), "circle");
+  EXPECT_FALSE(write_file(folder / std::string(300, 'n'), "x").has_value());
+  EXPECT_FALSE(OutputFolder::make(folder / "loop").has_value());
+  EXPECT_FALSE(OutputFolder::make(folder / "new" / std::string(300, 'n')).has_value());
+  ASSERT_TRUE(write_file(folder / "file", "x").has_value());
+  EXPECT_FALSE(OutputFolder::make(folder / "file" / "below").has_value());
+  std::string left;
+  for (const auto& entry : fs::directory_iterator(folder)) left += entry.path().filename().string().substr(0, 20) + " ";
+  EXPECT_EQ(entries(), 5) << left;
+}
+
+TEST_F(Output, ResultsOfARunComeTogether) {
+  const fs::path out = folder / "deep" / "out";
+  {
+    auto results = OutputFolder::make(out);
+    ASSERT_TRUE(results.has_value());
+    ASSERT_TRUE(write_file(results->inside() / "a", "1").has_value());
+  }
+  EXPECT_EQ(entries(), 0) << "folders that were made for results that never came";
+  for (const std::string text : {"old", "new"}) {
+    auto results = OutputFolder::make(out);
+    ASSERT_TRUE(results.has_value());
+    for (const char* name : {"a", "b"}) ASSERT_TRUE(write_file(results->inside() / name, text).has_value());
+    EXPECT_EQ(fs::exists(out / "a"), text == "new");
+    ASSERT_TRUE(results->put().has_value());
+    for (const char* name : {"a", "b"}) EXPECT_EQ(text_of(out / name), text);
+    EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 2);
+  }
+  {
+    auto results = OutputFolder::make(out);
+    ASSERT_TRUE(results.has_value());
+    for (const char* name : {"a", "b", "c"}) ASSERT_TRUE(write_file(results->inside() / name, "newer").has_value());
+    fs::create_directories(out / "c");
+    EXPECT_FALSE(results->put().has_value());
+  }
+  for (const char* name : {"a", "b"}) EXPECT_EQ(text_of(out / name), "new") << "mixed with those of a run that failed";
+  EXPECT_EQ(std::distance(fs::directory_iterator(out), {}), 3);
+}
+
+TEST_F(Output, WhatOthersPutIntoAFolderStays) {
+  {
+    auto results = OutputFolder::make(folder / "out");
+    ASSERT_TRUE(results.has_value());
+    ASSERT_TRUE(write_file(folder / "out" / "theirs", "1").has_value());
+  }
+  EXPECT_EQ(text_of(folder / "out" / "theirs"), "1");
+}
+
+TEST_F(Output, LinksAndPipesInAFolderOfResultsStay) {
+  const fs::path out = folder / "out";
+  fs::create_directories(out);
+  fs::create_symlink("../elsewhere", out / "a");
+  fs::create_symlink("/dev/null", out / "b");
+  auto results = OutputFolder::make(out);
+  ASSERT_TRUE(results.has_value());
+  for (const char* name : {"a", "b"}) ASSERT_TRUE(write_file(results->inside() / name, "text").has_value());
+  ASSERT_TRUE(results->put().has_value());
+  EXPECT_EQ(text_of(folder / "elsewhere"), "text");
+  EXPECT_TRUE(fs::is_symlink(out / "a") && fs::is_symlink(out / "b"));
+  EXPECT_TRUE(fs::is_character_file("/dev/null"));
+}
+
+TEST(OneLine, ControlCharactersAreShownAndLongWordsCut) {
+  EXPECT_EQ(fail("--height 180cm: fine, it's \u00b0").value().message, "--height 180cm: fine, it's \u00b0");
+  EXPECT_EQ(one_line("a\nb\tc\x1b[31mred\x7f"), "a\\nb\\tc\\x1b[31mred\\x7f");
+  const std::string path(255, 'p');
+  EXPECT_EQ(one_line("see " + path + " there"), "see " + path + " there");
+  const std::string cut = one_line("see " + std::string(50000, 'x') + " there");
+  EXPECT_EQ(cut, "see " + std::string(60, 'x') + "... (50000 characters) there");
+  std::string words;
+  for (int i = 0; i < 10000; ++i) words += "word ";
+  EXPECT_LE(one_line(words).size(), 2010U);
+  std::string wide;
+  for (int i = 0; i < 5000; ++i) wide += "\u20ac";
+  const std::string kept = one_line(wide);
+  EXPECT_EQ(kept.find("..."), 60U) << "a character of three bytes was cut";
+}
+
+}  // namespace
+}  // namespace mobil

@@ -8,6 +8,8 @@
 // nothing is global.
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
@@ -66,6 +68,7 @@ struct KeyPart {
   PartKind kind = PartKind::component;
   std::uint64_t value = 0;
   std::string_view name;
+  const bool* is_float = nullptr;  // of a component, `value` of them: which of its words are floats
 
   friend bool operator==(const KeyPart& a, const KeyPart& b) {
     return a.id == b.id && a.kind == b.kind && a.value == b.value;
@@ -118,6 +121,14 @@ struct Shared {
 template <class T>
 struct Publishes {};
 
+/// Stands in for a component's number type, to find out which of its words are numbers of that type.
+struct FloatWord {
+  static constexpr std::uint32_t mark = 0x6d6f6269;
+  std::uint32_t bits = mark;
+  constexpr FloatWord() = default;
+  constexpr FloatWord(float) {}  // a default that a component gives
+};
+
 /// A component's layout: word w of lane l of a block lies at block[16·w + l]. That needs members that are F, Whole<F>
 /// or arrays and structs of those; what of it can be checked is checked here.
 template <template <class> class C>
@@ -131,11 +142,18 @@ struct ComponentLayout {
                 " is two Whole<F>, index and generation");
   static_assert(alignof(C<Lanes<float>>) == alignof(Lanes<float>), "a component has no alignment of its own");
   static constexpr std::uint32_t words = sizeof(C<float>) / 4;
+  static constexpr std::array<bool, words> is_float = [] {
+    const auto bits = std::bit_cast<std::array<std::uint32_t, words>>(C<FloatWord>{});
+    std::array<bool, words> found{};
+    for (std::size_t w = 0; w < words; ++w) found[w] = bits[w] == FloatWord::mark;
+    return found;
+  }();
 };
 
 template <template <class> class C>
 constexpr KeyPart component_part() {
-  return {type_id<C<float>>(), PartKind::component, ComponentLayout<C>::words, type_name<C<float>>()};
+  return {type_id<C<float>>(), PartKind::component, ComponentLayout<C>::words, type_name<C<float>>(),
+          ComponentLayout<C>::is_float.data()};
 }
 
 /// Whether T is a component's row.

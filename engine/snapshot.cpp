@@ -321,21 +321,23 @@ void WorldSnapshot::commit(World& world, const SavedWorld& saved, const Jobs& jo
     const std::vector<std::uint32_t>& table;
   } blocks{world, saved, table_};
   constexpr std::size_t piece_bytes = SnapshotLayout::chunk_bytes;
-  jobs.parallel_for(
-      jobs.user, (saved.blocks.size() + piece_bytes - 1) / piece_bytes,
-      [](void* context, std::size_t begin, std::size_t end) {
-        const auto& to = *static_cast<const Blocks*>(context);
-        const SavedWorld& from = to.saved;
-        begin *= piece_bytes;
-        end = std::min(end * piece_bytes, from.blocks.size());
-        const std::byte* in = from.blocks.data() + begin;
-        for_pieces(
-            from.tables, begin, end, [&](std::size_t t, std::size_t block, std::size_t first, std::size_t bytes) {
-              std::memcpy(reinterpret_cast<std::byte*>(to.world.tables()[to.table[t]].block(block)) + first, in, bytes);
-              in += bytes;
-            });
-      },
-      &blocks);
+  const auto copy = [](void* context, std::size_t begin, std::size_t end) {
+    const auto& to = *static_cast<const Blocks*>(context);
+    const SavedWorld& from = to.saved;
+    begin *= piece_bytes;
+    end = std::min(end * piece_bytes, from.blocks.size());
+    const std::byte* in = from.blocks.data() + begin;
+    for_pieces(from.tables, begin, end, [&](std::size_t t, std::size_t block, std::size_t first, std::size_t bytes) {
+      std::memcpy(reinterpret_cast<std::byte*>(to.world.tables()[to.table[t]].block(block)) + first, in, bytes);
+      in += bytes;
+    });
+  };
+  const std::size_t pieces = (saved.blocks.size() + piece_bytes - 1) / piece_bytes;
+  try {
+    jobs.parallel_for(jobs.user, pieces, copy, &blocks);
+  } catch (...) {  // a host's jobs that throw, though they must not
+    copy(&blocks, 0, pieces);
+  }
   relate_all(world);
 }
 

@@ -119,17 +119,4 @@ Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jo
                       in.subspan(layout.blocks_at(), layout.blocks)};
 }
 
-bool reseal_snapshot(std::span<std::byte> snapshot) {
-  Header header{};
-  if (snapshot.size() < sizeof(header)) return false;
-  std::memcpy(&header, snapshot.data(), sizeof(header));
-  SnapshotLayout layout;
-  if (!read_layout(header, snapshot.size(), layout)) return false;
-  Sealing{layout, snapshot, nullptr, nullptr}.run(0, layout.chunks());
-  header.bytes = snapshot.size();
-  header.seal = seal_of(header, snapshot.subspan(layout.seals_at(), 8 * layout.chunks()));
-  std::memcpy(snapshot.data(), &header, sizeof(header));
-  return true;
-}
-
 }  // namespace mobil

@@ -107,14 +107,11 @@ struct OpenSnapshot {
 };
 
 /// Fills in chunks of `out` (of layout.bytes()) by `fill(context, begin, end)`, ranges of its bytes within the blocks,
-/// and seals the whole; front and world must be there already.
+/// and seals the whole; front and world must be there already. `fill` may be null: blocks are there too.
 void seal_snapshot(const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs,
                    void (*fill)(void* context, std::size_t begin, std::size_t end), void* context);
 
 /// Errors, one line each: no snapshot, another version or byte order, too short or too long, altered.
 Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jobs);
-
-/// Seals anew what was altered on purpose, header included; false where it is not laid out as a snapshot. For tests.
-bool reseal_snapshot(std::span<std::byte> snapshot);
 
 }  // namespace mobil

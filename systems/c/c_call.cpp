@@ -242,6 +242,17 @@ mobil_surface_target usual() {
   target.size = sizeof target;
   return target;
 }
+template <>
+mobil_limits usual() {
+  const RestoreLimits of;
+  mobil_limits limits{};
+  limits.size = sizeof limits;
+  limits.rows = of.rows;
+  limits.mesh_nodes = of.mesh_nodes;
+  limits.seconds = of.seconds;
+  limits.numbers = of.numbers ? 1 : 0;
+  return limits;
+}
 
 }  // namespace mobil::c
 

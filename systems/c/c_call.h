@@ -116,6 +116,8 @@ template <>
 mobil_surface_choice usual();
 template <>
 mobil_surface_target usual();
+template <>
+mobil_limits usual();
 
 /// Sizes that a struct may say it has.
 constexpr bool is_struct_size(std::size_t size) {

@@ -196,11 +196,7 @@ int mobil_way(int way, int muscle, float speed_m_s, float height_m, int inertia,
                     pulling != 0};
   const auto rung = static_cast<std::uint32_t>(way);
   const Rung& is = rungs_of(of.living)[rung];
-  *out = {is.name.data(),
-          static_cast<int>(is.method),
-          static_cast<int>(is.vectors),
-          is.moving ? 1 : 0,
-          ladder.error_m(of, rung) * height_m / static_cast<float>(reference_body_height_m),
-          static_cast<float>(ladder.cost_ps(of, rung)) * 1e-6F};
+  *out = {is.name.data(),    static_cast<int>(is.method),        static_cast<int>(is.vectors),
+          is.moving ? 1 : 0, ladder.error_m(of, rung, height_m), ladder.cost_us(of, rung)};
   return MOBIL_OK;
 }

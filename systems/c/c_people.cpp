@@ -197,6 +197,22 @@ int mobil_people(mobil_sim* sim, mobil_id* out, size_t room, size_t* count) {
   });
 }
 
+int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room) {
+  return call(sim, "mobil_get_style", [&](mobil_sim& s) {
+    const Entity person = entity_of(id);
+    if (!s.world().is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
+    if (out == nullptr) return s.line.refuse_null("out");
+    const auto gait = s.world().gait_request(person);
+    if (!gait) return s.line.refuse(MOBIL_MISSING, "a posed person has no style; ask of a walker");
+    if (room < gait_parameters.size()) {
+      return s.line.refuse(
+          MOBIL_ROOM, fmt::format("there is room for {} numbers, and a style has {}", room, gait_parameters.size()));
+    }
+    for (std::size_t i = 0; i < gait_parameters.size(); ++i) out[i] = gait->style.*gait_parameters[i].value;
+    return int{MOBIL_OK};
+  });
+}
+
 int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out) {
   return call(sim, "mobil_get_person", [&](mobil_sim& s) {
     const Simulation& world = s.world();

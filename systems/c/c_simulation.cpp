@@ -86,6 +86,8 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_surface_choice>(filled, size);
     case MOBIL_SURFACE_TARGET:
       return fill<mobil_surface_target>(filled, size);
+    case MOBIL_LIMITS:
+      return fill<mobil_limits>(filled, size);
     default:
       return MOBIL_REFUSED;
   }
@@ -198,6 +200,19 @@ int mobil_restore(mobil_sim* sim, const void* bytes, size_t count) {
   return call(sim, "mobil_restore", [&](mobil_sim& s) {
     if (bytes == nullptr) return s.line.refuse_null("bytes");
     const auto done = s.world().restore({static_cast<const std::byte*>(bytes), count});
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const mobil_limits* limits) {
+  return call(sim, "mobil_restore_within", [&](mobil_sim& s) {
+    mobil_limits known;
+    if (const int code = read_struct(s.line, limits, "limits", known); code != MOBIL_OK) return code;
+    if (bytes == nullptr) return s.line.refuse_null("bytes");
+    if (!(known.seconds >= 0))
+      return s.line.refuse(MOBIL_REFUSED, "seconds are negative or no number; choose 0 or more");
+    const auto done = s.world().restore({static_cast<const std::byte*>(bytes), count},
+                                        {known.rows, known.mesh_nodes, known.seconds, known.numbers != 0});
     return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }

@@ -58,14 +58,14 @@ typedef struct mobil_id {
 
 enum {
   MOBIL_OK = 0,
-  MOBIL_STALE = -1,     /* a person who is gone, or never was */
-  MOBIL_MISSING = -2,   /* the person has no such thing */
-  MOBIL_ALREADY = -3,   /* the person has it already */
-  MOBIL_REFUSED = -4,   /* a value out of range, a null pointer, damaged bytes: the line says which */
-  MOBIL_ROOM = -5,      /* the caller's memory is too small */
-  MOBIL_MEMORY = -6,    /* there is no memory */
-  MOBIL_STRUCT = -7,    /* a struct's size is not one that this library knows */
-  MOBIL_INTERNAL = -8   /* a fault of the library's own */
+  MOBIL_STALE = -1,   /* a person who is gone, or never was */
+  MOBIL_MISSING = -2, /* the person has no such thing */
+  MOBIL_ALREADY = -3, /* the person has it already */
+  MOBIL_REFUSED = -4, /* a value out of range, a null pointer, damaged bytes: the line says which */
+  MOBIL_ROOM = -5,    /* the caller's memory is too small */
+  MOBIL_MEMORY = -6,  /* there is no memory */
+  MOBIL_STRUCT = -7,  /* a struct's size is not one that this library knows */
+  MOBIL_INTERNAL = -8 /* a fault of the library's own */
 };
 
 /* What the host calls ahead, up and left. */
@@ -96,11 +96,11 @@ typedef struct mobil_memory {
 
 typedef struct mobil_options {
   size_t size;
-  double tick_s;      /* 1e-5 to 1; usual 1/60 */
-  double max_frame_s; /* of a longer frame the rest is dropped; tick_s to 60, usual 0.25 */
-  int threads;        /* of the built-in pool; 0: as many as the machine has; usual 1 */
-  int axes;           /* MOBIL_AXES_… */
-  float units_per_m;  /* of places and surfaces; 0.001 to 1e6, usual 1 */
+  double tick_s;       /* 1e-5 to 1; usual 1/60 */
+  double max_frame_s;  /* of a longer frame the rest is dropped; tick_s to 60, usual 0.25 */
+  int threads;         /* of the built-in pool; 0: as many as the machine has; usual 1 */
+  int axes;            /* MOBIL_AXES_… */
+  float units_per_m;   /* of places and surfaces; 0.001 to 1e6, usual 1 */
   mobil_jobs jobs;     /* parallel_for null: the built-in pool */
   mobil_memory memory; /* allocate null: the heap */
 } mobil_options;
@@ -118,7 +118,8 @@ enum {
   MOBIL_CHOOSING,
   MOBIL_CHOSEN,
   MOBIL_SURFACE_CHOICE,
-  MOBIL_SURFACE_TARGET
+  MOBIL_SURFACE_TARGET,
+  MOBIL_LIMITS
 };
 /* Fills a struct of that kind, as large as the caller knows it, with usual values. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
@@ -176,8 +177,18 @@ MOBIL_API int mobil_despawn(mobil_sim* sim, const mobil_id* ids, size_t count);
 MOBIL_API int mobil_people(mobil_sim* sim, mobil_id* out, size_t room, size_t* count);
 /* What was asked of a person; style is null. Place and heading are those of the walking line now. */
 MOBIL_API int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out);
+/* A walker's style, in the order of mobil_style: as it was asked for, or nearer to the usual one, where a foot would go
+ * under the ground, or a joint or the pelvis further than people's go. */
+MOBIL_API int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room);
 /* Bits of what a person is. */
-enum { MOBIL_POSED = 1, MOBIL_ASLEEP = 2, MOBIL_COMPACT = 4, MOBIL_HAS_MUSCLES = 8, MOBIL_HAS_FORCES = 16, MOBIL_MANAGED = 32 };
+enum {
+  MOBIL_POSED = 1,
+  MOBIL_ASLEEP = 2,
+  MOBIL_COMPACT = 4,
+  MOBIL_HAS_MUSCLES = 8,
+  MOBIL_HAS_FORCES = 16,
+  MOBIL_MANAGED = 32
+};
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
 
 /* From the next step on. Nobody is changed where one of them cannot walk so. */
@@ -206,18 +217,23 @@ MOBIL_API int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count
 
 /* ---- Muscles --------------------------------------------------------------------------------------------------- */
 
-enum { MOBIL_STATIC, MOBIL_ECD, MOBIL_ICD, MOBIL_CAA, MOBIL_REDUCED, MOBIL_NONE };                  /* method */
-enum { MOBIL_FULL, MOBIL_BBAR, MOBIL_ONE_POINT };                                                   /* element */
-enum { MOBIL_LUMPED, MOBIL_CONSISTENT };                                                            /* mass */
-enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };                                                     /* drive */
-enum { MOBIL_NO_ACTIVATION, MOBIL_BY_PHASE, MOBIL_BY_HOST, MOBIL_BY_MOMENTS };                      /* activation */
-enum { MOBIL_HAMSTRINGS, MOBIL_QUADRICEPS, MOBIL_TRICEPS_SURAE, MOBIL_TIBIALIS_ANTERIOR };          /* further: mobil_find_muscle */
+enum { MOBIL_STATIC, MOBIL_ECD, MOBIL_ICD, MOBIL_CAA, MOBIL_REDUCED, MOBIL_NONE }; /* method */
+enum { MOBIL_FULL, MOBIL_BBAR, MOBIL_ONE_POINT };                                  /* element */
+enum { MOBIL_LUMPED, MOBIL_CONSISTENT };                                           /* mass */
+enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };                                    /* drive */
+enum { MOBIL_NO_ACTIVATION, MOBIL_BY_PHASE, MOBIL_BY_HOST, MOBIL_BY_MOMENTS };     /* activation */
+enum {
+  MOBIL_HAMSTRINGS,
+  MOBIL_QUADRICEPS,
+  MOBIL_TRICEPS_SURAE,
+  MOBIL_TIBIALIS_ANTERIOR
+}; /* further: mobil_find_muscle */
 
 /* How one muscle is simulated. */
 typedef struct mobil_method {
   size_t size;
   int method;
-  int vectors;                                               /* of MOBIL_REDUCED, as all that follows: 1 to 32 */
+  int vectors; /* of MOBIL_REDUCED, as all that follows: 1 to 32 */
   int moving, corrected, control_points, reported, tuned, linear_shape; /* 0 or 1 */
   unsigned int reduced_cells[3];
 } mobil_method;
@@ -264,17 +280,17 @@ MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t c
 typedef struct mobil_scene {
   size_t size;
   unsigned int muscles;
-  float tolerance_m;  /* left out: of the camera, or 1 mm */
+  float tolerance_m; /* left out: of the camera, or 1 mm */
   float tolerance_px;
-  int has_camera;     /* 1: what follows counts */
+  int has_camera; /* 1: what follows counts */
   float eye[3], gaze[3];
-  float half_angle_rad;    /* of the cone round the picture's corners */
+  float half_angle_rad; /* of the cone round the picture's corners */
   float radians_per_pixel;
-  float near_m, reach_m;   /* unseen but within near_m move on; beyond reach_m nothing does */
-  float asleep_beyond_m;   /* who would have to come that near to be seen sleeps; left out: nobody */
-  int compact_unseen;      /* 1: of whom nothing is seen is compact */
-  int looked_at;           /* without a camera: whether control points are placed */
-  double budget_s;         /* processor time a tick for deformation; left out: none */
+  float near_m, reach_m; /* unseen but within near_m move on; beyond reach_m nothing does */
+  float asleep_beyond_m; /* who would have to come that near to be seen sleeps; left out: nobody */
+  int compact_unseen;    /* 1: of whom nothing is seen is compact */
+  int looked_at;         /* without a camera: whether control points are placed */
+  double budget_s;       /* processor time a tick for deformation; left out: none */
 } mobil_scene;
 
 /* What one person needs otherwise. */
@@ -287,13 +303,13 @@ typedef struct mobil_needs {
 
 typedef struct mobil_choosing {
   size_t size;
-  float slack;               /* a cheaper method is taken where it meets this part of the tolerance */
-  unsigned int switches;     /* methods changed in one update, at most */
-  double switching_s;        /* and the time that this may take */
-  unsigned int stagger;      /* everybody is looked at every so many updates */
-  float margin;              /* what predicted errors are multiplied by */
-  double machine_factor;     /* how much slower this machine is than the table's; left out: measured, so that choices
-                                depend on it */
+  float slack;           /* a cheaper method is taken where it meets this part of the tolerance */
+  unsigned int switches; /* methods changed in one update, at most */
+  double switching_s;    /* and the time that this may take */
+  unsigned int stagger;  /* everybody is looked at every so many updates */
+  float margin;          /* what predicted errors are multiplied by */
+  double machine_factor; /* how much slower this machine is than the table's; left out: measured, so that choices
+                            depend on it */
 } mobil_choosing;
 
 /* What an update did. */
@@ -325,7 +341,7 @@ typedef struct mobil_way_figures {
   const char* name;
   int method, vectors, moving; /* as in mobil_method */
   float error_m;               /* of control points, the 99.9th percentile over a walk, in that body */
-  float cost_us;               /* of both legs' muscles and their control points, a tick of 1/60 s, on an Intel Xeon of 3 GHz */
+  float cost_us; /* of both legs' muscles and their control points, a tick of 1/60 s, on an Intel Xeon of 3 GHz */
 } mobil_way_figures;
 /* Ways from 0 on; MOBIL_MISSING behind the last. `pulling` 1: of muscles with an activation. */
 MOBIL_API int mobil_way(int way, int muscle, float speed_m_s, float height_m, int inertia, int pulling,
@@ -359,15 +375,16 @@ enum {
 typedef struct mobil_pose_layout {
   size_t size;
   int form;
-  int to_parent;        /* 1: relative to the segment's parent, the pelvis to the world */
-  double ahead_s;       /* so long after the last tick, 0 to 0.2: alpha times tick_s for a frame */
-  const int* segments;  /* null: all 48 */
+  int to_parent;       /* 1: relative to the segment's parent, the pelvis to the world */
+  double ahead_s;      /* so long after the last tick, 0 to 0.2: alpha times tick_s for a frame */
+  const int* segments; /* null: all 48 */
   size_t segment_count;
   size_t segment_stride; /* bytes; 0: close together */
 } mobil_pose_layout;
-/* Poses at any instant, exactly: no lag, no interpolation. `layout` null: places and quaternions after the last tick. */
-MOBIL_API int mobil_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_pose_layout* layout,
-                          void* out, size_t stride);
+/* Poses at any instant, exactly: no lag, no interpolation. `layout` null: places and quaternions after the last tick.
+ */
+MOBIL_API int mobil_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_pose_layout* layout, void* out,
+                          size_t stride);
 
 /* Rows as floats, one a person. Index 0 is right, 1 left. */
 enum {
@@ -385,12 +402,12 @@ MOBIL_API int mobil_read(mobil_sim* sim, int what, const mobil_id* ids, size_t c
 
 /* The same of one muscle and side. */
 enum {
-  MOBIL_LINE,          /* 4: length m, rest length m, stiffness N/m, force N */
-  MOBIL_LINE_MOTION,   /* 4: lengthening m/s; moment arms about hip, knee, ankle, m */
-  MOBIL_REPORT,        /* 5: elongation m, reaction N, volume ratio, kinetic and strain energy J */
-  MOBIL_ACTIVATION,    /* 2: excitation, activation */
-  MOBIL_TENDON,        /* 5: fibre m, tendon m, pennation rad, force N, belly m */
-  MOBIL_NODES,         /* 3 a node: displacement of control points in the muscle's frame, m */
+  MOBIL_LINE,        /* 4: length m, rest length m, stiffness N/m, force N */
+  MOBIL_LINE_MOTION, /* 4: lengthening m/s; moment arms about hip, knee, ankle, m */
+  MOBIL_REPORT,      /* 5: elongation m, reaction N, volume ratio, kinetic and strain energy J */
+  MOBIL_ACTIVATION,  /* 2: excitation, activation */
+  MOBIL_TENDON,      /* 5: fibre m, tendon m, pennation rad, force N, belly m */
+  MOBIL_NODES,       /* 3 a node: displacement of control points in the muscle's frame, m */
   MOBIL_MUSCLE_ROWS
 };
 /* Of a person's muscle: nodes differ. Below 0 where there is none. */
@@ -410,18 +427,18 @@ MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBI
 
 typedef struct mobil_surface_choice {
   size_t size;
-  int bones;             /* 0 or 1 */
-  int side;              /* MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH */
-  unsigned int muscles;  /* those and the cells that people have who are to show them */
+  int bones;            /* 0 or 1 */
+  int side;             /* MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH */
+  unsigned int muscles; /* those and the cells that people have who are to show them */
   unsigned int cells[3];
-  double detail;         /* part of the triangles, 0.05 to 1 */
-  int textured;          /* 1: texture places, and tangents on request */
+  double detail; /* part of the triangles, 0.05 to 1 */
+  int textured;  /* 1: texture places, and tangents on request */
 } mobil_surface_choice;
 
 typedef struct mobil_part {
-  const char* name;   /* T4, thigh_left, soleus_right; as long as the surfaces */
-  int segment;        /* of a bone */
-  int muscle, side;   /* of a muscle: whose mesh it follows; below 0: a bone */
+  const char* name; /* T4, thigh_left, soleus_right; as long as the surfaces */
+  int segment;      /* of a bone */
+  int muscle, side; /* of a muscle: whose mesh it follows; below 0: a bone */
   unsigned int first_vertex, vertices, first_index, indices;
 } mobil_part;
 
@@ -435,7 +452,8 @@ MOBIL_API size_t mobil_index_count(const mobil_surfaces* surfaces);
 MOBIL_API int mobil_indices(const mobil_surfaces* surfaces, unsigned int* out, size_t room);
 /* Two a vertex, 0 to 1: along and around; of textured surfaces. `room`: of floats. */
 MOBIL_API int mobil_texture_places(const mobil_surfaces* surfaces, float* out, size_t room);
-MOBIL_API int mobil_surface_part(const mobil_surfaces* surfaces, int part, mobil_part* out); /* MOBIL_MISSING behind the last */
+MOBIL_API int mobil_surface_part(const mobil_surfaces* surfaces, int part,
+                                 mobil_part* out); /* MOBIL_MISSING behind the last */
 
 /* One person's vertices: three floats each, of tangents four, `…_stride` bytes apart (0: close together), in memory of
  * so many bytes. What is null is left out. */
@@ -456,9 +474,21 @@ MOBIL_API int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* t
 MOBIL_API size_t mobil_snapshot_bytes(mobil_sim* sim);
 MOBIL_API int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes); /* `bytes` may be null */
 /* What was saved, to the last bit, handles included. Bytes are never trusted. What is managed is state; how choosing is
- * spread over updates is not. */
+ * spread over updates is not. Limits are those of mobil_defaults. */
 MOBIL_API int mobil_restore(mobil_sim* sim, const void* bytes, size_t count);
-/* 64 bits, the lower half first: equal states, equal hashes, whatever the threads, the machine and the order of rows. */
+/* How much a snapshot may ask for. Its seal tells accidents, not attackers: of bytes from a network the host must know
+ * whose they are. */
+typedef struct mobil_limits {
+  size_t size;
+  size_t rows;       /* people and muscles together; usual 1000000 */
+  size_t mesh_nodes; /* of any one mesh that must be made; usual 500; 0: none is made that is not there */
+  double seconds;    /* after which no further mesh is made; usual 10 */
+  int numbers;       /* usual 1: a number that is not finite is refused */
+} mobil_limits;
+/* The same within these limits. */
+MOBIL_API int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const mobil_limits* limits);
+/* 64 bits, the lower half first: equal states, equal hashes, whatever the threads, the machine and the order of rows.
+ */
 MOBIL_API int mobil_hash(mobil_sim* sim, unsigned int out[2]);
 
 #ifdef __cplusplus

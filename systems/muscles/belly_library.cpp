@@ -195,25 +195,35 @@ std::shared_ptr<const FiniteShape> BellyLibrary::finite_shape(const BellyTemplat
   return made;
 }
 
-Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTemplate& shape, Method method, Mass mass,
-                                                                double dt_s, const BellyScale<float>& scale) {
+BellyLibrary::SolverKey BellyLibrary::solver_key(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
+                                                 const BellyScale<float>& scale) {
   // The operator over S depends on S / l and, where there is mass in it, on S·l; ICD's is the mass alone.
   const auto across = static_cast<double>(scale.across), along = static_cast<double>(scale.along);
   const bool massive = method == Method::caa || shape.shape->options.foundation_hz > 0;
   const double ratio =
       method == Method::icd ? 1 : std::clamp(middle_of_range(across / along, 1.06), lowest_ratio, highest_ratio);
   const double product = method == Method::icd || !massive ? 1 : middle_of_range(across * along, 1.12);
-  const double middle_across = std::sqrt(product * ratio), middle_along = std::sqrt(product / ratio);
-  const double step_s = method == Method::statics ? 0 : dt_s;
+  return {&shape, method, mass, dt_s, std::sqrt(product * ratio), std::sqrt(product / ratio)};
+}
+
+std::shared_ptr<const BellySolver> BellyLibrary::find_solver(const SolverKey& key) const {
+  const double step_s = key.method == Method::statics ? 0 : key.dt_s;
   for (const Solver& made : solvers_) {
     const BellySolver& s = *made.solver;
-    const bool same_mass = method != Method::caa || s.mass == mass;
-    if (made.shape == &shape && s.method == method && same_mass && s.dt_s == step_s && s.across == middle_across &&
-        s.along == middle_along) {
+    const bool same_mass = key.method != Method::caa || s.mass == key.mass;
+    if (made.shape == key.shape && s.method == key.method && same_mass && s.dt_s == step_s && s.across == key.across &&
+        s.along == key.along) {
       return made.solver;
     }
   }
-  auto solver = make_belly_solver(*shape.shape, method, mass, dt_s, middle_across, middle_along);
+  return nullptr;
+}
+
+Result<std::shared_ptr<const BellySolver>> BellyLibrary::solver(const BellyTemplate& shape, Method method, Mass mass,
+                                                                double dt_s, const BellyScale<float>& scale) {
+  const SolverKey key = solver_key(shape, method, mass, dt_s, scale);
+  if (auto found = find_solver(key)) return found;
+  auto solver = make_belly_solver(*shape.shape, method, mass, dt_s, key.across, key.along);
   if (!solver) return tl::unexpected(solver.error());
   solvers_.push_back({&shape, std::make_shared<const BellySolver>(std::move(*solver))});
   return solvers_.back().solver;

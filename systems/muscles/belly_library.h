@@ -88,6 +88,16 @@ class BellyLibrary {
   static Result<std::unique_ptr<BellyTemplate>> make_shape(Muscle muscle, const LegMuscles& choice,
                                                            const BellyTemplate* alike,
                                                            std::optional<ShapeTables> known = std::nullopt);
+  /// What a solver is for: a template, a method, a step, and the middle of the range of sizes.
+  struct SolverKey {
+    const BellyTemplate* shape;
+    Method method;
+    Mass mass;
+    double dt_s, across, along;
+  };
+  static SolverKey solver_key(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
+                              const BellyScale<float>& scale);
+  std::shared_ptr<const BellySolver> find_solver(const SolverKey& key) const;
   Result<std::shared_ptr<const BellySolver>> solver(const BellyTemplate& shape, Method method, Mass mass, double dt_s,
                                                     const BellyScale<float>& scale);
   Result<std::shared_ptr<const ReducedBasis>> basis(Muscle muscle, const LegMuscles& choice,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <new>
@@ -117,7 +118,7 @@ Result<void> check_parts(const SavedFront& front, const SavedWorld& saved, const
 }
 
 Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
-                                     std::span<const std::byte> in) {
+                                     const RestoreLimits& limits, std::span<const std::byte> in) {
   const auto open = open_snapshot(in, scene.jobs);
   if (!open) return tl::unexpected(open.error());
   const auto world = WorldSnapshot::read(*open);
@@ -131,17 +132,30 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
                             std::ldexp(static_cast<double>(header.tick_units), -50),
                             std::ldexp(static_cast<double>(present.tick_units), -50)));
   }
+  std::size_t rows = 0;
+  for (std::size_t t = 0; t < world->tables.size(); ++t) rows += world->tables[t].rows;
+  if (rows > limits.rows) {
+    return fail(
+        fmt::format("the snapshot has {} people and muscles, and at most {} are allowed; raise RestoreLimits::rows",
+                    rows, limits.rows));
+  }
   if (auto ok = check_modules(front->modules, *world, scene.modules); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_parts(*front, *world, scene); !ok) return tl::unexpected(ok.error());
+  if (limits.numbers) {
+    if (auto ok = check_numbers(*world, scene.modules, scene.jobs); !ok) return tl::unexpected(ok.error());
+  }
   work.parts.clear();
   for (const Module& module : scene.modules) {
     work.parts.insert(work.parts.end(), module.parts.begin(), module.parts.end());
   }
   work.shared.clear();
   work.resources.learn(scene.world, scene.library, scene.modules);
+  const auto start = std::chrono::steady_clock::now();
   for (std::size_t i = 0; i < front->resources.size(); ++i) {
     const SavedResource saved = front->resources[i];
-    const auto number = work.resources.number_of(saved, scene.world, scene.library, scene.modules);
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    const std::size_t most_nodes = spent.count() < limits.seconds ? limits.mesh_nodes : 0;
+    const auto number = work.resources.number_of(saved, most_nodes, scene.world, scene.library, scene.modules);
     if (!number) return tl::unexpected(number.error());
     work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
   }
@@ -193,10 +207,10 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
 }
 
 Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
-                                      std::span<const std::byte> in) {
+                                      const RestoreLimits& limits, std::span<const std::byte> in) {
   Result<SnapshotTime> done;
   try {
-    done = restore_checked(scene, present, work, in);
+    done = restore_checked(scene, present, work, limits, in);
   } catch (const std::bad_alloc&) {
     done = fail(Status::no_memory);
   }

@@ -13,6 +13,7 @@
 #include "engine/snapshot.h"
 #include "engine/world.h"
 #include "systems/muscles/belly_library.h"
+#include "systems/snapshot/restore_limits.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "systems/snapshot/snapshot_resources.h"
 
@@ -57,8 +58,9 @@ std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work);
 Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime& time, SnapshotWork& work,
                                   std::span<std::byte> out);
 /// The time saved. `present`: of the simulation; its ticks must be as long. Errors: bytes that are no snapshot of this
-/// version, were altered, or do not fit the modules; what does not fit in memory. The world is unchanged then.
+/// version, were altered, or do not fit the modules; what does not fit in memory or is beyond the limits. The world is
+/// unchanged then.
 Result<SnapshotTime> restore_snapshot(const RestoreScene& scene, const SnapshotTime& present, SnapshotWork& work,
-                                      std::span<const std::byte> in);
+                                      const RestoreLimits& limits, std::span<const std::byte> in);
 
 }  // namespace mobil

@@ -1,9 +1,11 @@
 #include "systems/snapshot/snapshot_check.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "components/muscle.h"
 
@@ -12,6 +14,22 @@ namespace {
 
 tl::unexpected<Error> damaged(const char* what) {
   return fail(std::string("the snapshot does not agree with itself (") + what + "); give one that `save` made");
+}
+
+/// Which words of a table's rows are floats: those of components that are, and of fields all. (Where a field has two
+/// numbers a word, the upper one is looked at.)
+std::vector<bool> float_words(const SavedWorld& world, std::uint32_t table, std::span<const Module> modules) {
+  const SavedTable of = world.tables[table];
+  std::vector<bool> found(of.words, false);
+  for (const Module& module : modules) {
+    for (const KeyPart& part : module.parts) {
+      const std::uint32_t first = world.column(table, part.id);
+      if (first == Table::no_column) continue;
+      const std::uint64_t words = part.kind == PartKind::field ? world.part(table, part.id)->value : part.value;
+      for (std::uint32_t w = 0; w < words; ++w) found[first + w] = part.is_float == nullptr || part.is_float[w];
+    }
+  }
+  return found;
 }
 
 }  // namespace
@@ -51,6 +69,30 @@ Result<void> check_modules(const Records<SavedModule>& all_saved, const SavedWor
       if (!has || !module.check_rows) continue;
       if (auto sound = module.check_rows(world, t); !sound) return sound;
     }
+  }
+  return {};
+}
+
+Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modules, const Jobs& jobs) {
+  for (std::uint32_t t = 0; t < world.tables.size(); ++t) {
+    const SavedTable table = world.tables[t];
+    const std::vector<bool> is_float = float_words(world, t, modules);
+    const std::size_t block_bytes = std::size_t{table.words} * lane_count * sizeof(std::uint32_t);
+    const std::size_t blocks = (table.rows + lane_count - 1) / lane_count;
+    std::atomic<bool> finite = true;
+    in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) {
+        const std::byte* const block = &world.blocks[table.first_block_byte + b * block_bytes];
+        for (std::size_t w = 0; w < is_float.size(); ++w) {
+          if (!is_float[w]) continue;
+          std::uint32_t lane[lane_count], worst = 0;
+          std::memcpy(lane, block + w * sizeof lane, sizeof lane);
+          for (const std::uint32_t bits : lane) worst = std::max(worst, bits & 0x7fffffffU);
+          if (worst >= 0x7f800000U) finite = false;
+        }
+      }
+    });
+    if (!finite) return damaged("a number that is not finite");
   }
   return {};
 }

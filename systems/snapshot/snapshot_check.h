@@ -3,6 +3,7 @@
 
 #include <span>
 
+#include "engine/jobs.h"
 #include "engine/module.h"
 #include "engine/snapshot.h"
 #include "engine/world.h"
@@ -13,6 +14,8 @@ namespace mobil {
 
 /// Parts are laid out as their modules have them, of the version that these have here, and their rows are sound.
 Result<void> check_modules(const Records<SavedModule>& saved, const SavedWorld& world, std::span<const Module> modules);
+/// Every number of every row is finite. With the simulation's jobs.
+Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modules, const Jobs& jobs);
 /// A table's shared resources are those of one muscle; and what its modules make sure of.
 Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
                        std::span<const Module> modules);

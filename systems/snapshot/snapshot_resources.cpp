@@ -153,6 +153,19 @@ BellyScale<float> scale_of(double across, double along) {
   return {static_cast<float>(across), static_cast<float>(along)};
 }
 
+/// Whether it can be the size of a belly against its template's.
+bool sound(double size) {
+  return size >= 1e-2 && size <= 1e2;
+}
+
+/// Of the mesh that it takes to make this; none of a choice.
+std::size_t nodes_of(const Recipe& recipe) {
+  const auto choice = choice_of(recipe.choice);
+  if (!choice || recipe.kind == ResourceKind::choice) return 0;
+  return recipe.kind == ResourceKind::basis ? std::max(node_count(choice->cells), node_count(choice->reduced.cells))
+                                            : node_count(choice->cells);
+}
+
 }  // namespace
 
 std::uint64_t resource_type(const Recipe& recipe) {
@@ -224,8 +237,8 @@ void ResourceList::learn(const World& world, const BellyLibrary& library, std::s
   }
 }
 
-Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World& world, BellyLibrary& library,
-                                              std::span<const Module> modules) {
+Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::size_t most_nodes, World& world,
+                                              BellyLibrary& library, std::span<const Module> modules) {
   const auto is = [&](std::size_t i) {
     return known_[i].fingerprint == saved.fingerprint && known_[i].recipe == saved.recipe;
   };
@@ -242,6 +255,12 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
   if (saved.recipe.kind == ResourceKind::named)
     return fail(
         "the snapshot shares a named resource that no module here has; give it the modules that it was made with");
+  if (const std::size_t nodes = nodes_of(saved.recipe); nodes > most_nodes && !is_there(saved.recipe, library)) {
+    return fail(
+        fmt::format("the snapshot needs a mesh of {} nodes that this simulation has not prepared, and at most {} may"
+                    " be made; prepare or load it before, or raise RestoreLimits",
+                    nodes, most_nodes));
+  }
   if (auto made = make(saved.recipe, world, library); !made)
     return fail("the snapshot needs a muscle's mesh, solver, basis or shape that cannot be made again: " +
                 made.error().message);
@@ -254,6 +273,23 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, World&
                                                          : std::string_view("a muscle")));
 }
 
+bool ResourceList::is_there(const Recipe& recipe, BellyLibrary& library) {
+  const auto choice = choice_of(recipe.choice);
+  if (!choice || recipe.muscle >= muscles().size()) return false;
+  const auto muscle = static_cast<Muscle>(recipe.muscle);
+  const double across = number(recipe.across), along = number(recipe.along);
+  const bool sized = recipe.kind == ResourceKind::basis || recipe.kind == ResourceKind::solver;
+  if (sized && !(sound(across) && sound(along))) return false;
+  if (recipe.kind == ResourceKind::basis) {
+    return library.find_basis(muscle, *choice, BellyLibrary::basis_key(*choice, muscle, across, along)) != nullptr;
+  }
+  const BellyTemplate* const shape = library.find_shape(muscle, *choice).first;
+  if (shape == nullptr || recipe.kind != ResourceKind::solver) return shape != nullptr;
+  return library.find_solver(BellyLibrary::solver_key(*shape, static_cast<Method>(recipe.method),
+                                                      static_cast<Mass>(recipe.mass), number(recipe.dt),
+                                                      scale_of(across, along))) != nullptr;
+}
+
 Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary& library) {
   const auto choice = choice_of(recipe.choice);
   if (choice && recipe.kind == ResourceKind::choice) {
@@ -264,7 +300,6 @@ Result<void> ResourceList::make(const Recipe& recipe, World& world, BellyLibrary
   if (!choice || recipe.muscle >= muscles().size()) return fail("its recipe is damaged");
   const auto muscle = static_cast<Muscle>(recipe.muscle);
   const double across = number(recipe.across), along = number(recipe.along);
-  const auto sound = [](double value) { return value >= 1e-2 && value <= 1e2; };
   if (recipe.kind == ResourceKind::basis) {
     // The ranges that these are the middles of are found again from any size within.
     if (!sound(across) || !sound(along)) return fail("its recipe is damaged");

@@ -31,11 +31,13 @@ class ResourceList {
   const std::vector<Known>& known() const { return known_; }
 
   /// The number of that resource in this world, found or made again and shared. Errors: a
-  /// recipe that the library refuses, or numbers that come out otherwise.
-  Result<std::uint64_t> number_of(const SavedResource& saved, World& world, BellyLibrary& library,
-                                  std::span<const Module> modules);
+  /// recipe that the library refuses, or of a mesh with more nodes than that; numbers that come out otherwise.
+  Result<std::uint64_t> number_of(const SavedResource& saved, std::size_t most_nodes, World& world,
+                                  BellyLibrary& library, std::span<const Module> modules);
 
  private:
+  /// Whether the library has it, so that making it takes no time.
+  static bool is_there(const Recipe& recipe, BellyLibrary& library);
   Result<void> make(const Recipe& recipe, World& world, BellyLibrary& library);
 
   std::vector<Known> known_;

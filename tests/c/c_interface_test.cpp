@@ -258,6 +258,11 @@ TEST(CInterface, RowsAreTheComponents) {
   EXPECT_EQ(known.height_m, requests[2].body.height_m);
   EXPECT_FLOAT_EQ(known.speed_m_s, *requests[2].gait.speed_m_s);
   EXPECT_EQ(known.place[0], simulation.get<GaitState>(last)->line_x_m);
+  std::vector<float> style(gait_parameters.size());
+  ASSERT_EQ(mobil_get_style(sim, ids[2], style.data(), style.size()), MOBIL_OK) << sim.message();
+  for (std::size_t i = 0; i < style.size(); ++i)
+    EXPECT_EQ(style[i], simulation.gait_request(last)->style.*gait_parameters[i].value);
+  EXPECT_EQ(mobil_get_style(sim, ids[2], style.data(), 3), MOBIL_ROOM);
 }
 
 TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
@@ -278,6 +283,13 @@ TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
   bytes[used / 2] ^= std::byte{1};
   EXPECT_EQ(mobil_restore(sim, bytes.data(), used), MOBIL_REFUSED);
   bytes[used / 2] ^= std::byte{1};
+  auto limits = filled<mobil_limits>(MOBIL_LIMITS);
+  limits.rows = 1;
+  EXPECT_EQ(mobil_restore_within(sim, bytes.data(), used, &limits), MOBIL_REFUSED);
+  EXPECT_NE(std::string(mobil_message(sim)).find("at most 1"), std::string::npos);
+  limits.rows = 1000;
+  EXPECT_EQ(mobil_restore_within(sim, bytes.data(), used, nullptr), MOBIL_REFUSED);
+  ASSERT_EQ(mobil_restore_within(sim, bytes.data(), used, &limits), MOBIL_OK);
   ASSERT_EQ(mobil_restore(sim, bytes.data(), used), MOBIL_OK);
   EXPECT_EQ(sim.hash(), before);
 

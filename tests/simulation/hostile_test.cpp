@@ -1,0 +1,238 @@
+// Snapshots that ask for too much or hold what is no number, and hosts that err: refused, or harmless to others.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include "engine/snapshot_bytes.h"
+#include "systems/simulation.h"
+#include "tests/simulation/people.h"
+#include "tests/simulation/reseal.h"
+
+namespace mobil {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+Bytes saved(const Simulation& simulation) {
+  Bytes bytes(simulation.snapshot_bytes());
+  EXPECT_TRUE(simulation.save(bytes));
+  return bytes;
+}
+
+/// One person with muscles of every method, some ticks old.
+void people(Simulation& simulation) {
+  for (const Method method : {Method::reduced, Method::ecd, Method::caa, Method::statics}) {
+    const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+    ASSERT_TRUE(human);
+    LegMuscles choice;
+    choice.method = method;
+    choice.inertia = true;
+    ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
+  }
+  for (int i = 0; i < 20; ++i) simulation.tick();
+}
+
+void expect_refused(const Result<void>& done, const std::string& piece) {
+  ASSERT_FALSE(done.has_value());
+  EXPECT_NE(done.error().message.find(piece), std::string::npos) << done.error().message;
+}
+
+TEST(RestoreLimitsOf, RowsAreCounted) {
+  Simulation simulation, other;
+  people(simulation);
+  const Bytes bytes = saved(simulation);
+  const std::uint64_t before = other.state_hash();
+  expect_refused(other.restore(bytes, {.rows = 35}), "36 people and muscles");  // four people, four muscles a leg
+  EXPECT_EQ(other.state_hash(), before);
+  ASSERT_TRUE(other.restore(bytes, {.rows = 36}));
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+}
+
+TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
+  Simulation simulation;
+  LegMuscles choice;
+  choice.cells = {4, 4, 20};
+  choice.method = Method::ecd;
+  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+  ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
+  const Bytes bytes = saved(simulation);
+
+  Simulation other;
+  const std::uint64_t before = other.state_hash();
+  const auto start = std::chrono::steady_clock::now();
+  expect_refused(other.restore(bytes), "a mesh of 525 nodes");
+  expect_refused(other.restore(bytes, {.mesh_nodes = 0}), "at most 0 may be made");
+  expect_refused(other.restore(bytes, {.mesh_nodes = 1000, .seconds = 0}), "at most 0 may be made");
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));  // nothing was made
+  EXPECT_EQ(other.state_hash(), before);
+  ASSERT_TRUE(other.prepare(choice));
+  const auto prepared = other.restore(bytes, {.mesh_nodes = 0});
+  ASSERT_TRUE(prepared) << prepared.error().message;
+  EXPECT_EQ(other.state_hash(), simulation.state_hash());
+  Simulation third;
+  ASSERT_TRUE(third.restore(bytes, {.mesh_nodes = 525}));
+}
+
+/// Sealed anew, any float of a row may be no number.
+TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
+  Simulation simulation;
+  people(simulation);
+  const Bytes good = saved(simulation);
+  std::uint64_t parts[3];
+  std::memcpy(parts, &good[32], sizeof parts);
+  const std::size_t blocks_at = SnapshotLayout{parts[0], parts[1], parts[2]}.blocks_at();
+  std::mt19937_64 random(3);
+  const float bad[] = {std::nanf(""), -std::numeric_limits<float>::infinity(), std::numeric_limits<float>::infinity()};
+  int refused = 0, tried = 0;
+  for (int round = 0; round < 400; ++round) {
+    Bytes bytes = good;
+    std::byte* const word = &bytes[blocks_at + random() % (parts[2] / 4) * 4];
+    float was;
+    std::memcpy(&was, word, 4);
+    if (was == 0 || !(std::fabs(was) > 1e-20F && std::fabs(was) < 1e6F)) continue;  // likely no float
+    std::memcpy(word, &bad[round % 3], 4);
+    ASSERT_TRUE(reseal_snapshot(bytes));
+    ++tried;
+    if (const auto done = simulation.restore(bytes); !done) {
+      ++refused;
+      EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
+      continue;
+    }
+    // What is not looked at is no float that anything is computed from.
+    for (int i = 0; i < 5; ++i) simulation.tick();
+    for (const Entity human : simulation.people()) {
+      EXPECT_TRUE(std::isfinite(simulation.get<Pose>(human)->position_m[0].x));
+      for (const OwnMuscle& own : simulation.muscles(human)) {
+        const NodalView shown = simulation.nodal_displacement(own.entity[Side::right]);
+        for (std::size_t n = 0; shown.first != nullptr && n < shown.nodes; ++n) {
+          EXPECT_TRUE(std::isfinite(shown.first[3 * n * lane_count])) << round;
+        }
+      }
+    }
+  }
+  ASSERT_TRUE(simulation.restore(good));
+  EXPECT_GT(tried, 100);
+  EXPECT_GT(refused, tried * 8 / 10) << "of " << tried;
+}
+
+/// A job system that throws at its n-th call from now.
+struct Throwing {
+  int calls_left = -1;
+  Jobs jobs() {
+    return {this,
+            [](void* user, std::size_t count, Jobs::Body body, void* context) {
+              auto& self = *static_cast<Throwing*>(user);
+              if (self.calls_left == 0) throw std::runtime_error("no thread");
+              if (self.calls_left > 0) --self.calls_left;
+              body(context, 0, count);
+            },
+            2};
+  }
+};
+
+TEST(Jobs, ThatThrowLeaveASimulationThatCanBeRestored) {
+  Throwing host;
+  Simulation simulation({.jobs = host.jobs()}), twin;
+  people(simulation);
+  people(twin);
+  const Bytes bytes = saved(simulation);
+  for (int i = 0; i < 10; ++i) twin.tick();
+  bool whole = false;
+  for (int calls = 0; calls < 100 && !whole; ++calls) {
+    host.calls_left = calls;
+    bool threw = false;
+    try {
+      const auto restored = simulation.restore(bytes);
+      ASSERT_TRUE(restored) << restored.error().message;
+      for (int i = 0; i < 10; ++i) simulation.tick();
+    } catch (const std::runtime_error&) {
+      threw = true;
+    }
+    host.calls_left = -1;
+    whole = !threw;
+    ASSERT_TRUE(simulation.restore(bytes));
+    for (int i = 0; i < 10; ++i) simulation.tick();
+    ASSERT_EQ(simulation.state_hash(), twin.state_hash()) << calls;
+  }
+  EXPECT_TRUE(whole);
+}
+
+/// Wherever a posed person is said to be, muscles stay finite, and other people do not notice.
+TEST(Posed, WildPosesAreRefusedOrFinite) {
+  Simulation simulation;
+  const auto wild = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
+  const auto calm = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
+  Simulation alone;
+  const auto twin = *alone.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
+  for (const Method method : {Method::reduced, Method::ecd, Method::icd, Method::caa, Method::statics}) {
+    LegMuscles choice;
+    choice.method = method;
+    choice.inertia = true;
+    for (const auto& [where, who] : {std::pair{&simulation, wild}, {&simulation, calm}, {&alone, twin}}) {
+      if (!where->muscles(who).empty()) {
+        ASSERT_TRUE(where->remove_leg_muscles(who));
+      }
+      ASSERT_TRUE(where->add_leg_muscles(who, choice));
+    }
+    const Pose<float> usual = *simulation.get<Pose>(wild);
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> uniform(-1, 1);
+    int taken = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      Pose<float> pose = usual;
+      const std::size_t segment = random() % segment_count;
+      const float far = std::pow(10.0F, 6.5F * std::fabs(uniform(random)));
+      switch (tick % 4) {
+        case 0:
+          pose.position_m[segment] = {far * uniform(random), far * uniform(random), far * uniform(random)};
+          break;
+        case 1:
+          for (auto& p : pose.position_m) p = {far * uniform(random), far, far * uniform(random)};
+          break;
+        case 2:
+          pose.rotation[segment] = {uniform(random) < 0 ? std::nanf("") : 1e30F, 0, 0, 1};
+          break;
+        default:
+          break;
+      }
+      taken += simulation.set_pose(wild, pose) ? 1 : 0;
+      simulation.tick();
+      alone.tick();
+    }
+    EXPECT_GT(taken, 25);
+    ASSERT_TRUE(simulation.set_pose(wild, usual));
+    for (int tick = 0; tick < 480; ++tick) {  // vibrations fall by e^-4 a second
+      simulation.tick();
+      alone.tick();
+    }
+    const auto shown = [](const Simulation& of, Entity who) {
+      std::vector<float> all;
+      for (const OwnMuscle& own : of.muscles(who)) {
+        const NodalView view = of.nodal_displacement(own.entity[Side::left]);
+        for (std::size_t n = 0; view.first != nullptr && n < view.nodes; ++n) {
+          all.push_back(view.first[(3 * n + 1) * lane_count]);
+        }
+      }
+      return all;
+    };
+    for (const float y : shown(simulation, wild)) {
+      EXPECT_TRUE(std::isfinite(y)) << static_cast<int>(method);
+      // What rings faster than ticks the trapezoidal rule hardly damps.
+      if (method == Method::caa) continue;
+      EXPECT_LT(std::fabs(y), 0.5F) << static_cast<int>(method);
+    }
+    EXPECT_EQ(shown(simulation, calm), shown(alone, twin)) << static_cast<int>(method);
+    ASSERT_TRUE(simulation.set_pose(wild, usual));
+  }
+}
+
+}  // namespace
+}  // namespace mobil

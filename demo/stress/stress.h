@@ -64,5 +64,12 @@ Result<void> stress_requests(StressRun& run);
 Result<void> stress_tables(StressRun& run);
 Result<void> stress_hitch(StressRun& run);
 Result<void> stress_walkers(StressRun& run);
+Result<void> stress_ways(StressRun& run);
+Result<void> stress_many(StressRun& run);
+Result<void> stress_relevance(StressRun& run);
+Result<void> stress_sleep(StressRun& run);
+Result<void> stress_ticks(StressRun& run);
+Result<void> stress_far(StressRun& run);
+Result<void> stress_day(StressRun& run);
 
 }  // namespace mobil

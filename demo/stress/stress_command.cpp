@@ -58,10 +58,17 @@ constexpr std::array stresses = {
     Stress{"explosion", "one exploding lane beside fifteen sound ones", &stress_explosion},
     Stress{"excitation", "muscles excited by no numbers, on and off, and for minutes", &stress_excitation},
     Stress{"contraction", "squats at full activation, and another method in every tick", &stress_contraction},
+    Stress{"ways", "every method with every effect, shaken as no body can be", &stress_ways},
     Stress{"requests", "not-a-number and infinity in what people are asked to be and to do", &stress_requests},
     Stress{"tables", "not-a-number and infinity in files and options", &stress_tables},
     Stress{"hitch", "a frame of two seconds", &stress_hitch},
     Stress{"walkers", "one person who is no number among sixteen who walk", &stress_walkers},
+    Stress{"many", "one person who is no number among ten thousand", &stress_many},
+    Stress{"relevance", "cameras that flicker, and a budget of nothing", &stress_relevance},
+    Stress{"sleep", "people who fall asleep and wake at any time", &stress_sleep},
+    Stress{"ticks", "from ten to a thousand ticks a second", &stress_ticks},
+    Stress{"far", "up to 999 km from the origin", &stress_far},
+    Stress{"day", "a day of walking, awake and asleep", &stress_day},
 };
 
 struct StressText {
@@ -139,7 +146,7 @@ int stress(const StressText& text) {
   const auto chosen = choose_named(stresses, text.names, "stress");
   if (!chosen) return complain("stress", chosen.error().message);
   if (text.json) {
-    if (auto ok = check_json_place(*text.json); !ok) return complain("stress", ok.error().message);
+    if (auto ok = check_result_place("--json", *text.json); !ok) return complain("stress", ok.error().message);
   }
   if (text.list) {
     print_list();

@@ -192,9 +192,6 @@ Result<void> ViewScene::set(const ViewChoice& choice) {
       auto done = choice.forces ? simulation_->add_forces(person_) : simulation_->remove_forces(person_);
       if (!done) return done;
     }
-    if (!choice.choose) {
-      if (auto done = set_methods(person_, choice); !done) return done;
-    }
   }
   if (choice.people != choice_.people) {
     if (auto done = set_crowd(choice.people); !done) return done;
@@ -247,8 +244,8 @@ ViewMethod ViewScene::method(std::size_t group) const {
     if (way.method == Method::reduced &&
         (way.vectors != is.method.reduced.vectors || way.moving != is.method.reduced.moving))
       continue;
-    is.error_m = ladder.error_m(of, rung) * size->height_m / static_cast<float>(reference_body_height_m);
-    is.cost_us = static_cast<float>(ladder.cost_ps(of, rung)) * 1e-6F;
+    is.error_m = ladder.error_m(of, rung, size->height_m);
+    is.cost_us = ladder.cost_us(of, rung);
     break;
   }
   return is;

@@ -72,6 +72,10 @@ std::uint32_t RungLadder::speed_step(float speed_m_s, float height_m) {
   return static_cast<std::uint32_t>(std::max(as_reference, 0.0F) / speed_step_m_s);
 }
 
+float RungLadder::error_m(const RungCase& of, std::uint32_t rung, float height_m) const {
+  return error_m(of, rung) * height_m / reference_height_m;
+}
+
 std::uint32_t RungLadder::cheapest(const RungCase& of, float limit_m) const {
   std::uint32_t best = 0;
   float least = INFINITY;

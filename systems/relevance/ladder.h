@@ -34,6 +34,8 @@ class RungLadder {
   float error_m(const RungCase& of, std::uint32_t rung) const {
     return error_[of.living][of.inertia][of.speed_step][of.muscle][rung];
   }
+  /// The same in a body of that height.
+  float error_m(const RungCase& of, std::uint32_t rung, float height_m) const;
   /// How much of the volume at rest its control points enclose more or less; 0 where that was not measured.
   float volume_off(const RungCase& of, std::uint32_t rung) const {
     return volume_off_[of.living][of.inertia][of.muscle][rung];
@@ -42,6 +44,8 @@ class RungLadder {
   std::int64_t cost_ps(const RungCase& of, std::uint32_t rung) const {
     return cost_[of.living][of.inertia][of.points][rung];
   }
+  /// The same in microseconds, for people to read.
+  float cost_us(const RungCase& of, std::uint32_t rung) const { return 1e-6F * static_cast<float>(cost_ps(of, rung)); }
   /// Rungs by cost, the cheapest first; of equal cost the lower.
   const std::array<std::uint8_t, rung_count>& by_cost(const RungCase& of) const {
     return order_[of.living][of.inertia][of.points];

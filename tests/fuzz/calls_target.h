@@ -1,0 +1,229 @@
+#pragma once
+// A host of the C interface that calls whatever comes, with whatever arguments; pointers alone are good, or null.
+
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "systems/c/mobil.h"
+#include "tests/fuzz/fuzz_input.h"
+
+namespace mobil::fuzz {
+
+/// Some people, and what the calls between two of them answer.
+class WildHost {
+ public:
+  explicit WildHost(Numbers numbers) : numbers_(numbers) {
+    mobil_options options;
+    mobil_defaults(MOBIL_OPTIONS, &options, sizeof options);
+    char line[512];
+    promise(mobil_create(&options, &sim_, line, sizeof line) == MOBIL_OK, "a simulation is made");
+    static const std::vector<unsigned char> baked = bake();
+    if (!baked.empty()) mobil_load_baked(sim_, baked.data(), baked.size());
+  }
+  ~WildHost() { mobil_destroy(sim_); }
+  WildHost(const WildHost&) = delete;
+  WildHost& operator=(const WildHost&) = delete;
+
+  void play() {
+    for (int calls = 0; calls < 40 && !numbers_.empty(); ++calls) {
+      const int code = call();
+      if (code >= MOBIL_OK) continue;
+      promise(code != MOBIL_INTERNAL, "no fault is the library's own");
+      promise_line(mobil_message(sim_));
+    }
+    look();
+  }
+
+ private:
+  /// Meshes and bases, so that not every input waits for them.
+  std::vector<unsigned char> bake() const {
+    mobil_muscles choice;
+    mobil_defaults(MOBIL_MUSCLES, &choice, sizeof choice);
+    for (const int method : {MOBIL_REDUCED, MOBIL_ECD}) {
+      choice.method = method;
+      promise(mobil_prepare(sim_, &choice) == MOBIL_OK, "usual muscles are prepared");
+    }
+    size_t bytes = 0;
+    mobil_bake(sim_, nullptr, 0, &bytes);
+    std::vector<unsigned char> baked(bytes);
+    promise(mobil_bake(sim_, baked.data(), baked.size(), &bytes) == MOBIL_OK, "what was prepared is baked");
+    return baked;
+  }
+
+  /// A person, mostly one who is there.
+  mobil_id id() {
+    const std::uint8_t which = numbers_.byte();
+    if (which >= 250 || people_.empty()) {
+      mobil_id any;
+      for (std::size_t i = 0; i < sizeof any; ++i) reinterpret_cast<std::uint8_t*>(&any)[i] = numbers_.byte();
+      return any;
+    }
+    return people_[which % people_.size()];
+  }
+
+  mobil_muscles muscles() {
+    mobil_muscles choice;
+    mobil_defaults(MOBIL_MUSCLES, &choice, sizeof choice);
+    choice.muscles = 1U << numbers_.byte() % 8;
+    choice.method = numbers_.wild(6);
+    choice.vectors = numbers_.wild(20);
+    choice.control_points = numbers_.wild(2);
+    choice.reported = numbers_.wild(2);
+    choice.activation = numbers_.wild(4);
+    choice.inertia = numbers_.wild(2);
+    choice.drive = numbers_.wild(2);
+    if (numbers_.byte() < 32) choice.poisson = static_cast<double>(numbers_.number());
+    if (numbers_.byte() < 32) choice.young_pa = 1e5 * static_cast<double>(numbers_.number());
+    if (numbers_.byte() < 32) choice.dt_s = static_cast<double>(numbers_.number()) / 100;
+    return choice;
+  }
+
+  mobil_walk walk() {
+    mobil_walk walk;
+    mobil_defaults(MOBIL_WALK, &walk, sizeof walk);
+    walk.given = numbers_.byte();
+    walk.speed_m_s = numbers_.number();
+    walk.step_length_m = numbers_.number();
+    walk.heading_rad = numbers_.number();
+    for (float& number : style_) number = numbers_.byte() < 250 ? 0 : numbers_.number();
+    walk.style = style_.data();
+    walk.style_count = numbers_.byte() % style_.size();
+    return walk;
+  }
+
+  int call() {
+    const mobil_id who = id();
+    switch (numbers_.byte() % 20) {
+      case 0: {
+        mobil_person person;
+        mobil_defaults(MOBIL_PERSON, &person, sizeof person);
+        if (numbers_.byte() % 4 == 0) person.height_m = numbers_.number();
+        if (numbers_.byte() % 4 == 0) person.mass_kg = 80 * numbers_.number();
+        person.constitution = numbers_.wild(4);
+        person.posed = numbers_.wild(2);
+        person.given = numbers_.byte() & 7;
+        person.speed_m_s = numbers_.number();
+        person.step_length_m = numbers_.number();
+        person.step_frequency_hz = numbers_.number();
+        mobil_id made;
+        if (people_.size() >= 6) return MOBIL_OK;
+        const int code = mobil_spawn(sim_, &person, 0, 1, nullptr, &made);
+        if (code == MOBIL_OK) people_.push_back(made);
+        return code;
+      }
+      case 1: {
+        const int code = mobil_despawn(sim_, &who, 1);
+        if (code == MOBIL_OK)
+          std::erase_if(people_, [&](const mobil_id& p) { return !std::memcmp(&p, &who, sizeof p); });
+        return code;
+      }
+      case 2: {
+        const mobil_walk asked = walk();
+        return mobil_change_walk(sim_, &who, 1, &asked);
+      }
+      case 3:
+        return mobil_step_aside(sim_, who, numbers_.number(), numbers_.number());
+      case 4: {
+        const float place[3] = {100 * numbers_.number(), numbers_.number(), numbers_.number()};
+        return mobil_place(sim_, who, place, numbers_.number());
+      }
+      case 5: {
+        std::vector<float> pose(std::size_t{7} * MOBIL_SEGMENTS);
+        mobil_poses(sim_, &who, 1, nullptr, pose.data(), 0);
+        for (int changes = numbers_.byte() % 4; changes > 0; --changes) {
+          pose[(numbers_.byte() + 256U * numbers_.byte()) % pose.size()] = numbers_.number();
+        }
+        return mobil_set_poses(sim_, &who, 1, pose.data(), 0, numbers_.wild(2));
+      }
+      case 6:
+        return mobil_sleep(sim_, &who, 1, nullptr);
+      case 7:
+        return mobil_wake(sim_, &who, 1, numbers_.number() / 100);
+      case 8:
+        return mobil_compact(sim_, &who, 1, nullptr);
+      case 9:
+        return mobil_expand(sim_, &who, 1);
+      case 10:
+        return mobil_set_forces(sim_, &who, 1, numbers_.wild(2));
+      case 11: {
+        const mobil_muscles choice = muscles();
+        return mobil_set_muscles(sim_, &who, 1, numbers_.byte() % 4 == 0 ? nullptr : &choice);
+      }
+      case 12: {
+        mobil_method method;
+        mobil_defaults(MOBIL_METHOD, &method, sizeof method);
+        method.method = numbers_.wild(6);
+        method.vectors = numbers_.wild(20);
+        method.control_points = numbers_.wild(2);
+        return mobil_set_method(sim_, &who, 1, numbers_.wild(17), &method);
+      }
+      case 13: {
+        const float excitation = numbers_.number();
+        return mobil_set_excitation(sim_, &who, 1, numbers_.wild(17), numbers_.wild(2), &excitation, 0);
+      }
+      case 14:
+        return mobil_tick(sim_, numbers_.byte() % 8);
+      case 15:
+        return mobil_advance(sim_, static_cast<double>(numbers_.number()) / 16, nullptr);
+      case 16: {
+        std::vector<unsigned char> state(mobil_snapshot_bytes(sim_));
+        size_t bytes = 0;
+        promise(mobil_save(sim_, state.data(), state.size(), &bytes) == MOBIL_OK, "a state is saved");
+        promise(mobil_restore(sim_, state.data(), bytes) == MOBIL_OK, "a state that was saved is restored");
+        return MOBIL_OK;
+      }
+      case 17: {
+        const float to[3] = {64 * numbers_.number(), 0, numbers_.number()};
+        return mobil_shift_origin(sim_, to);
+      }
+      case 18: {
+        float row[512];
+        const int what = numbers_.wild(MOBIL_ROWS);
+        return mobil_read(sim_, what, &who, 1, row, 0);
+      }
+      default: {
+        mobil_pose_layout layout;
+        mobil_defaults(MOBIL_POSE_LAYOUT, &layout, sizeof layout);
+        layout.form = numbers_.wild(3);
+        layout.to_parent = numbers_.wild(2);
+        layout.ahead_s = static_cast<double>(numbers_.number()) / 10;
+        std::array<float, std::size_t{12} * MOBIL_SEGMENTS> out;
+        return mobil_poses(sim_, &who, 1, &layout, out.data(), 0);
+      }
+    }
+  }
+
+  /// Whatever was called, everybody who is there is somewhere.
+  void look() {
+    for (const mobil_id& who : people_) {
+      std::array<float, std::size_t{7} * MOBIL_SEGMENTS> pose;
+      int bits = 0;
+      promise(mobil_state(sim_, who, &bits) == MOBIL_OK, "who was made is there");
+      if ((bits & MOBIL_ASLEEP) != 0) continue;  // has no pose to be placed
+      const int code = mobil_poses(sim_, &who, 1, nullptr, pose.data(), 0);
+      promise(code == MOBIL_OK, code == MOBIL_OK ? "" : mobil_message(sim_));
+      for (const float number : pose) promise(std::isfinite(number), "poses are finite");
+      if ((bits & MOBIL_HAS_MUSCLES) == 0 || (bits & MOBIL_COMPACT) != 0) continue;
+      for (int muscle = 0; muscle < 17; ++muscle) {
+        const int floats = mobil_muscle_row_floats(sim_, MOBIL_NODES, who, muscle, 0);
+        if (floats <= 0) continue;
+        std::vector<float> nodes(static_cast<std::size_t>(floats));
+        if (mobil_read_muscles(sim_, MOBIL_NODES, &who, 1, muscle, 0, nodes.data(), 0) != MOBIL_OK) continue;
+        for (const float number : nodes) promise(std::isfinite(number), "control points are finite");
+      }
+    }
+  }
+
+  Numbers numbers_;
+  mobil_sim* sim_ = nullptr;
+  std::vector<mobil_id> people_;
+  std::array<float, 40> style_{};
+};
+
+inline void fuzz_calls(Input input) {
+  WildHost host{Numbers(input)};
+  host.play();
+}
+
+}  // namespace mobil::fuzz

@@ -1,0 +1,80 @@
+#pragma once
+// What a fuzz target is, and how it takes numbers from the bytes that it is given.
+//
+// A target is one header, NAME_target.h, with `void fuzz_NAME(std::span<const std::uint8_t>)`, a name in
+// CMakeLists.txt's list, and a folder of first inputs, corpus/NAME. It ends the program (`promise`) where something
+// does not hold that must hold for any bytes. tests/fuzz/run builds the targets with libFuzzer and looks for inputs;
+// fuzz_test runs the first inputs, those that once failed, and random changes of them, in every run of the tests.
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "engine/error.h"
+
+namespace mobil::fuzz {
+
+using Input = std::span<const std::uint8_t>;
+
+inline void promise(bool held, const char* what) {
+  if (held) return;
+  std::fprintf(stderr, "broken promise: %s\n", what);
+  std::abort();
+}
+
+/// A refusal is one line that says something.
+inline void promise_line(const std::string& message) {
+  promise(!message.empty(), "an error has a message");
+  promise(message.find('\n') == std::string::npos, "an error's message is one line");
+  promise(message.size() < 2100, "an error's message is short");
+}
+template <class T>
+bool held(const Result<T>& result) {
+  if (!result) promise_line(result.error().message);
+  return result.has_value();
+}
+
+inline std::string_view text_of(Input input) {
+  return {reinterpret_cast<const char*>(input.data()), input.size()};
+}
+
+/// Takes small numbers from the front of the input; zeros once there is nothing left.
+class Numbers {
+ public:
+  explicit Numbers(Input input) : left_(input) {}
+  bool empty() const { return left_.empty(); }
+  std::uint8_t byte() {
+    if (left_.empty()) return 0;
+    const std::uint8_t first = left_.front();
+    left_ = left_.subspan(1);
+    return first;
+  }
+  std::uint32_t word() { return byte() | byte() << 8U | byte() << 16U | static_cast<std::uint32_t>(byte()) << 24U; }
+  /// Any float at all, or mostly one that is near.
+  float number() {
+    const std::uint8_t kind = byte();
+    if (kind >= 200) {
+      const std::uint32_t bits = word();
+      float any;
+      std::memcpy(&any, &bits, sizeof any);
+      return any;
+    }
+    return (static_cast<float>(kind) - 100) / 32;
+  }
+  int choice(int count) { return byte() % count; }
+  /// Mostly one of an enumeration's values, now and then none.
+  int wild(int count) {
+    const int value = byte();
+    return value < 240 ? value % count : value - 250;
+  }
+  Input rest() const { return left_; }
+
+ private:
+  Input left_;
+};
+
+}  // namespace mobil::fuzz

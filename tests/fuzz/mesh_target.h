@@ -1,0 +1,36 @@
+#pragma once
+// A file of a mesh: first byte its format, the rest its bytes.
+
+#include <array>
+#include <cmath>
+
+#include "assets/import/mesh_file.h"
+#include "assets/import/simplify_surface.h"
+#include "assets/surfaces/surface_mesh.h"
+#include "tests/fuzz/fuzz_input.h"
+
+namespace mobil::fuzz {
+
+inline void fuzz_mesh(Input input) {
+  if (input.empty()) return;
+  constexpr std::array<std::string_view, 3> names = {"a.obj", "a.stl", "a.ply"};
+  const auto file = read_mesh_bytes(text_of(input.subspan(1)), std::string(names[input[0] % names.size()]));
+  if (!held(file)) return;
+  const auto sound = [](const SurfaceMesh& mesh) {
+    promise(mesh.triangle.size() % 3 == 0, "triangles are whole");
+    for (const auto i : mesh.triangle) promise(i < mesh.position.size(), "indices are in range");
+    for (const auto& p : mesh.position) {
+      promise(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z), "places are finite");
+    }
+  };
+  sound(file->mesh);
+  promise(!file->mesh.triangle.empty(), "a mesh that is taken has a triangle");
+  (void)count_edges(file->mesh);
+  (void)enclosed_volume(file->mesh);
+  SurfaceMesh mesh = file->mesh;
+  remove_specks(mesh, 0.01);
+  sound(mesh);
+  sound(clustered(mesh, 0.003));
+}
+
+}  // namespace mobil::fuzz

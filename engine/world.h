@@ -85,7 +85,7 @@ class World {
 
    private:
     World& world_;
-    const Jobs& jobs_;
+    Jobs jobs_;
   };
   /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
   /// most; in which order rows then lie is not that of one by one. Takes memory for the while; where there is none,

@@ -188,13 +188,13 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
 
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
   auto gait = changed_gait(*world_, human, change);
-  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1});
+  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1}, sleep_work_->styles);
   return ask(human, gait);
 }
 
 Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
   auto gait = new_gait(*world_, human, asked);
-  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1});
+  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1}, sleep_work_->styles);
   return ask(human, gait);
 }
 
@@ -233,7 +233,7 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
     people.push_back(changes[i].human);
     gaits.push_back(*asked[i].gait);
   }
-  keep_walk_limits(*world_, jobs_, people, gaits);
+  keep_walk_limits(*world_, jobs_, people, gaits, sleep_work_->styles);
   for (std::size_t i = 0, k = 0; i < changes.size(); ++i) {
     if (!asked[i].gait || !changes[i].gait) continue;
     asked[i].gait = gaits[k++];

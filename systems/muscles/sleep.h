@@ -12,6 +12,7 @@
 #include "engine/world.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/people/sleepers.h"
+#include "systems/people/style_limits.h"
 #include "systems/people/waking.h"
 
 namespace mobil {
@@ -52,6 +53,7 @@ struct SleepWork {
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
   std::vector<Gait<float>> gaits;
+  StyleWork styles;
   std::vector<AskedSleeper> asked_sleepers;
 };
 

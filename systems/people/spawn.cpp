@@ -114,7 +114,8 @@ tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const Spawn
     in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
       for (std::size_t k = begin; k < end; ++k) sizes[k] = body_size(people[k].body);
     });
-    keep_walk_limits(jobs, sizes, gait);
+    StyleWork work;
+    keep_walk_limits(jobs, sizes, gait, work);
     return {};
   }
   return tl::unexpected(NotMade{i, check(people[i], gait[i], i, each).error()});

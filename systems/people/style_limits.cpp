@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <memory>
 #include <optional>
 #include <string_view>
 
@@ -24,13 +23,14 @@ constexpr std::size_t parameter_count = gait_parameters.size();
 constexpr int halvings = 8;
 
 /// What is kept free below the limits, for a walk goes a little further between the instants that are looked at.
-float held_to(std::size_t bound, Looking looking) {
+/// The usual style with other steps moves smoothly.
+float held_to(std::size_t bound, Looking looking, bool usual_style) {
   struct Spare {
     double m, rad, m_s2;
   };
-  constexpr Spare close = {0.001, 0.015, 2}, rough = {0.002, 0.05, 7};
+  constexpr Spare close = {0.001, 0.015, 2}, rough = {0.002, 0.05, 7}, smooth = {0.001, 0.001, 2};
   const WalkLimit& limit = walk_limits()[bound];
-  const Spare& spare = looking == Looking::closely ? close : rough;
+  const Spare& spare = looking == Looking::roughly ? rough : usual_style ? smooth : close;
   const double free = limit.bound == WalkBound::under_ground    ? spare.m
                       : limit.bound == WalkBound::pelvis_shaken ? spare.m_s2
                                                                 : spare.rad;
@@ -173,7 +173,10 @@ class StyleBlock {
 
  private:
   void hold_to_limits(Looking looking) {
-    for (std::size_t b = 0; b < bound_count; ++b) held_[b] = in_every_lane<Lanes<float>>(held_to(b, looking));
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const bool usual_style = same_style(asked_[l], usual_);
+      for (std::size_t b = 0; b < bound_count; ++b) held_[b][l] = held_to(b, looking, usual_style);
+    }
   }
   std::array<bool, lane_count> still_broken(Looking looking) {
     look(looking);
@@ -284,33 +287,41 @@ std::string described(const StyleChange& change) {
 }
 
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
-                      std::span<std::vector<StyleChange>> moved) {
-  std::vector<std::size_t> unusual;
+                      StyleWork& work, std::span<std::vector<StyleChange>> moved) {
+  // As much room as everybody may need, so that it grows with how many are asked, not with who they are.
+  for (auto* const list : {&work.unusual, &work.near}) {
+    list->clear();
+    if (list->capacity() < gaits.size()) list->reserve(2 * gaits.size());
+  }
+  std::vector<std::size_t>& unusual = work.unusual;
   for (std::size_t i = 0; i < gaits.size(); ++i)
     if (!is_usual(sizes[i].height_m, gaits[i]) && !surely_keeps_limits(sizes[i], gaits[i])) unusual.push_back(i);
   if (unusual.empty()) return;
-  const auto in_blocks = [&](std::span<const std::size_t> people, auto work) {
+  const auto in_blocks = [&](std::span<const std::size_t> people, auto look_at) {
     in_parallel(jobs, (people.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t first = begin * lane_count; first < std::min(end * lane_count, people.size());
            first += lane_count) {
         const auto some = people.subspan(first, std::min(lane_count, people.size() - first));
-        work(some, *std::make_unique<StyleBlock>(sizes, gaits, some));
+        StyleBlock block(sizes, gaits, some);
+        look_at(some, block);
       }
     });
   };
   // Few come near a limit, fewer break one: those come together in blocks of their own.
-  std::vector<std::uint8_t> breaks(gaits.size(), 1);
+  if (work.breaks.capacity() < gaits.size()) work.breaks.reserve(2 * gaits.size());
+  work.breaks.assign(gaits.size(), 1);
   const auto look = [&](std::span<const std::size_t> people, Looking looking) {
     in_blocks(people, [&](std::span<const std::size_t> some, StyleBlock& block) {
       const auto broken = block.broken(looking);
-      for (std::size_t l = 0; l < some.size(); ++l) breaks[some[l]] = static_cast<std::uint8_t>(broken[l]);
+      for (std::size_t l = 0; l < some.size(); ++l) work.breaks[some[l]] = static_cast<std::uint8_t>(broken[l]);
     });
-    std::erase_if(unusual, [&](std::size_t i) { return breaks[i] == 0; });
+    std::erase_if(unusual, [&](std::size_t i) { return work.breaks[i] == 0; });
   };
-  std::vector<std::size_t> near;
-  std::ranges::copy_if(unusual, std::back_inserter(near), [&](std::size_t i) { return is_near_usual(gaits[i].style); });
-  look(near, Looking::roughly);
-  look(std::vector(unusual), Looking::closely);
+  std::ranges::copy_if(unusual, std::back_inserter(work.near),
+                       [&](std::size_t i) { return is_near_usual(gaits[i].style); });
+  look(work.near, Looking::roughly);
+  work.near.assign(unusual.begin(), unusual.end());
+  look(work.near, Looking::closely);
   in_blocks(unusual, [&](std::span<const std::size_t> people, StyleBlock& block) {
     block.draw_nearer();
     for (std::size_t l = 0; l < people.size(); ++l) {
@@ -328,23 +339,24 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
 }
 
 void keep_walk_limits(const World& world, const Jobs& jobs, std::span<const Entity> people,
-                      std::span<Gait<float>> gaits) {
-  std::vector<std::size_t> others;
-  for (std::size_t i = 0; i < people.size(); ++i)
-    if (!same_walk(*gait_of(world, people[i]), gaits[i])) others.push_back(i);
-  std::vector<BodySize<float>> sizes;
-  std::vector<Gait<float>> asked;
-  for (const std::size_t i : others) {
-    sizes.push_back(body_size(world, people[i]));
-    asked.push_back(gaits[i]);
+                      std::span<Gait<float>> gaits, StyleWork& work) {
+  work.others.clear();
+  work.sizes.clear();
+  work.asked.clear();
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    if (same_walk(*gait_of(world, people[i]), gaits[i])) continue;
+    work.others.push_back(i);
+    work.sizes.push_back(body_size(world, people[i]));
+    work.asked.push_back(gaits[i]);
   }
-  keep_walk_limits(jobs, sizes, asked);
-  for (std::size_t k = 0; k < others.size(); ++k) gaits[others[k]] = asked[k];
+  keep_walk_limits(jobs, work.sizes, work.asked, work);
+  for (std::size_t k = 0; k < work.others.size(); ++k) gaits[work.others[k]] = work.asked[k];
 }
 
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait) {
   std::vector<StyleChange> moved;
-  keep_walk_limits({}, {&size, 1}, {&gait, 1}, {&moved, 1});
+  StyleWork work;
+  keep_walk_limits({}, {&size, 1}, {&gait, 1}, work, {&moved, 1});
   return moved;
 }
 

@@ -3,6 +3,7 @@
 // further than it goes or shake the pelvis: they are drawn toward the usual style by as little as mends it.
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,16 +28,25 @@ struct StyleChange {
 /// "time_asymmetry 0.3 was lowered to 0.11: the pelvis would be shaken with 78 m/s2 at 2.1 m/s".
 std::string described(const StyleChange& change);
 
+/// What looking at styles works in, kept from one time to the next.
+struct StyleWork {
+  std::vector<std::size_t> others, unusual, near;
+  std::vector<std::uint8_t> breaks;
+  std::vector<BodySize<float>> sizes;
+  std::vector<Gait<float>> asked;
+};
+
 /// Moves step lengths and styles of gaits (as resolve_gait has them) so that a steady walk of that speed keeps all
 /// limits (systems/people/walk_limits.h), or goes no further than the usual walk of that speed: first the step length,
 /// if the usual style breaks one with it; then as few numbers of the style as it takes, all by one part of their way to
 /// the usual ones, to a 256th. The usual style with steps of 0.76 to 1.12 of the usual length is not looked at. Bits
 /// depend on neither neighbours nor threads. `moved`: what was, gait by gait, as long as `gaits`; or empty.
+/// Takes memory in `work` alone, which keeps it, and for what is moved.
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
-                      std::span<std::vector<StyleChange>> moved = {});
+                      StyleWork& work, std::span<std::vector<StyleChange>> moved = {});
 /// The same of walkers, awake or asleep, who are asked for these gaits: of those which differ from what they are to do.
 void keep_walk_limits(const World& world, const Jobs& jobs, std::span<const Entity> people,
-                      std::span<Gait<float>> gaits);
+                      std::span<Gait<float>> gaits, StyleWork& work);
 /// The same of one.
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait);
 

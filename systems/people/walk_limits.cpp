@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <memory>
 
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
@@ -197,17 +196,17 @@ std::span<const WalkLimit, bound_count> walk_limits() {
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes) {
   const std::uint32_t lag = looking == Looking::closely ? most_parts : 1;
-  const auto walk = std::make_unique<WalkLooked>(size, gait, lag);
-  const Lanes<std::uint32_t> settled = walk->settled();
-  walk->walk();
-  std::ranges::copy(walk->bounds().value, extremes.value);
+  WalkLooked walk(size, gait, lag);
+  const Lanes<std::uint32_t> settled = walk.settled();
+  walk.walk();
+  std::ranges::copy(walk.bounds().value, extremes.value);
   // The left step is the right one mirrored, where all goes on so.
   if (std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; })) return;
   for (int step = 1; step < uneven_steps; ++step) {
-    walk->step();
+    walk.step();
     for (std::size_t b = 0; b < bound_count; ++b) {
       for (std::size_t l = 0; l < lane_count; ++l)
-        if (settled[l] == 0) extremes.value[b][l] = std::max(extremes.value[b][l], walk->bounds().value[b][l]);
+        if (settled[l] == 0) extremes.value[b][l] = std::max(extremes.value[b][l], walk.bounds().value[b][l]);
     }
   }
 }

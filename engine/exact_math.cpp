@@ -14,9 +14,15 @@ Pair sum_of(double a, double b) {
   const double s = a + b, t = s - a;
   return {s, (a - (s - t)) + (b - t)};
 }
+/// Halves of 26 bits, whose products are exact (Dekker 1971). Not by fma, which not every library rounds right.
+Pair halves_of(double a) {
+  const double large = 0x8000001p0 * a, high = large - (large - a);
+  return {high, a - high};
+}
 Pair product_of(double a, double b) {
   const double p = a * b;
-  return {p, std::fma(a, b, -p)};
+  const Pair x = halves_of(a), y = halves_of(b);
+  return {p, ((x.high * y.high - p) + x.high * y.low + x.low * y.high) + x.low * y.low};
 }
 Pair operator+(Pair a, Pair b) {
   const Pair high = sum_of(a.high, b.high), low = sum_of(a.low, b.low);

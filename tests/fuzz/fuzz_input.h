@@ -53,7 +53,11 @@ class Numbers {
     left_ = left_.subspan(1);
     return first;
   }
-  std::uint32_t word() { return byte() | byte() << 8U | byte() << 16U | static_cast<std::uint32_t>(byte()) << 24U; }
+  std::uint32_t word() {
+    std::uint32_t made = 0;
+    for (unsigned i = 0; i < 4; ++i) made |= static_cast<std::uint32_t>(byte()) << 8 * i;
+    return made;
+  }
   /// Any float at all, or mostly one that is near.
   float number() {
     const std::uint8_t kind = byte();

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the build tree to a fresh prefix; builds and runs hosts against it with find_package(mobil): hello, one that
-# adds a system of its own, and a game with an Eigen and an engine/world.h of its own. Internal headers are not
-# installed.
+# adds a system of its own, a game with an Eigen and an engine/world.h of its own, and one that writes pictures alone.
+# Internal headers are not installed.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
@@ -10,10 +10,12 @@ cmake --install "$1" --prefix "$scratch/prefix" >/dev/null
 mkdir -p "$scratch/own/engine"
 echo 'namespace game { struct World { int cells = 7; }; }' >"$scratch/own/engine/world.h"
 cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DCMAKE_PREFIX_PATH="$scratch/prefix" \
-  -DHOSTS="$2/demo/hello.cpp;$2/demo/examples/fatigue.cpp;$2/tests/consumer/game_host.cpp" -DOWN_HEADERS="$scratch/own"
+  -DHOSTS="$2/demo/hello.cpp;$2/demo/examples/fatigue.cpp;$2/tests/consumer/game_host.cpp" -DOWN_HEADERS="$scratch/own" \
+  -DPICTURE_HOST="$2/tests/consumer/picture_host.cpp"
 cmake --build "$scratch/build"
 "$scratch/build/hello"
 "$scratch/build/fatigue"
+"$scratch/build/picture_host" "$scratch/grey.png"
 if grep -q '^flags.* avx2' /proc/cpuinfo; then
   "$scratch/build/game_host"
 else

@@ -235,7 +235,9 @@ void solve_some(const ReducedBasis& basis, V across, V along, std::size_t lane, 
         along_row = add(along_row, mul(load(x.row(j, k)), all(basis.tension[i * n + k])));
       taut = add(taut, mul(load(x.row(j, i)), along_row));
     }
-    store(mul(taut, slender), &to.tension_1_s2(j).lane[lane]);
+    // What is left of a coarse mesh's tension when its error is extrapolated away may be negative.
+    const V least = mul(value, all((least_taut_stiffness - 1) / (1 - tuned_activation)));
+    store(dn::Max(mul(taut, slender), least), &to.tension_1_s2(j).lane[lane]);
     store(share, &to.lift_share(j).lane[lane]);
     if (held) {
       if (!to.tuned) moved = dn::Div(tied, value);

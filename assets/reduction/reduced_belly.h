@@ -16,6 +16,8 @@ namespace mobil {
 /// tension, what tension couples cannot be left out (vibration across, against a nonlinear solution: 14 to 42 % off
 /// instead of 7 to 12).
 inline constexpr double tuned_activation = 0.05;
+/// At full activation ω² is at least that part of what it is at `tuned_activation`: tension stiffens.
+inline constexpr double least_taut_stiffness = 0.25;
 
 /// One body's own motions z = Eᵀ·(q + VᵀM₁ψ·w), E the eigenvectors of its reduced stiffness over its mass (EᵀE = 1),
 /// fastest last: z̈ + α·ż + ω²·z = ω²·Σ P·input. Participations P are what z is at rest under each input, per unit.

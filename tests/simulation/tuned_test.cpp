@@ -55,6 +55,33 @@ TEST(TunedPeople, WithoutActivationItIsRefused) {
   EXPECT_TRUE(simulation.set_method(human, Muscle::quadriceps, tuned));
 }
 
+/// Of vectors on the paper's mesh of 81 nodes extrapolation made the tension of some motions negative, and their
+/// stiffness with it: control points were no numbers from the first pull on.
+TEST(TunedPeople, CoarseMeshesPullAsWell) {
+  for (const std::uint32_t vectors : {4U, 8U, 12U, 32U}) {
+    Simulation simulation;
+    const Entity human = *simulation.spawn_posed({});
+    LegMuscles choice = pulling(true, false);
+    choice.reduced.cells = {2, 2, 8};
+    choice.reduced.vectors = vectors;
+    choice.activation = ExcitationSource::host;
+    choice.muscles = LegMuscles{}.muscles;
+    ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
+    for (int tick = 0; tick < 60; ++tick) {
+      for (const OwnMuscle& own : simulation.muscles(human)) {
+        ASSERT_TRUE(simulation.set_excitation(human, own.muscle, Side::right, tick % 2 == 0 ? 1.0F : 0.01F));
+      }
+      simulation.tick();
+      for (const OwnMuscle& own : simulation.muscles(human)) {
+        const NodalView nodes = simulation.nodal_displacement(own.entity[Side::right]);
+        for (std::uint32_t i = 0; i < 3 * nodes.nodes; ++i) {
+          ASSERT_LT(std::fabs(nodes.first[i * lane_count]), 0.1F) << vectors << " vectors, tick " << tick;
+        }
+      }
+    }
+  }
+}
+
 TEST(TunedPeople, WhoDoesNotAskIsAsBefore) {
   Simulation with, without;
   join_with(with, person(1), pulling(true));

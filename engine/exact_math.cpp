@@ -127,9 +127,8 @@ Pair log_of(double x) {
   int power = 0;
   const double part = std::frexp(x, &power);  // ½ to 1
   const double y = std::log(part);
-  const Pair off =
-      (Pair{part, 0} * (Pair{1, 0} + small_expm1(Pair{-y / 2, 0})) * (Pair{1, 0} + small_expm1(Pair{-y / 2, 0}))) +
-      Pair{-1, 0};
+  const Pair half_back = Pair{1, 0} + small_expm1(Pair{-y / 2, 0});
+  const Pair off = (Pair{part, 0} * half_back * half_back) + Pair{-1, 0};
   const Pair here = Pair{y, 0} + off + scaled(off * off, -0.5);
   const auto times = static_cast<double>(power);
   return ((product_of(times, log_2.high) + product_of(times, log_2.low)) + Pair{times * log_2_end, 0}) + here;

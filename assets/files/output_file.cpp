@@ -58,15 +58,13 @@ bool copied(const fs::path& from, const fs::path& to) {
 }
 
 /// Moves a complete file to its place, wherever links lead and whatever is there.
-Result<void> move_file(const fs::path& from, const fs::path& path) {
-  auto place = OutputFile::at(path);
-  if (!place) return tl::unexpected(place.error());
+Result<void> move_file(const fs::path& from, OutputFile& place) {
   std::error_code error;
-  if (!place->in_place()) fs::rename(from, place->temporary(), error);  // fails where a link leads to another disk
-  if ((place->in_place() || error) && !copied(from, place->temporary())) {
-    return fail(fmt::format("{}: cannot be written ({}); {}", path.string(), std::strerror(errno), advice));
+  if (!place.in_place()) fs::rename(from, place.temporary(), error);  // fails where a link leads to another disk
+  if ((place.in_place() || error) && !copied(from, place.temporary())) {
+    return fail(fmt::format("{}: cannot be written ({}); {}", place.path().string(), std::strerror(errno), advice));
   }
-  return place->put();
+  return place.put();
 }
 
 }  // namespace
@@ -89,9 +87,8 @@ Result<OutputFile> OutputFile::at(const fs::path& path) {
   OutputFile file;
   file.path_ = path;
   file.target_ = std::move(*target);
-  file.in_place_ = in_place;
-  file.temporary_ = file.in_place_ ? file.target_ : temporary_in(folder);
-  file.open_ = !file.in_place_;
+  file.temporary_ = in_place ? file.target_ : temporary_in(folder);
+  file.open_ = !in_place;
   if (file.open_) note_unfinished(file.temporary_);
   return file;
 }
@@ -113,14 +110,12 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
     : path_(std::move(other.path_)),
       target_(std::move(other.target_)),
       temporary_(std::move(other.temporary_)),
-      in_place_(other.in_place_),
       open_(std::exchange(other.open_, false)) {}
 
 OutputFile& OutputFile::operator=(OutputFile&& other) noexcept {
   std::swap(path_, other.path_);
   std::swap(target_, other.target_);
   std::swap(temporary_, other.temporary_);
-  std::swap(in_place_, other.in_place_);
   std::swap(open_, other.open_);
   return *this;
 }
@@ -172,15 +167,16 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
 
 Result<void> OutputFolder::put() {
   std::error_code error;
-  std::vector<fs::path> names;
+  std::vector<std::pair<fs::path, OutputFile>> moves;
   for (const auto& entry : fs::directory_iterator(inside_, error)) {
-    names.push_back(entry.path().filename());
-    if (auto place = OutputFile::at(path_ / names.back()); !place) return tl::unexpected(place.error());
+    auto place = OutputFile::at(path_ / entry.path().filename());
+    if (!place) return tl::unexpected(place.error());
+    moves.emplace_back(entry.path(), std::move(*place));
   }
   if (error) return fail(fmt::format("{}: cannot be read again ({})", inside_.string(), error.message()));
   const auto hold = hold_unfinished();
-  for (const fs::path& name : names) {
-    if (auto moved = move_file(inside_ / name, path_ / name); !moved) return moved;
+  for (auto& [from, place] : moves) {
+    if (auto moved = move_file(from, place); !moved) return moved;
   }
   remove_with_folders(inside_, {});
   forget_unfinished(inside_);

@@ -20,7 +20,7 @@ class OutputFile {
   const std::filesystem::path& path() const { return path_; }
 
   /// Whether that is the device itself.
-  bool in_place() const { return in_place_; }
+  bool in_place() const { return temporary_ == target_; }
 
   /// Gives the file its name, over what was there. Error: the folder is not writable, or a folder has taken the name.
   Result<void> put();
@@ -32,8 +32,7 @@ class OutputFile {
  private:
   OutputFile() = default;
   std::filesystem::path path_, target_, temporary_;  // target: path with its links followed
-  bool in_place_ = false;
-  bool open_ = false;  // not put yet: the temporary file is ours to remove
+  bool open_ = false;                                // not put yet: the temporary file is ours to remove
 };
 
 /// Writes the text by an OutputFile. Errors: those, not writable, disk full; nothing is left behind.

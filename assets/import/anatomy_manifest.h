@@ -34,8 +34,8 @@ struct LandmarkTable {
   std::vector<std::string> said;
 };
 
-/// Units and axes are told from hip to ankle (0.4–1.3 m) where the columns unit and up do not say them. See
-/// load_anatomy for what fails.
+/// The columns unit and up name the unit and the axes. Where they are empty, the distance from hip to ankle (0.4–1.3 m)
+/// and its direction decide. load_anatomy says what fails.
 Result<LandmarkTable> read_landmarks(const std::string& folder);
 
 /// The rows that `options` wants; fails for a table that cannot be read, or has no such row.

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
+#include <numbers>
 #include <utility>
 
+#include "assets/import/mesh_edges.h"
+#include "assets/import/union_find.h"
 #include "engine/geometry.h"
 
 namespace mobil {
@@ -14,36 +16,6 @@ namespace {
 using namespace geometry;
 
 constexpr std::uint32_t no_edge = ~0U;
-
-/// Edge e of the mesh goes from corner e to the next corner of the same triangle.
-std::uint32_t next_corner(std::uint32_t e) {
-  return e % 3 == 2 ? e - 2 : e + 1;
-}
-
-struct SortedEdge {
-  std::uint64_t ends;
-  std::uint32_t edge;
-  bool operator<(const SortedEdge& o) const { return std::pair(ends, edge) < std::pair(o.ends, o.edge); }
-};
-
-std::vector<SortedEdge> sorted_edges(const SurfaceMesh& mesh) {
-  std::vector<SortedEdge> sorted(mesh.triangle.size());
-  for (std::uint32_t e = 0; e < sorted.size(); ++e) {
-    const std::uint64_t a = mesh.triangle[e], b = mesh.triangle[next_corner(e)];
-    sorted[e] = {std::min(a, b) << 32U | std::max(a, b), e};
-  }
-  std::sort(sorted.begin(), sorted.end());
-  return sorted;
-}
-
-/// Calls `use` with each run of edges between the same two vertices.
-template <class Use>
-void each_edge(const std::vector<SortedEdge>& sorted, Use use) {
-  for (std::size_t i = 0, j = 0; i < sorted.size(); i = j) {
-    while (j < sorted.size() && sorted[j].ends == sorted[i].ends) ++j;
-    use(i, j);
-  }
-}
 
 /// The edge of the neighbouring triangle; none at a border. Nothing where an edge has more than two triangles.
 std::optional<std::vector<std::uint32_t>> twin_edges(const SurfaceMesh& mesh) {
@@ -58,22 +30,6 @@ std::optional<std::vector<std::uint32_t>> twin_edges(const SurfaceMesh& mesh) {
   });
   if (!surface) return std::nullopt;
   return twin;
-}
-
-struct Union {
-  std::vector<std::uint32_t> root;
-  explicit Union(std::size_t count) : root(count) { std::iota(root.begin(), root.end(), 0U); }
-};
-
-std::uint32_t find(Union& sets, std::uint32_t i) {
-  while (sets.root[i] != i) i = sets.root[i] = sets.root[sets.root[i]];
-  return i;
-}
-
-void join(Union& sets, std::uint32_t a, std::uint32_t b) {
-  a = find(sets, a);
-  b = find(sets, b);
-  sets.root[std::max(a, b)] = std::min(a, b);
 }
 
 Vec corner_of(const SurfaceMesh& mesh, std::size_t corner) {
@@ -170,19 +126,19 @@ std::optional<std::size_t> wind_alike(SurfaceMesh& mesh) {
 std::size_t split_pinches(SurfaceMesh& mesh) {
   const auto twin = twin_edges(mesh);
   if (!twin) return 0;
-  Union fans(mesh.triangle.size());  // of corners
+  UnionFind fans(mesh.triangle.size());  // of corners
   for (std::uint32_t e = 0; e < mesh.triangle.size(); ++e) {
     const std::uint32_t other = (*twin)[e];
     if (other == no_edge || mesh.triangle[e] == mesh.triangle[other]) continue;
-    join(fans, e, next_corner(other));
-    join(fans, next_corner(e), other);
+    fans.join(e, next_corner(other));
+    fans.join(next_corner(e), other);
   }
   std::vector<std::uint32_t> first_fan(mesh.position.size(), no_edge);
   std::vector<bool> pinched(mesh.position.size(), false);
   std::vector<std::pair<std::uint32_t, std::uint32_t>> moved;  // fan and its new vertex
   std::vector<std::uint32_t> vertex_of_fan(mesh.triangle.size(), no_edge);
   for (std::uint32_t c = 0; c < mesh.triangle.size(); ++c) {
-    const std::uint32_t fan = find(fans, c), v = mesh.triangle[c];
+    const std::uint32_t fan = fans.find(c), v = mesh.triangle[c];
     if (vertex_of_fan[fan] == no_edge) {
       const bool is_first = first_fan[v] == no_edge;
       if (is_first) {
@@ -243,22 +199,6 @@ ClosedHoles close_holes(SurfaceMesh& mesh, double each, double all) {
   return holes;
 }
 
-Pieces label_pieces(const SurfaceMesh& mesh) {
-  Union sets(mesh.position.size());
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
-    join(sets, mesh.triangle[t], mesh.triangle[t + 1]);
-    join(sets, mesh.triangle[t], mesh.triangle[t + 2]);
-  }
-  Pieces pieces;
-  std::vector<std::uint32_t> number(mesh.position.size(), no_edge);
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
-    std::uint32_t& own = number[find(sets, mesh.triangle[t])];
-    if (own == no_edge) own = pieces.count++;
-    pieces.of.push_back(own);
-  }
-  return pieces;
-}
-
 double times_inside_others(const SurfaceMesh& mesh, const Pieces& pieces, std::uint32_t piece) {
   const auto own = static_cast<std::size_t>(std::find(pieces.of.begin(), pieces.of.end(), piece) - pieces.of.begin());
   const Vec p = corner_of(mesh, 3 * own);
@@ -269,23 +209,17 @@ double times_inside_others(const SurfaceMesh& mesh, const Pieces& pieces, std::u
     const double la = length(a), lb = length(b), lc = length(c);
     angle += 2 * std::atan2(dot(a, cross(b, c)), la * lb * lc + dot(a, b) * lc + dot(b, c) * la + dot(c, a) * lb);
   }
-  return angle / (4 * M_PI);
+  return angle / (4 * std::numbers::pi);
 }
 
 std::size_t turn_outwards(SurfaceMesh& mesh, const Pieces& pieces) {
-  std::vector<double> volume(pieces.count, 0.0);
-  const Vec near = mesh.position.empty() ? Vec{0, 0, 0} : to_double(mesh.position.front());
-  for (std::size_t t = 0; t < pieces.of.size(); ++t) {
-    const auto at = [&](std::size_t c) { return corner_of(mesh, 3 * t + c) - near; };
-    volume[pieces.of[t]] += dot(at(0), cross(at(1), at(2)));
-  }
+  const std::vector<double> volume = piece_volumes(mesh, pieces);
   const auto largest =
       std::max_element(volume.begin(), volume.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
   if (largest == volume.end()) return 0;
   const auto main = static_cast<std::uint32_t>(largest - volume.begin());
   const bool main_turns = *largest < 0;
-  std::vector<std::size_t> triangles(pieces.count, 0);
-  for (const auto p : pieces.of) ++triangles[p];
+  const std::vector<std::size_t> triangles = piece_triangles(pieces);
   std::vector<bool> turns(pieces.count, false);
   for (std::uint32_t p = 0; p < pieces.count; ++p) {
     turns[p] = volume[p] < 0;

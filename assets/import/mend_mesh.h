@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "assets/import/mesh_pieces.h"
 #include "components/surface.h"
 
 namespace mobil {
@@ -32,13 +33,6 @@ struct ClosedHoles {
 /// Closes each loop of open edges by a fan about its middle, if that takes at most `each` of the surface's area, and
 /// all of them at most `all`. Triangles must be wound alike, and no vertex pinched.
 ClosedHoles close_holes(SurfaceMesh& mesh, double each, double all);
-
-/// A number for each triangle, counted from 0, the same for all that hang together by vertices.
-struct Pieces {
-  std::vector<std::uint32_t> of;  // each triangle's
-  std::uint32_t count = 0;
-};
-Pieces label_pieces(const SurfaceMesh& mesh);
 
 /// Turns pieces that enclose a negative volume, but for those that lie in the hollow of another. The surface must be
 /// closed. Returns how many.

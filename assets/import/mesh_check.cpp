@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "assets/import/mend_mesh.h"
-#include "assets/import/mesh_file.h"
+#include "assets/import/mesh_edges.h"
 #include "assets/import/simplify_surface.h"
 #include "assets/import/triangle_cuts.h"
 #include "assets/surfaces/surface_mesh.h"
@@ -42,18 +42,6 @@ double area_of(const SurfaceMesh& mesh) {
 
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
-}
-
-/// Keeps the triangles of the pieces for which `stays` holds.
-template <class Stays>
-void keep_pieces(SurfaceMesh& mesh, const Pieces& pieces, Stays stays) {
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < pieces.of.size(); ++t) {
-    if (!stays(pieces.of[t])) continue;
-    for (std::size_t c = 0; c < 3; ++c) mesh.triangle[kept++] = mesh.triangle[3 * t + c];
-  }
-  mesh.triangle.resize(kept);
-  drop_unused(mesh);
 }
 
 Result<void> take_specks_away(SurfaceMesh& mesh, double share, bool fleshy, SurfaceReport& report) {
@@ -102,12 +90,7 @@ Result<void> mend_topology(SurfaceMesh& mesh, bool fleshy, SurfaceReport& report
 
 /// Of a closed surface of several pieces: none may lie in another as a copy of it.
 Result<void> check_nested(const SurfaceMesh& mesh, const Pieces& pieces) {
-  std::vector<double> volume(pieces.count, 0.0);
-  const Vec near = to_double(mesh.position.front());
-  for (std::size_t t = 0; t < pieces.of.size(); ++t) {
-    const auto at = [&](std::size_t c) { return to_double(mesh.position[mesh.triangle[3 * t + c]]) - near; };
-    volume[pieces.of[t]] += dot(at(0), cross(at(1), at(2))) / 6;
-  }
+  const std::vector<double> volume = piece_volumes(mesh, pieces);
   const double largest = *std::max_element(volume.begin(), volume.end());
   for (std::uint32_t p = 0; p < pieces.count; ++p) {
     if (volume[p] < copy_share * largest || times_inside_others(mesh, pieces, p) < 0.5) continue;
@@ -202,7 +185,7 @@ Result<void> keep_right_side(SurfaceMesh& mesh, float middle_x, SurfaceReport& r
 }
 
 Result<void> mend_and_check(SurfaceMesh& mesh, AnatomyKind kind, double speck_share, SurfaceReport& report) {
-  const bool fleshy = kind == AnatomyKind::muscle || kind == AnatomyKind::tendon;
+  const bool fleshy = is_fleshy(kind);
   if (kind != AnatomyKind::bone) {
     if (auto done = take_specks_away(mesh, speck_share, fleshy, report); !done) return done;
   }
@@ -210,7 +193,8 @@ Result<void> mend_and_check(SurfaceMesh& mesh, AnatomyKind kind, double speck_sh
   const Pieces pieces = label_pieces(mesh);
   const std::size_t open = count_edges(mesh).border;
   report.pieces = pieces.count;
-  report.area_cm2 = 1e4 * area_of(mesh);
+  const double area = area_of(mesh);
+  report.area_cm2 = 1e4 * area;
   if (open > 0) {
     report.said.push_back(fmt::format("open: {}", counted(open, "open edge", "open edges")));
   } else if (const std::size_t turned = turn_outwards(mesh, pieces); turned > 0) {
@@ -220,7 +204,7 @@ Result<void> mend_and_check(SurfaceMesh& mesh, AnatomyKind kind, double speck_sh
   const double volume = enclosed_volume(mesh);
   report.volume_cm3 = 1e6 * volume;
   if (fleshy) {
-    if (auto done = check_fullness(volume, area_of(mesh)); !done) return done;
+    if (auto done = check_fullness(volume, area); !done) return done;
   }
   if (auto done = check_cuts(mesh, pieces, fleshy, report); !done) return done;
   return fleshy && pieces.count > 1 ? check_nested(mesh, pieces) : Result<void>();

@@ -76,24 +76,4 @@ Result<MeshFile> read_mesh(const std::string& path) try {
       fmt::format("{}: cannot be read ({}); free some memory, or make the mesh coarser", path, shown(error.what())));
 }
 
-EdgeCount count_edges(const SurfaceMesh& mesh) {
-  std::vector<std::uint64_t> edge(mesh.triangle.size());
-  for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      const std::uint64_t a = mesh.triangle[t + c], b = mesh.triangle[t + (c + 1) % 3];
-      edge[t + c] = std::min(a, b) << 32U | std::max(a, b);
-    }
-  }
-  std::sort(edge.begin(), edge.end());
-  EdgeCount count;
-  for (std::size_t i = 0; i < edge.size();) {
-    const auto last = static_cast<std::size_t>(
-        std::upper_bound(edge.begin() + static_cast<std::ptrdiff_t>(i), edge.end(), edge[i]) - edge.begin());
-    count.border += last - i == 1 ? 1 : 0;
-    count.overused += last - i > 2 ? 1 : 0;
-    i = last;
-  }
-  return count;
-}
-
 }  // namespace mobil

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "assets/import/mesh_edges.h"  // IWYU pragma: export
 #include "components/surface.h"
 #include "engine/error.h"
 
@@ -28,11 +29,5 @@ Result<MeshFile> read_mesh(const std::string& path);
 
 /// The same of bytes in memory: OBJ, STL or PLY, by the end of `path`, which also begins the messages.
 Result<MeshFile> read_mesh_bytes(std::string_view bytes, const std::string& path);
-
-/// Edges by how many triangles use them: one (a border), or more than two (not a surface).
-struct EdgeCount {
-  std::size_t border = 0, overused = 0;
-};
-EdgeCount count_edges(const SurfaceMesh& mesh);
 
 }  // namespace mobil

@@ -100,7 +100,7 @@ std::optional<std::string> misplaced(const MeshBox& box, const AnatomyPart& part
                                      const std::vector<PlacedBone>& bones) {
   const Vec3<float> size = box.most - box.least;
   const float extent = std::max({size.x, size.y, size.z});
-  const bool fleshy = part.kind == AnatomyKind::muscle || part.kind == AnatomyKind::tendon;
+  const bool fleshy = is_fleshy(part.kind);
   const float smallest = fleshy ? smallest_muscle_m : smallest_extent_m;
   const float largest = part.kind == AnatomyKind::skin ? 2 * reach_limit_m : largest_part_m;
   const auto &h = landmarks.hip, &l = box.least, &m = box.most;

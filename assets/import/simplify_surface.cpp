@@ -5,10 +5,10 @@
 #include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "assets/import/mesh_pieces.h"
 #include "assets/surfaces/surface_mesh.h"
 
 namespace mobil {
@@ -28,36 +28,18 @@ std::array<std::uint32_t, 3> canonical(std::array<std::uint32_t, 3> t) {
 }  // namespace
 
 std::size_t remove_specks(SurfaceMesh& mesh, double share) {
-  std::vector<std::uint32_t> root(mesh.position.size());
-  std::iota(root.begin(), root.end(), 0U);
-  const auto find = [&](std::uint32_t v) {
-    while (root[v] != v) v = root[v] = root[root[v]];
-    return v;
+  const Pieces pieces = label_pieces(mesh);
+  const std::vector<std::size_t> triangles = piece_triangles(pieces);
+  if (triangles.empty()) return 0;
+  const std::size_t largest = *std::ranges::max_element(triangles);
+  const double least = share * static_cast<double>(pieces.of.size());
+  const auto stays = [&](std::uint32_t piece) {
+    return triangles[piece] == largest || static_cast<double>(triangles[piece]) >= least;
   };
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
-    for (std::size_t c = 1; c < 3; ++c) {
-      const auto a = find(mesh.triangle[t]), b = find(mesh.triangle[t + c]);
-      root[std::max(a, b)] = std::min(a, b);
-    }
-  }
-  std::map<std::uint32_t, std::size_t> triangles_of;
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) ++triangles_of[find(mesh.triangle[t])];
-  std::size_t largest = 0;
-  for (const auto& [piece, count] : triangles_of) largest = std::max(largest, count);
-  const std::size_t triangles = mesh.triangle.size() / 3;
-  const auto total = static_cast<double>(triangles);
-  const auto stays = [&](std::size_t count) { return count == largest || static_cast<double>(count) >= share * total; };
-  std::vector<std::uint32_t> kept;
-  kept.reserve(mesh.triangle.size());
-  for (std::size_t t = 0; t + 2 < mesh.triangle.size(); t += 3) {
-    if (!stays(triangles_of[find(mesh.triangle[t])])) continue;
-    kept.insert(kept.end(), {mesh.triangle[t], mesh.triangle[t + 1], mesh.triangle[t + 2]});
-  }
-  const auto removed =
-      std::count_if(triangles_of.begin(), triangles_of.end(), [&](const auto& piece) { return !stays(piece.second); });
-  mesh.triangle = std::move(kept);
-  drop_unused(mesh);
-  return static_cast<std::size_t>(removed);
+  std::size_t removed = 0;
+  for (std::uint32_t piece = 0; piece < pieces.count; ++piece) removed += stays(piece) ? 0 : 1;
+  keep_pieces(mesh, pieces, stays);
+  return removed;
 }
 
 SurfaceMesh clustered(const SurfaceMesh& mesh, double cell_m) {

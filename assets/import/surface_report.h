@@ -10,6 +10,11 @@ namespace mobil {
 
 enum class AnatomyKind : std::uint8_t { bone, muscle, tendon, skin };
 
+/// Whose surface must be that of a body: closed, with a volume.
+constexpr bool is_fleshy(AnatomyKind kind) {
+  return kind == AnatomyKind::muscle || kind == AnatomyKind::tendon;
+}
+
 /// What a mesh was in its file and became; one line for all that was done to it.
 struct SurfaceReport {
   std::size_t triangles = 0, open_edges = 0, overused_edges = 0;  // in the file

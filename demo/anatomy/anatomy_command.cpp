@@ -33,7 +33,7 @@ Result<void> run_anatomy(const AnatomyText& text) {
     const auto picture = anatomy_picture(survey);
     if (!picture) return fail(fmt::format("--out {}: {}", text.out, picture.error().message));
     if (auto done = write_png(text.out, *picture); !done) return done;
-    if (!text.json) fmt::print("written {}\n", text.out);
+    if (!text.json) say_written(text.out);
   }
   const std::size_t faults = fault_count(survey);
   if (faults == 0) return {};

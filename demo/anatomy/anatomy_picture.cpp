@@ -1,13 +1,12 @@
 #include "demo/anatomy/anatomy_picture.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "demo/pictures/contact_sheet.h"
 #include "engine/geometry.h"
+#include "systems/capture/matrix.h"
 #include "systems/capture/renderer.h"
 
 namespace mobil {
@@ -25,23 +24,6 @@ Colour colour_of(const AnatomyPart& part) {
   return part.group ? muscle_red : other_rose;
 }
 
-struct Ball {
-  Vec3<float> centre{0, 0, 0};
-  float radius = 0;
-};
-
-/// About all vertices' box.
-Ball ball_about(const std::vector<DrawMesh>& meshes) {
-  Vec3<float> least = meshes.front().position.front(), most = least;
-  for (const DrawMesh& mesh : meshes) {
-    for (const auto& p : mesh.position) {
-      least = {std::min(least.x, p.x), std::min(least.y, p.y), std::min(least.z, p.z)};
-      most = {std::max(most.x, p.x), std::max(most.y, p.y), std::max(most.z, p.z)};
-    }
-  }
-  return {0.5F * (least + most), 0.5F * length(most - least)};
-}
-
 }  // namespace
 
 Result<Image> anatomy_picture(const AnatomySurvey& survey) {
@@ -56,13 +38,18 @@ Result<Image> anatomy_picture(const AnatomySurvey& survey) {
   if (meshes.empty()) return fail("no usable mesh to draw; mend the faults first");
   auto renderer = Renderer::create(panel_width, panel_height);
   if (!renderer) return tl::unexpected(renderer.error());
-  const Ball ball = ball_about(meshes);
-  const float far = 1.05F * ball.radius / std::tan(0.5F * narrow_view_deg * static_cast<float>(M_PI) / 180);
+  capture_math::Box box;
+  for (const DrawMesh& mesh : meshes) {
+    for (const auto& p : mesh.position) box.add(p);
+  }
+  const Vec3<float> centre = 0.5F * (box.low + box.high);
+  const float radius = 0.5F * length(box.high - box.low);
+  const float far = 1.05F * radius / std::tan(0.5F * capture_math::radians(narrow_view_deg));
   std::vector<Image> pair;
   for (const Vec3<float>& from : {Vec3<float>{0, 0, 1}, Vec3<float>{-1, 0, 0}}) {
     Scene scene;
-    scene.camera.target = ball.centre;
-    scene.camera.eye = ball.centre + far * from;
+    scene.camera.target = centre;
+    scene.camera.eye = centre + far * from;
     scene.camera.vertical_fov_deg = narrow_view_deg;
     scene.meshes = meshes;
     scene.light = 0.5F * from + Vec3<float>{-0.2F, 1.1F, 0.1F};

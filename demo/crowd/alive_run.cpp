@@ -54,7 +54,7 @@ Result<void> take_picture(const CrowdOptions& options, AliveScene& scene, CrowdC
                                                                 options.capture.extension().string());
   if (auto done = write_png(file.string(), image, PngEffort::small); !done)
     return fail("--capture " + done.error().message);
-  fmt::print("written {}\n", one_line(file.string()));
+  say_written(file);
   return {};
 }
 

@@ -60,7 +60,7 @@ Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
   if (results) {
     if (auto done = results->put(); !done) return done;
   }
-  fmt::print("written {}\n", one_line(options.capture.string()));
+  say_written(options.capture);
   return {};
 }
 

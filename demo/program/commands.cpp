@@ -24,9 +24,13 @@ Result<void> check_result_place(std::string_view option, const std::filesystem::
   return place ? Result<void>{} : fail(fmt::format("{} {}", option, place.error().message));
 }
 
+void say_written(const std::filesystem::path& file) {
+  fmt::print("written {}\n", one_line(file.string()));
+}
+
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text) {
   if (auto done = write_file(file, text); !done) return fail(fmt::format("{} {}", option, done.error().message));
-  fmt::print("written {}\n", one_line(file.string()));
+  say_written(file);
   return {};
 }
 

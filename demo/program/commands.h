@@ -19,6 +19,9 @@ int complain(std::string_view command, std::string_view message, int status = 2)
 /// for results that then cannot be.
 Result<void> check_result_place(std::string_view option, const std::filesystem::path& file);
 
+/// "written FILE" on stdout.
+void say_written(const std::filesystem::path& file);
+
 /// Writes a file of results that `option` names, and says so on stdout. Errors begin with the option.
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
 

@@ -102,6 +102,10 @@ std::string explain_usage(const CLI::App& app, const CLI::ParseError& error, int
   return fmt::format("{}: {}; see '{} --help'", name, what, name);
 }
 
+void say(const std::string& line) {
+  fmt::print(stderr, "{}\n", one_line(line));
+}
+
 }  // namespace
 
 void add_options(Subcommand& command, const std::vector<Option>& options) {
@@ -120,7 +124,7 @@ int run_program(const Program& program, int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const bool unknown_subcommand = app.get_subcommands().empty() && !app.remaining().empty();
     if (error.get_exit_code() == 0 && !unknown_subcommand) return app.exit(error);  // --help, --version
-    std::fputs((one_line(explain_usage(app, error, argc, argv)) + "\n").c_str(), stderr);
+    say(explain_usage(app, error, argc, argv));
     return 2;
   } catch (const std::filesystem::filesystem_error& error) {
     std::fputs(
@@ -129,10 +133,10 @@ int run_program(const Program& program, int argc, const char* const* argv) {
     return 2;
   } catch (const std::system_error& error) {
     if (error.code() == std::errc::broken_pipe) return exit_status;  // nobody reads what is printed any more
-    std::fputs((one_line(fmt::format("{}: {}", program.name, error.what())) + "\n").c_str(), stderr);
+    say(fmt::format("{}: {}", program.name, error.what()));
     return 1;
   } catch (const std::exception& error) {
-    std::fputs((one_line(fmt::format("{}: {}", program.name, error.what())) + "\n").c_str(), stderr);
+    say(fmt::format("{}: {}", program.name, error.what()));
     return 1;
   }
   return exit_status;

@@ -5,6 +5,7 @@
 // adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is no
 // number.
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,6 +30,11 @@ struct StressRow {
 
   bool held() const { return promise == Promise::at_most ? value <= bound : value >= bound; }
 };
+
+/// Keeps the larger of both; what is no number stays.
+inline void keep_worst(double& worst, double value) {
+  if (!(value <= worst) && !std::isnan(worst)) worst = value;
+}
 
 struct StressRun {
   bool quick = false;

@@ -32,10 +32,6 @@ LegMuscles hosted(Method method) {
 struct Worst {
   double moved_m = 0, volume_off = 0, fibre_off = 0, end_off_m = 0;
 
-  static void keep(double& worst, double value) {
-    if (!(value <= worst) && !std::isnan(worst)) worst = value;
-  }
-
   void look(const Simulation& simulation, Entity human) {
     for (const OwnMuscle& own : simulation.muscles(human)) {
       for (const Entity muscle : own.entity) {
@@ -43,16 +39,14 @@ struct Worst {
         const auto state = simulation.get<Activation>(muscle);
         if (!pull || !state) continue;
         for (const float x : {pull->force_n, pull->fibre_m, pull->tendon_m, pull->belly_m, state->activation})
-          keep(fibre_off, std::isfinite(x) ? 0 : NAN);
+          keep_worst(fibre_off, std::isfinite(x) ? 0 : NAN);
         if (const auto report = simulation.get<BellyReport>(muscle)) {
-          keep(volume_off, std::abs(double{report->volume_ratio} - 1));
-          keep(end_off_m, std::abs(double{report->elongation_m} - double{pull->belly_m}));
+          keep_worst(volume_off, std::abs(double{report->volume_ratio} - 1));
+          keep_worst(end_off_m, std::abs(double{report->elongation_m} - double{pull->belly_m}));
         }
-        const NodalView nodes = simulation.nodal_displacement(muscle);
-        for (std::uint32_t i = 0; nodes.first != nullptr && i < 3 * nodes.nodes; ++i)
-          keep(moved_m, std::abs(double{nodes.first[i * lane_count]}));
       }
     }
+    keep_worst(moved_m, largest(control_points(simulation, human)));
   }
 };
 
@@ -93,10 +87,10 @@ Result<void> stress_tuned(StressRun& run) {
       standing.look(simulation, *stands);
       for (const OwnMuscle& own : simulation.muscles(*stands)) {
         for (const Entity muscle : own.entity)
-          Worst::keep(most_j[tick >= 60], double{simulation.get<BellyReport>(muscle)->kinetic_energy_j});
+          keep_worst(most_j[tick >= 60], double{simulation.get<BellyReport>(muscle)->kinetic_energy_j});
       }
     }
-    Worst::keep(grown, most_j[1] / most_j[0]);
+    keep_worst(grown, most_j[1] / most_j[0]);
   }
   constexpr const char* name = "tension on and off at 60, 30, 20, 12 and 7.5 times a second";
   run.add({name, "control points' displacement walking, m", Promise::at_most, 0.1, "twice what these walks show",
@@ -162,7 +156,7 @@ Result<void> stress_excitation(StressRun& run) {
     if (tick % 600 == 0) run.progress(0.5 + 0.5 * tick / (minutes * 3600.0));
   }
   double crept = 0;
-  for (std::size_t m = 0; m < at_first.size(); ++m) Worst::keep(crept, std::abs(belly(m) - at_first[m]));
+  for (std::size_t m = 0; m < at_first.size(); ++m) keep_worst(crept, std::abs(belly(m) - at_first[m]));
   run.add({fmt::format("{} minutes of tetanus", minutes), "bellies creep, m", Promise::at_most, 1e-6,
            "a steady pull is steady", crept});
   run.add({fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", Promise::at_most, 0.01,

@@ -47,28 +47,6 @@ Result<Entity> walker(Simulation& simulation, float speed_m_s, bool muscles, Met
   return human;
 }
 
-double largest_off(const std::vector<float>& a, const std::vector<float>& b) {
-  double largest = a.size() == b.size() ? 0 : std::numeric_limits<double>::quiet_NaN();
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
-    const double off = std::abs(double{a[i]} - double{b[i]});
-    if (!(off <= largest)) largest = off;
-  }
-  return largest;
-}
-
-std::vector<float> control_points(const Simulation& simulation, Entity human) {
-  std::vector<float> all;
-  for (const OwnMuscle& own : simulation.muscles(human)) {
-    for (const Entity muscle : own.entity) {
-      const NodalView nodes = simulation.nodal_displacement(muscle);
-      for (std::uint32_t i = 0; nodes.first != nullptr && i < 3 * nodes.nodes; ++i) {
-        all.push_back(nodes.first[i * lane_count]);
-      }
-    }
-  }
-  return all;
-}
-
 }  // namespace
 
 Result<void> stress_far(StressRun& run) {
@@ -84,11 +62,9 @@ Result<void> stress_far(StressRun& run) {
       far.tick();
       const auto a = shape_of(*near.get<Pose>(*here)), b = shape_of(*far.get<Pose>(*there));
       for (std::size_t i = 0; i < a.size(); ++i) {
-        const double off = std::abs(a[i] - b[i]);
-        if (!(off <= limb_m)) limb_m = off;
+        keep_worst(limb_m, std::abs(a[i] - b[i]));
       }
-      const double off = largest_off(control_points(near, *here), control_points(far, *there));
-      if (!(off <= points_m)) points_m = off;
+      keep_worst(points_m, largest_difference(control_points(near, *here), control_points(far, *there)));
     }
     const double spacing = spacing_m(far_m);
     const std::string tried = fmt::format("{:g} km from the origin along both axes", far_m / 1e3);
@@ -112,7 +88,7 @@ Result<void> stress_far(StressRun& run) {
              .quantity = "control points off those of who never left, m",
              .bound = 1e-4,
              .reason = "nothing is left of the way but e^-16 of what it excited",
-             .value = largest_off(control_points(near, *here), control_points(far, *there))});
+             .value = largest_difference(control_points(near, *here), control_points(far, *there))});
   }
   return {};
 }
@@ -179,9 +155,7 @@ Result<void> stress_ticks(StressRun& run) {
       const auto run_s = [&](double seconds) {
         for (int tick = 0; tick < static_cast<int>(seconds * rate_hz); ++tick) {
           simulation.tick();
-          for (const float x : control_points(simulation, *human)) {
-            if (!(std::abs(double{x}) <= worst_m)) worst_m = std::abs(double{x});
-          }
+          keep_worst(worst_m, largest(control_points(simulation, *human)));
         }
       };
       run_s(run.quick ? 1 : 2);
@@ -190,7 +164,7 @@ Result<void> stress_ticks(StressRun& run) {
       run_s(run.quick ? 2 : 20);
       const Vec3<float> to = simulation.get<Pose>(*human)->position_m[0];
       const double speed = distance_m(from, to) / (simulation.time_s() - start_s);
-      speed_off = std::max(speed_off, std::abs(speed / 1.4 - 1));
+      keep_worst(speed_off, std::abs(speed / 1.4 - 1));
     }
     const std::string tried = fmt::format("{:g} ticks a second", rate_hz);
     run.add({.tried = tried,

@@ -33,22 +33,6 @@ Result<std::vector<Entity>> rows_of_walkers(Simulation& simulation, int count) {
   return made;
 }
 
-double largest_number(const Simulation& simulation, const std::vector<Entity>& people) {
-  double largest = 0;
-  for (const Entity human : people) {
-    for (const OwnMuscle& own : simulation.muscles(human)) {
-      for (const Entity muscle : own.entity) {
-        const NodalView nodes = simulation.nodal_displacement(muscle);
-        for (std::uint32_t i = 0; nodes.first != nullptr && i < 3 * nodes.nodes; ++i) {
-          const double moved = std::abs(double{nodes.first[i * lane_count]});
-          if (!(moved <= largest)) largest = moved;
-        }
-      }
-    }
-  }
-  return largest;
-}
-
 }  // namespace
 
 Result<void> stress_relevance(StressRun& run) {
@@ -96,8 +80,7 @@ Result<void> stress_relevance(StressRun& run) {
       refused += report.refused;
       cheapest_s = std::min(cheapest_s, report.predicted_s);
       simulation.tick();
-      const double moved = largest_number(simulation, *people);
-      if (!(moved <= worst_m)) worst_m = moved;
+      for (const Entity human : *people) keep_worst(worst_m, largest(control_points(simulation, human)));
     }
     run.add({.tried = scene.name,
              .quantity = "refusals",

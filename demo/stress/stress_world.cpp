@@ -64,6 +64,31 @@ std::vector<std::uint32_t> world_words(const Simulation& simulation) {
   return words;
 }
 
+std::vector<float> control_points(const Simulation& simulation, Entity human) {
+  std::vector<float> all;
+  for (const OwnMuscle& own : simulation.muscles(human)) {
+    for (const Entity muscle : own.entity) {
+      const NodalView nodes = simulation.nodal_displacement(muscle);
+      for (std::uint32_t i = 0; nodes.first != nullptr && i < 3 * nodes.nodes; ++i) {
+        all.push_back(nodes.first[i * lane_count]);
+      }
+    }
+  }
+  return all;
+}
+
+double largest(const std::vector<float>& displacements) {
+  return largest_difference(displacements, std::vector<float>(displacements.size(), 0.0F));
+}
+
+double largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  double worst = a.size() == b.size() ? 0 : std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
+    keep_worst(worst, std::abs(double{a[i]} - double{b[i]}));
+  }
+  return worst;
+}
+
 std::size_t different_words(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b) {
   const std::size_t both = std::min(a.size(), b.size());
   std::size_t different = std::max(a.size(), b.size()) - both;
@@ -92,7 +117,7 @@ double largest_step(const Pose<float>& before, const Pose<float>& now) {
     const auto &a = before.position_m[s], &b = now.position_m[s];
     const double step =
         std::hypot(static_cast<double>(b.x - a.x), static_cast<double>(b.y - a.y), static_cast<double>(b.z - a.z));
-    if (!(step <= largest)) largest = step;
+    keep_worst(largest, step);
   }
   return largest;
 }

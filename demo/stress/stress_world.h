@@ -18,6 +18,14 @@ std::vector<std::uint32_t> human_words(const Simulation& simulation, Entity huma
 /// Of all there is, table by table, with handles.
 std::vector<std::uint32_t> world_words(const Simulation& simulation);
 
+/// Displacements of all control points of a person's muscles, m, three numbers each, in the muscles' order.
+std::vector<float> control_points(const Simulation& simulation, Entity human);
+
+/// The largest of them, without sign; of two people with the same muscles the largest difference. Not-a-number where
+/// one is.
+double largest(const std::vector<float>& displacements);
+double largest_difference(const std::vector<float>& a, const std::vector<float>& b);
+
 /// How many differ; of lists of different lengths also what is missing.
 std::size_t different_words(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>& b);
 

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <memory>
 #include <numbers>
 #include <string>
@@ -103,7 +102,7 @@ Result<void> show_view(ViewScene& scene, ViewWindow& window, double seconds, con
   }
   if (capture.empty() || shot.rgba.empty()) return {};
   if (auto done = write_png(capture, shot); !done) return fail(fmt::format("--capture: {}", done.error().message));
-  std::printf("written %s\n", capture.c_str());
+  say_written(capture);
   return {};
 }
 

@@ -48,6 +48,12 @@ int make(mobil_sim& sim, const mobil_options* given) {
   return MOBIL_OK;
 }
 
+int restore(mobil_sim& s, const void* bytes, std::size_t count, const RestoreLimits& limits) {
+  if (bytes == nullptr) return s.line.refuse_null("bytes");
+  const auto done = s.world().restore({static_cast<const std::byte*>(bytes), count}, limits);
+  return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+}
+
 }  // namespace
 
 int mobil_interface(void) {
@@ -197,23 +203,16 @@ int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes) {
 }
 
 int mobil_restore(mobil_sim* sim, const void* bytes, size_t count) {
-  return call(sim, "mobil_restore", [&](mobil_sim& s) {
-    if (bytes == nullptr) return s.line.refuse_null("bytes");
-    const auto done = s.world().restore({static_cast<const std::byte*>(bytes), count});
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
-  });
+  return call(sim, "mobil_restore", [&](mobil_sim& s) { return restore(s, bytes, count, {}); });
 }
 
 int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const mobil_limits* limits) {
   return call(sim, "mobil_restore_within", [&](mobil_sim& s) {
     mobil_limits known;
     if (const int code = read_struct(s.line, limits, "limits", known); code != MOBIL_OK) return code;
-    if (bytes == nullptr) return s.line.refuse_null("bytes");
     if (!(known.seconds >= 0))
       return s.line.refuse(MOBIL_REFUSED, "seconds are negative or no number; choose 0 or more");
-    const auto done = s.world().restore({static_cast<const std::byte*>(bytes), count},
-                                        {known.rows, known.mesh_nodes, known.seconds, known.numbers != 0});
-    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+    return restore(s, bytes, count, {known.rows, known.mesh_nodes, known.seconds, known.numbers != 0});
   });
 }
 

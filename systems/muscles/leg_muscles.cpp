@@ -170,9 +170,10 @@ tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<con
   constexpr std::size_t batch_size = 512;  // people whose rows are made before they are written
   if (auto ok = check_choices(people, scene.time.tick_s); !ok) return ok;
   Sizes sizes(people);
+  std::vector<BodySize<float>> body(people.size());
   std::vector<Gait<float>> gait(people.size());
-  const auto set_sizes = [&](std::size_t i, const Body& body) { return sizes.set(i, body); };
-  if (auto ok = check_people(scene.jobs, people, gait, set_sizes); !ok) return ok;
+  const auto set_sizes = [&](std::size_t i, const Body& of) { return sizes.set(i, of); };
+  if (auto ok = check_people(scene.jobs, people, body, gait, set_sizes); !ok) return ok;
 
   NewRows rows(scene, people.size() + 2 * sizes.all(), entities);
   for (std::size_t first = 0, count = 0; first < people.size(); first += count) {
@@ -182,7 +183,8 @@ tl::expected<void, NotMade> spawn_people(const MuscleScene& scene, std::span<con
     }
     const auto some = people.subspan(first, count);
     const auto made = entities.subspan(first, count);
-    create_walkers(scene.world, scene.jobs, some, std::span<const Gait<float>>(gait).subspan(first, count), made);
+    create_walkers(scene.world, scene.jobs, some, std::span<const BodySize<float>>(body).subspan(first, count),
+                   std::span<const Gait<float>>(gait).subspan(first, count), made);
     rows.made.insert(rows.made.end(), made.begin(), made.end());
     if (auto begun = begin_each_choice(scene, some, made, first, sizes, rows.made); !begun) return begun;
   }

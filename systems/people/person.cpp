@@ -45,6 +45,10 @@ BodySize<float> body_size(const BodyRequest& request) {
   return {request.height_m, request.mass_kg, static_cast<float>(extra_fat_of(body_composition(request)))};
 }
 
+BodySize<float> body_size(const Body& body) {
+  return {body.request.height_m, body.request.mass_kg, static_cast<float>(extra_fat_of(body.composition))};
+}
+
 BodySize<float> body_size(const World& world, Entity person) {
   if (const auto size = world.get<BodySize>(person)) return *size;
   const Asleep<float> asleep = *world.get<Asleep>(person);

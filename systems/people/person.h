@@ -25,6 +25,7 @@ bool is_posed(const World& world, Entity entity);
 BodyRequest body_request(const World& world, Entity person);
 /// The same as components.
 BodySize<float> body_size(const BodyRequest& request);
+BodySize<float> body_size(const Body& body);
 BodySize<float> body_size(const World& world, Entity person);
 Physique<float> physique(const BodyRequest& request);
 

@@ -29,7 +29,7 @@ Result<void> check_place(const SpawnRequest& request) {
                           request.x_m, request.z_m, request.heading_rad));
 }
 
-Result<void> check(const SpawnRequest& request, Gait<float>& gait, std::size_t person,
+Result<void> check(const SpawnRequest& request, BodySize<float>& size, Gait<float>& gait, std::size_t person,
                    const std::function<Result<void>(std::size_t, const Body&)>& each) {
   const auto body = make_body(request.body);
   if (!body) return tl::unexpected(body.error());
@@ -38,6 +38,7 @@ Result<void> check(const SpawnRequest& request, Gait<float>& gait, std::size_t p
   auto resolved = resolve_gait(*body, request.gait);
   if (!resolved) return tl::unexpected(resolved.error());
   if (auto placed = check_place(request); !placed) return placed;
+  size = body_size(*body);
   gait = *resolved;
   gait.heading_rad = request.heading_rad;
   return each(person, *body);
@@ -56,11 +57,12 @@ struct FirstInstants {
         feet(std::make_unique_for_overwrite<Feet<Lanes<float>>[]>(blocks)),
         centre(std::make_unique_for_overwrite<CentreOfMass<Lanes<float>>[]>(blocks)) {}
 
-  void make(std::size_t b, std::span<const SpawnRequest> people, std::span<const Gait<float>> gaits) {
+  void make(std::size_t b, std::span<const SpawnRequest> people, std::span<const BodySize<float>> sizes,
+            std::span<const Gait<float>> gaits) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const std::size_t i = b * lane_count + lane < people.size() ? b * lane_count + lane : b * lane_count;
       const SpawnRequest& request = people[i];
-      put_row(body_size(request.body), size[b], lane);
+      put_row(sizes[i], size[b], lane);
       put_row(mobil::physique(request.body), physique[b], lane);
       put_row(gaits[i], gait[b], lane);
       state[b].line_x_m[lane] = state[b].anchor_x_m[lane] = request.x_m;
@@ -97,36 +99,31 @@ struct FirstInstants {
 }  // namespace
 
 tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
-                                         std::span<Gait<float>> gait,
+                                         std::span<BodySize<float>> size, std::span<Gait<float>> gait,
                                          const std::function<Result<void>(std::size_t, const Body&)>& each) {
   std::atomic<std::size_t> wrong = people.size();  // the first of those who cannot be
   in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (check(people[i], gait[i], i, each)) continue;
+      if (check(people[i], size[i], gait[i], i, each)) continue;
       for (std::size_t before = wrong; i < before && !wrong.compare_exchange_weak(before, i);) {
       }
       return;
     }
   });
   const std::size_t i = wrong;
-  if (i == people.size()) {
-    std::vector<BodySize<float>> sizes(people.size());
-    in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) sizes[k] = body_size(people[k].body);
-    });
-    StyleWork work;
-    keep_walk_limits(jobs, sizes, gait, work);
-    return {};
-  }
-  return tl::unexpected(NotMade{i, check(people[i], gait[i], i, each).error()});
+  if (i < people.size()) return tl::unexpected(NotMade{i, check(people[i], size[i], gait[i], i, each).error()});
+  StyleWork work;
+  keep_walk_limits(jobs, size, gait, work);
+  return {};
 }
 
 void create_walkers(World& world, const Jobs& jobs, std::span<const SpawnRequest> people,
-                    std::span<const Gait<float>> gait, std::span<Entity> entities) {
+                    std::span<const BodySize<float>> size, std::span<const Gait<float>> gait,
+                    std::span<Entity> entities) {
   const std::size_t blocks = (people.size() + lane_count - 1) / lane_count;
   FirstInstants instants(blocks);
   in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t b = begin; b < end; ++b) instants.make(b, people, gait);
+    for (std::size_t b = begin; b < end; ++b) instants.make(b, people, size, gait);
   });
   world.create_many(instants.parts(people.front().parts), entities, jobs);
 }

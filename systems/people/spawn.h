@@ -33,16 +33,17 @@ struct NotMade {
   Error error;
 };
 
-/// Checks all people, with jobs, and resolves their gaits into `gait`, as long as `people`, drawn nearer to the usual
-/// ones where they break limits (systems/people/style_limits.h). `each(person, body)` looks at more of each; several
-/// threads call it. Errors: those of the first person who has one.
+/// Checks all people, with jobs, finds their bodies' sizes and resolves their gaits, both as long as `people`, gaits
+/// drawn nearer to the usual ones where they break limits (systems/people/style_limits.h). `each(person, body)` looks
+/// at more of each; several threads call it. Errors: those of the first person who has one.
 tl::expected<void, NotMade> check_people(const Jobs& jobs, std::span<const SpawnRequest> people,
-                                         std::span<Gait<float>> gait,
+                                         std::span<BodySize<float>> size, std::span<Gait<float>> gait,
                                          const std::function<Result<void>(std::size_t, const Body&)>& each);
 /// The rows of checked people who have the same `parts`, right heel striking; their muscles are not made. Throws
 /// std::bad_alloc: then there are none of them.
 void create_walkers(World& world, const Jobs& jobs, std::span<const SpawnRequest> people,
-                    std::span<const Gait<float>> gait, std::span<Entity> entities);
+                    std::span<const BodySize<float>> size, std::span<const Gait<float>> gait,
+                    std::span<Entity> entities);
 /// A person whose host animates the skeleton, in the anatomical position at the origin. Errors: a body out of range.
 Result<Entity> spawn_posed(World& world, const BodyRequest& body);
 

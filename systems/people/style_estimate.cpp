@@ -106,15 +106,18 @@ bool keeps(const Node& node, const GaitStyle& style) {
 
 }  // namespace
 
-bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {
+bool is_within_usual(const GaitStyle& style, float part) {
   constexpr GaitStyle usual;
+  return std::ranges::all_of(gait_parameters, [&](const GaitParameter& p) {
+    return std::fabs(style.*p.value - usual.*p.value) <= part * std::fabs(usual.*p.value);
+  });
+}
+
+bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {
   const float height_m = size.height_m, place = (gait.speed_m_s - lowest_speed) / speed_step;
   if (!(height_m >= 1.35F && height_m <= 2.15F && place >= 0 && place < static_cast<float>(node_speeds - 1)))
     return false;
-  for (const GaitParameter& p : gait_parameters) {
-    const float number = usual.*p.value;
-    if (!(std::fabs(gait.style.*p.value - number) <= (tenth + rounding) * std::fabs(number))) return false;
-  }
+  if (!is_within_usual(gait.style, tenth + rounding)) return false;
   const auto plain = resolve_gait(height_m, {.speed_m_s = gait.speed_m_s});
   if (!plain || !(std::fabs(gait.step_length_m - plain->step_length_m) <= 1e-3F * plain->step_length_m)) return false;
   const std::size_t h = height_m < 1.6F ? 0 : height_m < 1.9F ? 1 : 2, v = static_cast<std::size_t>(place);

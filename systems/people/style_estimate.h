@@ -6,6 +6,9 @@
 
 namespace mobil {
 
+/// Whether each number of a style is within that part of the usual one.
+bool is_within_usual(const GaitStyle& style, float part);
+
 /// True where the walk surely keeps the limits of systems/people/walk_limits.h: steps of the usual length, each number
 /// of the style within a tenth of the usual one, and what the usual walk of that height and speed goes to, with what
 /// each number adds to first order and a quarter of what all of them add either way, stays clear of every limit. False

@@ -85,20 +85,11 @@ bool same_walk(const Gait<float>& a, const Gait<float>& b) {
 
 /// Usual steps of the usual style: of lengths that the table of steps has (assets/gait/README.md).
 bool is_usual(float height_m, const Gait<float>& gait) {
-  constexpr GaitStyle usual;
+  if (!same_style(gait.style, {})) return false;
   const float length_m = usual_length_m(height_m, gait.speed_m_s);
   constexpr auto shortest = static_cast<float>(step_table::length.front()),
                  longest = static_cast<float>(step_table::length.back());
-  return gait.step_length_m >= shortest * length_m && gait.step_length_m <= longest * length_m &&
-         same_style(gait.style, usual);
-}
-
-/// Styles near enough to the usual one to be looked at roughly first: each number within a tenth of the usual one.
-bool is_near_usual(const GaitStyle& style) {
-  constexpr GaitStyle usual;
-  return std::ranges::all_of(gait_parameters, [&](const GaitParameter& p) {
-    return std::fabs(style.*p.value - usual.*p.value) <= 0.101F * std::fabs(usual.*p.value);
-  });
+  return gait.step_length_m >= shortest * length_m && gait.step_length_m <= longest * length_m;
 }
 
 /// A bound that a walk breaks, and where it would come to.
@@ -317,8 +308,9 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     });
     std::erase_if(unusual, [&](std::size_t i) { return work.breaks[i] == 0; });
   };
+  constexpr float near_part = 0.101F;  // of styles that are looked at roughly first
   std::ranges::copy_if(unusual, std::back_inserter(work.near),
-                       [&](std::size_t i) { return is_near_usual(gaits[i].style); });
+                       [&](std::size_t i) { return is_within_usual(gaits[i].style, near_part); });
   look(work.near, Looking::roughly);
   work.near.assign(unusual.begin(), unusual.end());
   look(work.near, Looking::closely);

@@ -75,7 +75,6 @@ class Numbers {
     const int value = byte();
     return value < 240 ? value % count : value - 250;
   }
-  Input rest() const { return left_; }
 
  private:
   Input left_;

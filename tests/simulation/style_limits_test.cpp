@@ -1,5 +1,5 @@
-// Walks of any style in range keep to the ground, to what joints can do and to what a pelvis does; who asked for more
-// is told what was moved. Seen in poses, tick by tick.
+// Walks of any style in range stay within the limits of ground, joints and pelvis. Where a request would break one, its
+// style is changed, and the changes are reported. The tests look at the pose of every tick.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -264,7 +264,8 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
   RC_ASSERT(walk({asked}, 2).front().keeps_limits());
 }
 
-/// What is walked is what is told, and it does not matter who else comes, in which order and by whose hands.
+/// The reported style is the one that is walked. It does not depend on who else is spawned, in which order, on which
+/// thread.
 TEST(StyleLimits, AreTheSameForOneAndForMany) {
   Dice dice{std::mt19937(3)};
   std::vector<Asked> asked;
@@ -309,7 +310,7 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
   EXPECT_GT(moved, 20U);
 }
 
-/// Where limits are told to be kept without a look, a close look finds that they are.
+/// Where the estimate says that a style keeps all limits, a walk of it at 240 instants a second keeps them.
 TEST(StyleLimits, AreKeptWhereTheEstimateIsSure) {
   Dice dice{std::mt19937(8)};
   std::vector<BodySize<float>> sizes;

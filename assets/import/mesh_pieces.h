@@ -1,0 +1,38 @@
+#pragma once
+// The pieces of a mesh that hang together by their vertices.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "assets/surfaces/surface_mesh.h"
+#include "components/surface.h"
+
+namespace mobil {
+
+/// A number for each triangle, counted from 0, the same for all that hang together.
+struct Pieces {
+  std::vector<std::uint32_t> of;  // each triangle's
+  std::uint32_t count = 0;
+};
+Pieces label_pieces(const SurfaceMesh& mesh);
+
+/// Triangles in each piece.
+std::vector<std::size_t> piece_triangles(const Pieces& pieces);
+
+/// Volume that each piece encloses, in the cube of the mesh's unit: negative where it is wound inwards.
+std::vector<double> piece_volumes(const SurfaceMesh& mesh, const Pieces& pieces);
+
+/// Keeps the triangles of the pieces for whose number `stays` holds, and the vertices that they use.
+template <class Stays>
+void keep_pieces(SurfaceMesh& mesh, const Pieces& pieces, Stays stays) {
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < pieces.of.size(); ++t) {
+    if (!stays(pieces.of[t])) continue;
+    for (std::size_t c = 0; c < 3; ++c) mesh.triangle[kept++] = mesh.triangle[3 * t + c];
+  }
+  mesh.triangle.resize(kept);
+  drop_unused(mesh);
+}
+
+}  // namespace mobil

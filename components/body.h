@@ -10,6 +10,8 @@
 namespace mobil {
 
 enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
+/// Whose girths the skin has (assets/skin). Skeleton, masses and muscles are a man's of that height and mass so far.
+enum class Sex : std::uint8_t { man, woman };
 
 /// Heath–Carter somatotype, each part from 1 (little) to about 7 (much): fat, muscle and bone, slenderness. With
 /// endomorphy and ectomorphy as they stand here, these count as not asked for: they then follow from height and mass.
@@ -32,6 +34,7 @@ struct BodyRequest {
   Biotype biotype{};
   Constitution constitution = Constitution::average;
   LimbLengths<float> limbs{};
+  Sex sex = Sex::man;
 };
 /// Whether any limb's length was asked for.
 constexpr bool has_own_limbs(const BodyRequest& request) {
@@ -95,7 +98,20 @@ struct BodySize {
 template <class F>
 struct Physique {
   F endo, meso, ecto;  // Biotype
-  Whole<F> constitution;
+  Whole<F> build;      // build_word
 };
+/// Constitution and sex in a word.
+inline constexpr std::uint32_t constitutions = 4;
+constexpr std::uint32_t build_word(Constitution constitution, Sex sex) {
+  return static_cast<std::uint32_t>(constitution) + constitutions * static_cast<std::uint32_t>(sex);
+}
+constexpr Constitution constitution_of(std::uint32_t build) {
+  return static_cast<Constitution>(build % constitutions);
+}
+/// Of a word that is none, as one out of a file may be, a sex that `check_body` refuses.
+constexpr Sex sex_of(std::uint32_t build) {
+  const std::uint32_t sex = build / constitutions;
+  return static_cast<Sex>(sex < 255 ? sex : 255);
+}
 
 }  // namespace mobil

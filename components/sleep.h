@@ -27,7 +27,7 @@ struct Asleep {
   SteadyWalk<F> walk;
   F height_m, mass_kg, extra_fat;  // BodySize
   F endo, meso, ecto;              // Physique
-  Whole<F> constitution;
+  Whole<F> build;
 };
 
 /// A style on the grid (`snapped`): a byte a parameter, four to a word.

@@ -68,7 +68,8 @@ TEST(House, IncludesPointDownTheListOfRooms) {
 
 /// In each room's order: a folder includes itself and those before it.
 const std::map<std::string, std::vector<std::string>> order = {
-    {"assets", {"fem", "reduction", "body", "gait", "muscles", "surfaces", "finite", "files", "import", "export"}},
+    {"assets",
+     {"fem", "reduction", "body", "gait", "muscles", "surfaces", "skin", "finite", "files", "import", "export"}},
     {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "c"}},  // modules, front doors
     {"demo",
      {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "anatomy", "compare",

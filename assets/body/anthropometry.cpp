@@ -88,6 +88,7 @@ Result<void> check_body(const BodyRequest& request) {
   if (wrong.empty()) wrong = out_of_range("ectomorphy", request.biotype.ecto, "", 0.1F, 12.0F);
   if (wrong.empty() && request.constitution > Constitution::heavy)
     wrong = "body: constitution is none of thin, average, athletic, heavy; choose one of them";
+  if (wrong.empty() && request.sex > Sex::woman) wrong = "body: sex is neither man nor woman; choose one of them";
   if (wrong.empty()) wrong = not_living(request);
   if (wrong.empty()) wrong = wrong_limb(request);
   if (!wrong.empty()) return fail(wrong);

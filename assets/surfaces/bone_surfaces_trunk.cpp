@@ -33,7 +33,7 @@ VertebraSize vertebra_size(Segment segment) {
   if (segment <= Segment::T1) {
     const double t = (s - static_cast<double>(index(Segment::T12))) / 11;  // 0 at T12
     const double steep = 4 * t * (1 - t);
-    return {22 - 7 * t, 16 - 6 * t, 26 + 8 * steep, 12 + 22 * steep, 8 - 3 * steep, 24 + 12 * t, 16 - 6 * t};
+    return {22 - 7 * t, 16 - 6 * t, 20 + 5 * steep, 12 + 22 * steep, 8 - 3 * steep, 24 + 12 * t, 16 - 6 * t};
   }
   const double t = (s - static_cast<double>(index(Segment::C7))) / 6;  // 0 at C7
   if (segment == Segment::C1) return {15, 7, 4, 0, 4, 36, 0};
@@ -42,16 +42,16 @@ VertebraSize vertebra_size(Segment segment) {
 }
 
 /// T1 to T12.
-constexpr std::array<RibSize, 12> ribs = {{{56, 46, 22, 1366, 32},
-                                           {82, 60, 20, 1347, 41},
-                                           {102, 66, 17, 1328, 49},
-                                           {114, 72, 16, 1308, 56},
-                                           {122, 78, 16, 1289, 63},
-                                           {127, 84, 16, 1271, 69},
-                                           {130, 90, 17, 1254, 75},
-                                           {130, 94, 34, 1234, 74},
-                                           {127, 92, 56, 1212, 66},
-                                           {120, 84, 78, 1192, 54},
+constexpr std::array<RibSize, 12> ribs = {{{56, 46, 22, 1366, 25},
+                                           {82, 60, 20, 1347, 33},
+                                           {102, 66, 17, 1328, 40},
+                                           {114, 72, 16, 1308, 46},
+                                           {120, 78, 16, 1289, 52},
+                                           {123, 84, 16, 1271, 57},
+                                           {125, 90, 17, 1254, 62},
+                                           {124, 94, 34, 1234, 61},
+                                           {121, 92, 56, 1212, 54},
+                                           {114, 84, 78, 1192, 44},
                                            {108, 70, 0, 0, 0},
                                            {84, 40, 0, 0, 0}}};
 
@@ -95,13 +95,13 @@ void add_sternum(SurfaceMesh& mesh, const Vec& origin) {
     return Station{0, y - origin.y, z - origin.z, half_width, half_depth};
   };
   const TubeShape shape{.reference = across, .rings = 10, .segments = 12, .cap = 0.4};
-  add_tube(mesh, {at(sternum_top - 4, 31, 27, 7), at(sternum_top - 16, 36, 30, 7.5), at(sternum_top - 44, 46, 17, 6)},
+  add_tube(mesh, {at(sternum_top - 4, 24, 27, 7), at(sternum_top - 16, 28, 30, 7.5), at(sternum_top - 44, 37, 17, 6)},
            shape);
   add_tube(
       mesh,
-      {at(sternum_top - 47, 47, 17, 6), at(1290, 61, 18, 5.5), at(1262, 71, 20, 5.5), at(sternum_bottom, 77, 13, 5)},
+      {at(sternum_top - 47, 38, 17, 6), at(1290, 50, 18, 5.5), at(1262, 58, 20, 5.5), at(sternum_bottom, 64, 13, 5)},
       shape);
-  add_tube(mesh, {at(sternum_bottom - 2, 77, 8, 4), at(1218, 79, 4, 2.5)},
+  add_tube(mesh, {at(sternum_bottom - 2, 64, 8, 4), at(1218, 66, 4, 2.5)},
            {.reference = across, .rings = 4, .segments = 8});
 }
 

@@ -1,6 +1,7 @@
 #include "demo/crowd/crowd_people.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 #include "engine/row_hash.h"
@@ -9,7 +10,7 @@ namespace mobil {
 namespace {
 
 // streams of a person; draws of who they are come first
-constexpr std::uint64_t place_stream = 0x10000, change_stream = 0x20000;
+constexpr std::uint64_t place_stream = 0x10000, change_stream = 0x20000, sex_stream = 0x50000;
 constexpr float turning_deg = 50, turn_part = 0.5F, stop_part = 0.125F;
 
 }  // namespace
@@ -51,6 +52,10 @@ CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t
   person.body.height_m = random.bell(1.72F, 0.09F);
   person.body.mass_kg = random.bell(24, 3) * person.body.height_m * person.body.height_m;
   person.body.biotype = {random.bell(3, 0.7F), random.bell(4, 0.7F), random.bell(3, 0.7F)};
+  // Half are women; of who is tall fewer.
+  constexpr float between_m = 1.72F, spread_m = 0.04F;
+  const float man = 1 / (1 + std::exp((between_m - person.body.height_m) / spread_m));
+  person.body.sex = CrowdRandom(seed, number, sex_stream).even(0, 1) < man ? Sex::man : Sex::woman;
   person.body.constitution = static_cast<Constitution>(std::min(3, static_cast<int>(random.even(0, 4))));
   person.gait.speed_m_s = crowd_speed(random);
   for (const GaitParameter& parameter : gait_parameters) {

@@ -2,21 +2,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <map>
 #include <optional>
 #include <vector>
 
 #include "assets/export/walk_recording.h"
-#include "demo/crowd/crowd_mannequin.h"
+#include "demo/walk/drawn_skin.h"
 #include "demo/walk/figure.h"
 #include "demo/walk/recorded_scene.h"
 #include "systems/capture/renderer.h"
+#include "systems/surfaces/skin_writer.h"
 
 namespace mobil {
 namespace {
 
 constexpr std::size_t most_figures = 64;
-constexpr float person_m = 1;  // half the height of the box that a person is taken for
+constexpr float near_m = 6, far_m = 18;  // who is seen with fewer triangles
+constexpr float glass = 0.35F;           // opacity of legs that muscles are seen through
+constexpr float person_m = 1;            // half the height of the box that a person is taken for
 
 /// From behind and above who looks, over the crowd.
 Camera crowd_camera(const CrowdScene& scene) {
@@ -26,6 +30,11 @@ Camera crowd_camera(const CrowdScene& scene) {
   camera.target = {eye.x, 0.55F, eye.z + 5.5F};
   camera.vertical_fov_deg = 33;
   return camera;
+}
+
+/// What is seen through the skin of who is near: the shirt hides the rest.
+bool is_leg(Segment segment) {
+  return segment == Segment::pelvis || (segment >= Segment::thigh_right && segment < Segment::clavicle_right);
 }
 
 bool in_picture(const Camera& camera, int width, int height, const Vec3<float>& pelvis) {
@@ -50,11 +59,14 @@ struct CrowdCamera::Parts {
 
   Renderer renderer;
   int width, height;
-  Mannequins mannequins;
+  BodySkins skins;
+  std::deque<DrawnSkin> drawn;
   std::map<std::uint64_t, Shown> figures;  // by person
   std::vector<DrawMesh> meshes;
 
   Result<Shown*> figure_of(const Simulation& simulation, const Drawn& person);
+  Result<void> add_skin(const BodyRequest& body, const Pose<float>& pose, float distance_m, const Drawn& person,
+                        bool through);
 };
 
 CrowdCamera::CrowdCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -79,11 +91,31 @@ Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const Simulatio
   }
   Shown& shown = found->second;
   shown.recording = begin_recording(shown.figure, 1.0F / 30);
+  std::erase_if(shown.recording.bones, [](const BoneSurface& bone) { return !is_leg(bone.segment); });
   record_frame(shown.figure, simulation, *human, shown.recording);
   shown.drawn = {};
   add_bones(shown.recording, 0, {0, 0, 0}, 0, shown.drawn);
   if (!human->muscles.empty()) add_muscles(shown.recording, 0, {0, 0, 0}, shown.drawn);
   return &shown;
+}
+
+Result<void> CrowdCamera::Parts::add_skin(const BodyRequest& body, const Pose<float>& pose, float distance_m,
+                                          const Drawn& person, bool through) {
+  const SkinDetail detail = distance_m < near_m  ? SkinDetail::near
+                            : distance_m < far_m ? SkinDetail::far
+                                                 : SkinDetail::distant;
+  const auto shape = skins.of(body, detail);
+  if (!shape) return tl::unexpected(shape.error());
+  DrawnSkin& skin = drawn.emplace_back();
+  skin.skin = shape->skin;
+  skin.lengths = shape->lengths;
+  skin.colours = skin_colours(person.number);
+  if (through) {
+    for (const SkinPart part : {SkinPart::legs, SkinPart::shorts}) skin.opacity[static_cast<std::size_t>(part)] = glass;
+  }
+  skin.pose(pose);
+  skin.draw(meshes);
+  return {};
 }
 
 void CrowdCamera::forget(std::uint64_t number) {
@@ -116,20 +148,21 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
     return a.distance_m < b.distance_m;
   });
   Parts& parts = *parts_;
-  parts.mannequins.clear();
+  parts.drawn.clear();
   parts.meshes.clear();
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Drawn& person = *seen[i].person;
-    if (i < most_figures && person.near) {
+    const bool through = i < most_figures && person.near;
+    const auto human = simulation.human(person.entity);
+    if (!human) return fail("a person who is to be drawn has left");
+    if (auto added = parts.add_skin(human->body.request, seen[i].pose, seen[i].distance_m, person, through); !added)
+      return added;
+    if (through) {
       const auto shown = parts.figure_of(simulation, person);
       if (!shown) return tl::unexpected(shown.error());
       parts.meshes.insert(parts.meshes.end(), (*shown)->drawn.meshes.begin(), (*shown)->drawn.meshes.end());
-      continue;
     }
-    const auto size = *simulation.get<BodySize>(person.entity);
-    parts.mannequins.add(seen[i].pose, size.height_m, size.mass_kg, person.number);
   }
-  parts.mannequins.draw(parts.meshes);
   Scene drawn;
   drawn.camera = camera;
   drawn.meshes = parts.meshes;

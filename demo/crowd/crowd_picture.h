@@ -1,5 +1,6 @@
 #pragma once
-// A crowd as pictures: bones and muscles of those in front, smooth bodies of everybody else.
+// A crowd as pictures: people with their skin and clothes; of those in front the legs' muscles and bones are seen
+// through it.
 
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +25,7 @@ class CrowdCamera {
 
   /// The crowd as it is, from behind and above who looks. Errors: a driver that gives up.
   Result<void> take(const CrowdScene& scene, Image& image);
-  /// These people from anywhere; of the nearest who are `near` bones and muscles are shown.
+  /// These people from anywhere; of the nearest who are `near` the legs' bones and muscles are seen through the skin.
   struct Drawn {
     Entity entity;
     std::uint64_t number;

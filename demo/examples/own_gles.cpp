@@ -32,7 +32,7 @@ struct NearVertex {
 };
 struct FarInput {
   mobil::Vec3<float> position, normal;
-  float segment, cloth;
+  float segment, part;
 };
 
 template <class T>
@@ -69,7 +69,7 @@ int main(int arguments, char** argument) {
   const mobil::FarFigure figure = mobil::far_figure();
   std::vector<FarInput> input;
   for (const mobil::FarVertex& v : figure.vertex)
-    input.push_back({v.position, v.normal, static_cast<float>(v.segment), static_cast<float>(v.cloth)});
+    input.push_back({v.position, v.normal, static_cast<float>(v.segment), static_cast<float>(v.part)});
   const own::Mesh figures(own::make_program(far_shader, lit), {3, 3, 2}, input.size(), input.data(), figure.index);
   constexpr std::size_t columns = 3 * mobil::segment_count;
   std::vector<float> matrices(4 * columns * far.size());

@@ -22,7 +22,8 @@ std::vector<Option> body_options(BodyText& text) {
   return {{"--height", &text.height, "Stature, 1.2m to 2.2m", "Body"},
           {"--mass", &text.mass, "Body mass, 30kg to 200kg and what a living body of that height has", "Body"},
           {"--biotype", &text.biotype, "Heath-Carter endo-meso-ecto, like 2-5-3", "Body"},
-          {"--constitution", &text.constitution, "thin, average, athletic or heavy", "Body"}};
+          {"--constitution", &text.constitution, "thin, average, athletic or heavy", "Body"},
+          {"--sex", &text.sex, "man or woman: whose girths and face the skin has", "Body"}};
 }
 
 Result<BodyRequest> read_body_options(const BodyText& text) {
@@ -39,6 +40,9 @@ Result<BodyRequest> read_body_options(const BodyText& text) {
   const auto constitution = choose<Constitution>("--constitution", text.constitution, constitution_name);
   if (!constitution) return tl::unexpected(constitution.error());
   request.constitution = *constitution;
+  const auto sex = choose<Sex>("--sex", text.sex, sex_name);
+  if (!sex) return tl::unexpected(sex.error());
+  request.sex = *sex;
   return request;
 }
 

@@ -13,10 +13,11 @@
 namespace mobil {
 
 inline constexpr std::array<std::string_view, 4> constitution_name = {"thin", "average", "athletic", "heavy"};
+inline constexpr std::array<std::string_view, 2> sex_name = {"man", "woman"};
 
 /// As text, as the command line hands it over.
 struct BodyText {
-  std::string height = "1.75", mass = "75", biotype, constitution = "average";
+  std::string height = "1.75", mass = "75", biotype, constitution = "average", sex = "man";
 };
 
 std::vector<Option> body_options(BodyText& text);

@@ -10,8 +10,8 @@
 namespace mobil {
 namespace {
 
-constexpr std::string_view drives[] = {"displacement", "force"};         // in the order of Drive
-constexpr std::string_view views[] = {"stick", "wireframe", "surface"};  // of View
+constexpr std::string_view drives[] = {"displacement", "force"};                          // in the order of Drive
+constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // of View
 
 // A program has no host that excites muscles.
 constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
@@ -88,7 +88,11 @@ std::vector<Option> walk_options(WalkText& text) {
        muscles},
       {"--inertia", &text.inertia, "Muscles feel gravity and the leg's acceleration, see below", muscles},
       {"--anatomy", &text.anatomy, "Folder of real meshes with manifest.csv and landmarks.csv", pictures},
-      {"--view", &text.view, "stick (lines of action), wireframe (finite-element meshes) or surface", pictures},
+      {"--view", &text.view,
+       "stick (lines of action), wireframe (finite-element meshes), surface (muscles and bones), skin (dressed) or "
+       "glass "
+       "(muscles and bones through the skin)",
+       pictures},
       {"--stereo", &text.stereo, "Left and right eye side by side", pictures},
       {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
       {"--video", &text.video, "Write walk.mp4", pictures},

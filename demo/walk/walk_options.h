@@ -16,7 +16,7 @@
 
 namespace mobil {
 
-enum class View { stick, wireframe, surface };
+enum class View { stick, wireframe, surface, skin, glass };
 
 struct WalkOptions {
   BodyRequest body;

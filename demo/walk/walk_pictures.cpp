@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 
+#include "demo/walk/drawn_skin.h"
 #include "demo/walk/recorded_scene.h"
 #include "engine/geometry.h"
 #include "systems/capture/png.h"
@@ -91,7 +92,20 @@ struct FrameScene {
   std::vector<Vec3<float>> stick, joint;
   std::vector<DrawLines> lines;
   std::vector<DrawPoints> points;
+  std::optional<BodySkin> own;  // what `skin` draws
+  DrawnSkin skin;
 };
+
+/// The skin of the views that show it.
+Result<void> begin_skin(const WalkDrawing& drawing, View view, FrameScene& scene) {
+  if (view != View::skin && view != View::glass) return {};
+  const bool dressed = view == View::skin;
+  auto made = make_body_skin(*drawing.body, SkinDetail::hero, {.dressed = dressed});
+  if (!made) return tl::unexpected(made.error());
+  scene.own = std::move(*made);
+  scene.skin = {&*scene.own, 1, dressed ? skin_colours(0) : bare_colours(), opaque(dressed ? 1 : 0.45F), {}, {}};
+  return {};
+}
 
 void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameScene& scene) {
   const WalkRecording& recording = *drawing.recording;
@@ -107,6 +121,11 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
     scene.lines.push_back(
         {.position = drawing.action_line[frame], .colour = line_red, .width = 0.016F, .unit = LineUnit::metre});
     return;
+  }
+  if (scene.own) {
+    scene.skin.pose(pose);
+    scene.skin.draw(scene.drawn.meshes);
+    if (view == View::skin) return;
   }
   add_bones(recording, frame, {0, 0, 0}, 1, scene.drawn);
   if (view == View::wireframe) {
@@ -133,6 +152,7 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
 
   const auto path = smooth_path(*drawing.recording);
   FrameScene contents;
+  if (auto begun = begin_skin(drawing, options.view, contents); !begun) return begun;
   Image eye;
   Image whole{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
   for (std::size_t frame = 0; frame < drawing.recording->frames.size(); ++frame) {

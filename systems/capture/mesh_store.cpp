@@ -26,6 +26,10 @@ Result<void> check(const DrawMesh& mesh) {
     return fail(fmt::format("a mesh to draw has {} vertices and {} indices; at most {} of either, split it",
                             mesh.position.size(), mesh.triangle.size(), std::numeric_limits<std::int32_t>::max() / 16));
   }
+  if (!mesh.normal.empty() && mesh.normal.size() != mesh.position.size()) {
+    return fail(fmt::format("a mesh to draw has {} normals for {} vertices; give one for each, or none",
+                            mesh.normal.size(), mesh.position.size()));
+  }
   const auto highest = std::max_element(mesh.triangle.begin(), mesh.triangle.end());
   if (highest != mesh.triangle.end() && *highest >= mesh.position.size()) {
     return fail(fmt::format("a triangle to draw names vertex {} of a mesh with {} vertices; indices count from 0",
@@ -35,7 +39,7 @@ Result<void> check(const DrawMesh& mesh) {
 }
 
 /// Appends the mesh's positions and normals to `out`; a wireframe's corner by corner.
-void append(const DrawMesh& mesh, const std::vector<Vec3<float>>& normal, std::vector<Vec3<float>>& out,
+void append(const DrawMesh& mesh, std::span<const Vec3<float>> normal, std::vector<Vec3<float>>& out,
             StoredMesh& stored) {
   const auto add = [&](const auto& values) {
     const std::size_t at = out.size() * sizeof(Vec3<float>);
@@ -62,6 +66,7 @@ void MeshStore::create_buffers() {
 void MeshStore::begin_frame() {
   vertices_.clear();
   indices_.clear();
+  last_places_ = nullptr;
 }
 
 Result<StoredMesh> MeshStore::place(const DrawMesh& mesh) {
@@ -70,18 +75,33 @@ Result<StoredMesh> MeshStore::place(const DrawMesh& mesh) {
     if (const auto found = kept_.find(kept); found != kept_.end()) return found->second;
   }
   if (const auto checked = check(mesh); !checked) return tl::unexpected(checked.error());
-  vertex_normals(mesh.position, mesh.triangle, normal_);
+  std::span<const Vec3<float>> normal = mesh.normal;
+  if (normal.empty()) {
+    vertex_normals(mesh.position, mesh.triangle, normal_);
+    normal = normal_;
+  }
   StoredMesh stored;
   if (mesh.key == 0) {
+    // Parts of one surface share its vertices, if they come one after the other with normals of their own.
+    const bool again = !mesh.normal.empty() && !mesh.wireframe && last_places_ == mesh.position.data() &&
+                       last_normals_ == mesh.normal.data();
+    if (again) {
+      stored = last_;
+      stored.count = static_cast<int>(mesh.triangle.size());
+    } else {
+      append(mesh, normal, vertices_, stored);
+    }
     stored.vertex_buffer = stream_vertices_;
     stored.index_buffer = stream_indices_;
-    append(mesh, normal_, vertices_, stored);
+    last_ = stored;
+    last_places_ = mesh.wireframe ? nullptr : mesh.position.data();
+    last_normals_ = mesh.normal.data();
     stored.index_at = indices_.size() * sizeof(std::uint32_t);
     if (!mesh.wireframe) indices_.insert(indices_.end(), mesh.triangle.begin(), mesh.triangle.end());
     return stored;
   }
   own_vertices_.clear();
-  append(mesh, normal_, own_vertices_, stored);
+  append(mesh, normal, own_vertices_, stored);
   glGenBuffers(1, &stored.vertex_buffer);
   send(GL_ARRAY_BUFFER, stored.vertex_buffer, own_vertices_, GL_STATIC_DRAW);
   if (!mesh.wireframe) {

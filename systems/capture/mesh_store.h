@@ -51,6 +51,9 @@ class MeshStore {
   unsigned stream_vertices_ = 0, stream_indices_ = 0;
   std::vector<Vec3<float>> vertices_, normal_, own_vertices_;
   std::vector<std::uint32_t> indices_;
+  StoredMesh last_;  // of the stream, and what it was made of
+  const Vec3<float>* last_places_ = nullptr;
+  const Vec3<float>* last_normals_ = nullptr;
 };
 
 }  // namespace mobil

@@ -59,6 +59,7 @@ Result<Program> make_program(const char* name, const std::string& vertex_source,
   if (shadow_map >= 0) glUniform1i(shadow_map, 0);
   program.albedo = glGetUniformLocation(program.id, "albedo");
   program.outward = glGetUniformLocation(program.id, "outward");
+  program.opacity = glGetUniformLocation(program.id, "opacity");
   program.width = glGetUniformLocation(program.id, "width");
   program.radius = glGetUniformLocation(program.id, "radius");
   return program;

@@ -9,7 +9,7 @@ namespace mobil {
 
 struct Program {
   unsigned id = 0;
-  int albedo = -1, outward = -1, width = -1, radius = -1;  // uniform locations; -1: the program has none
+  int albedo = -1, outward = -1, width = -1, radius = -1, opacity = -1;  // uniform locations; -1: the program has none
 };
 
 /// Compiles and links in the current context, binds the block "Frame" to 0 and the shadow map to texture unit 0.

@@ -173,6 +173,7 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const Program& program) c
   glBindBuffer(GL_ARRAY_BUFFER, placement_buffer);
   const bool flip = draw.asked->flip;
   if (program.outward >= 0) glUniform1f(program.outward, flip ? -1.0F : 1.0F);
+  if (program.opacity >= 0) glUniform1f(program.opacity, draw.asked->opacity);
   if (program.albedo >= 0) set_albedo(program, draw.asked->colour, draw.asked->wetness);
   std::size_t first = draw.first_placement;
   for (const bool mirrored : {false, true}) {
@@ -197,17 +198,22 @@ void Renderer::Device::draw_meshes(bool depth_only) const {
   glUseProgram(solid.id);
   glEnable(GL_CULL_FACE);
   for (const MeshDraw& draw : draws) {
-    if (!draw.asked->wireframe) draw_mesh(draw, solid);
+    if (!draw.asked->wireframe && (depth_only || draw.asked->opacity >= 1)) draw_mesh(draw, solid);
   }
-  glDisable(GL_CULL_FACE);
   if (!depth_only) {
-    glUseProgram(wireframe.id);
+    // Of a pixel's samples a part is covered, the same by all layers of one opacity: of those the nearest is seen.
     glEnable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+    for (const MeshDraw& draw : draws) {
+      if (!draw.asked->wireframe && draw.asked->opacity < 1) draw_mesh(draw, solid);
+    }
+    glDisable(GL_CULL_FACE);
+    glUseProgram(wireframe.id);
     for (const MeshDraw& draw : draws) {
       if (draw.asked->wireframe) draw_mesh(draw, wireframe);
     }
     glDisable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   }
+  glDisable(GL_CULL_FACE);
   for (unsigned location = 0; location < at_placement + 4; ++location) glDisableVertexAttribArray(location);
 }
 

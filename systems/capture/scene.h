@@ -29,8 +29,10 @@ struct Placement {
 struct DrawMesh {
   std::span<const Vec3<float>> position{};    // m
   std::span<const std::uint32_t> triangle{};  // three indices each, counter-clockwise seen from outside
+  std::span<const Vec3<float>> normal{};      // of each position; none: the mean of its triangles'
   Colour colour = muscle_red;
   float wetness = 0;                       // 0 dry as bone, 1 wet as living muscle
+  float opacity = 1;                       // below 1 what lies behind is seen through it, its own back not
   bool wireframe = false;                  // the triangles' edges only, front and back
   bool flip = false;                       // the triangles are wound clockwise, as those of a mirrored mesh
   std::span<const Placement> placement{};  // one copy each; none: one copy where the positions say

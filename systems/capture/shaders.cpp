@@ -97,13 +97,14 @@ void main() {
 std::string mesh_fragment_source() {
   return head + samples(4) + shadow + shade + R"(
 uniform vec4 albedo;
+uniform float opacity;
 in vec3 world;
 in vec3 world_normal;
 out vec4 colour;
 void main() {
   vec3 n = normalize(world_normal);
   float key = lit(world + n * (1.6 * light.w), 1.6, dot(n, light.xyz) > -0.12);
-  colour = vec4(shade(albedo.rgb, albedo.w, n, world, key), 1.0);
+  colour = vec4(shade(albedo.rgb, albedo.w, n, world, key), opacity);
 }
 )";
 }

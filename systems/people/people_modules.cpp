@@ -74,14 +74,16 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
   if (size == Table::no_column || physique == Table::no_column) return {};
   for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
     const auto number = [&](std::uint32_t word) { return std::bit_cast<float>(saved.word(table, row, word)); };
-    const std::uint32_t constitution = saved.word(table, row, physique + 3);
+    const std::uint32_t build = saved.word(table, row, physique + 3);
     BodyRequest body{number(size),
                      number(size + 1),
                      {number(physique), number(physique + 1), number(physique + 2)},
-                     static_cast<Constitution>(constitution)};
+                     constitution_of(build),
+                     {},
+                     sex_of(build)};
     if (limbs != Table::no_column)
       body.limbs = {number(limbs), number(limbs + 1), number(limbs + 2), number(limbs + 3)};
-    if (constitution <= static_cast<std::uint32_t>(Constitution::heavy) && check_body(body)) continue;
+    if (check_body(body)) continue;
     return fail("the snapshot does not agree with itself (a person's body); give one that `save` made");
   }
   return {};

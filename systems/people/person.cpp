@@ -37,8 +37,9 @@ BodyRequest body_request(const World& world, Entity person) {
   return {size.height_m,
           size.mass_kg,
           {of.endo, of.meso, of.ecto},
-          static_cast<Constitution>(of.constitution),
-          world.get<LimbLengths>(person).value_or(LimbLengths<float>{})};
+          constitution_of(of.build),
+          world.get<LimbLengths>(person).value_or(LimbLengths<float>{}),
+          sex_of(of.build)};
 }
 
 BodySize<float> body_size(const BodyRequest& request) {
@@ -57,7 +58,7 @@ BodySize<float> body_size(const World& world, Entity person) {
 
 Physique<float> physique(const BodyRequest& request) {
   const Biotype& of = request.biotype;
-  return {of.endo, of.meso, of.ecto, static_cast<std::uint32_t>(request.constitution)};
+  return {of.endo, of.meso, of.ecto, build_word(request.constitution, request.sex)};
 }
 
 namespace {

@@ -78,8 +78,8 @@ Result<void> check_sleepers(const SavedWorld& saved, std::uint32_t table) {
   for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
     Asleep<float> asleep;
     read(row, first, asleep);
-    bool sound = is_sound(asleep.walk) && asleep.constitution <= static_cast<std::uint32_t>(Constitution::heavy) &&
-                 check_body(body_of(asleep)).has_value() && asleep.extra_fat == body_size(body_of(asleep)).extra_fat;
+    bool sound = is_sound(asleep.walk) && check_body(body_of(asleep)).has_value() &&
+                 asleep.extra_fat == body_size(body_of(asleep)).extra_fat;
     if (since != Table::no_column) {
       Unsettled<float> unsettled;
       read(row, since, unsettled);

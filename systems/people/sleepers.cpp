@@ -50,11 +50,9 @@ void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, flo
 }  // namespace
 
 BodyRequest body_of(const Asleep<float>& asleep) {
-  return {asleep.height_m,
-          asleep.mass_kg,
-          {asleep.endo, asleep.meso, asleep.ecto},
-          static_cast<Constitution>(asleep.constitution),
-          {}};
+  return {
+      asleep.height_m,     asleep.mass_kg, {asleep.endo, asleep.meso, asleep.ecto}, constitution_of(asleep.build), {},
+      sex_of(asleep.build)};
 }
 
 BodySize<float> size_of(const Asleep<float>& asleep) {
@@ -116,7 +114,7 @@ void find_steady(const World& world, std::span<const Entity> people, const Sleep
       const GaitStyle style = row_of(at->walkers.gait, l).style;
       out.push_back({who[l],
                      {row_of(at->walk, l), at->walkers.size.height_m[l], at->walkers.size.mass_kg[l],
-                      at->walkers.size.extra_fat[l], body.endo, body.meso, body.ecto, body.constitution},
+                      at->walkers.size.extra_fat[l], body.endo, body.meso, body.ecto, body.build},
                      packed_style(style),
                      {style}});
     }

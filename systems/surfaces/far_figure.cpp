@@ -11,25 +11,21 @@ using namespace geometry;
 
 FarFigure far_figure() {
   FarFigure figure;
-  for (const BoneSurface& part : make_figure_shapes(*make_body(far_body))) {
-    const SurfaceMesh& mesh = part.mesh;
-    const auto first = static_cast<std::uint32_t>(figure.vertex.size());
-    std::vector<Vec3<float>> normal(mesh.position.size(), {0, 0, 0});
-    for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
-      const std::uint32_t* corner = &mesh.triangle[t];
-      const Vec3<float> a = mesh.position[corner[0]];
-      const Vec3<float> twice_area = cross(mesh.position[corner[1]] - a, mesh.position[corner[2]] - a);
-      for (std::size_t k = 0; k < 3; ++k) {
-        normal[corner[k]] = normal[corner[k]] + twice_area;
-        figure.index.push_back(first + corner[k]);
-      }
+  const SkinMesh& mesh = skin_mesh(Sex::man, SkinDetail::distant);
+  const BodySkin skin = *make_body_skin(*make_body(far_body), SkinDetail::distant);
+  figure.index = mesh.triangle;
+  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
+    const SkinFrame& frame = mesh.frame[mesh.vertex[v].frame[0]];  // the heaviest comes first
+    std::size_t segment = frame.turn < 0.5F ? frame.from : frame.to;
+    for (const std::size_t side : {std::size_t{Side::right}, std::size_t{Side::left}}) {
+      if (segment == untwisted_forearm(side)) segment = index(on_side(Segment::forearm_right, side));
     }
-    for (std::size_t v = 0; v < normal.size(); ++v) {
-      const bool has_one = length(normal[v]) > 0;
-      figure.vertex.push_back({mesh.position[v], has_one ? normalised(normal[v]) : Vec3<float>{0, 1, 0},
-                               static_cast<std::uint16_t>(part.segment),
-                               static_cast<std::uint16_t>(cloth_of(part.segment))});
-    }
+    figure.vertex.push_back(
+        {skin.rest[v] - skin.standing.position_m[segment], skin.normal[v], static_cast<std::uint16_t>(segment), 0});
+  }
+  for (std::size_t part = 0; part < skin_parts; ++part) {
+    for (std::uint32_t i = 3 * mesh.first_triangle[part]; i < 3 * mesh.first_triangle[part + 1]; ++i)
+      figure.vertex[mesh.triangle[i]].part = static_cast<std::uint16_t>(part);
   }
   return figure;
 }

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "assets/surfaces/figure_shapes.h"
+#include "assets/skin/body_skin.h"
 #include "components/body.h"
 
 namespace mobil {
@@ -16,14 +16,15 @@ namespace mobil {
 /// 28 bytes. Position (m) and unit normal in the segment's frame.
 struct FarVertex {
   Vec3<float> position, normal;
-  std::uint16_t segment, cloth;  // Segment, Cloth
+  std::uint16_t segment, part;  // Segment, SkinPart
 };
 struct FarFigure {
   std::vector<FarVertex> vertex;
   std::vector<std::uint32_t> index;  // three a triangle, wound outwards
 };
 
-/// Whom the mesh is drawn after.
+/// Whom the mesh is drawn after: the skin of a man (SkinDetail::distant), each vertex on the segment that it follows
+/// most.
 inline constexpr BodyRequest far_body = {.height_m = 1.75F, .mass_kg = 70};
 FarFigure far_figure();
 /// By how much someone's vertices are larger along x, y and z: as tall as they are, as wide as their mass makes them,

@@ -57,17 +57,6 @@ void draw_out(const BodySurfaces::Driver& driver, float longer_m, float* node) {
   }
 }
 
-Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes) {
-  if (stream.stride < bytes)
-    return fail(fmt::format("a stride of {} bytes for {}; at least {}", stream.stride, what, bytes));
-  const std::size_t needed = vertices == 0 ? 0 : (vertices - 1) * stream.stride + bytes;
-  if (stream.bytes.size() < needed) {
-    return fail(fmt::format("{} bytes for {} of {} vertices, {} bytes apart; {} are needed", stream.bytes.size(), what,
-                            vertices, stream.stride, needed));
-  }
-  return {};
-}
-
 /// Whether any of a stream's vertices lies over any of another's. Streams in the same memory share a stride.
 bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b, std::size_t b_bytes,
               std::size_t vertices) {

@@ -21,6 +21,7 @@
 #include "engine/scratch.h"
 #include "engine/world.h"
 #include "systems/surfaces/body_surfaces.h"
+#include "systems/surfaces/vertex_stream.h"
 
 namespace mobil {
 
@@ -28,13 +29,6 @@ namespace mobil {
 struct SurfaceMuscle {
   Muscle muscle{};
   std::array<Entity, 2> entity;
-};
-
-/// Three floats a vertex, of tangents four: vertex v begins at byte v · stride. Nothing else in it is written, and
-/// nothing read.
-struct VertexStream {
-  std::span<std::byte> bytes;
-  std::size_t stride = 3 * sizeof(float);  // at least 12, of tangents 16
 };
 
 /// One person, with the surfaces of a body like theirs. Positions in m, world axes, from `origin_m`, which is

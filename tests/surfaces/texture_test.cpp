@@ -263,7 +263,7 @@ TEST(FarFigure, IsAsLargeAsItsBodyAndWoundOutwards) {
   std::array<std::size_t, segment_count> of_segment{};
   for (const FarVertex& v : figure.vertex) {
     ASSERT_LT(v.segment, segment_count);
-    ASSERT_LT(v.cloth, cloth_count);
+    ASSERT_LT(v.part, skin_parts);
     EXPECT_NEAR(length(v.normal), 1, 1e-4F);
     ++of_segment[v.segment];
   }
@@ -282,7 +282,7 @@ TEST(FarFigure, IsAsLargeAsItsBodyAndWoundOutwards) {
   }
   EXPECT_NEAR(high, 1.75F, 0.04F);
   EXPECT_NEAR(low, 0, 0.03F);
-  EXPECT_GT(volume, 0.05);  // wound outwards; parts overlap
+  EXPECT_NEAR(volume, 0.075, 0.01);  // wound outwards, clothes included
   const Vec3<float> scale = far_scale(1.75F, 70);
   EXPECT_NEAR(scale.x, 1, 1e-6F);
   EXPECT_NEAR(far_scale(1.75F, 140).x, std::sqrt(2.0F), 1e-5F);

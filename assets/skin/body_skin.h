@@ -1,0 +1,62 @@
+#pragma once
+// A person's skin: one closed surface whose triangles, parts and binding are the same for everybody, and whose places
+// are a body's own.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "assets/skin/clothes.h"
+#include "assets/skin/skin_binding.h"
+#include "components/body.h"
+#include "components/pose.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// How many triangles: some 90,000, 20,000, 5,000, 1100.
+enum class SkinDetail : std::uint8_t { hero, near, far, distant };
+inline constexpr std::size_t skin_details = 4;
+
+/// The triangles that all men share, or all women, and how their corners hang on the skeleton.
+struct SkinMesh {
+  std::vector<std::uint32_t> triangle;  // three corners each, wound outwards; part by part
+  std::array<std::uint32_t, skin_parts + 1>
+      first_triangle{};  // of each SkinPart, in triangles; the last is their count
+  std::vector<SkinFrame> frame;
+  std::vector<SkinVertex> vertex;
+  std::vector<Vec3<double>> place;  // of `skin_body`, in the pose that is meshed
+};
+/// Whose skin is meshed.
+constexpr BodyRequest skin_body(Sex sex) {
+  return {.height_m = 1.75F, .mass_kg = 75, .sex = sex};
+}
+/// Of men and of women, whose hair has other borders. Made at its first use, in about two seconds, for all details;
+/// safe from any thread.
+const SkinMesh& skin_mesh(Sex sex, SkinDetail detail);
+
+/// One body's skin in the anatomical position, m.
+struct BodySkin {
+  Sex sex{};
+  SkinDetail detail{};
+  std::vector<Vec3<float>> rest, normal;
+  Pose<float> standing;  // the pose in which it is so
+};
+
+struct SkinDress {
+  bool dressed = true;  // shirt, shorts, shoes and hair stand off the skin
+};
+
+/// The skin of a body: the shared surface is drawn onto the body's own form, and its trunk made as much fuller or
+/// thinner as makes the volume, without the air in the lungs, weigh the body's mass at its density (Siri 1961, from its
+/// fat). Errors: as make_body.
+Result<BodySkin> make_body_skin(const Body& body, SkinDetail detail, const SkinDress& dress = {});
+/// The same with a fullness that `trunk_fullness` gave; of a body of which make_body made it.
+BodySkin make_body_skin(const Body& body, double fullness, SkinDetail detail, const SkinDress& dress);
+/// By how much the trunk's breadths and depths are more than the survey has them, for the body's mass; 0.8 to 1.25.
+double trunk_fullness(const Body& body);
+
+/// Volume within a closed surface, m³.
+double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::vector<Vec3<double>>& place);
+
+}  // namespace mobil

@@ -1,0 +1,19 @@
+#pragma once
+// From an implicit body to triangles.
+
+#include "assets/skin/body_form.h"
+#include "components/surface.h"
+
+namespace mobil {
+
+/// Triangles of the body's surface in the pose that is meshed (body_form.h), closed, wound outwards; vertices lie on
+/// the surface to 0.1 mm. Cells are 12 mm wide (of 1.75 m), half of that on head, hands and feet, a quarter on face and
+/// fingers. One vertex a cell that the surface passes through, at the middle of where it cuts the cell's edges (surface
+/// nets, Gibson 1998; between cells of two sizes as in Ju et al. 2002), then moved along the surface for even
+/// triangles. Takes about a second.
+SurfaceMesh mesh_form(const form::BodyForm& body);
+
+/// Moves a place to the body's surface along its slope.
+form::Vec onto_surface(const form::BodyForm& body, form::Vec p, int steps);
+
+}  // namespace mobil

@@ -1,0 +1,36 @@
+#pragma once
+// Forms of trunk, neck and head in the anatomical position, as distances (form_shapes.h), m. Both sides are alike.
+
+#include <vector>
+
+#include "assets/skin/body_measures.h"
+#include "assets/skin/form_shapes.h"
+#include "components/body.h"
+
+namespace mobil::form {
+
+class TrunkForm {
+ public:
+  /// `fuller`: times the breadths and depths of the trunk that the measures give, for the volume to meet the mass.
+  TrunkForm(const Body& body, const BodyMeasures& measures, double fuller);
+  double distance(const Vec& p) const;
+
+ private:
+  /// An oval between two half breadths: |x/a|ⁿ + |z/b|ⁿ = 1.
+  struct Section {
+    double y, half, back, front, exponent;
+  };
+  double sections(const Vec& p) const;
+
+  double size_;  // over 1.75 m
+  Vec shoulder_;
+  bool woman_;
+  double breast_front_, chest_wide_, buttock_, breast_m_ = 0;
+  double full_, round_;  // chest and buttocks, over those of 75 kg
+  std::vector<Section> section_;
+};
+
+/// Of a body of 1.75 m with its head in the usual place; other heads are as much larger as their bodies are taller.
+double head_distance(const Vec& p, Sex sex);
+
+}  // namespace mobil::form

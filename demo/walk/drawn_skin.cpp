@@ -1,0 +1,69 @@
+#include "demo/walk/drawn_skin.h"
+
+#include <span>
+
+#include "engine/row_hash.h"
+#include "systems/skinning/place_skin.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::array skins = {Colour{0.87F, 0.70F, 0.60F}, Colour{0.80F, 0.62F, 0.50F}, Colour{0.62F, 0.44F, 0.33F},
+                              Colour{0.45F, 0.31F, 0.23F}, Colour{0.91F, 0.76F, 0.67F}};
+constexpr std::array hairs = {Colour{0.13F, 0.10F, 0.09F}, Colour{0.28F, 0.19F, 0.13F}, Colour{0.47F, 0.34F, 0.21F},
+                              Colour{0.66F, 0.53F, 0.34F}, Colour{0.55F, 0.54F, 0.53F}};
+constexpr std::array shirts = {Colour{0.40F, 0.48F, 0.56F}, Colour{0.74F, 0.70F, 0.63F}, Colour{0.45F, 0.53F, 0.48F},
+                               Colour{0.70F, 0.56F, 0.42F}, Colour{0.50F, 0.48F, 0.54F}, Colour{0.84F, 0.83F, 0.80F},
+                               Colour{0.29F, 0.34F, 0.41F}, Colour{0.62F, 0.34F, 0.30F}, Colour{0.30F, 0.44F, 0.42F}};
+constexpr std::array shorts = {Colour{0.22F, 0.26F, 0.34F}, Colour{0.38F, 0.36F, 0.34F}, Colour{0.55F, 0.50F, 0.42F},
+                               Colour{0.27F, 0.36F, 0.47F}, Colour{0.18F, 0.18F, 0.19F}};
+constexpr std::array shoes = {Colour{0.16F, 0.15F, 0.15F}, Colour{0.34F, 0.25F, 0.19F}, Colour{0.82F, 0.81F, 0.79F}};
+
+}  // namespace
+
+SkinColours skin_colours(std::uint64_t number) {
+  std::uint64_t draw = mix64(number + 1);
+  const auto choose = [&](const auto& from) {
+    const Colour chosen = from[draw % from.size()];
+    draw = mix64(draw);
+    return chosen;
+  };
+  const Colour skin = choose(skins);
+  const Colour lips{0.85F * skin.red, 0.66F * skin.green, 0.66F * skin.blue};
+  return {skin, skin, lips, choose(hairs), choose(shirts), choose(shorts), choose(shoes)};
+}
+
+SkinColours bare_colours() {
+  SkinColours all;
+  all.fill(skins[0]);
+  return all;
+}
+
+void DrawnSkin::pose(const Pose<float>& pose, const Vec3<float>& shift) {
+  const SkinMesh& mesh = skin_mesh(skin->sex, skin->detail);
+  position.resize(skin->rest.size());
+  normal.resize(skin->rest.size());
+  std::vector<FrameMap> maps(mesh.frame.size());
+  frame_maps(mesh, *skin, pose, lengths, {-shift.x, -shift.y, -shift.z}, maps);
+  constexpr std::size_t stride = sizeof(Vec3<float>);
+  place_skin(mesh, *skin, maps,
+             {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
+              stride, stride});
+}
+
+void DrawnSkin::draw(std::vector<DrawMesh>& out) const {
+  const SkinMesh& mesh = skin_mesh(skin->sex, skin->detail);
+  for (std::size_t part = 0; part < skin_parts; ++part) {
+    const std::size_t first = 3 * std::size_t{mesh.first_triangle[part]};
+    const std::size_t last = 3 * std::size_t{mesh.first_triangle[part + 1]};
+    if (first == last) continue;
+    out.push_back({.position = position,
+                   .triangle = std::span(mesh.triangle).subspan(first, last - first),
+                   .normal = normal,
+                   .colour = colours[part],
+                   .wetness = 0.08F,
+                   .opacity = opacity[part]});
+  }
+}
+
+}  // namespace mobil

@@ -1,0 +1,39 @@
+#pragma once
+// A person's skin and clothes, as a renderer draws them.
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "assets/skin/body_skin.h"
+#include "components/pose.h"
+#include "systems/capture/scene.h"
+
+namespace mobil {
+
+/// Of each SkinPart.
+using SkinColours = std::array<Colour, skin_parts>;
+/// Skin, hair and clothes that a number chooses, as people vary.
+SkinColours skin_colours(std::uint64_t number);
+/// The same colour everywhere, as of a body without clothes.
+SkinColours bare_colours();
+
+constexpr std::array<float, skin_parts> opaque(float share = 1) {
+  std::array<float, skin_parts> all{};
+  all.fill(share);
+  return all;
+}
+
+struct DrawnSkin {
+  const BodySkin* skin = nullptr;  // as in SkinShape
+  float lengths = 1;
+  SkinColours colours{};
+  std::array<float, skin_parts> opacity = opaque();
+  std::vector<Vec3<float>> position, normal;
+
+  void pose(const Pose<float>& pose, const Vec3<float>& shift = {0, 0, 0});
+  /// One mesh a part; good until the next `pose`.
+  void draw(std::vector<DrawMesh>& out) const;
+};
+
+}  // namespace mobil

@@ -1,0 +1,93 @@
+#include "systems/skinning/place_skin.h"
+
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "components/segments.h"
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+Quat<float> of_length_1(const Quat<float>& q) {
+  const float scale = 1 / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
+  return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
+}
+
+/// `share` of the way from a to b, the short way round.
+Quat<float> part_way(const Quat<float>& a, const Quat<float>& b, float share) {
+  const float along = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
+  const float p = 1 - share, q = along < 0 ? -share : share;
+  return of_length_1({p * a.x + q * b.x, p * a.y + q * b.y, p * a.z + q * b.z, p * a.w + q * b.w});
+}
+
+/// The forearm without its turn about its own length (y): the rest of the way from the upper arm.
+Quat<float> untwisted(const Quat<float>& upper_arm, const Quat<float>& forearm) {
+  const Quat<float> elbow = product(conjugate(upper_arm), forearm);
+  if (elbow.y * elbow.y + elbow.w * elbow.w < 1e-8F) return forearm;  // folded back on itself
+  return product(forearm, conjugate(of_length_1({0, elbow.y, 0, elbow.w})));
+}
+
+/// Three floats to wherever they are to lie.
+void put(std::byte* to, const Vec3<float>& v) {
+  std::memcpy(to, &v, sizeof v);
+}
+
+}  // namespace
+
+void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
+                const Vec3<float>& origin_m, std::span<FrameMap> maps) {
+  struct Bone {
+    Quat<float> rotation;
+    Vec3<float> now, rest;
+  };
+  std::array<Bone, skin_segments> bone;
+  for (std::size_t s = 0; s < segment_count; ++s)
+    bone[s] = {pose.rotation[s], pose.position_m[s] - origin_m, skin.standing.position_m[s]};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Bone& forearm = bone[index(on_side(Segment::forearm_right, side))];
+    const Bone& arm = bone[index(on_side(Segment::upper_arm_right, side))];
+    bone[untwisted_forearm(side)] = {untwisted(arm.rotation, forearm.rotation), forearm.now, forearm.rest};
+  }
+  for (std::size_t i = 0; i < mesh.frame.size(); ++i) {
+    const SkinFrame& frame = mesh.frame[i];
+    const Bone& to = bone[frame.to];
+    const Quat<float> q = frame.turn == 0 ? to.rotation : part_way(bone[frame.from].rotation, to.rotation, frame.turn);
+    const auto [x, y, z] = columns(q);
+    FrameMap& map = maps[i];
+    map.x = lengths * x;
+    map.y = lengths * y;
+    map.z = lengths * z;
+    map.from = to.now - (to.rest.x * map.x + to.rest.y * map.y + to.rest.z * map.z);
+  }
+}
+
+void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const VertexTarget& out) {
+  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
+    const SkinVertex& vertex = mesh.vertex[v];
+    FrameMap map = maps[vertex.frame[0]];
+    if (vertex.weight[1] != 0) {
+      const float first = vertex.weight[0];
+      map = {first * map.x, first * map.y, first * map.z, first * map.from};
+      for (std::size_t k = 1; k < SkinVertex::most_frames && vertex.weight[k] != 0; ++k) {
+        const FrameMap& other = maps[vertex.frame[k]];
+        const float weight = vertex.weight[k];
+        map.x = map.x + weight * other.x;
+        map.y = map.y + weight * other.y;
+        map.z = map.z + weight * other.z;
+        map.from = map.from + weight * other.from;
+      }
+    }
+    const Vec3<float>& r = skin.rest[v];
+    put(out.position + v * out.position_stride, map.from + r.x * map.x + (r.y * map.y + r.z * map.z));
+    if (out.normal == nullptr) continue;
+    const Vec3<float>& n = skin.normal[v];
+    const Vec3<float> turned = n.x * map.x + n.y * map.y + n.z * map.z;
+    put(out.normal + v * out.normal_stride, normalised(turned));
+  }
+}
+
+}  // namespace mobil

@@ -1,0 +1,27 @@
+#pragma once
+// A body's skin where its skeleton is now.
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "assets/skin/body_skin.h"
+#include "components/pose.h"
+#include "systems/skinning/write_vertices.h"
+
+namespace mobil {
+
+/// How a frame of the skin carries a point from the anatomical position: along x, y and z, and from the origin.
+struct FrameMap {
+  Vec3<float> x, y, z, from;
+};
+
+/// The frames of a mesh as a pose has them, `lengths` times as large as the skin at rest, seen from `origin_m`.
+/// maps.size() is mesh.frame.size().
+void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
+                const Vec3<float>& origin_m, std::span<FrameMap> maps);
+
+/// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned.
+void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const VertexTarget& out);
+
+}  // namespace mobil

@@ -1,0 +1,91 @@
+#include "systems/surfaces/skin_writer.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "assets/body/anthropometry.h"
+#include "components/pose.h"
+#include "systems/skinning/place_skin.h"
+
+namespace mobil {
+namespace {
+
+constexpr float index_step = 1.5F;  // kg/m², between the builds that skins are made for
+
+Result<void> check_skin(const World& world, const SkinRequest& request) {
+  if (request.shape.skin == nullptr) return fail("no skin; BodySkins::of gives one");
+  const std::size_t vertices = request.shape.skin->rest.size(), bytes = sizeof(Vec3<float>);
+  if (auto done = check_stream("positions", request.positions, vertices, bytes); !done) return done;
+  if (!request.normals.bytes.empty()) {
+    if (auto done = check_stream("normals", request.normals, vertices, bytes); !done) return done;
+  }
+  if (!world.has<Pose>(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
+  return {};
+}
+
+const SkinMesh& mesh_of(const BodySkin& skin) {
+  return skin_mesh(skin.sex, skin.detail);
+}
+
+}  // namespace
+
+Result<SkinShape> BodySkins::of(const BodyRequest& body, SkinDetail detail) {
+  if (auto ok = check_body(body); !ok) return tl::unexpected(ok.error());
+  const float tall = skin_body(body.sex).height_m;
+  const float index = body.mass_kg / (body.height_m * body.height_m);
+  const int coarse = detail < SkinDetail::far ? 1 : 2;
+  const int step = coarse * static_cast<int>(std::lround(index / (index_step * static_cast<float>(coarse))));
+  auto& skin = skin_[{body.sex, detail, step}];
+  if (!skin) {
+    BodyRequest usual{.height_m = tall};
+    usual.mass_kg = std::clamp(index_step * static_cast<float>(step) * tall * tall, 40.0F, 199.0F);
+    usual.sex = body.sex;
+    const auto made = make_body(usual);
+    if (!made) return tl::unexpected(made.error());
+    double& fullness = fullness_[{body.sex, step}];
+    if (fullness == 0) fullness = trunk_fullness(*made);
+    skin = std::make_unique<BodySkin>(make_body_skin(*made, fullness, detail, dress_));
+  }
+  return SkinShape{skin.get(), body.height_m / tall};
+}
+
+struct SkinWriter::Work {
+  ScratchPool& scratch;
+  const World& world;
+  std::span<const SkinRequest> requests;
+};
+
+SkinWriter::SkinWriter(std::pmr::memory_resource* memory) : scratch_(memory) {}
+
+void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end) {
+  const auto& work = *static_cast<const Work*>(context);
+  const ScratchLease scratch(&work.scratch);
+  for (std::size_t i = begin; i < end; ++i) {
+    const SkinRequest& request = work.requests[i];
+    const BodySkin& skin = *request.shape.skin;
+    const SkinMesh& mesh = mesh_of(skin);
+    const std::span maps(reinterpret_cast<FrameMap*>(scratch.data()), mesh.frame.size());
+    frame_maps(mesh, skin, *work.world.get<Pose>(request.person), request.shape.lengths, request.origin_m, maps);
+    const VertexTarget out{request.positions.bytes.data(),
+                           request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
+                           request.positions.stride, request.normals.stride};
+    place_skin(mesh, skin, maps, out);
+  }
+}
+
+Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs) {
+  std::size_t frames = 0;
+  for (std::size_t r = 0; r < requests.size(); ++r) {
+    if (auto done = check_skin(world, requests[r]); !done)
+      return fail(fmt::format("skin of request {}: {}", r, done.error().message), done.error().status);
+    frames = std::max(frames, mesh_of(*requests[r].shape.skin).frame.size());
+  }
+  scratch_.prepare(frames * sizeof(FrameMap) / sizeof(float), jobs.threads);
+  Work work{scratch_, world, requests};
+  jobs.parallel_for(jobs.user, requests.size(), write_people, &work);
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,76 @@
+#pragma once
+// People's skin as vertices: positions and unit normals into the caller's buffers.
+//
+//   BodySkins skins;                                             // keeps what many share
+//   const SkinShape shape = *skins.of(body, SkinDetail::near);   // each person, once
+//   SkinWriter writer;
+//   SkinRequest one{person, shape, {buffer, 24}, {buffer.subspan(12), 24}};
+//   writer.write(simulation.world(), {&one, 1}, jobs);           // each frame
+//
+// Triangles are skin_mesh(sex, detail)'s (assets/skin/body_skin.h), the same for all men and for all women.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <memory_resource>
+#include <span>
+#include <tuple>
+#include <vector>
+
+#include "assets/skin/body_skin.h"
+#include "engine/error.h"
+#include "engine/jobs.h"
+#include "engine/scratch.h"
+#include "engine/world.h"
+#include "systems/surfaces/vertex_stream.h"
+
+namespace mobil {
+
+/// A skin, and by how much a person is taller than whose it is.
+struct SkinShape {
+  const BodySkin* skin = nullptr;
+  float lengths = 1;
+};
+
+/// Skins that people of about one build share.
+class BodySkins {
+ public:
+  explicit BodySkins(const SkinDress& dress = {}) : dress_(dress) {}
+
+  /// A skin for a body: made for its sex and a body mass index near its own, and as much larger as it is taller. Near
+  /// by that is within 0.75 kg/m² (1.5 % of its girths), from afar within 1.5. A quarter of a second for the first of a
+  /// build, half a second in full detail. Good as long as this lives. Errors: as make_body. Not for several threads at
+  /// once.
+  Result<SkinShape> of(const BodyRequest& body, SkinDetail detail);
+
+ private:
+  SkinDress dress_;
+  std::map<std::pair<Sex, int>, double> fullness_;  // by kg/m² in steps
+  std::map<std::tuple<Sex, SkinDetail, int>, std::unique_ptr<BodySkin>> skin_;
+};
+
+/// One person with a skin. Positions in m, world axes, from `origin_m`, as of SurfaceRequest; normals may be left out.
+struct SkinRequest {
+  Entity person;
+  SkinShape shape;
+  VertexStream positions{}, normals{};
+  Vec3<float> origin_m{0, 0, 0};
+};
+
+class SkinWriter {
+ public:
+  explicit SkinWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
+
+  /// Writes each request's vertices, as they are after the last tick, with `jobs`; the same bytes for any number of
+  /// threads. Errors, in one line that names the request, before anything is written: a stale person, no skin, a stride
+  /// or a buffer that is too small.
+  Result<void> write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs = {});
+
+ private:
+  struct Work;
+  static void write_people(void* work, std::size_t begin, std::size_t end);
+
+  ScratchPool scratch_;
+};
+
+}  // namespace mobil

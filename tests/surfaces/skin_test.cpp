@@ -1,0 +1,343 @@
+// People's skin: closed, as large as the survey has people, as heavy as they are, whole in every pose.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <set>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/skin/body_form.h"
+#include "assets/skin/body_measures.h"
+#include "assets/skin/body_skin.h"
+#include "assets/surfaces/bone_surfaces.h"
+#include "engine/geometry.h"
+#include "systems/simulation.h"
+#include "systems/skinning/place_skin.h"
+#include "systems/surfaces/skin_writer.h"
+
+namespace mobil::skin_test {
+using namespace geometry;
+
+constexpr std::array details = {SkinDetail::hero, SkinDetail::near, SkinDetail::far, SkinDetail::distant};
+
+struct Placed {
+  std::vector<Vec3<float>> position, normal;
+};
+
+Placed place(const BodySkin& skin, const Pose<float>& pose) {
+  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  Placed to{std::vector<Vec3<float>>(skin.rest.size()), std::vector<Vec3<float>>(skin.rest.size())};
+  std::vector<FrameMap> maps(mesh.frame.size());
+  frame_maps(mesh, skin, pose, 1, {0, 0, 0}, maps);
+  constexpr std::size_t stride = sizeof(Vec3<float>);
+  place_skin(mesh, skin, maps,
+             {std::as_writable_bytes(std::span(to.position)).data(),
+              std::as_writable_bytes(std::span(to.normal)).data(), stride, stride});
+  return to;
+}
+
+double volume(const BodySkin& skin, const std::vector<Vec3<float>>& position) {
+  std::vector<Vec> place;
+  for (const Vec3<float>& p : position) place.push_back(to_double(p));
+  return enclosed_volume(skin_mesh(skin.sex, skin.detail).triangle, place);
+}
+
+BodyRequest person(float height_m, float mass_kg, Sex sex = Sex::man) {
+  BodyRequest body{.height_m = height_m, .mass_kg = mass_kg};
+  body.sex = sex;
+  return body;
+}
+
+/// Two men and two women of usual build, and who is thin and heavy.
+const std::array<BodyRequest, 6> people = {person(1.75F, 75), person(1.90F, 84),  person(1.65F, 62, Sex::woman),
+                                           person(1.75F, 58), person(1.75F, 105), person(1.60F, 85, Sex::woman)};
+
+/// Standing, with both knees, hips and elbows bent by so many rad.
+Pose<float> bent(const Body& body, float knee, float hip, float elbow) {
+  const Pose<float> standing = standing_pose(body);
+  Pose<float> pose = standing;
+  const auto about_x = [](float angle) { return Quat<float>{std::sin(angle / 2), 0, 0, std::cos(angle / 2)}; };
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const Segment segment = static_cast<Segment>(s);
+    const std::size_t parent = index(segment_parent[s]);
+    if (s == parent) continue;
+    Quat<float> turn{0, 0, 0, 1};
+    if (segment == Segment::thigh_right || segment == Segment::thigh_left) turn = about_x(-hip);
+    if (segment == Segment::shank_right || segment == Segment::shank_left) turn = about_x(knee);
+    if (segment == Segment::forearm_right || segment == Segment::forearm_left) turn = about_x(-elbow);
+    pose.rotation[s] = product(pose.rotation[parent], turn);
+    pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
+  }
+  return pose;
+}
+
+TEST(Skin, IsClosedAndBoundEverywhere) {
+  for (const Sex sex : {Sex::man, Sex::woman}) {
+    for (const SkinDetail detail : details) {
+      const SkinMesh& mesh = skin_mesh(sex, detail);
+      std::map<std::pair<std::uint32_t, std::uint32_t>, int> edge;
+      for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          const std::uint32_t a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
+          ASSERT_LT(a, mesh.vertex.size());
+          ++edge[{a, b}];
+        }
+      }
+      std::size_t open = 0;
+      for (const auto& [ends, count] : edge) {
+        const auto other = edge.find({ends.second, ends.first});
+        if (other == edge.end() || other->second != count) ++open;
+      }
+      EXPECT_EQ(open, 0U);
+      EXPECT_EQ(mesh.first_triangle[skin_parts], mesh.triangle.size() / 3);
+      EXPECT_TRUE(std::ranges::is_sorted(mesh.first_triangle));
+      for (const SkinVertex& vertex : mesh.vertex) {
+        float sum = 0;
+        for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+          sum += vertex.weight[k];
+          ASSERT_LT(vertex.frame[k], mesh.frame.size());
+        }
+        ASSERT_NEAR(sum, 1, 1e-5F);
+      }
+    }
+  }
+}
+
+TEST(Skin, WeighsWhatThePersonDoes) {
+  for (const BodyRequest& request : people) {
+    const Body body = *make_body(request);
+    const BodySkin skin = *make_body_skin(body, SkinDetail::near, {.dressed = false});
+    const double litres = 1e3 * volume(skin, skin.rest);
+    // What is lost in lungs and won by density: between 0.98 and 1.08 litres a kilogram, air apart.
+    const double air = request.sex == Sex::woman ? 2.24 * static_cast<double>(request.height_m) - 0.975
+                                                 : 2.34 * static_cast<double>(request.height_m) - 0.84;
+    const double density = static_cast<double>(request.mass_kg) / (litres - air);
+    std::printf("[ skin ] %.2f m, %.0f kg: %.1f l, %.3f kg/l\n", static_cast<double>(request.height_m),
+                static_cast<double>(request.mass_kg), litres, density);
+    EXPECT_GT(density, 0.98);
+    EXPECT_LT(density, 1.09);
+  }
+}
+
+/// Whether an arm carries it.
+bool is_arms(const SkinMesh& mesh, std::uint32_t vertex) {
+  return mesh.frame[mesh.vertex[vertex].frame[0]].to >= index(Segment::clavicle_right);
+}
+
+/// Length round trunk, neck or the legs between two x at the height y.
+double tape(const BodySkin& skin, double y, double from_x, double to_x) {
+  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  std::vector<std::array<double, 2>> cut;
+  for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    if (is_arms(mesh, mesh.triangle[t])) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec a = to_double(skin.rest[mesh.triangle[t + k]]),
+                b = to_double(skin.rest[mesh.triangle[t + (k + 1) % 3]]);
+      if ((a.y < y) == (b.y < y)) continue;
+      const Vec p = a + ((y - a.y) / (b.y - a.y)) * (b - a);
+      if (p.x > from_x && p.x < to_x) cut.push_back({p.x, p.z});
+    }
+  }
+  // A tape spans hollows: the convex hull.
+  std::ranges::sort(cut);
+  double length_m = 0;
+  for (const int sense : {1, -1}) {
+    std::vector<std::array<double, 2>> hull;
+    for (const auto& p : cut) {
+      while (hull.size() > 1) {
+        const auto &a = hull[hull.size() - 2], &b = hull.back();
+        if (sense * ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])) > 0) break;
+        hull.pop_back();
+      }
+      hull.push_back(p);
+    }
+    for (std::size_t i = 1; i < hull.size(); ++i)
+      length_m += std::hypot(hull[i][0] - hull[i - 1][0], hull[i][1] - hull[i - 1][1]);
+  }
+  return length_m;
+}
+
+TEST(Skin, HasTheGirthsOfTheSurvey) {
+  for (const BodyRequest& request : people) {
+    const Body body = *make_body(request);
+    const BodySkin skin = *make_body_skin(body, SkinDetail::hero, {.dressed = false});
+    const BodyMeasures m = body_measures(request);
+    const form::LegForm leg(body, m, false);
+    const double size = static_cast<double>(request.height_m) / 1.75, far = 0.01;
+    struct Girth {
+      const char* name;
+      double y, from_x, to_x, wanted, tolerance;
+    };
+    const std::array<Girth, 6> girths = {{{"lower thigh", leg.y(0.86), -1, -far, m.lower_thigh_girth, 0.02},
+                                          {"calf", leg.y(1.36), -1, -far, m.calf_girth, 0.02},
+                                          {"ankle", leg.y(1.84), -1, -far, m.ankle_girth, 0.04},
+                                          {"waist", 1.057 * size, -1, 1, m.waist_girth, 0.11},
+                                          {"neck", 1.515 * size, -1, 1, m.neck_girth, 0.05},
+                                          {"chest", 1.287 * size, -1, 1, m.chest_girth, 0.06}}};
+    for (const Girth& girth : girths) {
+      const double got = tape(skin, girth.y, girth.from_x, girth.to_x);
+      std::printf("[ girth ] %.2f m, %.0f kg, %s: %.0f mm, %+.1f %%\n", static_cast<double>(request.height_m),
+                  static_cast<double>(request.mass_kg), girth.name, 1e3 * got, 100 * (got / girth.wanted - 1));
+      EXPECT_NEAR(got / girth.wanted, 1, girth.tolerance) << girth.name;
+    }
+  }
+}
+
+TEST(Skin, StandsAsItWasMadeAndMovesAsAWhole) {
+  const Body body = *make_body(people[2]);
+  const BodySkin skin = *make_body_skin(body, SkinDetail::near);
+  const Pose<float> standing = standing_pose(body);
+  const Placed at_rest = place(skin, standing);
+  Pose<float> moved = standing;
+  const Quat<float> turn{0, std::sin(0.6F), 0, std::cos(0.6F)};
+  const Vec3<float> shift{3, 0.5F, -2};
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    moved.rotation[s] = product(turn, moved.rotation[s]);
+    moved.position_m[s] = rotated(turn, moved.position_m[s]) + shift;
+  }
+  const Placed there = place(skin, moved);
+  for (std::size_t v = 0; v < skin.rest.size(); ++v) {
+    ASSERT_LT(length(at_rest.position[v] - skin.rest[v]), 2e-6F);
+    ASSERT_LT(length(there.position[v] - (rotated(turn, skin.rest[v]) + shift)), 5e-6F);
+    ASSERT_NEAR(length(at_rest.normal[v]), 1, 1e-5F);
+  }
+}
+
+/// How much of a surface's area, of one part, is turned against its normals.
+double folded(const BodySkin& skin, const Placed& placed) {
+  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  double wrong = 0, all = 0;
+  for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+    const std::uint32_t* v = &mesh.triangle[t];
+    const auto& p = placed.position;
+    const Vec3<float> twice = cross(p[v[1]] - p[v[0]], p[v[2]] - p[v[0]]);
+    const Vec3<float> n = placed.normal[v[0]] + placed.normal[v[1]] + placed.normal[v[2]];
+    all += static_cast<double>(length(twice));
+    if (dot(twice, n) < 0) wrong += static_cast<double>(length(twice));
+  }
+  return wrong / all;
+}
+
+TEST(Skin, KeepsItsVolumeAndDoesNotFold) {
+  const Body body = *make_body(people[0]);
+  const BodySkin skin = *make_body_skin(body, SkinDetail::hero, {.dressed = false});
+  const double at_rest = volume(skin, skin.rest);
+  struct Bend {
+    float knee_deg, hip_deg, elbow_deg;
+    double change, folds;
+  };
+  constexpr std::array<Bend, 5> bends = {{{0, 0, 0, 1e-4, 0.003},
+                                          {30, 20, 20, 0.01, 0.004},
+                                          {60, 30, 40, 0.02, 0.006},
+                                          {90, 90, 70, 0.04, 0.02},
+                                          {110, 60, 90, 0.05, 0.02}}};
+  for (const Bend& bend : bends) {
+    constexpr float rad = 3.14159265F / 180;
+    const Placed placed = place(skin, bent(body, bend.knee_deg * rad, bend.hip_deg * rad, bend.elbow_deg * rad));
+    const double change = volume(skin, placed.position) / at_rest - 1, folds = folded(skin, placed);
+    std::printf("[ bend ] knee %.0f, hip %.0f, elbow %.0f: volume %+.2f %%, folded %.2f %% of the area\n",
+                static_cast<double>(bend.knee_deg), static_cast<double>(bend.hip_deg),
+                static_cast<double>(bend.elbow_deg), 100 * change, 100 * folds);
+    EXPECT_LT(std::abs(change), bend.change);
+    EXPECT_LT(folds, bend.folds);
+  }
+}
+
+TEST(Skin, ChangesItsVolumeLittleInAWalk) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn({});
+  const BodySkin skin = *make_body_skin(simulation.human(human)->body, SkinDetail::far);
+  const double at_rest = volume(skin, skin.rest);
+  double least = 1e9, most = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    simulation.tick();
+    const double now = volume(skin, place(skin, *simulation.get<Pose>(human)).position);
+    least = std::min(least, now);
+    most = std::max(most, now);
+  }
+  std::printf("[ stride ] volume %+.2f to %+.2f %%\n", 100 * (least / at_rest - 1), 100 * (most / at_rest - 1));
+  EXPECT_LT((most - least) / at_rest, 0.02);
+  EXPECT_NEAR(least / at_rest, 1, 0.03);
+}
+
+TEST(Skin, HidesTheBones) {
+  for (const BodyRequest& request : {people[0], people[2]}) {
+    const Body body = *make_body(request);
+    const form::BodyForm form(body, trunk_fullness(body));
+    const Pose<float> standing = standing_pose(body);
+    for (const BoneSurface& bone : make_bone_surfaces(body)) {
+      double out = -1;
+      for (const Vec3<float>& p : bone.mesh.position)
+        out = std::max(out, form.rest_distance(to_double(p + standing.position_m[index(bone.segment)])));
+      EXPECT_LT(out, 0.008) << bone.mesh.name;
+    }
+  }
+}
+
+TEST(SkinWriter, WritesTheSameForAnyThreadsAndRefusesWhatItCannot) {
+  Simulation simulation;
+  BodySkins skins;
+  std::vector<Entity> walkers;
+  std::vector<SkinRequest> requests;
+  std::vector<std::vector<float>> buffer;
+  for (int i = 0; i < 5; ++i) {
+    SpawnRequest request;
+    request.body = person(1.6F + 0.07F * static_cast<float>(i), 60 + 8 * static_cast<float>(i));
+    request.x_m = static_cast<float>(i);
+    std::array<Entity, 1> one{};
+    ASSERT_TRUE(simulation.spawn({&request, 1}, one));
+    walkers.push_back(one[0]);
+    const auto shape = skins.of(request.body, SkinDetail::distant);
+    ASSERT_TRUE(shape);
+    buffer.emplace_back(6 * shape->skin->rest.size(), -1.0F);
+    requests.push_back({one[0], *shape});
+  }
+  for (int i = 0; i < 30; ++i) simulation.tick();
+  const auto aim = [&](std::vector<std::vector<float>>& to) {
+    for (std::size_t i = 0; i < requests.size(); ++i) {
+      const auto bytes = std::as_writable_bytes(std::span(to[i]));
+      requests[i].positions = {bytes, 24};
+      requests[i].normals = {bytes.subspan(12), 24};
+    }
+  };
+  auto other = buffer;
+  aim(buffer);
+  SkinWriter writer;
+  ASSERT_TRUE(writer.write(simulation.world(), requests));
+  aim(other);
+  ASSERT_TRUE(writer.write(simulation.world(), requests, Threads(2).jobs()));
+  EXPECT_EQ(buffer, other);
+
+  auto short_one = requests;
+  short_one[3].positions.bytes = short_one[3].positions.bytes.first(100);
+  const auto refused = writer.write(simulation.world(), short_one);
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("request 3"), std::string::npos) << refused.error().message;
+  ASSERT_TRUE(simulation.despawn({walkers.data() + 1, 1}));
+  const auto gone = writer.write(simulation.world(), requests);
+  ASSERT_FALSE(gone);
+  EXPECT_EQ(gone.error().status, Status::stale_entity);
+  EXPECT_FALSE(skins.of(person(3, 75), SkinDetail::far));
+}
+
+TEST(BodyMeasures, AreThoseOfTheSurveysMeanPeople) {
+  // ANSUR II, means of 3348 men under 40 (1.756 m, 85.5 kg): girths of thigh, calf, waist, chest, mm.
+  const BodyMeasures man = body_measures(person(1.7562F, 85.52F));
+  EXPECT_NEAR(1e3 * man.thigh_girth, 624, 8);
+  EXPECT_NEAR(1e3 * man.calf_girth, 391, 5);
+  EXPECT_NEAR(1e3 * man.waist_girth, 927, 15);
+  EXPECT_NEAR(1e3 * man.chest_girth, 1050, 12);
+  // Of all 1986 women (1.6285 m, 67.76 kg): foot length and breadth, hand breadth.
+  const BodyMeasures woman = body_measures(person(1.6285F, 67.76F, Sex::woman));
+  EXPECT_NEAR(1e3 * woman.foot_length, 246.3, 1.5);
+  EXPECT_NEAR(1e3 * woman.foot_breadth, 92.7, 1);
+  EXPECT_NEAR(1e3 * woman.hand_breadth, 78.2, 1);
+  EXPECT_GT(woman.hip_breadth, body_measures(person(1.6285F, 67.76F)).hip_breadth);
+}
+
+}  // namespace mobil::skin_test

@@ -28,7 +28,22 @@ std::size_t cloth(Segment segment) {
   return static_cast<std::size_t>(cloth_of(segment));
 }
 
+/// Which of its palette each cloth has.
+std::array<std::size_t, cloth_count> chosen_colours(std::uint64_t number) {
+  CrowdRandom random(0, number, colour_stream);
+  std::array<std::size_t, cloth_count> chosen{};
+  for (std::size_t c = 0; c < palette.size(); ++c) chosen[c] = random.below(palette[c].size());
+  return chosen;
+}
+
 }  // namespace
+
+std::array<Colour, cloth_count> mannequin_colours(std::uint64_t number) {
+  const auto chosen = chosen_colours(number);
+  std::array<Colour, cloth_count> colours{};
+  for (std::size_t c = 0; c < cloth_count; ++c) colours[c] = palette[c][chosen[c]];
+  return colours;
+}
 
 Mannequins::Mannequins() {
   const auto body = make_body(far_body);
@@ -46,9 +61,7 @@ void Mannequins::clear() {
 
 void Mannequins::add(const Pose<float>& pose, float height_m, float mass_kg, std::uint64_t number) {
   const Vec3<float> scale = far_scale(height_m, mass_kg);
-  CrowdRandom random(0, number, colour_stream);
-  std::array<std::size_t, palette.size()> chosen{};
-  for (std::size_t c = 0; c < palette.size(); ++c) chosen[c] = random.below(palette[c].size());
+  const auto chosen = chosen_colours(number);
   for (std::size_t i = 0; i < shapes_.size(); ++i) {
     const Segment segment = shapes_[i].segment;
     const std::size_t s = index(segment);

@@ -1,15 +1,20 @@
 #pragma once
 // People as they look from afar: smooth bodies of one shape a segment, the same for everybody but for size and colour.
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
+#include "assets/surfaces/figure_shapes.h"
 #include "components/body.h"
 #include "components/pose.h"
 #include "components/surface.h"
 #include "systems/capture/scene.h"
 
 namespace mobil {
+
+/// What somebody of that number wears, by Cloth.
+std::array<Colour, cloth_count> mannequin_colours(std::uint64_t number);
 
 class Mannequins {
  public:

@@ -64,6 +64,7 @@ std::string bvh_text(const WalkRecording& recording) {
   for (std::size_t s = 0; s < segment_count; ++s) {
     std::vector<Eigen::Quaterniond> local;
     const auto& rotation = keys.segment[s].rotation;
+    local.reserve(rotation.size());
     for (const auto& q : rotation) {
       local.emplace_back(static_cast<double>(q.w), static_cast<double>(q.x), static_cast<double>(q.y),
                          static_cast<double>(q.z));

@@ -117,6 +117,8 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto eyes = read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5);
   if (!eyes) return tl::unexpected(eyes.error());
   options.eye_distance_m = *eyes;
+  if (text.eye_distance != WalkText{}.eye_distance && !text.stereo)
+    return fail("--eye-distance: is of pictures for two eyes; add --stereo, or leave it out");
 
   const auto body = read_body_options(text.body);
   if (!body) return tl::unexpected(body.error());

@@ -99,7 +99,8 @@ TEST(WalkFormats, WhatIsRefusedIsOneLine) {
                   {"--export a.bvh --export a.bvh", {"--export a.bvh", "twice"}},
                   {"--export ''", {"--export", "empty"}},
                   {"--export a.sto --no-forces", {"--export a.sto", "--no-forces"}},
-                  {"--eye-distance 1m", {"--eye-distance", "0.001 to 0.5 m"}}},
+                  {"--eye-distance 1m", {"--eye-distance", "0.001 to 0.5 m"}},
+                  {"--eye-distance 7cm", {"--eye-distance", "--stereo"}}},
                  folder.path);
   expect_refused("crowd",
                  {{"--export crowd.bvh", {"--export crowd.bvh", ".glb, .usda"}},

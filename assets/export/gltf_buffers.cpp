@@ -15,7 +15,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "a GLB holds little-endian numbers");
 
-enum Array : int { vertex_array = 0, index_array = 1, key_array = 2 };
+enum Array : int { vertex_array, texture_array, skin_array, index_array, key_array, bind_array };
+constexpr std::size_t array_count = 6;
 
 template <class T>
 std::size_t append(std::vector<unsigned char>& bytes, const T* value, std::size_t count) {
@@ -50,13 +51,21 @@ void set_bounds(tinygltf::Accessor& accessor, const float* value, std::size_t wi
 
 /// Joins the arrays.
 Result<void> pack_buffers(GltfDraft& draft) {
-  const std::array<std::vector<unsigned char>*, 3> arrays = {&draft.vertices, &draft.indices, &draft.keys};
-  const std::array<int, 3> target = {TINYGLTF_TARGET_ARRAY_BUFFER, TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, 0};
-  std::array<int, 3> view_of{-1, -1, -1};
-  const std::size_t total = draft.vertices.size() + draft.indices.size() + draft.keys.size();
+  const std::array<std::vector<unsigned char>*, array_count> arrays = {&draft.vertices, &draft.texture, &draft.skin,
+                                                                       &draft.indices,  &draft.keys,    &draft.binds};
+  constexpr std::array<int, array_count> target = {TINYGLTF_TARGET_ARRAY_BUFFER,
+                                                   TINYGLTF_TARGET_ARRAY_BUFFER,
+                                                   TINYGLTF_TARGET_ARRAY_BUFFER,
+                                                   TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
+                                                   0,
+                                                   0};
+  constexpr std::array<std::size_t, array_count> stride = {3 * sizeof(float), 2 * sizeof(float), 4, 0, 0, 0};
+  std::array<int, array_count> view_of{};
+  std::size_t total = 0;
+  for (const auto* array : arrays) total += array->size();
   if (total == 0) return {};
   if (total > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames or coarser surfaces");
+    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames, people or triangles");
   }
   tinygltf::Buffer buffer;
   buffer.data.reserve(total);
@@ -67,7 +76,7 @@ Result<void> pack_buffers(GltfDraft& draft) {
     view.byteOffset = buffer.data.size();
     view.byteLength = arrays[a]->size();
     view.target = target[a];
-    if (a == vertex_array) view.byteStride = 3 * sizeof(float);
+    view.byteStride = stride[a];
     view_of[a] = static_cast<int>(draft.model.bufferViews.size());
     draft.model.bufferViews.push_back(std::move(view));
     buffer.data.insert(buffer.data.end(), arrays[a]->begin(), arrays[a]->end());
@@ -91,6 +100,36 @@ int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bou
   return accessor;
 }
 
+int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place) {
+  std::vector<float> value;
+  value.reserve(2 * place.size());
+  for (const TexturePlace& p : place) value.insert(value.end(), {p.along, p.around});
+  const std::size_t offset = append(draft.texture, value.data(), value.size());
+  return add_accessor(draft, texture_array, offset, place.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
+}
+
+SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uint8_t, 4>>& joint,
+                         const std::vector<std::array<float, 4>>& weight) {
+  std::vector<std::uint8_t> joints(4 * joint.size(), 0), weights(4 * joint.size(), 0);
+  for (std::size_t v = 0; v < joint.size(); ++v) {
+    int left = 255;
+    for (std::size_t k = 4; k-- > 0;) {  // the first, which is the heaviest, takes what rounding leaves
+      const int share = k == 0 ? left : std::min(left, static_cast<int>(std::lround(255 * weight[v][k])));
+      left -= share;
+      weights[4 * v + k] = static_cast<std::uint8_t>(share);
+      joints[4 * v + k] = share == 0 ? std::uint8_t{0} : joint[v][k];
+    }
+  }
+  const auto add = [&](const std::vector<std::uint8_t>& value) {
+    const std::size_t offset = append(draft.skin, value.data(), value.size());
+    return add_accessor(draft, skin_array, offset, joint.size(), TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                        TINYGLTF_TYPE_VEC4);
+  };
+  const SkinAccessors added{add(joints), add(weights)};
+  draft.model.accessors.back().normalized = true;
+  return added;
+}
+
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count) {
   if (vertex_count > 65535) {  // index 65535 itself restarts a primitive
     const std::size_t offset = append(draft.indices, triangle.data(), triangle.size());
@@ -106,12 +145,17 @@ int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, st
 }
 
 int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool with_bounds) {
-  const std::size_t width = type == TINYGLTF_TYPE_VEC4 ? 4 : type == TINYGLTF_TYPE_VEC3 ? 3 : 1;
+  const auto width = static_cast<std::size_t>(tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type)));
   const std::size_t offset = append(draft.keys, value.data(), value.size());
   const int accessor =
       add_accessor(draft, key_array, offset, value.size() / width, TINYGLTF_COMPONENT_TYPE_FLOAT, type);
   if (with_bounds) set_bounds(draft.model.accessors.back(), value.data(), width);
   return accessor;
+}
+
+int add_bind_matrices(GltfDraft& draft, const std::vector<float>& matrix) {
+  const std::size_t offset = append(draft.binds, matrix.data(), matrix.size());
+  return add_accessor(draft, bind_array, offset, matrix.size() / 16, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_MAT4);
 }
 
 void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,

@@ -1,30 +1,44 @@
 #pragma once
-// Numbers on their way into a GLB: three growing byte arrays and the accessors that point into them.
+// Numbers on their way into a GLB: growing byte arrays and the accessors that point into them.
 
 #include <tiny_gltf.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "assets/surfaces/texture_places.h"
 #include "engine/error.h"
 
 namespace mobil {
 
-/// A model whose accessors' `bufferView` is one of the three arrays until glb_bytes has run.
+/// A model whose accessors' `bufferView` is one of the arrays until glb_bytes has run. A view of vertices has one
+/// stride, so that texture places (8 bytes) and joints (4) have arrays of their own.
 struct GltfDraft {
   tinygltf::Model model;
-  std::vector<unsigned char> vertices, indices, keys;
+  std::vector<unsigned char> vertices, texture, skin, indices, keys, binds;
 };
 
 /// Each adds one accessor and returns its number. Vertices: VEC3 floats; `with_bounds` writes min and max, which
 /// positions (morphed ones too) and key times must have. Indices: 16 bits wide where `vertex_count` allows it.
 int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds);
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count);
+/// VEC2 floats: along, around.
+int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place);
+/// Each vertex follows up to four joints of its skin; weights as bytes, which add up to 255.
+struct SkinAccessors {
+  int joints, weights;
+};
+SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uint8_t, 4>>& joint,
+                         const std::vector<std::array<float, 4>>& weight);
 /// `type` is TINYGLTF_TYPE_SCALAR, _VEC3 or _VEC4.
 int add_keys(GltfDraft& draft, const std::vector<float>& value, int type, bool with_bounds);
+
+/// Inverse bind matrices of a skin, sixteen numbers each, column by column.
+int add_bind_matrices(GltfDraft& draft, const std::vector<float>& matrix);
 
 /// An animation of so many frames, evenly in time; all its channels share one list of key times, made with the first.
 struct GltfAnimation {
@@ -38,7 +52,7 @@ struct GltfAnimation {
 void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std::string& path,
                  const std::vector<float>& value, int type);
 
-/// Joins the three arrays into the one buffer of a GLB, a view for each that is not empty, and encodes it. Errors: more
+/// Joins the arrays into the one buffer of a GLB, a view for each that is not empty, and encodes it. Errors: more
 /// than 2 GiB, names that are not UTF-8.
 Result<std::string> glb_bytes(GltfDraft& draft);
 

@@ -1,5 +1,5 @@
 #pragma once
-// A recorded walk as one GLB file (glTF 2.0, binary): nested segments, bones, and muscles as morph targets.
+// Recorded walks as one GLB file (glTF 2.0, binary): a skin over nested joints, bones, and muscles as morph targets.
 
 #include <cstddef>
 #include <filesystem>
@@ -30,12 +30,22 @@ struct ExportReport {
   std::vector<MuscleFidelity> muscles;  // in the recording's order
 };
 
-/// Writes `path`, whole or not at all. The 48 segments become nested nodes of the same names; joint rotations are
-/// keyed at every frame, translations only where the offset from the parent changes. Every bone and muscle is a child
-/// node of its segment with a mesh of its name. A muscle rests in its mean shape; the targets are the principal
-/// components of its displacement in the segment's frame. The same recording gives the same bytes.
-/// Errors: no frames, a value that is not finite, a surface that does not fit together, a file that cannot be written.
+/// Writes `path`, whole or not at all. A person is a root node of their name, which may be moved, with the 48 segments
+/// as nested nodes under it; these are the joints of one skin, whose bind pose is the standing body (standing_places in
+/// skeleton_keys.h). Joint rotations are keyed at every frame, translations only where the offset from the parent
+/// changes. Bones are one mesh, "bones", of which each vertex follows its segment; every muscle is a mesh of its name,
+/// which follows its segment, rests in its mean shape and has as targets the principal components of its displacement
+/// in the segment's frame. Nodes of these meshes stand beside the root, as glTF wants it of skinned ones. TEXCOORD_0 is
+/// along and around each bone or muscle (folded, texture_places.h). No name is there twice. The same recording gives
+/// the same bytes. Errors: no frames, a value that is not finite, a surface that does not fit together, a file that
+/// cannot be written. Format: Khronos glTF 2.0 specification.
 Result<ExportReport> write_glb(const std::filesystem::path& path, const WalkRecording& recording,
+                               const ExportOptions& options = {});
+
+/// The same of several people, all in one animation. Names of somebody's parts begin with theirs: "anna_thigh_right".
+/// A figure's vertices are written once for all who look like that; how large each is is told by their skin. A mesh of
+/// people with colours of their own is called "figure".
+Result<ExportReport> write_glb(const std::filesystem::path& path, const CrowdRecording& recording,
                                const ExportOptions& options = {});
 
 }  // namespace mobil

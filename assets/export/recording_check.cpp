@@ -4,9 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string>
+#include <vector>
 
 namespace mobil {
 namespace {
+
+constexpr std::size_t most_cloths = 256;
 
 bool finite(const Vec3<float>& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
@@ -16,16 +21,23 @@ bool all_finite(const std::vector<Vec3<float>>& positions) {
   return std::all_of(positions.begin(), positions.end(), finite);
 }
 
-Result<void> check_poses(const WalkRecording& recording) {
-  for (std::size_t f = 0; f < recording.frames.size(); ++f) {
+Result<void> check_poses(const std::string& name, const std::vector<Pose<float>>& frames) {
+  for (std::size_t f = 0; f < frames.size(); ++f) {
     for (std::size_t s = 0; s < segment_count; ++s) {
-      const auto& q = recording.frames[f].rotation[s];
+      const auto& q = frames[f].rotation[s];
       const float length = std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-      if (!finite(recording.frames[f].position_m[s]) || !std::isfinite(length) || std::fabs(length - 1.0F) > 0.01F) {
+      if (!finite(frames[f].position_m[s]) || !std::isfinite(length) || std::fabs(length - 1.0F) > 0.01F) {
         return fail(
-            fmt::format("frame {} of the recording: {} has no finite position and unit rotation", f, segment_name[s]));
+            fmt::format("frame {} of {}: {} has no finite position and unit rotation", f, name, segment_name[s]));
       }
     }
+  }
+  return {};
+}
+
+Result<void> check_colour(const std::string& whose, const Vec3<float>& colour) {
+  for (const float c : {colour.x, colour.y, colour.z}) {
+    if (!(c >= 0.0F && c <= 1.0F)) return fail(fmt::format("{}: colour {} is outside 0–1", whose, c));
   }
   return {};
 }
@@ -51,11 +63,7 @@ Result<void> check_muscle(const RecordedMuscle& muscle, std::size_t frame_count)
     return fail(fmt::format("muscle '{}': {} frames, the recording has {}; record each muscle in every frame",
                             muscle.name, muscle.position_m.size(), frame_count));
   }
-  for (const float c : {muscle.colour.x, muscle.colour.y, muscle.colour.z}) {
-    if (!(c >= 0.0F && c <= 1.0F)) {
-      return fail(fmt::format("muscle '{}': colour {} is outside 0–1", muscle.name, c));
-    }
-  }
+  if (auto ok = check_colour(fmt::format("muscle '{}'", muscle.name), muscle.colour); !ok) return ok;
   const std::size_t vertex_count = muscle.position_m.front().size();
   for (std::size_t f = 0; f < frame_count; ++f) {
     if (muscle.position_m[f].size() != vertex_count) {
@@ -69,24 +77,92 @@ Result<void> check_muscle(const RecordedMuscle& muscle, std::size_t frame_count)
   return check_triangles(muscle.name, muscle.segment, muscle.triangle, vertex_count);
 }
 
+Result<void> check_skin(const SkinnedSurface& surface) {
+  const std::size_t vertices = surface.position.size();
+  if (!all_finite(surface.position)) return fail(fmt::format("skin '{}': a vertex is not finite", surface.name));
+  if (surface.normal.size() != vertices || surface.joint.size() != vertices || surface.weight.size() != vertices) {
+    return fail(fmt::format("skin '{}': {} vertices, {} normals, {} joints, {} weights; give each vertex all of them",
+                            surface.name, vertices, surface.normal.size(), surface.joint.size(),
+                            surface.weight.size()));
+  }
+  for (std::size_t v = 0; v < vertices; ++v) {
+    float sum = 0;
+    for (std::size_t k = 0; k < 4; ++k) {
+      sum += surface.weight[v][k];
+      if (surface.joint[v][k] < segment_count && surface.weight[v][k] >= 0) continue;
+      return fail(fmt::format("skin '{}': vertex {} follows segment {} by {}", surface.name, v, surface.joint[v][k],
+                              surface.weight[v][k]));
+    }
+    if (!(std::fabs(sum - 1) < 1e-3F))
+      return fail(fmt::format("skin '{}': the weights of vertex {} add up to {}", surface.name, v, sum));
+  }
+  if (surface.cloth >= most_cloths) {
+    return fail(fmt::format("skin '{}': cloth {}; the range is 0–{}", surface.name, surface.cloth, most_cloths - 1));
+  }
+  return check_triangles(surface.name, Segment::pelvis, surface.triangle, vertices);
+}
+
+Result<void> check_figure(const SeenFigure& figure) {
+  if (!figure.cloth.empty() && figure.cloth.size() != figure.surfaces.size()) {
+    return fail(fmt::format("a figure has {} surfaces and {} cloths; give each surface one, or none at all",
+                            figure.surfaces.size(), figure.cloth.size()));
+  }
+  for (std::size_t i = 0; i < figure.surfaces.size(); ++i) {
+    const auto& [segment, mesh] = figure.surfaces[i];
+    if (!all_finite(mesh.position)) return fail(fmt::format("bone '{}': a vertex is not finite", mesh.name));
+    if (auto ok = check_triangles(mesh.name, segment, mesh.triangle, mesh.position.size()); !ok) return ok;
+    if (figure.cloth_of(i) >= most_cloths) {
+      return fail(fmt::format("bone '{}': cloth {}; the range is 0–{}", mesh.name, figure.cloth[i], most_cloths - 1));
+    }
+  }
+  for (const SkinnedSurface& surface : figure.skin) {
+    if (auto ok = check_skin(surface); !ok) return ok;
+  }
+  return {};
+}
+
+Result<void> check_person(const RecordedPeople& recorded, const SeenPerson& person) {
+  const auto& frames = *person.frames;
+  if (frames.empty()) return fail(fmt::format("the recording of {} has no frames; record at least one", person.name));
+  const std::size_t expected = recorded.people.front().frames->size();
+  if (frames.size() != expected) {
+    return fail(fmt::format("{} has {} frames, {} has {}; record all over the same time", person.name, frames.size(),
+                            recorded.people.front().name, expected));
+  }
+  if (person.figure >= recorded.figures.size()) {
+    return fail(fmt::format("{} looks like figure {} of {}", person.name, person.figure, recorded.figures.size()));
+  }
+  for (const float s : {person.scale.x, person.scale.y, person.scale.z}) {
+    if (!(s >= 0.01F && s <= 100.0F)) {
+      return fail(fmt::format("{}: surfaces scaled by {}; the range is 0.01–100", person.name, s));
+    }
+  }
+  for (const auto& colour : person.colours) {
+    if (auto ok = check_colour(person.name, colour); !ok) return ok;
+  }
+  if (auto ok = check_poses(person.name, frames); !ok) return ok;
+  for (const auto& muscle : person.muscles) {
+    if (auto ok = check_muscle(muscle, frames.size()); !ok) return ok;
+  }
+  return {};
+}
+
 }  // namespace
 
-Result<void> check_recording(const WalkRecording& recording) {
-  if (recording.frames.empty()) return fail("the recording has no frames; record at least one");
-  if (!(recording.frame_s >= 0.001F && recording.frame_s <= 10.0F)) {
-    return fail(fmt::format("frames {} s apart cannot be written; the range is 0.001–10 s", recording.frame_s));
+Result<void> check_recording(const RecordedPeople& recorded) {
+  if (recorded.people.empty()) return fail("the recording has nobody in it; record at least one person");
+  if (!(recorded.frame_s >= 0.001F && recorded.frame_s <= 10.0F)) {
+    return fail(fmt::format("frames {} s apart cannot be written; the range is 0.001–10 s", recorded.frame_s));
   }
-  if (auto ok = check_poses(recording); !ok) return ok;
-  for (const auto& bone : recording.bones) {
-    if (!all_finite(bone.mesh.position)) {
-      return fail(fmt::format("bone '{}': a vertex is not finite", bone.mesh.name));
+  std::set<std::string> names;
+  for (const SeenPerson& person : recorded.people) {
+    if (!names.insert(person.name).second) {
+      return fail(fmt::format("two people are called '{}'; give each a name of their own", person.name));
     }
-    if (auto ok = check_triangles(bone.mesh.name, bone.segment, bone.mesh.triangle, bone.mesh.position.size()); !ok) {
-      return ok;
-    }
+    if (auto ok = check_person(recorded, person); !ok) return ok;
   }
-  for (const auto& muscle : recording.muscles) {
-    if (auto ok = check_muscle(muscle, recording.frames.size()); !ok) return ok;
+  for (const SeenFigure& figure : recorded.figures) {
+    if (auto ok = check_figure(figure); !ok) return ok;
   }
   return {};
 }

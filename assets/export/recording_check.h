@@ -1,13 +1,15 @@
 #pragma once
 // Whether a recording can be written at all.
 
-#include "assets/export/walk_recording.h"
+#include "assets/export/recorded_people.h"
 #include "engine/error.h"
 
 namespace mobil {
 
-/// Errors name the frame, segment or surface: no frames, frame_s outside 0.001–10 s, numbers that are not finite,
-/// rotations of no length, indices outside their surface, muscles whose frames or vertices do not match.
-Result<void> check_recording(const WalkRecording& recording);
+/// Errors name the person, frame, segment or surface: nobody, no frames or another number of them than others have,
+/// frame_s outside 0.001–10 s, a name that somebody else has, a figure that is not there, scales and colours out of
+/// range, numbers that are not finite, rotations of no length, indices outside their surface, muscles whose frames or
+/// vertices do not match.
+Result<void> check_recording(const RecordedPeople& recorded);
 
 }  // namespace mobil

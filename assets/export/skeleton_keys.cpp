@@ -96,4 +96,27 @@ SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames) {
   return keys;
 }
 
+std::array<Eigen::Vector3d, segment_count> standing_places(const SkeletonKeys& skeleton,
+                                                           std::span<const BoneSurface> surfaces) {
+  std::array<Eigen::Vector3d, segment_count> place;
+  place[0].setZero();
+  for (std::size_t s = 1; s < segment_count; ++s) {
+    const auto& offsets = skeleton.segment[s].translation_m;
+    Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+    for (const auto& t : offsets) mean += widened(t);
+    place[s] = place[index(segment_parent[s])] + mean / static_cast<double>(offsets.size());
+  }
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const BoneSurface& surface : surfaces) {
+    for (const auto& p : surface.mesh.position) {
+      lowest = std::min(lowest, place[index(surface.segment)].y() + static_cast<double>(p.y));
+    }
+  }
+  if (surfaces.empty()) {
+    for (const auto& p : place) lowest = std::min(lowest, p.y());
+  }
+  for (auto& p : place) p.y() -= lowest;
+  return place;
+}
+
 }  // namespace mobil

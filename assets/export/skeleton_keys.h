@@ -2,11 +2,14 @@
 // World poses turned into what a nested node hierarchy wants: each segment's offset and rotation from its parent.
 
 #include <Eigen/Geometry>
+#include <array>
+#include <span>
 #include <vector>
 
 #include "components/lanes.h"
 #include "components/pose.h"
 #include "components/segments.h"
+#include "components/surface.h"
 
 namespace mobil {
 
@@ -31,5 +34,11 @@ struct SkeletonKeys {
 /// chain: every recomposed position is within about 5 µm + four roundings of its world position.
 /// Needs at least one frame, finite numbers and rotations of non-zero length.
 SkeletonKeys skeleton_keys(const std::vector<Pose<float>>& frames);
+
+/// Where each segment's origin is while the body stands as anatomists have it, m: no segment is turned, each lies from
+/// its parent as on the mean over the recording, the pelvis at x = z = 0 and so high that the lowest vertex of the
+/// surfaces (the lowest joint, without any) is at y = 0.
+std::array<Eigen::Vector3d, segment_count> standing_places(const SkeletonKeys& skeleton,
+                                                           std::span<const BoneSurface> surfaces);
 
 }  // namespace mobil

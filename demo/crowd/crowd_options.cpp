@@ -6,6 +6,7 @@
 #include <cctype>
 #include <limits>
 
+#include "demo/crowd/crowd_export.h"
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
 
@@ -51,6 +52,26 @@ Result<CrowdEffects> read_effects(const std::string& text) {
   return chosen;
 }
 
+/// What a scene for other programs needs, before minutes of work are done for nothing.
+Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options) {
+  const auto seconds = read_value("--export-seconds", with_unit(text.export_seconds, "s"), Quantity::time, 0.1, 60);
+  if (!seconds) return tl::unexpected(seconds.error());
+  options.export_s = *seconds;
+  if (text.exports.empty()) return {};
+  options.exports.assign(text.exports.begin(), text.exports.end());
+  if (options.raise) return fail("--raise: measures alone; leave --export out");
+  if (options.crowd.churn_per_s > 0 || options.crowd.burst > 0)
+    return fail("--export: nobody may leave while it is recorded; leave --churn and --burst out");
+  const double poses = static_cast<double>(options.crowd.humans) * options.export_s * 30;
+  if (poses > static_cast<double>(most_recorded_poses)) {
+    return fail(
+        fmt::format("--export: {} people for {} s are more than the {} poses that a scene may have; "
+                    "lower --humans or --export-seconds",
+                    options.crowd.humans, options.export_s, most_recorded_poses));
+  }
+  return check_crowd_exports(options.exports);
+}
+
 /// Those who are alive, most of them asleep, have options of their own.
 Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
   const CrowdText usual;
@@ -70,6 +91,7 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
                 {"--near-tolerance", text.near_tolerance != usual.near_tolerance},
                 {"--budget", text.budget != usual.budget},
                 {"--frames", text.frames != usual.frames},
+                {"--export", !text.exports.empty()},
                 {"--all-seen", text.all_seen},
                 {"--raise", text.raise}};
   for (const auto& [name, given] : others)
@@ -120,7 +142,10 @@ std::vector<Option> crowd_options(CrowdText& text) {
        "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", results},
       {"--report", &text.report, "JSON FILE for all figures", results},
       {"--capture", &text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", results},
-      {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", results}};
+      {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", results},
+      {"--export", &text.exports,
+       "FILE.glb or .usda: everybody walking, as a scene for other programs, from the end on; again for both", results},
+      {"--export-seconds", &text.export_seconds, "How long that is, 0.1s to 60s, 30 poses a second", results}};
 }
 
 Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
@@ -181,6 +206,7 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
     return fail(
         fmt::format("--capture {}: a picture's name must end in .png; for a folder give --frames too", text.capture));
   if (options.raise && !options.capture.empty()) return fail("--raise: measures alone; leave --capture out");
+  if (auto done = read_crowd_exports(text, options); !done) return tl::unexpected(done.error());
   if (auto done = read_alive(text, options); !done) return tl::unexpected(done.error());
   return options;
 }

@@ -19,6 +19,8 @@ struct CrowdOptions {
   double seconds = 10;
   std::filesystem::path report, capture;  // empty: none
   std::size_t frames = 0;                 // pictures in a folder; 0: one file
+  std::vector<std::filesystem::path> exports;
+  double export_s = 2;
   bool raise = false;
   std::optional<AliveRequest> alive{};  // instead of the crowd
 };
@@ -27,7 +29,8 @@ struct CrowdOptions {
 struct CrowdText {
   std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
   std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
-  std::string alive, in_view = "10000";
+  std::string alive, in_view = "10000", export_seconds = "2";
+  std::vector<std::string> exports;
   bool all_seen = false, raise = false;
 };
 

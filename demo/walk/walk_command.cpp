@@ -38,7 +38,7 @@ double seconds_since(SteadyClock::time_point start) {
 struct Walked {
   MotionTable motion;
   MuscleTable muscles;
-  WalkRecording recording;
+  WalkRecording recording, ticks;  // pictures with surfaces; where a file asks for them, poses and forces of all ticks
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
   WalkOutcome outcome;
 };
@@ -113,10 +113,25 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
   return {};
 }
 
+/// Begins to record each tick.
+WalkRecording begin_ticks(const Simulation& simulation, const Human& human) {
+  WalkRecording ticks;
+  ticks.frame_s = static_cast<float>(simulation.tick_s());
+  ticks.start_s = simulation.time_s() + simulation.tick_s();
+  ticks.tip_m.assign(human.body.tip_m.begin(), human.body.tip_m.end());
+  return ticks;
+}
+
+void record_tick(const Simulation& simulation, Entity entity, WalkRecording& ticks) {
+  ticks.frames.push_back(*simulation.get<Pose>(entity));
+  if (const auto ground = simulation.get<GroundReaction>(entity)) ticks.ground.push_back(*ground);
+}
+
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
                     const std::vector<ScriptedChange>& changes) {
   Walked walked{MotionTable(options.muscles.activation == ExcitationSource::moments),
                 MuscleTable(has_activation(options.muscles)),
+                {},
                 {},
                 {},
                 {},
@@ -126,6 +141,8 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   outcome.anatomy_said = figure.said;
   tell_style_changes(options.body, options.gait, outcome.style_changes);
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
+  walked.ticks = begin_ticks(simulation, human);
+  const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
   const std::string method = method_label(options.muscles);
   const auto total = static_cast<std::uint32_t>(std::lround(options.seconds / simulation.tick_s()));
   simulation.schedule().reset_timings();
@@ -143,6 +160,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
     steps_before = steps;
     walked.motion.add(motion_row(simulation, human.entity), walk_forces(simulation, human.entity));
     add_muscle_rows(simulation, human, method, walked.muscles);
+    if (all_ticks) record_tick(simulation, human.entity, walked.ticks);
     if (i % ticks_per_frame == 0) {
       show_progress("walking", i + std::size_t{1}, total);
       record_frame(figure, simulation, human, walked.recording);
@@ -180,6 +198,15 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   if (auto done = write_file(folder / "muscles.csv", walked.muscles.text); !done) return done;
   const auto exported = write_glb(folder / "walk.glb", walked.recording);
   if (!exported) return tl::unexpected(exported.error());
+  std::string others;
+  for (const WalkExport& wanted : options.exports) {
+    if (wanted.file == "walk.glb") continue;  // is there
+    show(fmt::format("writing {}", wanted.file));
+    auto done = write_export(wanted, walked.recording, walked.ticks, folder);
+    show("");
+    if (!done) return done;
+    others += " " + one_line(wanted.file);
+  }
   WalkOutcome outcome = walked.outcome;
   outcome.wall_s = seconds_since(start);
   const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
@@ -192,7 +219,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
   fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
              1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
-  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}\n", one_line(options.out.string()),
+  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}{}\n", one_line(options.out.string()), others,
              options.frames ? " frame_*.png" : "", options.video ? " walk.mp4" : "");
   return {};
 }
@@ -234,10 +261,12 @@ Subcommand walk_command() {
   auto text = std::make_shared<WalkText>();
   Subcommand command{.name = "walk",
                      .about = "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures"};
-  command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) +
+  command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) + "\n\n" + walk_exports_help +
                    "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
                    "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
-                   "          mobil walk --method caa --inertia --view wireframe --video";
+                   "          mobil walk --method caa --inertia --view wireframe --video\n"
+                   "          mobil walk --speed 5km/h --export walk.bvh --export walk.usda --export walk.mot --export "
+                   "walk.sto";
   command.options = walk_options(*text);
   command.empty_refused = true;
   command.run = [text] {

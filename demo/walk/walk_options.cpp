@@ -93,9 +93,11 @@ std::vector<Option> walk_options(WalkText& text) {
        "glass "
        "(muscles and bones through the skin)",
        pictures},
-      {"--stereo", &text.stereo, "Left and right eye side by side", pictures},
+      {"--stereo", &text.stereo, "Left and right eye side by side, along parallel axes", pictures},
+      {"--eye-distance", &text.eye_distance, "Between the two eyes of --stereo, 1mm to 0.5m", pictures},
       {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
       {"--video", &text.video, "Write walk.mp4", pictures},
+      {"--export", &text.exports, "NAME.bvh, .usda, .mot …: the walk in that format too, see below; again for more"},
       {"--out", &text.out, "Folder for the results, made if missing"}};
   options.insert(options.end(), own.begin(), own.end());
   return options;
@@ -108,6 +110,19 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.stereo = text.stereo;
   options.forces = !text.no_forces;
   options.out = text.out;
+
+  auto exports = read_exports(text.exports);
+  if (!exports) return tl::unexpected(exports.error());
+  options.exports = std::move(*exports);
+  for (const WalkExport& wanted : options.exports) {
+    if (wanted.format == WalkFormat::sto && text.no_forces)
+      return fail(fmt::format("--export {}: holds the forces of the ground; leave --no-forces out", wanted.file));
+  }
+  const auto eyes = read_value("--eye-distance", text.eye_distance, Quantity::length, 0.001, 0.5);
+  if (!eyes) return tl::unexpected(eyes.error());
+  options.eye_distance_m = *eyes;
+  if (text.eye_distance != WalkText{}.eye_distance && !text.stereo)
+    return fail("--eye-distance: is of pictures for two eyes; add --stereo, or leave it out");
 
   const auto body = read_body_options(text.body);
   if (!body) return tl::unexpected(body.error());

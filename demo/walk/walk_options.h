@@ -11,6 +11,7 @@
 #include "components/leg_muscles.h"
 #include "demo/program/body_options.h"
 #include "demo/program/options.h"
+#include "demo/walk/walk_exports.h"
 #include "demo/walk/walk_script.h"
 #include "engine/error.h"
 
@@ -29,6 +30,8 @@ struct WalkOptions {
   View view = View::surface;
   bool frames = false, video = false, stereo = false;
   std::filesystem::path out = "out";
+  std::vector<WalkExport> exports;
+  double eye_distance_m = 0.063;
 };
 
 /// The options as text, as the command line hands them over; bound by `walk_options`.
@@ -37,7 +40,8 @@ struct WalkText {
   std::string speed, step_length, step_frequency, seconds = "5";
   std::string muscles = "groups", drive = "displacement", method = "ecd", element = "full", activation = "none",
               anatomy, view = "surface", out = "out";
-  std::vector<std::string> set;
+  std::string eye_distance = "63mm";
+  std::vector<std::string> set, exports;
   std::string script;
   bool list_parameters = false, no_forces = false, members = false, tuned = false, inertia = false;
   bool frames = false, video = false, stereo = false;

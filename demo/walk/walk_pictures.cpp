@@ -21,7 +21,6 @@ using namespace geometry;
 
 constexpr int width = 1280, height = 720;
 constexpr Colour line_red{0.80F, 0.16F, 0.12F};
-constexpr float eye_separation_m = 0.064F;
 constexpr float half_stride_s = 0.55F;
 
 /// Where the pelvis is on the mean over a stride's time about each frame: the camera does not sway with every step.
@@ -158,7 +157,7 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
   for (std::size_t frame = 0; frame < drawing.recording->frames.size(); ++frame) {
     fill_scene(drawing, options.view, frame, contents);
     const Camera camera = follow(path[frame], *drawing.body);
-    const StereoPair pair = stereo_pair(camera, eye_separation_m);
+    const StereoPair pair = stereo_pair(camera, static_cast<float>(options.eye_distance_m));
     Scene scene;
     scene.meshes = contents.drawn.meshes;
     scene.lines = contents.lines;

@@ -192,10 +192,14 @@ struct Viewer {
     return parent[n] < 0 ? local : world(static_cast<std::size_t>(parent[n]), f) * local;
   }
 
-  /// POSITION (or NORMAL, before it is normalised) of a mesh with its targets' weights at a key, in its node's frame.
-  std::vector<Vector3d> morphed(std::size_t n, const std::string& attribute, std::size_t f) const {
-    const auto& mesh = model.meshes[static_cast<std::size_t>(model.nodes[n].mesh)];
-    const auto& primitive = mesh.primitives[0];
+  const tinygltf::Mesh& mesh_of(std::size_t n) const {
+    return model.meshes[static_cast<std::size_t>(model.nodes[n].mesh)];
+  }
+
+  /// POSITION (or NORMAL, before it is normalised) of a mesh's primitive with its targets' weights at a key, as bound.
+  std::vector<Vector3d> morphed(std::size_t n, const std::string& attribute, std::size_t f,
+                                std::size_t part = 0) const {
+    const auto& primitive = mesh_of(n).primitives[part];
     const auto base = floats(primitive.attributes.at(attribute));
     std::vector<Vector3d> result(base.size() / 3);
     for (std::size_t v = 0; v < result.size(); ++v) result[v] = vertex(base, v);
@@ -208,6 +212,50 @@ struct Viewer {
       }
     }
     return result;
+  }
+
+  std::vector<std::uint8_t> bytes(int accessor_number) const {
+    const auto& accessor = model.accessors[static_cast<std::size_t>(accessor_number)];
+    const auto& view = model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    EXPECT_EQ(accessor.componentType, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE);
+    const auto* first = model.buffers[0].data.data() + view.byteOffset + accessor.byteOffset;
+    return {first, first + 4 * accessor.count};
+  }
+
+  /// The joint that each vertex follows, all with weight 1.
+  std::vector<std::size_t> joints(std::size_t n, std::size_t part = 0) const {
+    const auto& attributes = mesh_of(n).primitives[part].attributes;
+    const auto joint = bytes(attributes.at("JOINTS_0")), weight = bytes(attributes.at("WEIGHTS_0"));
+    std::vector<std::size_t> followed;
+    for (std::size_t v = 0; v < joint.size(); v += 4) {
+      EXPECT_TRUE(weight[v] == 255 && weight[v + 1] == 0 && weight[v + 2] == 0 && weight[v + 3] == 0) << v / 4;
+      followed.push_back(joint[v]);
+    }
+    return followed;
+  }
+
+  /// What takes a place as bound to where a joint has it at a key.
+  Eigen::Affine3d skinning(std::size_t n, std::size_t joint, std::size_t f) const {
+    const auto& skin = model.skins.at(static_cast<std::size_t>(model.nodes[n].skin));
+    const auto inverse = floats(skin.inverseBindMatrices);
+    const Eigen::Map<const Eigen::Matrix4f> bound(inverse.data() + 16 * joint);
+    EXPECT_EQ(bound.row(3), Eigen::RowVector4f(0, 0, 0, 1));
+    const Eigen::Affine3d world_of(world(static_cast<std::size_t>(skin.joints.at(joint)), f).matrix());
+    return Eigen::Affine3d(world_of.matrix() * bound.cast<double>());
+  }
+
+  /// Where a viewer draws the vertices of a skinned mesh at a key.
+  std::vector<Vector3d> drawn(std::size_t n, std::size_t f, std::size_t part = 0) const {
+    auto shape = morphed(n, "POSITION", f, part);
+    const auto followed = joints(n, part);
+    EXPECT_EQ(followed.size(), shape.size());
+    std::map<std::size_t, Eigen::Affine3d> by_joint;
+    for (std::size_t v = 0; v < shape.size(); ++v) {
+      auto found = by_joint.find(followed[v]);
+      if (found == by_joint.end()) found = by_joint.emplace(followed[v], skinning(n, followed[v], f)).first;
+      shape[v] = found->second * shape[v];
+    }
+    return shape;
   }
 };
 

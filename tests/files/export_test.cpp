@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +17,7 @@
 #include <limits>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -57,22 +59,126 @@ void expect_same_poses(const Viewer& viewer, const std::vector<Pose<float>>& fra
   }
 }
 
-TEST(Export, NodesAreTheSegmentsNestedAsInTheSkeletonWithSurfacesBelowThem) {
+std::string parent_name(const Viewer& viewer, const std::string& name) {
+  const int parent = viewer.parent[viewer.node.at(name)];
+  return parent < 0 ? "" : viewer.model.nodes[static_cast<std::size_t>(parent)].name;
+}
+
+TEST(Export, NodesAreTheSegmentsNestedUnderOneRootAndTheJointsOfOneSkin) {
+  const Folder folder;
+  const auto walk = small_walk();
+  ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
+  const Viewer viewer(folder.path / "walk.glb");  // which finds two nodes of one name
+  ASSERT_EQ(viewer.model.nodes.size(), 1 + segment_count + 1 + walk.muscles.size());
+  ASSERT_EQ(viewer.model.scenes.size(), 1U);
+  EXPECT_EQ(parent_name(viewer, "pelvis"), "walker");
+  for (std::size_t s = 1; s < segment_count; ++s) {
+    EXPECT_EQ(parent_name(viewer, std::string(segment_name[s])), segment_name[index(segment_parent[s])]);
+  }
+  ASSERT_EQ(viewer.model.skins.size(), 1U);
+  const auto& skin = viewer.model.skins[0];
+  EXPECT_EQ(skin.skeleton, static_cast<int>(viewer.node.at("walker")));
+  ASSERT_EQ(skin.joints.size(), segment_count);
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    EXPECT_EQ(viewer.model.nodes[static_cast<std::size_t>(skin.joints[s])].name, segment_name[s]);
+  }
+  std::set<std::string> roots, skinned;
+  for (const int n : viewer.model.scenes[0].nodes) roots.insert(viewer.model.nodes[static_cast<std::size_t>(n)].name);
+  for (const auto& node : viewer.model.nodes) {
+    if (node.mesh >= 0) skinned.insert(node.name);
+    EXPECT_EQ(node.mesh >= 0, node.skin == 0) << node.name;
+  }
+  EXPECT_EQ(skinned, (std::set<std::string>{"bones", "bulging", "travelling", "rigid"}));
+  skinned.insert("walker");
+  EXPECT_EQ(roots, skinned);
+}
+
+TEST(Export, BonesAreDrawnWhereTheirSegmentsAreAndHaveTexturePlaces) {
   const Folder folder;
   const auto walk = small_walk();
   ASSERT_TRUE(write_glb(folder.path / "walk.glb", walk));
   const Viewer viewer(folder.path / "walk.glb");
-  ASSERT_EQ(viewer.model.nodes.size(), segment_count + walk.bones.size() + walk.muscles.size());
-  ASSERT_EQ(viewer.model.scenes.size(), 1U);
-  EXPECT_EQ(viewer.model.scenes[0].nodes, std::vector<int>{static_cast<int>(viewer.node.at("pelvis"))});
-  const auto parent_name = [&](const std::string& name) {
-    return viewer.model.nodes[static_cast<std::size_t>(viewer.parent[viewer.node.at(name)])].name;
-  };
-  for (std::size_t s = 1; s < segment_count; ++s) {
-    EXPECT_EQ(parent_name(std::string(segment_name[s])), segment_name[index(segment_parent[s])]);
+  const auto n = viewer.node.at("bones");
+  for (const std::size_t f : {0U, 7U, 44U}) {
+    const auto drawn = viewer.drawn(n, f);
+    std::size_t v = 0;
+    for (const auto& bone : walk.bones) {
+      const std::size_t s = index(bone.segment);
+      for (const auto& p : bone.mesh.position) {
+        const Vector3d expected =
+            widened(walk.frames[f].position_m[s]) + widened(walk.frames[f].rotation[s]).normalized() * widened(p);
+        ASSERT_LT((drawn.at(v++) - expected).norm(), 1e-5);
+      }
+    }
+    EXPECT_EQ(v, drawn.size());
   }
-  for (const auto& bone : walk.bones) EXPECT_EQ(parent_name(bone.mesh.name), segment_name[index(bone.segment)]);
-  for (const auto& m : walk.muscles) EXPECT_EQ(parent_name(m.name), segment_name[index(m.segment)]);
+  for (const auto& mesh : viewer.model.meshes) {
+    const auto& attributes = mesh.primitives[0].attributes;
+    const auto place = viewer.floats(attributes.at("TEXCOORD_0"));
+    EXPECT_EQ(place.size() / 2, viewer.floats(attributes.at("POSITION")).size() / 3);
+    const auto [low, high] = std::ranges::minmax(place);
+    EXPECT_TRUE(low >= 0 && high <= 1 && high > low) << mesh.name << " " << low << " " << high;
+  }
+}
+
+/// Three people: two of one figure, the second of them taller, wider and in colour, and one with a muscle.
+CrowdRecording small_crowd() {
+  CrowdRecording crowd;
+  const auto walk = small_walk();
+  crowd.figures.push_back({walk.bones, {0, 1}});
+  crowd.figures.push_back({{walk.bones[1]}, {}});
+  crowd.people.push_back({"anna", 0, {1, 1, 1}, {{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}}, walk.frames, {}});
+  crowd.people.push_back({"bert", 0, {1.2F, 1.1F, 1.3F}, {{0.1F, 0.2F, 0.3F}, {0.9F, 0.5F, 0.6F}}, walk.frames, {}});
+  crowd.people.push_back({"cleo", 1, {1, 1, 1}, {}, walk.frames, {walk.muscles[0]}});
+  for (std::size_t i = 0; i < crowd.people.size(); ++i) {
+    for (auto& pose : crowd.people[i].frames) {
+      for (auto& p : pose.position_m) p.x += static_cast<float>(i);
+    }
+  }
+  for (auto& frame : crowd.people[2].muscles[0].position_m) {
+    for (auto& p : frame) p.x += 2;
+  }
+  return crowd;
+}
+
+TEST(Export, SeveralPeopleHaveARootEachAndShareWhatTheyLookLike) {
+  const Folder folder;
+  const auto crowd = small_crowd();
+  const auto report = write_glb(folder.path / "crowd.glb", crowd);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->muscles.at(0).name, "cleo_bulging");
+  const Viewer viewer(folder.path / "crowd.glb");
+  ASSERT_EQ(viewer.model.animations.size(), 1U);
+  for (const auto& person : crowd.people) {
+    EXPECT_EQ(parent_name(viewer, person.name + "_pelvis"), person.name);
+    EXPECT_EQ(parent_name(viewer, person.name), "");
+    const auto n = viewer.node.at(person.name + (person.colours.empty() ? "_bones" : "_figure"));
+    for (const std::size_t f : {0U, 20U}) {
+      std::size_t part = 0;
+      for (const auto& surface : crowd.figures[person.figure].surfaces) {
+        const auto drawn = viewer.drawn(n, f, part++);
+        const std::size_t s = index(surface.segment);
+        const Quaterniond turn = widened(person.frames[f].rotation[s]).normalized();
+        for (std::size_t v = 0; v < drawn.size(); ++v) {
+          const Vector3d own = widened(person.scale).cwiseProduct(widened(surface.mesh.position[v]));
+          ASSERT_LT((drawn[v] - (widened(person.frames[f].position_m[s]) + turn * own)).norm(), 1e-5) << person.name;
+        }
+      }
+    }
+  }
+  const auto primitives = [&](const std::string& name) { return viewer.mesh_of(viewer.node.at(name)).primitives; };
+  const auto anna = primitives("anna_figure"), bert = primitives("bert_figure");
+  ASSERT_EQ(anna.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(anna[i].attributes, bert[i].attributes);
+    EXPECT_EQ(anna[i].indices, bert[i].indices);
+  }
+  EXPECT_EQ(anna[0].material, bert[0].material);
+  EXPECT_NE(anna[1].material, bert[1].material);
+  const auto drawn = viewer.drawn(viewer.node.at("cleo_bulging"), 11);
+  for (std::size_t v = 0; v < drawn.size(); ++v) {
+    ASSERT_LT((drawn[v] - widened(crowd.people[2].muscles[0].position_m[11][v])).norm(), 1e-5);
+  }
 }
 
 TEST(Export, WorldPosesComeBackAtEveryKeyAndFixedJointsHaveNoTranslationKeys) {
@@ -147,18 +253,17 @@ TEST(Export, MusclesComeBackWithinTheErrorThatWasReported) {
     const auto n = viewer.node.at(recorded.name);
     double largest = 0, sum = 0;
     for (std::size_t f = 0; f < walk.frames.size(); ++f) {
-      const auto world = viewer.world(n, f);
-      const auto shape = viewer.morphed(n, "POSITION", f);
+      const auto shape = viewer.drawn(n, f);
       ASSERT_EQ(shape.size(), recorded.position_m[f].size());
       for (std::size_t v = 0; v < shape.size(); ++v) {
-        const double error = (world * shape[v] - widened(recorded.position_m[f][v])).norm();
+        const double error = (shape[v] - widened(recorded.position_m[f][v])).norm();
         largest = std::max(largest, error);
         sum += error * error;
       }
     }
     const double count = static_cast<double>(walk.frames.size() * recorded.position_m[0].size());
-    EXPECT_NEAR(largest, fidelity.max_error_m, 1e-7) << recorded.name;
-    EXPECT_NEAR(std::sqrt(sum / count), fidelity.rms_error_m, 1e-7) << recorded.name;
+    EXPECT_NEAR(largest, fidelity.max_error_m, 3e-7) << recorded.name;
+    EXPECT_NEAR(std::sqrt(sum / count), fidelity.rms_error_m, 3e-7) << recorded.name;
   }
 }
 
@@ -272,7 +377,7 @@ TEST(Export, AFailureIsOneLineAndLeavesNothingNewAndNothingBroken) {
   spoilt([](auto& w) { w.bones[0].mesh.triangle[4] = 4000; }, "4000");
   spoilt([](auto& w) { w.bones[0].mesh.triangle.pop_back(); }, "femur_right");
   spoilt([](auto& w) { w.bones[0].mesh.triangle.assign(3, 1); }, "area");
-  spoilt([](auto& w) { w.bones[0].mesh.name = "\xff\xfe"; }, "UTF-8");
+  spoilt([](auto& w) { w.muscles[0].name = "\xff\xfe"; }, "UTF-8");
   spoilt([](auto& w) { w.muscles[1].position_m.pop_back(); }, "frames");
   spoilt([](auto& w) { w.muscles[1].position_m[7].pop_back(); }, "vertices");
   spoilt([](auto& w) { w.muscles[1].position_m[7][5].x = INFINITY; }, "frame 7");
@@ -313,10 +418,13 @@ TEST(Export, KhronosValidatorFindsNoErrorAndNoWarning) {
   walks["many_vertices"].frames = swinging(3);
   walks["many_vertices"].muscles = {
       muscle("fine", Segment::thigh_right, walks["many_vertices"].frames, travelling, 4200)};
+  std::vector<fs::path> files;
   for (const auto& [name, walk] : walks) {
-    const auto file = folder.path / (name + ".glb");
-    const auto written = write_glb(file, walk);
+    const auto written = write_glb(files.emplace_back(folder.path / (name + ".glb")), walk);
     ASSERT_TRUE(written) << written.error().message;
+  }
+  ASSERT_TRUE(write_glb(files.emplace_back(folder.path / "crowd.glb"), small_crowd()));
+  for (const auto& file : files) {
     const Ran ran = run("node '" MOBIL_SOURCE_DIR "/tests/validate_glb.mjs' '" + file.string() + "'");
     if (ran.status == 77) GTEST_SKIP() << ran.output;
     EXPECT_EQ(ran.status, 0) << ran.output;

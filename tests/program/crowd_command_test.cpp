@@ -36,9 +36,10 @@ TEST(CrowdCommand, HelpTellsEveryOptionAndExamples) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("crowd --help", folder.path);
   EXPECT_EQ(ran.status, 0);
-  for (const char* option : {"--humans", "--seconds", "--threads", "--tolerance", "--near", "--budget", "--effects",
-                             "--churn", "--burst", "--seed", "--capture", "--frames", "--report", "--raise",
-                             "--all-seen", "--near-tolerance", "--alive", "--in-view", "Examples:"}) {
+  for (const char* option :
+       {"--humans",   "--seconds",        "--threads", "--tolerance", "--near",   "--budget",         "--effects",
+        "--churn",    "--burst",          "--seed",    "--capture",   "--frames", "--report",         "--raise",
+        "--all-seen", "--near-tolerance", "--alive",   "--in-view",   "--export", "--export-seconds", "Examples:"}) {
     EXPECT_NE(ran.out.find(option), std::string::npos) << option;
   }
 }

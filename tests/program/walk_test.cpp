@@ -474,7 +474,7 @@ std::pair<unsigned, unsigned> picture_size(const std::string& png) {
 
 TEST(Walk, PicturesOfEveryView) {
   std::set<std::string> pictures;
-  for (const std::string view : {"stick", "wireframe", "surface --stereo"}) {
+  for (const std::string view : {"stick", "wireframe", "surface --stereo", "surface --stereo --eye-distance 2cm"}) {
     const TemporaryFolder folder;
     const Ran ran = run_mobil("walk --frames --seconds 0.1 --out out --view " + view, folder.path);
     if (ran.status == 2 && ran.err.find("EGL") != std::string::npos) GTEST_SKIP() << ran.err;
@@ -492,7 +492,7 @@ TEST(Walk, PicturesOfEveryView) {
     }
     EXPECT_EQ(frames, 3U) << view;  // 30 a second
   }
-  EXPECT_EQ(pictures.size(), 9U);  // each another
+  EXPECT_EQ(pictures.size(), 12U);  // each another
 }
 
 }  // namespace mobil::walk_test

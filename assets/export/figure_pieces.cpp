@@ -1,0 +1,90 @@
+#include "assets/export/figure_pieces.h"
+
+#include <fmt/format.h>
+
+#include "assets/export/mesh_shading.h"
+
+namespace mobil {
+namespace {
+
+void append_texture(std::span<const Vec3<float>> position, FigurePiece& piece) {
+  for (const TexturePlace& place : texture_places(position)) piece.texture.push_back(folded(place));
+}
+
+Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& standing_m, FigurePiece& piece) {
+  const auto& mesh = surface.mesh;
+  Eigen::Matrix3Xd exact(3, static_cast<Eigen::Index>(mesh.position.size()));
+  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
+    const auto& p = mesh.position[v];
+    exact.col(static_cast<Eigen::Index>(v)) << static_cast<double>(p.x), static_cast<double>(p.y),
+        static_cast<double>(p.z);
+  }
+  const auto triangle = triangles_with_area(exact, mesh.triangle);
+  if (triangle.empty())
+    return fail(fmt::format("surface '{}': none of its triangles has an area; leave it out", mesh.name));
+  const auto first = static_cast<std::uint32_t>(piece.position.size());
+  for (const auto corner : triangle) piece.triangle.push_back(first + corner);
+  append_texture(mesh.position, piece);
+  piece.joint.insert(piece.joint.end(), mesh.position.size(), {static_cast<std::uint8_t>(surface.segment), 0, 0, 0});
+  piece.weight.insert(piece.weight.end(), mesh.position.size(), {1, 0, 0, 0});
+  for (const auto& column : exact.colwise()) {
+    const Eigen::Vector3f at = (standing_m + column).cast<float>();
+    piece.position.push_back({at.x(), at.y(), at.z()});
+  }
+  return {};
+}
+
+void append_skin(const SkinnedSurface& surface, FigurePiece& piece) {
+  const auto first = static_cast<std::uint32_t>(piece.position.size());
+  for (const auto corner : surface.triangle) piece.triangle.push_back(first + corner);
+  append_texture(surface.position, piece);
+  piece.joint.insert(piece.joint.end(), surface.joint.begin(), surface.joint.end());
+  piece.weight.insert(piece.weight.end(), surface.weight.begin(), surface.weight.end());
+  piece.position.insert(piece.position.end(), surface.position.begin(), surface.position.end());
+  piece.normal.insert(piece.normal.end(), surface.normal.begin(), surface.normal.end());
+  piece.rigid = false;
+}
+
+void add_normals(FigurePiece& piece) {
+  const Eigen::Map<const Eigen::Matrix3Xf> position(&piece.position.front().x, 3,
+                                                    static_cast<Eigen::Index>(piece.position.size()));
+  const Eigen::Matrix3Xf normal = vertex_normals(position.cast<double>(), piece.triangle).cast<float>();
+  for (const auto& n : normal.colwise()) piece.normal.push_back({n.x(), n.y(), n.z()});
+}
+
+}  // namespace
+
+StandingPlaces figure_standing(const SeenFigure& figure, const SkeletonKeys& skeleton) {
+  if (figure.skin.empty()) return standing_places(skeleton, figure.surfaces);
+  StandingPlaces standing;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const Vec3<float>& p = (*figure.standing_m)[s];
+    standing[s] = {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+  }
+  return standing;
+}
+
+Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const StandingPlaces& standing) {
+  std::vector<FigurePiece> pieces;
+  for (std::size_t cloth = 0; cloth < figure.cloths(); ++cloth) {
+    FigurePiece piece;
+    piece.cloth = cloth;
+    for (std::size_t i = 0; i < figure.surfaces.size(); ++i) {
+      if (figure.cloth_of(i) != cloth) continue;
+      auto added = append_bone(figure.surfaces[i], standing[index(figure.surfaces[i].segment)], piece);
+      if (!added) return tl::unexpected(added.error());
+    }
+    for (const SkinnedSurface& surface : figure.skin) {
+      if (surface.cloth == cloth) append_skin(surface, piece);
+    }
+    if (piece.triangle.empty()) continue;
+    if (piece.normal.size() != piece.position.size()) {
+      piece.normal.clear();
+      add_normals(piece);
+    }
+    pieces.push_back(std::move(piece));
+  }
+  return pieces;
+}
+
+}  // namespace mobil

@@ -1,0 +1,34 @@
+#pragma once
+// A figure as the meshes that formats with skins take: one a cloth, where the figure stands.
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "assets/export/recorded_people.h"
+#include "assets/export/skeleton_keys.h"
+#include "assets/surfaces/texture_places.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+using StandingPlaces = std::array<Eigen::Vector3d, segment_count>;
+
+struct FigurePiece {
+  std::size_t cloth = 0;
+  std::vector<Vec3<float>> position, normal;
+  std::vector<TexturePlace> texture;               // folded
+  std::vector<std::array<std::uint8_t, 4>> joint;  // segments that each vertex follows
+  std::vector<std::array<float, 4>> weight;        // add up to 1
+  std::vector<std::uint32_t> triangle;
+  bool rigid = true;  // each vertex follows its first joint alone
+};
+
+/// Where a figure stands: as its skin was made, without one as this person's skeleton does.
+StandingPlaces figure_standing(const SeenFigure& figure, const SkeletonKeys& skeleton);
+
+/// Errors: a surface whose triangles have no area.
+Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const StandingPlaces& standing);
+
+}  // namespace mobil

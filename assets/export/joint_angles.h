@@ -1,0 +1,24 @@
+#pragma once
+// Joint rotations as three angles, which older formats have instead of quaternions.
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "assets/export/skeleton_keys.h"
+
+namespace mobil {
+
+/// R = Rx(x) · Rz(z) · Ry(y): about the parent's x axis, then about z, then about the segment's own y. So flexion comes
+/// first and the turn along the bone last, and only a z of ±90° has no answer of its own. rad.
+struct JointTurn {
+  double x, z, y;
+};
+
+/// The angles of each rotation of a joint over time: of the two answers that give the same rotation the one next to the
+/// frame before (within ±90° of z at first), without jumps of a whole turn.
+std::vector<JointTurn> joint_turns(const std::vector<Eigen::Quaterniond>& rotation);
+
+/// How `child` is turned against `parent`, at each frame.
+std::vector<Eigen::Quaterniond> turned_against(const SkeletonKeys& skeleton, Segment parent, Segment child);
+
+}  // namespace mobil

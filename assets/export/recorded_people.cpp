@@ -1,0 +1,33 @@
+#include "assets/export/recorded_people.h"
+
+#include <algorithm>
+
+namespace mobil {
+
+std::size_t SeenFigure::cloths() const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < surfaces.size(); ++i) count = std::max(count, cloth_of(i) + 1);
+  for (const SkinnedSurface& surface : skin) count = std::max(count, surface.cloth + 1);
+  return count;
+}
+
+RecordedPeople recorded_people(const WalkRecording& recording) {
+  RecordedPeople seen;
+  seen.frame_s = recording.frame_s;
+  seen.figures.push_back({recording.bones, {}, {}, nullptr});
+  seen.people.push_back({recording.name, 0, {1, 1, 1}, {}, &recording.frames, recording.muscles});
+  return seen;
+}
+
+RecordedPeople recorded_people(const CrowdRecording& recording) {
+  RecordedPeople seen;
+  seen.frame_s = recording.frame_s;
+  for (const RecordedFigure& figure : recording.figures)
+    seen.figures.push_back({figure.surfaces, figure.cloth, figure.skin, &figure.standing_m});
+  for (const RecordedPerson& person : recording.people) {
+    seen.people.push_back({person.name, person.figure, person.scale, person.colours, &person.frames, person.muscles});
+  }
+  return seen;
+}
+
+}  // namespace mobil

@@ -1,0 +1,47 @@
+#pragma once
+// One walk or a crowd's, seen alike by writers: nothing is copied, so that the recording must outlive this.
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assets/export/walk_recording.h"
+
+namespace mobil {
+
+/// Linear red, green, blue, 0–1.
+inline constexpr Vec3<float> ivory_colour{0.80F, 0.74F, 0.60F};
+
+struct SeenFigure {
+  std::span<const BoneSurface> surfaces;
+  std::span<const std::size_t> cloth;  // as RecordedFigure has it
+  std::span<const SkinnedSurface> skin;
+  const std::array<Vec3<float>, segment_count>* standing_m = nullptr;  // of a skin
+  std::size_t cloth_of(std::size_t surface) const { return cloth.empty() ? 0 : cloth[surface]; }
+  /// One more than the largest cloth; 0 without surfaces.
+  std::size_t cloths() const;
+};
+
+struct SeenPerson {
+  std::string name;
+  std::size_t figure = 0;
+  Vec3<float> scale{1, 1, 1};
+  std::span<const Vec3<float>> colours;
+  const std::vector<Pose<float>>* frames = nullptr;
+  std::span<const RecordedMuscle> muscles;
+  Vec3<float> colour(std::size_t cloth) const { return cloth < colours.size() ? colours[cloth] : ivory_colour; }
+};
+
+struct RecordedPeople {
+  float frame_s = 0;
+  std::vector<SeenFigure> figures;
+  std::vector<SeenPerson> people;
+  /// What the names of a person's parts begin with: the person's own where there are several.
+  std::string prefix(const SeenPerson& person) const { return people.size() > 1 ? person.name + "_" : ""; }
+};
+
+RecordedPeople recorded_people(const WalkRecording& recording);
+RecordedPeople recorded_people(const CrowdRecording& recording);
+
+}  // namespace mobil

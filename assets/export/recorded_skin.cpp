@@ -1,0 +1,69 @@
+#include "assets/export/recorded_skin.h"
+
+#include <algorithm>
+#include <string_view>
+#include <unordered_map>
+
+namespace mobil {
+namespace {
+
+constexpr std::array<std::string_view, skin_parts> part_name = {"skin",  "legs",   "lips", "hair",
+                                                                "shirt", "shorts", "shoes"};
+
+/// The segments that a vertex follows, heaviest first.
+void set_joints(const SkinMesh& mesh, const SkinVertex& vertex, SkinnedSurface& surface) {
+  std::array<float, segment_count> share{};
+  for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+    const SkinFrame& frame = mesh.frame[vertex.frame[k]];
+    const auto segment = [](std::uint8_t s) {
+      return s < segment_count ? s : index(on_side(Segment::forearm_right, s - segment_count));
+    };
+    share[segment(frame.from)] += vertex.weight[k] * (1 - frame.turn);
+    share[segment(frame.to)] += vertex.weight[k] * frame.turn;
+  }
+  auto& joint = surface.joint.emplace_back();
+  auto& weight = surface.weight.emplace_back();
+  float sum = 0;
+  for (std::size_t k = 0; k < joint.size(); ++k) {
+    const auto heaviest = std::ranges::max_element(share);
+    if (*heaviest <= 0) break;
+    joint[k] = static_cast<std::uint8_t>(heaviest - share.begin());
+    weight[k] = *heaviest;
+    sum += *heaviest;
+    *heaviest = 0;
+  }
+  for (float& w : weight) w /= sum;
+}
+
+}  // namespace
+
+std::array<Vec3<float>, segment_count> standing_of(const BodySkin& skin) {
+  std::array<Vec3<float>, segment_count> standing;
+  std::copy_n(skin.standing.position_m, segment_count, standing.begin());
+  return standing;
+}
+
+std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth) {
+  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  std::vector<SkinnedSurface> surfaces;
+  for (std::size_t part = 0; part < skin_parts; ++part) {
+    SkinnedSurface surface;
+    surface.name = part_name[part];
+    surface.cloth = first_cloth + part;
+    std::unordered_map<std::uint32_t, std::uint32_t> own;  // vertices of this part
+    for (std::uint32_t i = 3 * mesh.first_triangle[part]; i < 3 * mesh.first_triangle[part + 1]; ++i) {
+      const std::uint32_t v = mesh.triangle[i];
+      const auto [found, is_new] = own.try_emplace(v, static_cast<std::uint32_t>(surface.position.size()));
+      if (is_new) {
+        surface.position.push_back(skin.rest[v]);
+        surface.normal.push_back(skin.normal[v]);
+        set_joints(mesh, mesh.vertex[v], surface);
+      }
+      surface.triangle.push_back(found->second);
+    }
+    if (!surface.triangle.empty()) surfaces.push_back(std::move(surface));
+  }
+  return surfaces;
+}
+
+}  // namespace mobil

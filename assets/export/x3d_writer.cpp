@@ -1,0 +1,169 @@
+#include "assets/export/x3d_writer.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "assets/export/recording_check.h"
+#include "assets/export/skeleton_keys.h"
+#include "assets/export/unique_names.h"
+#include "assets/files/output_file.h"
+
+namespace mobil {
+namespace {
+
+/// Joints' places have a digit more, for they add up along the chain.
+void append_point(std::string& text, const Vec3<float>& p) {
+  fmt::format_to(std::back_inserter(text), "{:.5f} {:.5f} {:.5f} ", p.x, p.y, p.z);
+}
+void append_place(std::string& text, const Vec3<float>& p) {
+  fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} ", p.x, p.y, p.z);
+}
+
+/// Axis and angle.
+void append_turn(std::string& text, const Quat<float>& q) {
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond(static_cast<double>(q.w), static_cast<double>(q.x),
+                                                  static_cast<double>(q.y), static_cast<double>(q.z)));
+  const Eigen::Vector3d& axis = turn.axis();
+  fmt::format_to(std::back_inserter(text), "{:.6f} {:.6f} {:.6f} {:.6f} ", axis.x(), axis.y(), axis.z(), turn.angle());
+}
+
+std::string points_text(const std::vector<Vec3<float>>& position) {
+  std::string text;
+  for (const auto& p : position) append_point(text, p);
+  return text;
+}
+
+/// A scene with what moves in it.
+struct MovingScene {
+  SceneText text;
+  UniqueNames names{};
+  std::size_t frames = 0;
+  std::vector<std::array<std::string, 3>> moved{};  // interpolator, node, its field
+  struct Interpolator {
+    std::string type, name, values;
+  };
+  std::vector<Interpolator> interpolators{};
+
+  /// `node` and `field` go as `values` (one a frame) tell.
+  void move(const std::string& node, const std::string& field, const char* type, std::string values) {
+    const std::string name = names.take(node + "_" + field);
+    interpolators.push_back({type, name, std::move(values)});
+    moved.push_back({name, node, field});
+  }
+};
+
+/// `name`: of the coordinates, where they move.
+void add_shape(MovingScene& scene, const Vec3<float>& colour, const std::vector<Vec3<float>>& position,
+               const std::vector<std::uint32_t>& triangle, const std::string& name) {
+  SceneText& text = scene.text;
+  const auto shown = [](float linear) {  // these formats' colours are those of screens
+    return linear <= 0.0031308F ? 12.92F * linear : 1.055F * std::pow(linear, 1 / 2.4F) - 0.055F;
+  };
+  text.open("Shape");
+  text.open("Appearance", {}, "appearance");
+  text.open("Material", {}, "material");
+  text.field("diffuseColor", fmt::format("{:.4f} {:.4f} {:.4f}", shown(colour.x), shown(colour.y), shown(colour.z)));
+  text.close();
+  text.close();
+  text.open("IndexedFaceSet", {}, "geometry");
+  text.field("creaseAngle", "3.1416");
+  std::string corners;
+  for (std::size_t i = 0; i + 2 < triangle.size(); i += 3) {
+    fmt::format_to(std::back_inserter(corners), "{} {} {} -1 ", triangle[i], triangle[i + 1], triangle[i + 2]);
+  }
+  text.fields("coordIndex", corners);
+  text.open("Coordinate", name, "coord");
+  text.fields("point", points_text(position));
+  text.close();
+  text.close();
+  text.close();
+}
+
+void add_segment(MovingScene& scene, const WalkRecording& recording, const SkeletonKeys& skeleton, std::size_t s) {
+  const SegmentKeys& keys = skeleton.segment[s];
+  const std::string name = scene.names.take(std::string(segment_name[s]));
+  scene.text.open("Transform", name);
+  std::string place, turn;
+  append_place(place, keys.translation_m.front());
+  append_turn(turn, keys.rotation.front());
+  scene.text.field("translation", place);
+  scene.text.field("rotation", turn);
+  if (keys.translation_m.size() > 1) {
+    std::string values;
+    for (const auto& t : keys.translation_m) append_place(values, t);
+    scene.move(name, "translation", "PositionInterpolator", std::move(values));
+  }
+  if (keys.rotation.size() > 1) {
+    std::string values;
+    for (const auto& q : keys.rotation) append_turn(values, q);
+    scene.move(name, "rotation", "OrientationInterpolator", std::move(values));
+  }
+  for (const auto& bone : recording.bones) {
+    if (index(bone.segment) == s) add_shape(scene, ivory_colour, bone.mesh.position, bone.mesh.triangle, {});
+  }
+  for (std::size_t child = s + 1; child < segment_count; ++child) {
+    if (index(segment_parent[child]) == s) add_segment(scene, recording, skeleton, child);
+  }
+  scene.text.close();
+}
+
+void add_movement(MovingScene& scene, float frame_s) {
+  if (scene.interpolators.empty()) return;
+  SceneText& text = scene.text;
+  const std::size_t last = scene.frames - 1;
+  std::string keys;
+  for (std::size_t f = 0; f <= last; ++f) {
+    fmt::format_to(std::back_inserter(keys), "{:.8f} ", static_cast<double>(f) / static_cast<double>(last));
+  }
+  const std::string clock = scene.names.take("clock");
+  text.open("TimeSensor", clock);
+  text.field("cycleInterval", fmt::format("{:.6f}", static_cast<double>(last) * static_cast<double>(frame_s)));
+  text.field("loop", "TRUE");
+  text.close();
+  for (const auto& [type, name, values] : scene.interpolators) {
+    text.open(type, name);
+    text.fields("key", keys);
+    text.fields("keyValue", values);
+    text.close();
+    text.route(clock, "fraction_changed", name, "set_fraction");
+  }
+  for (const auto& [name, node, field] : scene.moved) text.route(name, "value_changed", node, "set_" + field);
+}
+
+std::string x3d_text(const WalkRecording& recording, SceneNotation notation) {
+  const SkeletonKeys skeleton = skeleton_keys(recording.frames);
+  MovingScene scene{.text = SceneText(notation, "walk")};
+  scene.frames = recording.frames.size();
+  scene.text.open("Transform", scene.names.take(identifier(recording.name)));
+  add_segment(scene, recording, skeleton, 0);
+  for (const auto& muscle : recording.muscles) {
+    const std::string name = scene.names.take(identifier(muscle.name));
+    scene.text.open("Transform", name);
+    const std::string coordinates = scene.names.take(name + "_coordinates");
+    add_shape(scene, muscle.colour, muscle.position_m.front(), muscle.triangle, coordinates);
+    scene.text.close();
+    if (scene.frames == 1) continue;
+    std::string values;
+    for (const auto& position : muscle.position_m) values += points_text(position);
+    scene.move(coordinates, "point", "CoordinateInterpolator", std::move(values));
+  }
+  scene.text.close();
+  add_movement(scene, recording.frame_s);
+  return std::move(scene.text).text();
+}
+
+}  // namespace
+
+Result<void> write_x3d(const std::filesystem::path& path, const WalkRecording& recording, SceneNotation notation) {
+  if (auto ok = check_recording(recorded_people(recording)); !ok) {
+    return fail(fmt::format("{}: {}", path.string(), ok.error().message));
+  }
+  return write_file(path, x3d_text(recording, notation));
+}
+
+}  // namespace mobil

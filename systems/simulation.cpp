@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
 
 #include "assets/body/anthropometry.h"
-#include "engine/each.h"
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
 #include "engine/state_hash.h"
@@ -22,8 +20,10 @@
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
+#include "systems/people/step_watch.h"
 #include "systems/people/style_limits.h"
 #include "systems/people/whole.h"
+#include "systems/simulation_reading.h"
 #include "systems/simulation_world.h"
 #include "systems/snapshot/snapshot.h"
 #include "systems/standard_modules.h"
@@ -38,23 +38,6 @@ Result<T> named(const char* call, Result<T> result) {
   return fail(fmt::format("{}: {}", call, result.error().message), result.error().status);
 }
 
-/// Of a request that the walker can meet.
-AskedWalk asked_walk(const World& world, Entity person, const WalkChange& change, const SleepTime& now) {
-  AskedWalk asked;
-  asked.gait = gait_of(world, person);
-  if (!asked.gait) return asked;
-  asked.asleep = is_asleep(world, person);
-  asked.must_wake = asked.asleep && (is_busy(world, person, now) || (change.gait && change.gait->style));
-  if (change.gait) {
-    const auto changed = changed_gait(world, person, *change.gait);
-    asked.gait = changed ? std::optional(*changed) : std::nullopt;
-  }
-  if (!asked.gait || !change.heading_rad) return asked;
-  asked.gait->heading_rad = *change.heading_rad;
-  if (!(std::fabs(*change.heading_rad) < 1e4F)) asked.gait.reset();
-  return asked;
-}
-
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options, Clock clock)
@@ -65,7 +48,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
       library_(std::make_unique<BellyLibrary>()),
       work_(std::make_unique<MuscleWork>()),
       sleep_work_(std::make_unique<SleepWork>()),
-      compact_work_(std::make_unique<CompactWork>()) {
+      compact_work_(std::make_unique<CompactWork>()),
+      step_log_(std::make_unique<StepLog>(options.memory)) {
   if (options.jobs) {
     jobs_ = *options.jobs;
   } else {
@@ -223,7 +207,10 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
   std::vector<AskedWalk>& asked = sleep_work_->asked;
   asked.resize(changes.size());
   in_parallel(jobs_, changes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) asked[i] = asked_walk(*world_, changes[i].human, changes[i], now);
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto& [human, gait, heading_rad] = changes[i];
+      asked[i] = asked_walk(*world_, human, gait, heading_rad, now);
+    }
   });
   people.clear();
   std::vector<Gait<float>>& gaits = sleep_work_->gaits;
@@ -339,10 +326,27 @@ Status Simulation::read_absent(Entity entity, std::uint64_t part, void* row) con
 }
 
 Result<void> Simulation::place(Entity human, float x_m, float z_m, float heading_rad) {
-  if (auto done = make_whole_for(human); !done) return done;
-  return mobil::place(*world_, human, x_m, z_m, heading_rad).map([&](const Placing& way) {
-    move_muscles(*world_, human, way);
-  });
+  const PlaceRequest to{human, x_m, z_m, heading_rad};
+  if (auto good = check_place(*world_, to); !good) return good;
+  return place({&to, 1});
+}
+
+Result<void> Simulation::place(std::span<const PlaceRequest> places) {
+  std::vector<Entity>& people = sleep_work_->rows;
+  people.clear();
+  for (const PlaceRequest& to : places) people.push_back(to.person);
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    if (const auto good = check_place(*world_, places[i]); !good)
+      return fail(fmt::format("person {}: {}", i, good.error().message), good.error().status);
+  }
+  // Relevance knows where those were whom it put to sleep: it is to look at them again.
+  std::erase_if(people, [&](Entity person) { return !world_->has<SleepsManaged>(person); });
+  if (!people.empty()) {
+    if (auto done = wake(std::vector(people)); !done) return done;
+  }
+  place_people(*world_, {tick_, static_cast<float>(tick_s())}, places, sleep_work_->ways);
+  return {};
 }
 
 Result<void> Simulation::shift_origin(float x_m, float z_m) {
@@ -353,6 +357,15 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
   shift_sleepers(*world_, {tick_, static_cast<float>(tick_s())}, x_m, z_m);
   work_->recent = {};
   return {};
+}
+
+Result<void> Simulation::watch_steps(std::span<const Entity> people, bool on) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  return result_of("watch_steps", mobil::watch_steps(*world_, jobs_, people, on));
+}
+
+Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> out, double ahead_s) const {
+  return read_roots(*world_, people, {tick_, static_cast<float>(tick_s())}, ahead_s, out);
 }
 
 Result<void> Simulation::add_forces(Entity human) {
@@ -397,30 +410,32 @@ MuscleMethod Simulation::method(Entity human, Muscle muscle) const {
 
 Ticks Simulation::advance(double seconds) {
   const Ticks ticks = clock_.advance(seconds);
-  for (std::uint32_t i = 0; i < ticks.count; ++i) tick();
+  tick(ticks.count);
   return ticks;
 }
 
-void Simulation::tick() {
+void Simulation::tick(std::uint32_t count) {
+  step_log_->clear();
+  for (std::uint32_t i = 0; i < count; ++i) run_tick();
+}
+
+void Simulation::run_tick() {
   const auto dt_s = static_cast<float>(clock_.tick_s());
   schedule_->run(*world_, {dt_s, tick_}, jobs_);
   ++tick_;
+  step_log_->take(*world_, tick_, dt_s, clock_.most_ticks());
   end_fades(*world_, dt_s, *work_);
   sleep_work_->restless.clear();
   end_unsettled(*world_, jobs_, {tick_, dt_s}, sleep_work_->rows, sleep_work_->restless);
   if (!sleep_work_->restless.empty()) wake(std::vector(sleep_work_->restless));
 }
 
+std::span<const StepEvent> Simulation::events() const {
+  return step_log_->events();
+}
+
 StepReport Simulation::report() const {
-  StepReport report{tick_, {}};
-  const auto systems = schedule_->systems();
-  const auto timings = schedule_->timings();
-  report.systems.reserve(systems.size());
-  for (std::size_t s = 0; s < systems.size(); ++s) {
-    const Timing& t = timings[s];
-    report.systems.push_back({systems[s].name, systems[s].module, t.last_seconds, t.last_rows, t.seconds, t.rows});
-  }
-  return report;
+  return read_report(*schedule_, tick_);
 }
 
 SnapshotWork& Simulation::snapshot_work() const {
@@ -442,6 +457,7 @@ Result<void> Simulation::restore(std::span<const std::byte> in, const RestoreLim
       restore_snapshot({*world_, *library_, modules_, jobs_}, {clock_.tick_units(), 0, 0}, snapshot_work(), limits, in);
   if (!done) return fail("restore: " + done.error().message, done.error().status);
   work_->recent = {};
+  step_log_->clear();
   tick_ = done->tick;
   clock_.set_remainder_units(done->remainder_units);
   return {};
@@ -456,14 +472,7 @@ bool Simulation::is_person(Entity entity) const {
 }
 
 std::vector<Entity> Simulation::people() const {
-  std::vector<Entity> all;
-  mobil::each(*world_, [&](const Rows& rows, const Physique<Lanes<float>>&) {
-    all.insert(all.end(), rows.entity, rows.entity + rows.live);
-  });
-  mobil::each(*world_, [&](const Rows& rows, const Asleep<Lanes<float>>&) {
-    all.insert(all.end(), rows.entity, rows.entity + rows.live);
-  });
-  return all;
+  return read_people(*world_);
 }
 
 std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
@@ -471,24 +480,7 @@ std::vector<OwnMuscle> Simulation::muscles(Entity human) const {
 }
 
 std::optional<Human> Simulation::human(Entity entity) const {
-  if (!is_person(entity)) return std::nullopt;
-  const auto asleep = kept_choice(*world_, entity);
-  LegMuscles choice = asleep ? *asleep : choice_of(*world_, entity).value_or(LegMuscles{});
-  if (is_compact(entity) && choice.muscles.any()) {
-    const MuscleMethod first = method(entity, static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong())));
-    choice.method = first.method;
-    choice.reduced = first.reduced;
-  }
-  Human human{entity,
-              *make_body(body_request(*world_, entity)),
-              gait_of(*world_, entity).value_or(Gait<float>{}),
-              {},
-              choice,
-              is_posed(*world_, entity)};
-  for (const OwnMuscle& own : muscles(entity)) {
-    human.muscles.push_back({*make_muscle_plan(human.body, own.muscle), own.entity, method(entity, own.muscle)});
-  }
-  return human;
+  return read_human(*this, entity);
 }
 
 Entity Simulation::muscle(Entity human, Muscle muscle, Side side) const {

@@ -43,7 +43,10 @@
 #include "engine/module.h"
 #include "engine/world.h"
 #include "systems/muscles/own_muscle.h"
+#include "systems/people/person.h"
+#include "systems/people/roots.h"
 #include "systems/people/spawn.h"
+#include "systems/people/step_watch.h"
 #include "systems/people/style_limits.h"
 #include "systems/snapshot/restore_limits.h"
 #include "systems/surfaces/nodal_view.h"
@@ -222,9 +225,13 @@ class Simulation {
 
   /// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
   /// there (rad, about +Y). Pose and muscles go along, as if the world had been moved under them: no inertia is felt,
-  /// and what the walker is about to do goes on, turned likewise. Ground reaction follows with the next tick. Errors: a
-  /// stale handle, a posed person, a place not within 1000 km, a heading not within ±10000; nothing has changed then.
+  /// and what the walker is about to do goes on, turned likewise, to the bit of who always was there as far as places
+  /// go. Ground reaction follows with the next tick. Compact people stay compact, sleepers asleep, but for those whom a
+  /// Relevance put to sleep: they wake. Errors: a stale handle, a posed person, a place not within 1000 km, a heading
+  /// not within ±10000; nothing has changed then.
   Result<void> place(Entity human, float x_m, float z_m, float heading_rad);
+  /// The same of many. All or none. Errors name the number of the person; somebody named twice.
+  Result<void> place(std::span<const PlaceRequest> places);
 
   /// The world's origin moves to (x, 0, z): every place becomes so much less, of people, of muscles and of what they
   /// remember, and everybody goes on as they were; no inertia is felt. For worlds of many kilometres: floats are half a
@@ -232,6 +239,21 @@ class Simulation {
   /// Where the host asked things to go (headings, ways aside) is not touched. Ground reaction follows with the next
   /// tick. Errors: not within 1000 km; nothing has changed then.
   Result<void> shift_origin(float x_m, float z_m);
+
+  /// The steps of walkers are watched from the next tick on, or no more: `events` tells what happens in them. Compact
+  /// people are watched as well; who falls asleep is watched again on waking, and nothing is told of what was between.
+  /// All or none. Errors: a stale handle, somebody named twice, a posed person (Status::missing); nothing has changed.
+  Result<void> watch_steps(std::span<const Entity> people, bool on = true);
+  /// Heel strikes, toe-offs, stops and starts of who is watched, in all ticks of the last `advance` or
+  /// `tick`: in order of time, at the same instant in the order of handles, whatever the threads. Until the next of
+  /// those calls; handles of who went since are stale. Nothing of it is state: after `restore` there are none.
+  std::span<const StepEvent> events() const;
+
+  /// Where these people are on the ground `ahead_s` after the last tick (0 to 0.2 s; a frame's alpha times the tick),
+  /// and where they head, smooth along the walking line: `root_motion` (systems/people/roots.h) tells the way between
+  /// two of them. Compact people and sleepers too. Errors, in one line: a stale handle, a time out of range, spans not
+  /// as long as each other; nothing is written then.
+  Result<void> roots(std::span<const Entity> people, std::span<Root> out, double ahead_s = 0) const;
 
   /// The effect of ground reaction and joint moments (components/forces.h). Walkers' follow from their step, at once;
   /// posed people's from how their last three poses move, one tick late (systems/forces/forces.h says how): give them a
@@ -273,8 +295,8 @@ class Simulation {
 
   /// Runs as many whole ticks as fit into the accumulated time.
   Ticks advance(double seconds);
-  /// Runs one tick.
-  void tick();
+  /// Runs one tick, or so many.
+  void tick(std::uint32_t count = 1);
   std::uint32_t ticks() const { return tick_; }
   double tick_s() const { return clock_.tick_s(); }
   double time_s() const { return tick_ * clock_.tick_s(); }
@@ -394,6 +416,7 @@ class Simulation {
   }
   Simulation(const SimulationOptions& options, Clock clock);
   MuscleScene muscle_scene();
+  void run_tick();
   SnapshotWork& snapshot_work() const;
   Status read_absent(Entity entity, std::uint64_t part, void* row) const;
   Result<void> make_whole_for(Entity human);
@@ -412,6 +435,7 @@ class Simulation {
   std::unique_ptr<MuscleWork> work_;
   std::unique_ptr<SleepWork> sleep_work_;
   std::unique_ptr<CompactWork> compact_work_;
+  std::unique_ptr<StepLog> step_log_;
   mutable std::unique_ptr<SnapshotWork> snapshots_;  // made when first needed
   std::uint32_t tick_ = 0;
 };

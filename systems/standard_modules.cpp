@@ -7,13 +7,14 @@
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/people_modules.h"
 #include "systems/people/sleep_module.h"
+#include "systems/people/step_watch.h"
 #include "systems/relevance/relevance_module.h"
 
 namespace mobil {
 
 std::vector<Module> standard_modules() {
-  std::vector<Module> all = {walking_module(), forces_module(), skeleton_module(), leg_moments_module(),
-                             sleep_module()};
+  std::vector<Module> all = {walking_module(),     forces_module(), skeleton_module(),
+                             leg_moments_module(), sleep_module(),  step_watch_module()};
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
   all.push_back(compact_module());
   all.push_back(relevance_module());

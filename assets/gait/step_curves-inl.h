@@ -208,6 +208,18 @@ HWY_NOINLINE inline Wide step_phase(const StepPlan<Lanes<float>>& plan, const Wi
   return u * fma(u * u, fma(u, fma(u, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), from);
 }
 
+/// The part of a step's time at which it has a phase.
+HWY_NOINLINE inline Wide time_of_phase(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
+  Wide low = wide(0.0F), high = wide(1.0F);
+  for (int i = 0; i < 20; ++i) {
+    const Wide middle = 0.5F * (low + high);
+    const WideMask later = step_phase(plan, middle) < phase;
+    low = select(later, middle, low);
+    high = select(later, high, middle);
+  }
+  return high;
+}
+
 /// How far the numbers of the shapes are mixed.
 HWY_INLINE Wide mixed_part(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
   const Wide start = load(plan.mixed_from);

@@ -211,6 +211,7 @@ struct mobil_sim {
   // What calls work in.
   std::vector<mobil::Entity> people;
   std::vector<float> row;
+  std::vector<mobil::Root> roots;
 
   mobil::Simulation& world() { return *simulation; }
   const mobil::Jobs& jobs_of() const;

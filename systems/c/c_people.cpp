@@ -255,7 +255,8 @@ int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
     *bits = (is_posed(world.world(), person) ? MOBIL_POSED : 0) | (world.is_asleep(person) ? MOBIL_ASLEEP : 0) |
             (world.is_compact(person) ? MOBIL_COMPACT : 0) | (muscles ? MOBIL_HAS_MUSCLES : 0) |
             (world.world().has<GroundReaction>(person) ? MOBIL_HAS_FORCES : 0) |
-            (world.world().has<Needs>(person) || world.world().has<SleepsManaged>(person) ? MOBIL_MANAGED : 0);
+            (world.world().has<Needs>(person) || world.world().has<SleepsManaged>(person) ? MOBIL_MANAGED : 0) |
+            (is_watched(world.world(), person) ? MOBIL_WATCHED : 0);
     return int{MOBIL_OK};
   });
 }

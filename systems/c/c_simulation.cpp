@@ -155,7 +155,7 @@ int mobil_advance(mobil_sim* sim, double seconds, mobil_ticks* out) {
 
 int mobil_tick(mobil_sim* sim, unsigned int ticks) {
   return call(sim, "mobil_tick", [&](mobil_sim& s) {
-    for (unsigned int i = 0; i < ticks; ++i) s.world().tick();
+    s.world().tick(ticks);
     return int{MOBIL_OK};
   });
 }

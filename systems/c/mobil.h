@@ -46,7 +46,7 @@ extern "C" {
 #endif
 
 /* Of this header. mobil_interface() is the library's: equal or greater serves. */
-#define MOBIL_INTERFACE 1
+#define MOBIL_INTERFACE 2
 MOBIL_API int mobil_interface(void);
 MOBIL_API const char* mobil_library_version(void); /* "0.1.0" */
 
@@ -187,7 +187,8 @@ enum {
   MOBIL_COMPACT = 4,
   MOBIL_HAS_MUSCLES = 8,
   MOBIL_HAS_FORCES = 16,
-  MOBIL_MANAGED = 32
+  MOBIL_MANAGED = 32,
+  MOBIL_WATCHED = 64
 };
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
 
@@ -198,7 +199,7 @@ MOBIL_API int mobil_change_walks(mobil_sim* sim, const mobil_id* ids, size_t cou
 MOBIL_API int mobil_change_walk(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walk);
 /* Who stands steps aside, m to the left and ahead (negative: to the right and back; up to 0.25 and 0.20). */
 MOBIL_API int mobil_step_aside(mobil_sim* sim, mobil_id id, float left_m, float ahead_m);
-/* Puts a walker elsewhere at once; no inertia is felt. */
+/* Puts a walker elsewhere at once; no inertia is felt. Of many: mobil_place_many. */
 MOBIL_API int mobil_place(mobil_sim* sim, mobil_id id, const float place[3], float heading_rad);
 /* The origin moves there: every place becomes so much less. The height does not count. */
 MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
@@ -490,6 +491,8 @@ MOBIL_API int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t cou
 /* 64 bits, the lower half first: equal states, equal hashes, whatever the threads, the machine and the order of rows.
  */
 MOBIL_API int mobil_hash(mobil_sim* sim, unsigned int out[2]);
+
+#include "systems/c/mobil_play.h"
 
 #ifdef __cplusplus
 }

@@ -31,18 +31,6 @@ constexpr float sinks_apart = 2.0F;
 /// How far outside the soles the centre of pressure may lie before a step is marked, of the height.
 constexpr float most_astray = 0.04F;
 
-/// The part of a step's time at which it has a phase.
-HWY_NOINLINE inline Wide time_of_phase(const StepPlan<Lanes<float>>& plan, const Wide& phase) {
-  Wide low = wide(0.0F), high = wide(1.0F);
-  for (int i = 0; i < 20; ++i) {
-    const Wide middle = 0.5F * (low + high);
-    const WideMask later = step_phase(plan, middle) < phase;
-    low = select(later, middle, low);
-    high = select(later, high, middle);
-  }
-  return high;
-}
-
 HWY_INLINE WideMask either(const WideMask& m, const Wide& yes, const Wide& no) {
   return select(m, yes, no) > 0.5F;
 }

@@ -113,6 +113,8 @@ export class World {
       this.#call('place', ...this.#passed(take, this.#id(person)), at, heading_rad);
     });
   }
+  /** Their steps are watched from the next tick on, or no more: events() tells what happens in them. */
+  watch(people, on = true) { this.#call('watch', people.ids, people.count, on ? 1 : 0); }
   setForces(people, on = true) { this.#call('set_forces', people.ids, people.count, on ? 1 : 0); }
 
   /** Who is not looked at costs less so (mobil.h says what of them is kept); how many are so now. */
@@ -211,6 +213,30 @@ export class World {
   get time_s() { return this.library.x.mobil_time_s(this.at); }
 
   // ---- Reading
+  /** What happened in all ticks of the last tick() or advance() in the steps of who is watched: fields of mobil_event. */
+  events() {
+    return this.library.within((take) => {
+      const count = take(4), { size, fields } = structs.mobil_event;
+      this.#call('events', 0, 0, count);
+      const many = this.library.u32[count >> 2], at = take(size * many);
+      this.#call('events', at, many, count);
+      return Array.from({ length: many }, (_, i) => {
+        const one = at + size * i, id = (one + fields.id.at) >> 2, place = (one + fields.place.at) >> 2;
+        const event = { person: { index: this.library.u32[id], generation: this.library.u32[id + 1] } };
+        for (const field of ['kind', 'side', 'tick', 'part', 'heading_rad']) event[field] = this.library.get('mobil_event', one, field);
+        return { ...event, place: Array.from(this.library.f32.subarray(place, place + 3)) };
+      });
+    });
+  }
+  /** Where people are on the ground `ahead_s` after the last tick and head, without the sway of the hips: a
+   *  Float64Array of four numbers a person, place and heading. */
+  roots(people, ahead_s = 0) {
+    return this.library.within((take) => {
+      const at = take(structs.mobil_root.size * people.count);
+      this.#call('roots', people.ids, people.count, ahead_s, at);
+      return new Float64Array(this.library.memory.buffer.slice(at, at + structs.mobil_root.size * people.count));
+    });
+  }
   #rows(people, floats) {
     if (!(people.room >= floats * people.count)) {
       this.library.release(people.rows ?? 0);

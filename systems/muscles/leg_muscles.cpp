@@ -15,6 +15,7 @@
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/people/person.h"
+#include "systems/people/waking.h"
 
 namespace mobil {
 namespace {
@@ -340,27 +341,41 @@ Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side sid
 
 void move_muscles(World& world, Entity person, const Placing& way) {
   using geometry::operator+, geometry::operator-;
-  for (const OwnMuscle& own : muscles_of(world, person)) {
-    for (const Side side : {Side::right, Side::left}) {
-      const Entity muscle = own.entity[side];
-      // A left muscle's world is the mirror image's.
-      const float mirrored = side == Side::left ? -1.0F : 1.0F;
-      const Vec3<float> from = {mirrored * way.from_x_m, 0, way.from_z_m}, to = {mirrored * way.to_x_m, 0, way.to_z_m};
-      const double half = 0.5 * double{mirrored} * double{way.turn_rad};
-      const Quat<float> turn = {0, static_cast<float>(exact::sin(half)), 0, static_cast<float>(exact::cos(half))};
-      const auto moved = [&](const Vec3<float>& at) { return to + geometry::rotated(turn, at - from); };
-      if (auto line = world.get<LineOfAction>(muscle)) {
-        line->start_m = moved(line->start_m);
-        line->rotation = geometry::product(turn, line->rotation);
-        world.set(muscle, *line);
-      }
-      if (auto history = world.get<FrameHistory>(muscle)) {
-        history->start_m = moved(history->start_m);
-        history->rotation = geometry::product(turn, history->rotation);
-        history->step_m = geometry::rotated(turn, history->step_m);
-        history->turn_rad = geometry::rotated(turn, history->turn_rad);
-        world.set(muscle, *history);
-      }
+  world.each_member(person, [&](Entity muscle) {
+    const auto owner = world.get<MuscleOwner>(muscle);
+    if (!owner) return;
+    // A left muscle's world is the mirror image's.
+    const float mirrored = owner->side == Side::left ? -1.0F : 1.0F;
+    const Vec3<float> from = {mirrored * way.from_x_m, 0, way.from_z_m}, to = {mirrored * way.to_x_m, 0, way.to_z_m};
+    const double half = 0.5 * double{mirrored} * double{way.turn_rad()};
+    const Quat<float> turn = {0, static_cast<float>(exact::sin(half)), 0, static_cast<float>(exact::cos(half))};
+    const auto moved = [&](const Vec3<float>& at) { return to + geometry::rotated(turn, at - from); };
+    if (auto line = world.get<LineOfAction>(muscle)) {
+      line->start_m = moved(line->start_m);
+      line->rotation = geometry::product(turn, line->rotation);
+      world.set(muscle, *line);
+    }
+    if (auto history = world.get<FrameHistory>(muscle)) {
+      history->start_m = moved(history->start_m);
+      history->rotation = geometry::product(turn, history->rotation);
+      history->step_m = geometry::rotated(turn, history->step_m);
+      history->turn_rad = geometry::rotated(turn, history->turn_rad);
+      world.set(muscle, *history);
+    }
+  });
+}
+
+void place_people(World& world, const SleepTime& time, std::span<const PlaceRequest> places,
+                  std::vector<Placing>& ways) {
+  ways.clear();
+  for (const PlaceRequest& to : places)
+    ways.push_back(is_asleep(world, to.person) ? way_of_sleeper(world, time, to) : Placing{});
+  for (std::size_t i = 0; i < places.size(); ++i) {  // from here on no memory is taken
+    const Entity person = places[i].person;
+    if (is_asleep(world, person)) {
+      place_sleeper(world, person, time, ways[i]);
+    } else {
+      move_muscles(world, person, place_walker(world, places[i]));
     }
   }
 }

@@ -15,6 +15,7 @@
 #include "systems/muscles/belly_library.h"
 #include "systems/muscles/change_muscles.h"
 #include "systems/people/person.h"
+#include "systems/people/sleepers.h"
 #include "systems/people/spawn.h"
 
 namespace mobil {
@@ -57,9 +58,11 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person);
 Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation);
 Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, const MuscleMethod& method);
 
-/// A person's muscles go along, as if the world had been moved under them; or forget where their frames were, so that
-/// no inertia is felt of a jump.
-void move_muscles(World& world, Entity person, const Placing& way);
+/// Walkers, named once each, are put elsewhere at once, with their muscles, as if the world had been moved under them.
+/// All places are good (check_place). `ways`: memory to work in.
+void place_people(World& world, const SleepTime& time, std::span<const PlaceRequest> places,
+                  std::vector<Placing>& ways);
+/// A person's muscles forget where their frames were, so that no inertia is felt of a jump.
 void forget_motion(World& world, Entity person);
 /// Places of all muscles, and what they remember of places, less (x, 0, z).
 void shift_muscles(World& world, float x_m, float z_m);

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 #include "engine/row_hash.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/warm_muscles.h"
 #include "systems/people/ground_forces.h"
+#include "systems/people/step_watch.h"
 
 namespace mobil {
 namespace {
@@ -33,6 +35,23 @@ bool have_one_method(const World& world, Entity person) {
 
 SleepWork::SleepWork() = default;
 SleepWork::~SleepWork() = default;
+
+AskedWalk asked_walk(const World& world, Entity person, const std::optional<GaitChange>& change,
+                     const std::optional<float>& heading_rad, const SleepTime& now) {
+  AskedWalk asked;
+  asked.gait = gait_of(world, person);
+  if (!asked.gait) return asked;
+  asked.asleep = is_asleep(world, person);
+  asked.must_wake = asked.asleep && (is_busy(world, person, now) || (change && change->style));
+  if (change) {
+    const auto changed = changed_gait(world, person, *change);
+    asked.gait = changed ? std::optional(*changed) : std::nullopt;
+  }
+  if (!asked.gait || !heading_rad) return asked;
+  asked.gait->heading_rad = *heading_rad;
+  if (!(std::fabs(*heading_rad) < 1e4F)) asked.gait.reset();
+  return asked;
+}
 
 std::optional<LegMuscles> kept_choice(const World& world, Entity person) {
   const auto* const choice = world.has<MuscleOwner>(person) ? nullptr : world.shared<LegMuscles>(person);
@@ -71,6 +90,7 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
     std::size_t count = 0;
     if (first->choice) more[count++] = *first->choice;
     if (has_forces(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWithForces>{1});
+    if (is_watched(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWatched>{1});
     for (const KeyPart& part : keeps)
       if (count < more.size() && (!first->choice || part.id != first->choice->id)) more[count++] = part;
     work.together.clear();
@@ -91,10 +111,18 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
   std::vector<SleepWork::Sleeping>& waking = work.waking_people;
   waking.clear();
   for (const Entity person : people)
-    waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person)});
+    waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person),
+                      world.has<SleepsWatched>(person)});
   const bool later = how.muscles == WakingMuscles::later;
-  wake_walkers(world, scene.jobs, people, how.as, sleep_time(scene), more, later ? work.all_but_choice : owned,
-               work.waking);
+  for (const bool watched : {false, true}) {
+    work.watched.clear();
+    work.parts.assign(more.begin(), more.end());
+    for (const SleepWork::Sleeping& one : waking)
+      if (one.watched == watched) work.watched.push_back(one.entity);
+    if (watched) work.parts.push_back(key_part(Publishes<StepEvents>{}));
+    wake_walkers(world, scene.jobs, work.watched, how.as, sleep_time(scene), work.parts,
+                 later ? work.all_but_choice : owned, work.waking);
+  }
   for (const SleepWork::Sleeping& one : waking)
     if (one.forces) add_forces(world, one.entity);
   // Each choice together.

@@ -25,6 +25,10 @@ struct AskedWalk {
   bool asleep = false, must_wake = false;
 };
 
+/// Of a walker who is to walk otherwise, or toward another heading, where that is possible.
+AskedWalk asked_walk(const World& world, Entity person, const std::optional<GaitChange>& change,
+                     const std::optional<float>& heading_rad, const SleepTime& now);
+
 /// Memory that falling asleep and waking work in, kept from one time to the next, and nothing of it state.
 struct SleepWork {
   SleepWork();
@@ -45,16 +49,18 @@ struct SleepWork {
   struct Sleeping {
     Entity entity;
     const LegMuscles* choice;
-    bool forces;
+    bool forces, watched;
   };
   std::vector<Sleeping> waking_people;
-  std::vector<Entity> rows, restless, asleep, managed;
+  std::vector<Entity> rows, restless, asleep, managed, watched;
+  std::vector<KeyPart> parts;                 // of who wakes
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
   std::vector<Gait<float>> gaits;
   StyleWork styles;
   std::vector<AskedSleeper> asked_sleepers;
+  std::vector<Placing> ways;
 };
 
 /// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may

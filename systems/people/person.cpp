@@ -150,32 +150,38 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
   return {};
 }
 
-Result<Placing> place(World& world, Entity person, float x_m, float z_m, float heading_rad) {
-  if (auto walks = is_walker(world, person, "place", "hand it another pose"); !walks)
-    return tl::unexpected(walks.error());
-  if (!(std::fabs(x_m) < farthest_m && std::fabs(z_m) < farthest_m))
-    return fail(fmt::format("place: ({}, {}) m is not within ±1000000 m; shift the world's origin", x_m, z_m));
-  if (!(std::fabs(heading_rad) < 1e4F))
-    return fail(fmt::format("place: a heading of {} rad is not within ±10000; give an angle about +Y", heading_rad));
+Result<void> check_place(const World& world, const PlaceRequest& to) {
+  if (auto walks = is_walker(world, to.person, "place", "hand it another pose"); !walks) return walks;
+  if (!(std::fabs(to.x_m) < farthest_m && std::fabs(to.z_m) < farthest_m))
+    return fail(fmt::format("place: ({}, {}) m is not within ±1000000 m; shift the world's origin", to.x_m, to.z_m));
+  if (!(std::fabs(to.heading_rad) < 1e4F))
+    return fail(fmt::format("place: a heading of {} rad is not within ±10000; give an angle about +Y", to.heading_rad));
+  return {};
+}
+
+Placing place_walker(World& world, const PlaceRequest& to) {
+  const Entity person = to.person;
   GaitState<float> state = *world.get<GaitState>(person);
   Gait<float> gait = *world.get<Gait>(person);
-  const Placing way = {state.line_x_m, state.line_z_m, x_m, z_m, heading_rad - state.heading_rad};
-  state.line_x_m = x_m;
-  state.line_z_m = z_m;
-  state.heading_rad = heading_rad;
-  state.anchor_x_m = x_m;
-  state.anchor_z_m = z_m;
+  const Placing way = {state.line_x_m, state.line_z_m, state.heading_rad, to.x_m, to.z_m, to.heading_rad};
+  state.line_x_m = state.anchor_x_m = to.x_m;
+  state.line_z_m = state.anchor_z_m = to.z_m;
+  state.heading_rad = to.heading_rad;
   state.anchor_steps = state.steps;
-  gait.heading_rad += way.turn_rad;
+  gait.heading_rad = way.turned(gait.heading_rad);
+  world.set(person, state);
+  world.set(person, gait);
+  if (!world.has<Pose>(person)) return way;  // compact
   const auto size = broadcast(*world.get<BodySize>(person));
   Pose<Lanes<float>> pose;
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
-  pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), pose, angles, feet);
-  centre_of_mass(size, pose, centre);
-  world.set(person, state);
-  world.set(person, gait);
+  {
+    const FlushDenormals flush;  // as in a tick
+    pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), pose, angles, feet);
+    centre_of_mass(size, pose, centre);
+  }
   world.set(person, first_lane(pose));
   world.set(person, first_lane(feet));
   world.set(person, first_lane(centre));

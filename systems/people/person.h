@@ -45,15 +45,25 @@ Result<Gait<float>> turned_gait(const World& world, Entity person, float heading
 /// proportion to the leg. It begins within a quarter of a second, or once the feet are side by side, and takes two
 /// steps of 0.3 to 0.5 s. Errors: a stale handle, a posed person, somebody who is to walk, a way out of range.
 Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m);
-/// A way of somebody through the world: from one place to another on the ground, and about it by an angle.
-struct Placing {
-  float from_x_m, from_z_m, to_x_m, to_z_m, turn_rad;
+/// Where somebody is to be: the point of the walking line beside the foot that bears, m, and the line's heading there
+/// (rad, about +Y).
+struct PlaceRequest {
+  Entity person;
+  float x_m = 0, z_m = 0, heading_rad = 0;
 };
+/// A way through the world: from one place and heading to others.
+struct Placing {
+  float from_x_m, from_z_m, from_heading_rad, to_x_m, to_z_m, to_heading_rad;
 
-/// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
-/// there (rad, about +Y). What the walker is about to do goes on, turned likewise. Errors: a stale handle, a posed
-/// person, a place not within 1000 km or a heading not within ±10000; nothing has changed then.
-Result<Placing> place(World& world, Entity person, float x_m, float z_m, float heading_rad);
+  float turn_rad() const { return to_heading_rad - from_heading_rad; }
+  /// A heading that goes along; what went straight ahead does so to the bit.
+  float turned(float rad) const { return rad == from_heading_rad ? to_heading_rad : rad + turn_rad(); }
+};
+/// Errors: a stale handle, a posed person, a place not within 1000 km or a heading not within ±10000.
+Result<void> check_place(const World& world, const PlaceRequest& to);
+/// Puts a walker who is awake elsewhere at once, and tells the way; muscles' places are their own. What the walker is
+/// about to do goes on, turned likewise. Takes no memory.
+Placing place_walker(World& world, const PlaceRequest& to);
 /// Everybody's places, less (x, 0, z); muscles' are their own (systems/muscles/leg_muscles.h).
 void shift_people(World& world, float x_m, float z_m);
 /// Where a posed person's skeleton is at the end of the next tick; joint angles and points of the soles follow at once,

@@ -14,38 +14,24 @@
 #include "engine/each.h"
 #include "engine/geometry.h"
 #include "engine/rows.h"
-#include "systems/gait/gait.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/pose_axes.h"
 #include "systems/people/sleepers.h"
+#include "systems/people/walk_ahead.h"
 
 namespace mobil {
 namespace {
 
 constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
 
-/// How far ahead poses may be asked for, s: less than any step takes, so that one at most begins on the way.
-constexpr double furthest_ahead_s = 0.2;
-
-/// A block of walkers where they will be; those who begin a step on the way take the one that they will.
+/// A block of walkers where they will be.
 void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
-  const auto& gait = TableColumn<Gait>(table).at(table, block);
-  const auto* plan = &TableColumn<StepPlan>(table).at(table, block);
-  auto state = TableColumn<GaitState>(table).at(table, block);
-  StepPlan<Lanes<float>> next;
-  advance_gait(*plan, state, ahead_s);
-  if (const std::uint32_t lanes = lanes_to_plan(*plan, gait, state, ahead_s); lanes != 0) {
-    StepPlan<Lanes<float>> solved = next = *plan;
-    plan_next_step(size, gait, state, solved);
-    for (std::size_t l = 0; l < lane_count; ++l)
-      if ((lanes >> l & 1U) != 0) put_row(row_of(solved, l), next, l);
-    plan = &next;
-  }
-  turn_gait(size, *plan, gait, state, ahead_s);
+  const WalkAhead then(size, TableColumn<Gait>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
+                       TableColumn<GaitState>(table).at(table, block), ahead_s);
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
-  pose_skeleton(size, *plan, state, pose, angles, feet);
+  pose_skeleton(size, then.plan(), then.state(), pose, angles, feet);
 }
 
 /// A block of walkers without a pose of their own.

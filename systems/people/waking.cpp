@@ -9,6 +9,7 @@
 
 #include "components/leg_frames.h"
 #include "components/pose.h"
+#include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "engine/scratch.h"
 #include "systems/gait/asleep.h"
@@ -219,6 +220,44 @@ Status read_asleep(const World& world, Entity person, const SleepTime& time, std
     return Status::ok;
   }
   return Status::missing;
+}
+
+Placing way_of_sleeper(const World& world, const SleepTime& time, const PlaceRequest& to) {
+  GaitState<float> state;
+  read_asleep(world, to.person, time, type_id<GaitState<float>>(), &state);
+  return {state.line_x_m, state.line_z_m, state.heading_rad, to.x_m, to.z_m, to.heading_rad};
+}
+
+void place_sleeper(World& world, Entity person, const SleepTime& time, const Placing& way) {
+  const double s = exact::sin(double{way.turn_rad()}), c = exact::cos(double{way.turn_rad()});
+  const auto go = [&](SteadyWalk<float>& walk, std::uint32_t at_tick) {
+    Lanes<std::uint32_t> tick;
+    for (auto& lane : tick.lane) lane = at_tick;
+    GaitState<Lanes<float>> block;
+    steady_state(broadcast(walk), tick, time.tick_s, block);
+    const GaitState<float> state = first_lane(block);
+    const double x = double{state.line_x_m} - double{way.from_x_m}, z = double{state.line_z_m} - double{way.from_z_m};
+    walk.anchor_x_m = static_cast<float>(double{way.to_x_m} + x * c + z * s);
+    walk.anchor_z_m = static_cast<float>(double{way.to_z_m} - x * s + z * c);
+    walk.anchor_steps = state.steps;
+    walk.heading_rad = way.turned(walk.heading_rad);
+    walk.asked_heading_rad = way.turned(walk.asked_heading_rad);
+  };
+  Asleep<float> asleep = *world.get<Asleep>(person);
+  const auto since = unsettled_of(world, person);
+  if (!is_unsettled(since, time)) {
+    go(asleep.walk, time.tick);
+  } else {
+    Unsettled<float> changing = *since;
+    go(changing.before, changing.asked_tick);
+    world.set(person, changing);
+    if (since->until_tick == 0) {  // worked out from what was before and what is asked, in the next tick
+      asleep.walk.asked_heading_rad = way.turned(asleep.walk.asked_heading_rad);
+    } else {
+      go(asleep.walk, since->until_tick == never_settles ? time.tick : since->until_tick);
+    }
+  }
+  world.set(person, asleep);
 }
 
 }  // namespace mobil

@@ -7,6 +7,7 @@
 
 #include "engine/jobs.h"
 #include "engine/world.h"
+#include "systems/people/person.h"
 #include "systems/people/sleepers.h"
 
 namespace mobil {
@@ -28,6 +29,11 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
 /// The same steady walkers, as they were at that tick, as people of another world.
 void create_steady(World& to, const Jobs& jobs, std::span<const Sleeper> walkers, const SleepTime& then,
                    std::span<Entity> entities, WakingWork& work);
+
+/// The way of a sleeper who is put elsewhere, and then to go it: what is woken there is who was awake and put there, to
+/// the bit; who turns, stops or changes speed at the time is so within rounding. `place_sleeper` takes no memory.
+Placing way_of_sleeper(const World& world, const SleepTime& time, const PlaceRequest& to);
+void place_sleeper(World& world, Entity person, const SleepTime& time, const Placing& way);
 
 /// A part of a walker's row as it would be if nobody had slept: Gait, GaitState, StepPlan, BodySize, Physique, Pose,
 /// JointAngles, Feet or CentreOfMass, `row` being one of them. Status::missing where there is no such part or nobody

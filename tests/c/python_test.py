@@ -136,6 +136,71 @@ class Worlds(unittest.TestCase):
             world.joints(gone)
         self.assertEqual(len(world.people), 11)
 
+    def test_events_say_when_and_where_feet_strike(self):
+        world = mobil.World(axes="unity")
+        people = world.spawn(3, place=[[i, 0, 0] for i in range(3)], speed_m_s=1.4)
+        world.tick(10)
+        self.assertEqual(len(world.events()), 0)
+        world.watch(people)
+        told = []
+        for _ in range(120):
+            world.tick()
+            told += list(world.events())
+        strikes = [e for e in told if mobil.EVENTS[e["kind"]] == "heel_strike"]
+        first = [e for e in strikes if e["person"]["index"] == people[1]["index"]]
+        self.assertGreaterEqual(len(first), 3)
+        times = [(e["tick"] - 1 + float(e["part"])) * world.tick_s for e in first]
+        request = world.walk(people[1])
+        np.testing.assert_allclose(np.diff(times), request["step_length_m"] / request["speed_m_s"], atol=2e-6)
+        places = np.array([e["place"] for e in first])
+        np.testing.assert_allclose(np.diff(places[:, 2]), request["step_length_m"], atol=1e-4)
+        self.assertEqual({e["side"] for e in first}, {0, 1})
+        for e in first:  # x is to the right
+            self.assertEqual(float(e["place"][0]) > 1, e["side"] == 0)
+        world.watch(people, on=False)
+        world.tick(60)
+        self.assertEqual(len(world.events()), 0)
+
+    def test_root_motion_adds_up(self):
+        world = mobil.World(axes="z_up", units_per_m=100)
+        people = crowd(world)
+        roots = world.roots(people)
+        first = roots.copy()
+        ahead = np.zeros(len(people))
+        for _ in range(60):
+            world.tick()
+            ahead += world.root_motion(people, roots)[:, 0]
+        np.testing.assert_allclose(np.linalg.norm(roots["place"] - first["place"], axis=1), ahead, atol=1e-2)
+        np.testing.assert_array_equal(world.roots(people)["place"], roots["place"])
+        with self.assertRaises(ValueError):
+            world.root_motion(people, roots[:1])
+
+    def test_walks_are_read_back_and_changed_in_part(self):
+        world = mobil.World()
+        people = world.spawn(2, speed_m_s=1.2, style={"toe_out_deg": 12})
+        world.change_walk(people, heading_rad=0.5)
+        before = world.walk(people[0])
+        world.change_walk(people[0], speed_m_s=1.5)
+        after = world.walk(people[0])
+        self.assertAlmostEqual(after["speed_m_s"], 1.5)
+        self.assertEqual(after["heading_rad"], 0.5)
+        self.assertEqual(after["style"], before["style"])
+        self.assertAlmostEqual(after["style"]["toe_out_deg"], 12)
+        world.change_walk(people[0], **after)
+        self.assertEqual(world.walk(people[0]), after)
+
+    def test_many_are_placed_or_nobody(self):
+        world = mobil.World()
+        people = world.spawn(3)
+        world.place(people, [[1, 0, 2], [3, 0, 4], [5, 0, 6]], [0, 1, 2])
+        np.testing.assert_allclose(world.roots(people)["heading_rad"], [0, 1, 2], atol=1e-3)
+        before = world.hash()
+        with self.assertRaises(mobil.RefusedError):
+            world.place(people, [[1, 0, 2], [3, 0, 4], [np.inf, 0, 6]], 0)
+        self.assertEqual(world.hash(), before)
+        world.shift_origin([64, 0, 0])
+        self.assertLess(world.roots(people)["place"][0, 0], -60)
+
     def test_choosing_follows_the_camera(self):
         world = mobil.World()
         people = crowd(world)

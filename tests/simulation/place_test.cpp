@@ -2,10 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdio>
+#include <cstring>
 #include <limits>
 #include <random>
 #include <vector>
 
+#include "components/forces.h"
+#include "components/sleep.h"
 #include "engine/geometry.h"
 #include "tests/simulation/leg_muscles.h"
 
@@ -123,6 +127,132 @@ TEST(Place, WhatIsNoPlaceIsRefused) {
   EXPECT_EQ(simulation.state_hash(), before);
 }
 
+template <template <class> class C>
+void expect_same(const Simulation& a, Entity in_a, const Simulation& b, Entity in_b, const char* what) {
+  const auto x = a.get<C>(in_a), y = b.get<C>(in_b);
+  ASSERT_TRUE(x && y) << what;
+  EXPECT_EQ(std::memcmp(&*x, &*y, sizeof *x), 0) << what;
+}
+void expect_same_walk(const Simulation& a, Entity in_a, const Simulation& b, Entity in_b, const char* what) {
+  expect_same<Gait>(a, in_a, b, in_b, what);
+  expect_same<GaitState>(a, in_a, b, in_b, what);
+  expect_same<StepPlan>(a, in_a, b, in_b, what);
+  expect_same<Pose>(a, in_a, b, in_b, what);
+  expect_same<JointAngles>(a, in_a, b, in_b, what);
+  expect_same<Feet>(a, in_a, b, in_b, what);
+  expect_same<CentreOfMass>(a, in_a, b, in_b, what);
+}
+
+/// Who is put somewhere is who was spawned there, to the bit, and stays so; whole, compact and asleep.
+TEST(Place, IsAsIfSpawnedThere) {
+  Simulation there, placed;
+  std::vector<SpawnRequest> requests(12), at_origin(12);
+  std::vector<PlaceRequest> to(12);
+  std::vector<Entity> spawned(12), people(12);
+  for (std::size_t i = 0; i < 12; ++i) {
+    Person who = person(static_cast<int>(i));
+    who.gait.style = snapped(who.gait.style);
+    if (i % 4 == 3) who.gait = {.speed_m_s = 0.0F};
+    const auto n = static_cast<float>(i);
+    requests[i] = {.body = who.body, .gait = who.gait, .x_m = 3 * n, .z_m = 40 - n, .heading_rad = 0.5F * n - 3};
+    at_origin[i] = {.body = who.body, .gait = who.gait};
+  }
+  ASSERT_TRUE(there.spawn(requests, spawned));
+  ASSERT_TRUE(placed.spawn(at_origin, people));
+  ASSERT_EQ(*placed.compact(std::span(people).first(4)), 4U);
+  ASSERT_EQ(*placed.sleep(std::span(people).subspan(4, 4)), 4U);
+  for (std::size_t i = 0; i < 12; ++i) to[i] = {people[i], requests[i].x_m, requests[i].z_m, requests[i].heading_rad};
+  ASSERT_TRUE(placed.place(to));
+  EXPECT_TRUE(placed.is_compact(people[0]));
+  EXPECT_TRUE(placed.is_asleep(people[4]));
+  for (int t = 0; t < 90; ++t) {
+    for (std::size_t i = 0; i < 12; ++i) expect_same_walk(there, spawned[i], placed, people[i], "walk");
+    if (::testing::Test::HasFailure()) break;
+    there.tick();
+    placed.tick();
+  }
+  ASSERT_TRUE(placed.expand(people));
+  ASSERT_TRUE(placed.wake(people));
+  EXPECT_EQ(there.state_hash(), placed.state_hash());
+}
+
+/// Asleep and awake, in the middle of a walk: to the bit where they walk steadily, else within what places hold.
+TEST(Place, SleepersGoAlong) {
+  Simulation awake, asleep;
+  std::vector<Entity> people;
+  for (int i = 0; i < 8; ++i) {
+    Person who = person(i);
+    who.gait.style = snapped(who.gait.style);
+    people.push_back(*awake.spawn(who.body, who.gait));
+    ASSERT_EQ(*asleep.spawn(who.body, who.gait), people.back());
+  }
+  for (int t = 0; t < 100; ++t) awake.tick(), asleep.tick();
+  ASSERT_EQ(*asleep.sleep(people), 8U);
+  const auto put = [&](float x_m) {
+    std::vector<PlaceRequest> to;
+    for (const Entity human : people) to.push_back({human, x_m + static_cast<float>(human.index), -x_m, 0.01F * x_m});
+    ASSERT_TRUE(awake.place(to));
+    ASSERT_TRUE(asleep.place(to));
+  };
+  put(25);
+  for (int t = 0; t < 50; ++t) awake.tick(), asleep.tick();
+  for (const Entity human : people) expect_same_walk(awake, human, asleep, human, "steady");
+  // Now some turn and some stop, and are put elsewhere at once, on the way and after.
+  for (const Entity human : people) {
+    for (Simulation* const simulation : {&awake, &asleep}) {
+      if (human.index % 2 == 0) {
+        ASSERT_TRUE(simulation->turn_to(human, 1.5F));
+      } else {
+        ASSERT_TRUE(simulation->change_gait(human, {.speed_m_s = 0.0F}));
+      }
+    }
+  }
+  for (const float x_m : {60.0F, 80.0F, -30.0F}) {
+    put(x_m);
+    for (int t = 0; t < 40; ++t) awake.tick(), asleep.tick();
+    for (const Entity human : people) {
+      EXPECT_TRUE(asleep.is_asleep(human));
+      const auto a = *awake.get<GaitState>(human), b = *asleep.get<GaitState>(human);
+      EXPECT_EQ(a.time_s, b.time_s);
+      EXPECT_EQ(a.steps, b.steps);
+      EXPECT_NEAR(a.line_x_m, b.line_x_m, 1e-4);
+      EXPECT_NEAR(a.line_z_m, b.line_z_m, 1e-4);
+      EXPECT_NEAR(a.heading_rad, b.heading_rad, 1e-5);
+    }
+  }
+  ASSERT_TRUE(asleep.wake(people));
+  for (const Entity human : people) {
+    const auto a = *awake.get<Pose>(human), b = *asleep.get<Pose>(human);
+    for (std::size_t s = 0; s < segment_count; ++s)
+      EXPECT_LT(geometry::length(a.position_m[s] - b.position_m[s]), 2e-4) << segment_name[s];
+  }
+}
+
+TEST(Place, ManyOrNobody) {
+  Simulation simulation;
+  std::vector<PlaceRequest> to;
+  for (int i = 0; i < 6; ++i) {
+    const auto n = static_cast<float>(i);
+    to.push_back({join(simulation, person(i), false), n, 2 * n, n});
+  }
+  ASSERT_EQ(*simulation.sleep({&to[2].person, 1}), 1U);
+  const Entity posed = *simulation.spawn_posed(person(2).body), last = join(simulation, person(9), false);
+  for (int t = 0; t < 20; ++t) simulation.tick();
+  const std::uint64_t before = simulation.state_hash();
+  const auto refused = [&](const PlaceRequest& one) {
+    auto all = to;
+    all.push_back(one);
+    const auto done = simulation.place(all);
+    EXPECT_EQ(simulation.state_hash(), before);
+    return done ? std::string() : done.error().message;
+  };
+  EXPECT_NE(refused({posed, 0, 0, 0}).find("person 6"), std::string::npos);
+  EXPECT_NE(refused({to[1].person, 0, 0, 0}), "");
+  EXPECT_NE(refused({{}, 0, 0, 0}), "");
+  to[3].x_m = std::numeric_limits<float>::infinity();
+  EXPECT_NE(refused({last, 0, 0, 0}).find("person 3"), std::string::npos);
+}
+
 /// The world's origin moves: nobody notices.
 TEST(ShiftOrigin, EverybodyGoesOnAsTheyWere) {
   Simulation here, there;
@@ -188,6 +318,68 @@ TEST(ShiftOrigin, BringsBackTheDigits) {
   EXPECT_GT(worst_m(), 3e-4);
   ASSERT_TRUE(simulation.shift_origin(10240, 20480));
   EXPECT_LT(worst_m(), 3e-6);
+}
+
+/// A hundred kilometres on, by an origin that goes along: feet stand and bones are as long as at home.
+TEST(ShiftOrigin, AHundredKilometresOnNothingIsLost) {
+  Simulation home, far;
+  const Person who = person(1);
+  const Entity stays = join_with(home, who, with_inertia(Method::reduced)),
+               goes = join_with(far, who, with_inertia(Method::reduced));
+  const Entity posed = *far.spawn_posed(person(4).body);
+  ASSERT_TRUE(far.add_forces(posed));
+  Person other = person(2);
+  other.gait.style = snapped(other.gait.style);
+  const Entity sleeper = *far.spawn(other.body, other.gait), small = *far.spawn(other.body, other.gait),
+               twin = *home.spawn(other.body, other.gait);
+  ASSERT_EQ(*far.sleep({&sleeper, 1}), 1U);
+  ASSERT_EQ(*far.compact({&small, 1}), 1U);
+  double gone_m = 0, worst_m = 0, slipped_m = 0, behind_m = 0;
+  Vec3<float> stood{};  // beside the same heel at home
+  std::uint32_t stance = 0;
+  for (int leg = 0; leg < 100; ++leg) {
+    // Everybody is taken a kilometre on, and the origin with them.
+    std::vector<PlaceRequest> to;
+    for (const Entity one : {goes, sleeper, small}) {
+      const auto at = *far.get<GaitState>(one);
+      to.push_back({one, at.line_x_m + 1024, at.line_z_m, at.heading_rad});
+    }
+    ASSERT_TRUE(far.place(to));
+    auto pose = *far.get<Pose>(posed);
+    for (auto& at : pose.position_m) at.x += 1024;
+    ASSERT_TRUE(far.set_pose(posed, pose, Arrival::jumped));
+    ASSERT_TRUE(far.shift_origin(1024, 0));
+    gone_m += 1024;
+    for (int t = 0; t < 12; ++t) {
+      const auto side = far.get<GaitState>(goes)->stance_side;
+      const auto heel = far.get<Feet>(goes)->heel_m[side] - home.get<Feet>(stays)->heel_m[side];
+      // Before the first tick feet are those that were a kilometre from the origin.
+      if (t > 1 && side == stance) slipped_m = std::max(slipped_m, static_cast<double>(geometry::length(heel - stood)));
+      stood = heel;
+      stance = side;
+      home.tick();
+      far.tick();
+    }
+    for (const auto& [a, b] : {std::pair{stays, goes}, {twin, sleeper}, {twin, small}}) {
+      const auto p = *home.get<Pose>(a), q = *far.get<Pose>(b);
+      for (std::size_t s = 0; s < segment_count; ++s)
+        worst_m = std::max(worst_m, static_cast<double>(geometry::length(p.position_m[s] - q.position_m[s])));
+    }
+    behind_m = std::max(behind_m, std::abs(static_cast<double>(far.get<Pose>(posed)->position_m[0].x)));
+  }
+  std::printf("%.0f km on: poses within %.4f mm, a planted heel slips %.4f mm\n", 1e-3 * gone_m, 1e3 * worst_m,
+              1e3 * slipped_m);
+  EXPECT_GE(gone_m, 1e5);
+  EXPECT_LT(worst_m, 1e-4);
+  EXPECT_LT(slipped_m, 1e-5);
+  EXPECT_LT(behind_m, 1.0);
+  const auto ground = far.get<GroundReaction>(posed);
+  ASSERT_TRUE(ground);
+  EXPECT_NEAR(ground->force_n[0].y + ground->force_n[1].y, 9.81F * person(4).body.mass_kg, 5);
+  Difference difference;
+  compare(home, stays, far, goes, difference);
+  EXPECT_GT(difference.most, 1e-3);
+  EXPECT_LT(difference.apart, 0.1 * difference.most);
 }
 
 }  // namespace mobil::place_test

@@ -17,6 +17,7 @@ SI units, radians. People are numpy arrays of handles; what is read goes into nu
 from ._library import Error, MissingError, OutOfMemoryError, RefusedError, StaleError, lib, text
 from .names import (
     ACTIVATION,
+    EVENTS,
     JOINTS,
     LINE,
     LINE_MOTION,
@@ -32,12 +33,14 @@ from .names import (
 from .plots import plot_walk
 from .surfaces import Part, Surfaces
 from .walks import Walk, walk
-from .world import PERSON, Choice, SystemCost, Ticks, World, method, muscles
+from .world import EVENT, PERSON, ROOT, Choice, SystemCost, Ticks, World, method, muscles
 
 __version__ = text(lib.mobil_library_version())
 __all__ = [
     "ACTIVATION",
     "Choice",
+    "EVENT",
+    "EVENTS",
     "Error",
     "JOINTS",
     "LINE",
@@ -50,6 +53,7 @@ __all__ = [
     "PERSON",
     "Part",
     "REPORT",
+    "ROOT",
     "RefusedError",
     "SEGMENTS",
     "STYLE",

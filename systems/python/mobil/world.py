@@ -14,6 +14,23 @@ from .names import muscle_bits, number_of
 PERSON = np.dtype([("index", np.uint32), ("generation", np.uint32)])
 """One person's handle; people are arrays of these."""
 
+EVENT = np.dtype(
+    [
+        ("person", PERSON),
+        ("kind", np.int32),
+        ("side", np.int32),
+        ("tick", np.uint32),
+        ("part", np.float32),
+        ("place", np.float32, 3),
+        ("heading_rad", np.float32),
+    ]
+)
+"""What happened in somebody's steps: kind by names.EVENTS, side by names.SIDES, in which tick (from 1 on) and what part
+of it was over, where the foot stands, or the line is, and where it points."""
+
+ROOT = np.dtype([("place", np.float64, 3), ("heading_rad", np.float64)])
+"""Where somebody is on the ground, and heads."""
+
 People = npt.NDArray[np.void]
 Floats = npt.NDArray[np.float32]
 
@@ -221,9 +238,32 @@ class World:
         rows = np.ascontiguousarray(poses, np.float32).reshape(len(np.atleast_1d(people)), len(names.SEGMENTS), 7)
         self._do(lib.mobil_set_poses(self._sim, *_all(people), _floats(rows), 0, int(jumped)))
 
-    def place(self, person: People, place: Sequence[float], heading_rad: float) -> None:
-        """Puts a walker elsewhere at once; no inertia is felt."""
-        self._do(lib.mobil_place(self._sim, _one(person), list(place), heading_rad))
+    def walk(self, person: People) -> dict[str, Any]:
+        """What a walker is to do, as change_walk takes it; `style` has all of its numbers."""
+        to = struct("walk")
+        style = np.empty(len(names.STYLE), np.float32)
+        self._do(lib.mobil_get_walk(self._sim, _one(person), to, _floats(style), style.size))
+        walk: dict[str, Any] = {"speed_m_s": to.speed_m_s, "heading_rad": to.heading_rad}
+        if to.given & lib.MOBIL_STEP_LENGTH:
+            walk["step_length_m"] = to.step_length_m
+        walk["style"] = dict(zip(names.STYLE, style.tolist()))
+        return walk
+
+    def place(self, people: People, place: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
+        """Puts walkers elsewhere at once, all or none; no inertia is felt. place: (…, 3) in the world's axes."""
+        people = np.atleast_1d(people)
+        rows = np.empty((len(people), 4), np.float32)
+        rows[:, :3] = place
+        rows[:, 3] = heading_rad
+        self._do(lib.mobil_place_many(self._sim, *_all(people), _floats(rows), 0))
+
+    def shift_origin(self, to: Sequence[float]) -> None:
+        """The origin moves there: every place becomes so much less."""
+        self._do(lib.mobil_shift_origin(self._sim, list(to)))
+
+    def watch(self, people: People, on: bool = True) -> None:
+        """Their steps are watched from the next tick on, or no more: events() tells of them."""
+        self._do(lib.mobil_watch(self._sim, *_all(people), int(on)))
 
     def set_forces(self, people: People, on: bool = True) -> None:
         """Ground reactions and joint moments, or not."""
@@ -402,6 +442,35 @@ class World:
         shape = ((7,), (3, 4), (8,))[layout.form]
         out = _out(out, (len(np.atleast_1d(people)), len(numbers), *shape))
         self._do(lib.mobil_poses(self._sim, *_all(people), layout, _floats(out), out.strides[0] if out.size else 0))
+        return out
+
+    def events(self) -> People:
+        """What happened in all ticks of the last advance or tick in the steps of who is watched: an array of EVENT."""
+        count = ffi.new("size_t*")
+        self._do(lib.mobil_events(self._sim, ffi.NULL, 0, count))
+        found = np.zeros(count[0], EVENT)
+        if found.size:
+            self._do(lib.mobil_events(self._sim, ffi.from_buffer("mobil_event[]", found), found.size, ffi.NULL))
+        return found
+
+    def roots(self, people: People, ahead_s: float = 0.0) -> People:
+        """Where people are on the ground and head, without the sway of the hips: an array of ROOT."""
+        found = np.zeros(len(np.atleast_1d(people)), ROOT)
+        at = ffi.from_buffer("mobil_root[]", found) if found.size else ffi.NULL
+        self._do(lib.mobil_roots(self._sim, *_all(people), ahead_s, at))
+        return found
+
+    def root_motion(self, people: People, roots: People, ahead_s: float = 0.0) -> Floats:
+        """(n, 4): the way from `roots` to where people are now, in the world's axes as if they headed along the axis
+        ahead, and by how much they turned, rad, to the left. Where they are now is written over `roots`."""
+        out = np.empty((len(np.atleast_1d(people)), 4), np.float32)
+        if roots.dtype != ROOT or roots.shape != (len(out),) or not roots.flags.c_contiguous or not roots.flags.writeable:
+            raise ValueError("roots must be what roots() gave of as many people")
+        if not out.size:
+            return out
+        at = ffi.from_buffer("mobil_root[]", roots)
+        ways = ffi.cast("mobil_motion*", out.ctypes.data)
+        self._do(lib.mobil_root_motion(self._sim, *_all(people), ahead_s, at, ways))
         return out
 
     def _rows(self, what: int, people: People, out: Floats | None) -> Floats:

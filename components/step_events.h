@@ -1,0 +1,32 @@
+#pragma once
+// What comes to pass in a walker's steps within a tick.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace mobil {
+
+/// A foot comes to the ground; a foot leaves it; somebody who walked, or stepped where they stood, stands; somebody who
+/// stood begins to step.
+enum class StepEventKind : std::uint8_t { heel_strike, toe_off, stopped, started };
+
+/// What came to pass in one walker's steps in a tick, in that order. Published (engine/key.h) by who is watched.
+struct StepEvents {
+  struct One {
+    std::uint16_t at;  // units of the walker's clock (systems/gait/gait.h) since the tick began
+    StepEventKind kind;
+    std::uint8_t side;
+    float x_m, z_m, heading_rad;
+  };
+  static constexpr std::size_t most = 7;  // more than a tick of any length holds
+
+  std::uint32_t count;
+  /// Of the step that the tick began in: whether it ends in the tick and when, in units of `at`; whether a foot moved
+  /// in it, and one came to the ground at its end; which that was.
+  std::uint16_t ends, ends_at, moved, lands;
+  std::uint32_t landing_side;
+  One of[most];
+};
+static_assert(sizeof(StepEvents) == 128);
+
+}  // namespace mobil

@@ -1,0 +1,170 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/gait/step_events.cpp"
+#include <hwy/foreach_target.h>
+
+#include <algorithm>
+
+#include "assets/gait/step_curves-inl.h"
+#include "engine/wide-inl.h"
+#include "systems/gait/gait.h"
+#include "systems/gait/step_events.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+/// A place to the left of and ahead of the stance foothold, and a foot's heading there, in the world.
+HWY_INLINE void put_foothold(const GaitState<Lanes<float>>& state, FootholdOf which, const Wide& left,
+                             const Wide& forward, const Wide& turned, Footholds<Lanes<float>>& out) {
+  const auto i = static_cast<std::size_t>(which);
+  const Wide heading = load(state.heading_rad);
+  Wide s, c;
+  sin_cos(heading, s, c);
+  store(fma(left, c, fma(forward, s, load(state.line_x_m))), out.x_m[i]);
+  store(fnma(left, s, fma(forward, c, load(state.line_z_m))), out.z_m[i]);
+  store(heading + turned, out.heading_rad[i]);
+}
+
+/// As kinematics have them (systems/kinematics/on_line-inl.h): each foot stands beside its own point of the line.
+void footholds_block(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                     Footholds<Lanes<float>>& out) {
+  const Wide one = wide(1.0F), zero = wide(0.0F);
+  const Wide side = select(equal(state.stance_side, Side::left), one, -one);  // of the stance foot, to the left
+  const Wide turned_before = -load(state.turn_before_rad), turn = load(state.turn_rad);
+  Wide from_s, from_c, to_s, to_c, before_s, before_c, next_s, next_c;
+  sin_cos(load(state.chord_before_rad), from_s, from_c);
+  sin_cos(load(state.chord_rad), to_s, to_c);
+  sin_cos(turned_before, before_s, before_c);
+  sin_cos(turn, next_s, next_c);
+  const Wide before = fnma(side, load(plan.trailing_half_width_m), load(state.shift_before_m));
+  const Wide stance = fma(side, load(plan.from.half_width_m), load(state.shift_m));
+  const Wide next = fnma(side, load(plan.to.half_width_m), load(state.shift_next_m));
+  const Wide length_before = load(plan.length_before_m), length = load(plan.step_length_m);
+  put_foothold(state, FootholdOf::leaving, fnma(length_before, from_s, before * before_c),
+               fnma(length_before, from_c, -(before * before_s)),
+               fnma(side, load(plan.trailing_toe_out), turned_before), out);
+  put_foothold(state, FootholdOf::stance, stance, zero, side * load(plan.from.toe_out), out);
+  put_foothold(state, FootholdOf::landing, fma(length, to_s, next * next_c), fma(length, to_c, -(next * next_s)),
+               fnma(side, load(plan.to.toe_out), turn), out);
+}
+
+/// When in its step the other foot comes to the ground.
+void landing_times_block(const StepPlan<Lanes<float>>& plan, Lanes<float>& seconds) {
+  store(time_of_phase(plan, load(plan.landing)) * load(plan.duration_s), seconds);
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace mobil {
+
+HWY_EXPORT(footholds_block);
+HWY_EXPORT(landing_times_block);
+
+namespace {
+
+/// Who comes to the ground before the step ends: in last steps and in steps of who stands.
+bool lands_early(const StepPlan<Lanes<float>>& plan, std::size_t lane) {
+  return plan.landing[lane] > 0.0F && plan.landing[lane] < 1.0F;
+}
+
+/// What is asked of few lanes, and of many in no block; made once a block, when it is first asked for.
+class BlockEvents {
+ public:
+  BlockEvents(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s, StepEvents* rows)
+      : units(clock_units(tick_s)), plan_(plan), state_(state), rows_(rows) {
+    bool early = false;
+    for (std::size_t l = 0; l < lane_count; ++l) early = early || lands_early(plan, l);
+    if (early) HWY_DYNAMIC_DISPATCH(landing_times_block)(plan, landing_s_);
+  }
+
+  /// Feet that leave the ground and come to it after `from` and until `to`, in units since the step began, as it did
+  /// so many after the tick's beginning.
+  void in_step(std::size_t lane, std::int32_t from, std::int32_t to, std::int32_t began) {
+    const std::uint32_t other = state_.stance_side[lane] ^ 1U;
+    const std::int32_t off = units.of(plan_.double_support_s[lane]);
+    if (from < off && off <= to) add(lane, began + off, StepEventKind::toe_off, other, FootholdOf::leaving);
+    if (!lands_early(plan_, lane)) return;
+    const std::int32_t down = units.of(landing_s_[lane]);
+    if (from < down && down <= to) add(lane, began + down, StepEventKind::heel_strike, other, FootholdOf::landing);
+  }
+
+  void add(std::size_t lane, std::int32_t at, StepEventKind kind, std::uint32_t side, FootholdOf where) {
+    if (!placed_) HWY_DYNAMIC_DISPATCH(footholds_block)(plan_, state_, places_);
+    placed_ = true;
+    const auto i = static_cast<std::size_t>(where);
+    append(lane, at, kind, side, {places_.x_m[i][lane], 0, places_.z_m[i][lane]}, places_.heading_rad[i][lane]);
+  }
+  /// Of the whole person, on the walking line.
+  void add_on_line(std::size_t lane, std::int32_t at, StepEventKind kind, std::uint32_t side) {
+    append(lane, at, kind, side, {state_.line_x_m[lane], 0, state_.line_z_m[lane]}, state_.heading_rad[lane]);
+  }
+
+  const ClockUnits units;
+
+ private:
+  void append(std::size_t lane, std::int32_t at, StepEventKind kind, std::uint32_t side, const Vec3<float>& place,
+              float heading_rad) {
+    StepEvents& row = rows_[lane];
+    if (row.count == StepEvents::most) return;
+    row.of[row.count++] = {static_cast<std::uint16_t>(std::clamp(at, 0, units.per_tick)),
+                           kind,
+                           static_cast<std::uint8_t>(side),
+                           place.x,
+                           place.z,
+                           heading_rad};
+  }
+
+  const StepPlan<Lanes<float>>& plan_;
+  const GaitState<Lanes<float>>& state_;
+  StepEvents* rows_;
+  Lanes<float> landing_s_;
+  Footholds<Lanes<float>> places_;
+  bool placed_ = false;
+};
+
+}  // namespace
+
+void footholds(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Footholds<Lanes<float>>& out) {
+  HWY_DYNAMIC_DISPATCH(footholds_block)(plan, state, out);
+}
+
+void begin_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,
+                       StepEvents* rows) {
+  BlockEvents events(plan, state, tick_s, rows);
+  const ClockUnits& units = events.units;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    StepEvents& row = rows[l];
+    const std::int32_t from = units.of(state.time_s[l]), end = units.step(plan.duration_s[l]);
+    const std::int32_t to = from + units.per_tick;
+    row.count = 0;
+    row.ends = to >= end ? 1 : 0;
+    row.moved = plan.landing[l] > 0.0F ? 1 : 0;
+    if (row.moved != 0) events.in_step(l, from, std::min(to, end), -from);
+    if (row.ends == 0) continue;
+    row.ends_at = static_cast<std::uint16_t>(std::max(end - from, 0));
+    row.lands = row.moved != 0 && !lands_early(plan, l) ? 1 : 0;
+    row.landing_side = state.stance_side[l] ^ 1U;
+  }
+}
+
+void end_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,
+                     StepEvents* rows) {
+  bool some = false;
+  for (std::size_t l = 0; l < lane_count; ++l) some = some || rows[l].ends != 0;
+  if (!some) return;
+  BlockEvents events(plan, state, tick_s, rows);
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const StepEvents& row = rows[l];
+    if (row.ends == 0) continue;
+    const std::int32_t at = row.ends_at;
+    const bool moves = plan.landing[l] > 0.0F;
+    if (row.lands != 0) events.add(l, at, StepEventKind::heel_strike, row.landing_side, FootholdOf::stance);
+    if (row.moved != 0 && !moves) events.add_on_line(l, at, StepEventKind::stopped, row.landing_side);
+    if (row.moved == 0 && moves) events.add_on_line(l, at, StepEventKind::started, state.stance_side[l] ^ 1U);
+    if (moves) events.in_step(l, 0, events.units.of(state.time_s[l]), at);
+  }
+}
+
+}  // namespace mobil
+#endif

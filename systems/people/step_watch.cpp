@@ -1,0 +1,120 @@
+#include "systems/people/step_watch.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <tuple>
+
+#include "components/gait.h"
+#include "components/sleep.h"
+#include "engine/access.h"
+#include "engine/schedule.h"
+#include "systems/gait/gait.h"
+#include "systems/gait/step_events.h"
+#include "systems/people/person.h"
+#include "systems/people/sleepers.h"
+
+namespace mobil {
+namespace {
+
+/// Before the clocks go on.
+void watch_ahead(Previous<StepPlan> plan, Previous<GaitState> state, Published<StepEvents> events, float tick_s) {
+  begin_step_events(*plan, *state, tick_s, events.row);
+}
+
+void watch_behind(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                  Published<StepEvents> events, float tick_s) {
+  end_step_events(plan, state, tick_s, events.row);
+}
+
+/// Walkers are watched, awake or asleep.
+Result<void> check_watch_key(const TableKey& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const bool awake = !has(type_id<StepEvents>()) || has(type_id<GaitState<float>>());
+  const bool asleep = !has(type_id<SleepsWatched>()) || has(type_id<Asleep<float>>());
+  if (awake && asleep) return {};
+  return fail("the snapshot does not agree with itself (whose steps are watched); give one that `save` made");
+}
+
+/// Of a person in some ticks at most: at two steps a tick where these are longer than steps, at six steps a second.
+std::size_t most_events(std::uint32_t ticks, float tick_s) {
+  const double steps = std::min(2.0 * ticks, 6.0 * ticks * static_cast<double>(tick_s)) + 1;
+  return static_cast<std::size_t>(std::ceil(3 * steps));
+}
+
+}  // namespace
+
+Module step_watch_module() {
+  return {.name = "step events",
+          .parts = {key_part(Publishes<StepEvents>{}), key_part(TagValue<SleepsWatched>{})},
+          .systems =
+              [](ScheduleBuilder& systems) {
+                systems.add("steps ahead", &watch_ahead).add("step events", &watch_behind).after("steps ahead");
+              },
+          .check_key = &check_watch_key};
+}
+
+bool is_watched(const World& world, Entity person) {
+  return world.has<StepEvents>(person) || world.has<SleepsWatched>(person);
+}
+
+Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> people, bool on) {
+  struct Changes {
+    std::uint32_t table;
+    Entity person;
+  };
+  std::vector<Changes> changes;
+  for (const Entity person : people) {
+    if (!is_person(world, person)) return Status::stale_entity;
+    if (is_posed(world, person)) return Status::missing;
+    if (is_watched(world, person) != on) changes.push_back({world.locate(person)->table, person});
+  }
+  std::ranges::stable_sort(changes, {}, &Changes::table);
+  World::Attempt attempt(world, jobs);
+  std::vector<Entity> together;
+  for (auto first = changes.begin(); first != changes.end();) {
+    together.clear();
+    const std::uint32_t table = first->table;
+    for (; first != changes.end() && first->table == table; ++first) together.push_back(first->person);
+    const bool asleep = is_asleep(world, together.front());
+    const auto part = asleep ? part_value(TagValue<SleepsWatched>{1}) : part_value(Publishes<StepEvents>{});
+    const std::array owned = {part.part.id};
+    world.remake_many(together, std::span(&part, on ? 1 : 0), owned, jobs);
+  }
+  attempt.keep();
+  return Status::ok;
+}
+
+void StepLog::take(const World& world, std::uint32_t tick, float tick_s, std::uint32_t ticks) {
+  for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
+    if (world.tables()[tables_seen_].column(type_id<StepEvents>()) != Table::no_column)
+      tables_.push_back(static_cast<std::uint32_t>(tables_seen_));
+  }
+  std::size_t watched = 0;
+  for (const std::uint32_t t : tables_) watched += world.tables()[t].row_count();
+  if (watched == 0) return;
+  events_.reserve(watched * most_events(ticks, tick_s));
+  const auto first = static_cast<std::ptrdiff_t>(events_.size());
+  const float part = 1.0F / static_cast<float>(clock_units(tick_s).per_tick);
+  for (const std::uint32_t t : tables_) {
+    const Table& table = world.tables()[t];
+    const std::size_t column = table.column(type_id<StepEvents>()) * lane_count;
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      const auto* const rows = reinterpret_cast<const StepEvents*>(table.block(b) + column);
+      for (std::uint32_t l = 0; l < table.live(b); ++l) {
+        for (std::uint32_t i = 0; i < rows[l].count; ++i) {
+          const StepEvents::One& one = rows[l].of[i];
+          events_.push_back({table.entities(b)[l], one.kind, static_cast<Side>(one.side), tick,
+                             static_cast<float>(one.at) * part, Vec3<float>{one.x_m, 0, one.z_m}, one.heading_rad});
+        }
+      }
+    }
+  }
+  const auto order = [](const StepEvent& e) {
+    return std::tuple(e.part, e.person.index, e.kind);  // those of earlier ticks are in order
+  };
+  std::sort(events_.begin() + first, events_.end(),
+            [&](const StepEvent& a, const StepEvent& b) { return order(a) < order(b); });
+}
+
+}  // namespace mobil

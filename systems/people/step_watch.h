@@ -1,0 +1,62 @@
+#pragma once
+// People whose steps are watched: what happened in them, when and where, for sounds, dust, footprints and a game's own
+// counting. Who is not watched pays nothing.
+
+#include <cstdint>
+#include <memory_resource>
+#include <span>
+#include <vector>
+
+#include "components/lanes.h"
+#include "components/step_events.h"
+#include "engine/entity.h"
+#include "engine/jobs.h"
+#include "engine/module.h"
+#include "engine/status.h"
+#include "engine/world.h"
+
+namespace mobil {
+
+/// What happened in a walker's steps.
+struct StepEvent {
+  Entity person;
+  StepEventKind kind;
+  /// The foot that came to the ground or left it; that came down last before somebody stood; that goes first.
+  Side side;
+  /// Of which tick, from 1 on as Simulation::ticks counts, and what part of it was over, 0 to 1, to the unit of the
+  /// walker's clock (a 32768th of a tick): (tick − 1 + part) · tick_s seconds after the beginning.
+  std::uint32_t tick;
+  float part;
+  /// On the ground, m: of a foot the point under its ankle when it lies flat, the same as it comes down and as it
+  /// leaves; of who stops or starts the point of the walking line.
+  Vec3<float> place_m;
+  /// Where the foot points, of who stops or starts the body; rad about +Y, 0 toward +Z, positive to the left.
+  float heading_rad;
+};
+
+/// Publishes<StepEvents> of who is awake, SleepsWatched of who sleeps.
+Module step_watch_module();
+
+bool is_watched(const World& world, Entity person);
+/// People, named once each, are watched from the next tick on, or no more; who is so already is left alone. All or
+/// none: Status::missing where one is posed.
+Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
+
+/// What happened in the ticks since it was cleared, in order of time, at one time in the order of handles.
+class StepLog {
+ public:
+  explicit StepLog(std::pmr::memory_resource* memory) : events_(memory), tables_(memory) {}
+
+  void clear() { events_.clear(); }
+  /// After a tick that has run: `tick` is its number, from 1 on. Takes memory only where more people are watched than
+  /// ever before, enough for as many such ticks as `ticks` says.
+  void take(const World& world, std::uint32_t tick, float tick_s, std::uint32_t ticks);
+  std::span<const StepEvent> events() const { return events_; }
+
+ private:
+  std::pmr::vector<StepEvent> events_;
+  std::pmr::vector<std::uint32_t> tables_;  // those with StepEvents
+  std::size_t tables_seen_ = 0;
+};
+
+}  // namespace mobil

@@ -1,0 +1,22 @@
+#include "systems/people/walk_ahead.h"
+
+#include "engine/rows.h"
+#include "systems/gait/gait.h"
+
+namespace mobil {
+
+WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait,
+                     const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float ahead_s)
+    : state_(state), plan_(&plan) {
+  advance_gait(plan, state_, ahead_s);
+  if (const std::uint32_t lanes = lanes_to_plan(plan, gait, state_, ahead_s); lanes != 0) {
+    StepPlan<Lanes<float>> solved = next_ = plan;
+    plan_next_step(size, gait, state_, solved);
+    for (std::size_t l = 0; l < lane_count; ++l)
+      if ((lanes >> l & 1U) != 0) put_row(row_of(solved, l), next_, l);
+    plan_ = &next_;
+  }
+  turn_gait(size, *plan_, gait, state_, ahead_s);
+}
+
+}  // namespace mobil

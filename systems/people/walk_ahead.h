@@ -1,0 +1,32 @@
+#pragma once
+// Walkers a part of a tick later: nothing in the world changes.
+
+#include <cstddef>
+
+#include "components/body.h"
+#include "components/gait.h"
+
+namespace mobil {
+
+/// How far ahead may be asked for, s: less than any step takes, so that one at most begins on the way.
+inline constexpr double furthest_ahead_s = 0.2;
+
+/// A block of walkers where they will be `ahead_s` later, above 0; who begins a step on the way takes the one that they
+/// will.
+class WalkAhead {
+ public:
+  WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
+            const GaitState<Lanes<float>>& state, float ahead_s);
+  WalkAhead(const WalkAhead&) = delete;
+  WalkAhead& operator=(const WalkAhead&) = delete;
+
+  const StepPlan<Lanes<float>>& plan() const { return *plan_; }
+  const GaitState<Lanes<float>>& state() const { return state_; }
+
+ private:
+  GaitState<Lanes<float>> state_;
+  const StepPlan<Lanes<float>>* plan_;
+  StepPlan<Lanes<float>> next_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,62 @@
+#include "systems/simulation_reading.h"
+
+#include <bit>
+
+#include "assets/body/anthropometry.h"
+#include "components/sleep.h"
+#include "engine/each.h"
+#include "engine/schedule.h"
+#include "systems/muscles/leg_muscles.h"
+#include "systems/muscles/sleep.h"
+#include "systems/people/person.h"
+
+namespace mobil {
+
+std::optional<Human> read_human(const Simulation& simulation, Entity entity) {
+  const World& world = simulation.world();
+  if (!is_person(world, entity)) return std::nullopt;
+  const auto asleep = kept_choice(world, entity);
+  LegMuscles choice = asleep ? *asleep : choice_of(world, entity).value_or(LegMuscles{});
+  if (simulation.is_compact(entity) && choice.muscles.any()) {
+    const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong()));
+    const MuscleMethod method = simulation.method(entity, first);
+    choice.method = method.method;
+    choice.reduced = method.reduced;
+  }
+  Human human{entity,
+              *make_body(body_request(world, entity)),
+              gait_of(world, entity).value_or(Gait<float>{}),
+              {},
+              choice,
+              is_posed(world, entity)};
+  for (const OwnMuscle& own : muscles_of(world, entity)) {
+    human.muscles.push_back(
+        {*make_muscle_plan(human.body, own.muscle), own.entity, simulation.method(entity, own.muscle)});
+  }
+  return human;
+}
+
+std::vector<Entity> read_people(const World& world) {
+  std::vector<Entity> all;
+  each(world, [&](const Rows& rows, const Physique<Lanes<float>>&) {
+    all.insert(all.end(), rows.entity, rows.entity + rows.live);
+  });
+  each(world, [&](const Rows& rows, const Asleep<Lanes<float>>&) {
+    all.insert(all.end(), rows.entity, rows.entity + rows.live);
+  });
+  return all;
+}
+
+StepReport read_report(const Schedule& schedule, std::uint32_t ticks) {
+  StepReport report{ticks, {}};
+  const auto systems = schedule.systems();
+  const auto timings = schedule.timings();
+  report.systems.reserve(systems.size());
+  for (std::size_t s = 0; s < systems.size(); ++s) {
+    const Timing& t = timings[s];
+    report.systems.push_back({systems[s].name, systems[s].module, t.last_seconds, t.last_rows, t.seconds, t.rows});
+  }
+  return report;
+}
+
+}  // namespace mobil

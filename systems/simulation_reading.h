@@ -1,0 +1,16 @@
+#pragma once
+// What the front door tells of a simulation as a whole, put together when it is asked for.
+
+#include <optional>
+#include <vector>
+
+#include "systems/simulation.h"
+
+namespace mobil {
+
+/// As Simulation::human, people and report.
+std::optional<Human> read_human(const Simulation& simulation, Entity entity);
+std::vector<Entity> read_people(const World& world);
+StepReport read_report(const Schedule& schedule, std::uint32_t ticks);
+
+}  // namespace mobil

@@ -1,0 +1,194 @@
+// Events, roots, walks read back and places of many, through the C interface: those of C++, in the host's axes.
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "systems/simulation.h"
+#include "tests/c/c_fixture.h"
+
+namespace mobil::c_play_test {
+namespace {
+using namespace c_test;
+
+mobil_options unreal() {
+  auto options = filled<mobil_options>(MOBIL_OPTIONS);
+  options.axes = MOBIL_AXES_UNREAL;
+  options.units_per_m = 100;
+  return options;
+}
+
+/// The same five people, in Unreal's axes and in ours.
+struct Twins {
+  Twins() : sim(unreal()) {
+    std::vector<mobil_person> people = some_people(5);
+    std::vector<SpawnRequest> requests(5);
+    for (std::size_t i = 0; i < 5; ++i) {
+      requests[i].body.height_m = people[i].height_m;
+      requests[i].body.mass_kg = people[i].mass_kg;
+      requests[i].gait.speed_m_s = people[i].speed_m_s;
+      requests[i].x_m = static_cast<float>(i);
+      requests[i].heading_rad = people[i].heading_rad;
+      people[i].place[0] = 0;
+      people[i].place[1] = -100 * static_cast<float>(i);  // y is to the right there
+    }
+    ids.resize(5);
+    EXPECT_EQ(mobil_spawn(sim, people.data(), 0, 5, nullptr, ids.data()), MOBIL_OK) << sim.message();
+    entities.resize(5);
+    EXPECT_TRUE(simulation.spawn(requests, entities));
+  }
+  std::vector<mobil_event> events() {
+    std::size_t count = 0;
+    EXPECT_EQ(mobil_events(sim, nullptr, 0, &count), MOBIL_OK);
+    std::vector<mobil_event> all(count);
+    if (count > 0) {
+      EXPECT_EQ(mobil_events(sim, all.data(), count - 1, nullptr), MOBIL_ROOM);
+      EXPECT_EQ(mobil_events(sim, all.data(), count, nullptr), MOBIL_OK);
+    }
+    return all;
+  }
+
+  Sim sim;
+  Simulation simulation;
+  std::vector<mobil_id> ids;
+  std::vector<Entity> entities;
+};
+
+TEST(CPlay, EventsAreThoseOfCpp) {
+  Twins twins;
+  ASSERT_EQ(mobil_watch(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
+  ASSERT_TRUE(twins.simulation.watch_steps(twins.entities));
+  int bits = 0;
+  ASSERT_EQ(mobil_state(twins.sim, twins.ids[0], &bits), MOBIL_OK);
+  EXPECT_NE(bits & MOBIL_WATCHED, 0);
+  std::size_t all = 0;
+  for (int i = 0; i < 60; ++i) {
+    ASSERT_EQ(mobil_advance(twins.sim, 0.05, nullptr), MOBIL_OK);
+    twins.simulation.advance(0.05);
+    const auto theirs = twins.events();
+    const auto ours = twins.simulation.events();
+    ASSERT_EQ(theirs.size(), ours.size());
+    all += ours.size();
+    for (std::size_t e = 0; e < ours.size(); ++e) {
+      EXPECT_EQ(theirs[e].id.index, ours[e].person.index);
+      EXPECT_EQ(theirs[e].kind, static_cast<int>(ours[e].kind));
+      EXPECT_EQ(theirs[e].side, static_cast<int>(ours[e].side));
+      EXPECT_EQ(theirs[e].tick, ours[e].tick);
+      EXPECT_EQ(theirs[e].part, ours[e].part);
+      EXPECT_NEAR(theirs[e].place[0], 100 * ours[e].place_m.z, 1e-3);
+      EXPECT_NEAR(theirs[e].place[1], -100 * ours[e].place_m.x, 1e-3);
+      EXPECT_EQ(theirs[e].place[2], 0);
+      EXPECT_EQ(theirs[e].heading_rad, ours[e].heading_rad);
+    }
+  }
+  EXPECT_GT(all, 40U);
+  EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
+  ASSERT_EQ(mobil_watch(twins.sim, twins.ids.data(), 5, 0), MOBIL_OK);
+  ASSERT_EQ(mobil_tick(twins.sim, 30), MOBIL_OK);
+  EXPECT_TRUE(twins.events().empty());
+}
+
+TEST(CPlay, SeveralTicksAtOnceAreToldOfTogether) {
+  Twins twins;
+  ASSERT_EQ(mobil_watch(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK);
+  ASSERT_EQ(mobil_tick(twins.sim, 60), MOBIL_OK);
+  EXPECT_GT(twins.events().size(), 10U);
+}
+
+TEST(CPlay, RootMotionIsThatOfCpp) {
+  Twins twins;
+  std::vector<mobil_root> roots(5);
+  std::vector<mobil_motion> ways(5);
+  std::vector<Root> before(5), after(5);
+  ASSERT_EQ(mobil_roots(twins.sim, twins.ids.data(), 5, 0, roots.data()), MOBIL_OK) << twins.sim.message();
+  ASSERT_TRUE(twins.simulation.roots(twins.entities, before));
+  for (int t = 0; t < 30; ++t) {
+    ASSERT_EQ(mobil_tick(twins.sim, 1), MOBIL_OK);
+    twins.simulation.tick();
+    ASSERT_EQ(mobil_root_motion(twins.sim, twins.ids.data(), 5, 0.004, roots.data(), ways.data()), MOBIL_OK);
+    ASSERT_TRUE(twins.simulation.roots(twins.entities, after, 0.004));
+    for (std::size_t i = 0; i < 5; ++i) {
+      const RootMotion way = root_motion(before[i], after[i]);
+      EXPECT_NEAR(ways[i].way[0], 100 * way.ahead_m, 1e-4);
+      EXPECT_NEAR(ways[i].way[1], -100 * way.left_m, 1e-4);
+      EXPECT_EQ(ways[i].way[2], 0);
+      EXPECT_NEAR(ways[i].turn_rad, way.turn_rad, 1e-7);
+      EXPECT_NEAR(roots[i].place[0], 100 * after[i].z_m, 1e-9);
+      EXPECT_NEAR(roots[i].place[1], -100 * after[i].x_m, 1e-9);
+    }
+    before = after;
+  }
+  EXPECT_EQ(mobil_roots(twins.sim, twins.ids.data(), 5, 0.3, roots.data()), MOBIL_REFUSED);
+  EXPECT_NE(twins.sim.message().find("0.2"), std::string::npos);
+  EXPECT_EQ(mobil_root_motion(twins.sim, twins.ids.data(), 5, 0, nullptr, ways.data()), MOBIL_REFUSED);
+}
+
+TEST(CPlay, AWalkIsReadBackAndAskedForAgain) {
+  Twins twins;
+  auto walk = filled<mobil_walk>(MOBIL_WALK);
+  walk.given = MOBIL_SPEED | MOBIL_HEADING;
+  walk.speed_m_s = 1.5F;
+  walk.heading_rad = 0.9F;
+  ASSERT_EQ(mobil_change_walk(twins.sim, twins.ids.data(), 1, &walk), MOBIL_OK);
+  std::array<float, 64> style{};
+  auto read = filled<mobil_walk>(MOBIL_WALK);
+  ASSERT_EQ(mobil_get_walk(twins.sim, twins.ids[0], &read, style.data(), style.size()), MOBIL_OK)
+      << twins.sim.message();
+  EXPECT_EQ(read.given, MOBIL_SPEED | MOBIL_STEP_LENGTH | MOBIL_HEADING | MOBIL_STYLE);
+  EXPECT_EQ(read.speed_m_s, 1.5F);
+  EXPECT_EQ(read.heading_rad, 0.9F);
+  EXPECT_NEAR(read.step_frequency_hz, read.speed_m_s / read.step_length_m, 1e-5);
+  ASSERT_EQ(read.style, style.data());
+  // One number of the style, and nothing else.
+  mobil_style_number number;
+  int toe_out = 0;
+  while (mobil_style(toe_out, &number) == MOBIL_OK && std::string(number.name) != "toe_out_deg") ++toe_out;
+  style[static_cast<std::size_t>(toe_out)] += 4;
+  read.given = MOBIL_STYLE;
+  ASSERT_EQ(mobil_change_walk(twins.sim, twins.ids.data(), 1, &read), MOBIL_OK) << twins.sim.message();
+  const float asked = style[static_cast<std::size_t>(toe_out)];
+  auto again = filled<mobil_walk>(MOBIL_WALK);
+  ASSERT_EQ(mobil_get_walk(twins.sim, twins.ids[0], &again, style.data(), style.size()), MOBIL_OK);
+  EXPECT_EQ(style[static_cast<std::size_t>(toe_out)], asked);
+  EXPECT_EQ(again.speed_m_s, 1.5F);
+  EXPECT_EQ(again.step_length_m, read.step_length_m);
+  EXPECT_EQ(again.heading_rad, 0.9F);
+  ASSERT_EQ(mobil_get_walk(twins.sim, twins.ids[0], &again, nullptr, 0), MOBIL_OK);
+  EXPECT_EQ(again.given & MOBIL_STYLE, 0);
+  EXPECT_EQ(mobil_get_walk(twins.sim, twins.ids[0], &again, style.data(), 3), MOBIL_ROOM);
+  EXPECT_EQ(mobil_get_walk(twins.sim, {99, 9}, &again, nullptr, 0), MOBIL_STALE);
+}
+
+TEST(CPlay, ManyArePlacedOrNobody) {
+  Twins twins;
+  std::vector<std::array<float, 4>> to(5);
+  std::vector<PlaceRequest> ours(5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const auto n = static_cast<float>(i);
+    ours[i] = {twins.entities[i], 2 * n, 7 - n, 0.2F * n};
+    to[i] = {100 * ours[i].z_m, -100 * ours[i].x_m, 3, ours[i].heading_rad};
+  }
+  ASSERT_EQ(mobil_place_many(twins.sim, twins.ids.data(), 5, to[0].data(), 0), MOBIL_OK) << twins.sim.message();
+  ASSERT_TRUE(twins.simulation.place(ours));
+  EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
+  to[4][0] = INFINITY;
+  EXPECT_EQ(mobil_place_many(twins.sim, twins.ids.data(), 5, to[0].data(), 0), MOBIL_REFUSED);
+  EXPECT_NE(twins.sim.message().find("person 4"), std::string::npos);
+  EXPECT_EQ(mobil_place_many(twins.sim, twins.ids.data(), 5, to[0].data(), 8), MOBIL_REFUSED);
+  EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
+}
+
+TEST(CPlay, WhoIsPosedIsNotWatched) {
+  const Sim sim;
+  auto person = filled<mobil_person>(MOBIL_PERSON);
+  person.posed = 1;
+  mobil_id id;
+  ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &id), MOBIL_OK);
+  EXPECT_EQ(mobil_watch(sim, &id, 1, 1), MOBIL_MISSING);
+  EXPECT_NE(sim.message().find("posed"), std::string::npos);
+  auto walk = filled<mobil_walk>(MOBIL_WALK);
+  EXPECT_EQ(mobil_get_walk(sim, id, &walk, nullptr, 0), MOBIL_MISSING);
+}
+
+}  // namespace
+}  // namespace mobil::c_play_test

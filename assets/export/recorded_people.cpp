@@ -14,8 +14,8 @@ std::size_t SeenFigure::cloths() const {
 RecordedPeople recorded_people(const WalkRecording& recording) {
   RecordedPeople seen;
   seen.frame_s = recording.frame_s;
-  seen.figures.push_back({recording.bones, {}, {}, nullptr});
-  seen.people.push_back({recording.name, 0, {1, 1, 1}, {}, &recording.frames, recording.muscles});
+  seen.figures.push_back({recording.bones, {}, recording.skin, &recording.standing_m});
+  seen.people.push_back({recording.name, 0, {1, 1, 1}, recording.colours, &recording.frames, recording.muscles});
   return seen;
 }
 

@@ -52,7 +52,10 @@ struct WalkRecording {
   std::string name = "walker";                // of the person; in files the root of all that is theirs
   double start_s = 0;                         // when frame 0 was; tables tell times from there, animations from 0
   std::vector<GroundReaction<float>> ground;  // of each frame; none where forces were not simulated
-  std::vector<Vec3<float>> tip_m;             // of each segment, its far end in its frame (Body::tip_m); or none
+  std::vector<SkinnedSurface> skin;           // besides the bones, in the colours of `colours`; or none
+  std::array<Vec3<float>, segment_count> standing_m{};  // where the segments are that the skin is drawn about
+  std::vector<Vec3<float>> colours;                     // linear, of cloths: bones', then the skin's; none: ivory
+  std::vector<Vec3<float>> tip_m;  // of each segment, its far end in its frame (Body::tip_m); or none
 };
 
 /// One of several people.

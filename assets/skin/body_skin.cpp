@@ -40,6 +40,11 @@ SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, 
   SkinBinding binding = bind_skin(form, body, mesh.place);
   mesh.frame = std::move(binding.frame);
   mesh.vertex = std::move(binding.vertex);
+  for (const Vec& r : binding.rest) {
+    // Arms hang beside the legs.
+    const bool is_leg = r.y < 0.55 * form.size() || std::abs(r.x) < 0.19 * form.size();
+    mesh.leg.push_back(leg_place(form.leg(), {-std::abs(r.x), r.y, r.z}, is_leg ? 1 : 0));
+  }
   return mesh;
 }
 
@@ -174,6 +179,7 @@ BodySkin make_body_skin(const Body& body, double fullness, SkinDetail detail, co
   skin.sex = body.request.sex;
   skin.detail = detail;
   skin.standing = standing_pose(body);
+  skin.leg = leg_grid(form.leg(), body_measures(body.request), body.composition);
   const std::vector<Vec> normal = normals(mesh.triangle, rest);
   for (std::size_t v = 0; v < rest.size(); ++v) {
     skin.rest.push_back(to_float(rest[v]));

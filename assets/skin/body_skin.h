@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/skin/clothes.h"
+#include "assets/skin/leg_grid.h"
 #include "assets/skin/skin_binding.h"
 #include "components/body.h"
 #include "components/pose.h"
@@ -25,6 +26,7 @@ struct SkinMesh {
       first_triangle{};  // of each SkinPart, in triangles; the last is their count
   std::vector<SkinFrame> frame;
   std::vector<SkinVertex> vertex;
+  std::vector<LegPlace> leg;        // of each vertex
   std::vector<Vec3<double>> place;  // of `skin_body`, in the pose that is meshed
 };
 /// Whose skin is meshed.
@@ -40,6 +42,7 @@ struct BodySkin {
   Sex sex{};
   SkinDetail detail{};
   std::vector<Vec3<float>> rest, normal;
+  LegGrid leg;
   Pose<float> standing;  // the pose in which it is so
 };
 

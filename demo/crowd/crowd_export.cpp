@@ -19,12 +19,6 @@ namespace {
 
 constexpr double recorded_frame_s = 1.0 / 30;
 
-/// Linear, from sRGB.
-Vec3<float> linear_colour(const Colour& shown) {
-  const auto decode = [](float x) { return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F); };
-  return {decode(shown.red), decode(shown.green), decode(shown.blue)};
-}
-
 /// Which of a recording's figures somebody looks like: one for each skin.
 std::size_t figure_of(const BodySkin& skin, std::map<const BodySkin*, std::size_t>& known, CrowdRecording& recording) {
   const auto [found, is_new] = known.try_emplace(&skin, recording.figures.size());

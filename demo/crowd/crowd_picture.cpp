@@ -66,7 +66,7 @@ struct CrowdCamera::Parts {
 
   Result<Shown*> figure_of(const Simulation& simulation, const Drawn& person);
   Result<void> add_skin(const BodyRequest& body, const Pose<float>& pose, float distance_m, const Drawn& person,
-                        bool through);
+                        const Shown* muscles);
 };
 
 CrowdCamera::CrowdCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -100,7 +100,7 @@ Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const Simulatio
 }
 
 Result<void> CrowdCamera::Parts::add_skin(const BodyRequest& body, const Pose<float>& pose, float distance_m,
-                                          const Drawn& person, bool through) {
+                                          const Drawn& person, const Shown* muscles) {
   const SkinDetail detail = distance_m < near_m  ? SkinDetail::near
                             : distance_m < far_m ? SkinDetail::far
                                                  : SkinDetail::distant;
@@ -110,10 +110,10 @@ Result<void> CrowdCamera::Parts::add_skin(const BodyRequest& body, const Pose<fl
   skin.skin = shape->skin;
   skin.lengths = shape->lengths;
   skin.colours = skin_colours(person.number);
-  if (through) {
+  if (muscles != nullptr) {
     for (const SkinPart part : {SkinPart::legs, SkinPart::shorts}) skin.opacity[static_cast<std::size_t>(part)] = glass;
   }
-  skin.pose(pose);
+  skin.pose(pose, muscles != nullptr ? muscles_of(muscles->recording, 0) : LegVertices{});
   skin.draw(meshes);
   return {};
 }
@@ -152,16 +152,17 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
   parts.meshes.clear();
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Drawn& person = *seen[i].person;
-    const bool through = i < most_figures && person.near;
     const auto human = simulation.human(person.entity);
     if (!human) return fail("a person who is to be drawn has left");
-    if (auto added = parts.add_skin(human->body.request, seen[i].pose, seen[i].distance_m, person, through); !added)
-      return added;
-    if (through) {
+    const Parts::Shown* muscles = nullptr;
+    if (i < most_figures && person.near) {
       const auto shown = parts.figure_of(simulation, person);
       if (!shown) return tl::unexpected(shown.error());
       parts.meshes.insert(parts.meshes.end(), (*shown)->drawn.meshes.begin(), (*shown)->drawn.meshes.end());
+      muscles = *shown;
     }
+    auto added = parts.add_skin(human->body.request, seen[i].pose, seen[i].distance_m, person, muscles);
+    if (!added) return added;
   }
   Scene drawn;
   drawn.camera = camera;

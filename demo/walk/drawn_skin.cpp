@@ -1,8 +1,10 @@
 #include "demo/walk/drawn_skin.h"
 
+#include <cmath>
 #include <span>
 
 #include "engine/row_hash.h"
+#include "systems/capture/vertex_normals.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil {
@@ -33,22 +35,31 @@ SkinColours skin_colours(std::uint64_t number) {
   return {skin, skin, lips, choose(hairs), choose(shirts), choose(shorts), choose(shoes)};
 }
 
+Vec3<float> linear_colour(const Colour& shown) {
+  const auto decode = [](float x) { return x <= 0.04045F ? x / 12.92F : std::pow((x + 0.055F) / 1.055F, 2.4F); };
+  return {decode(shown.red), decode(shown.green), decode(shown.blue)};
+}
+
 SkinColours bare_colours() {
   SkinColours all;
   all.fill(skins[0]);
   return all;
 }
 
-void DrawnSkin::pose(const Pose<float>& pose, const Vec3<float>& shift) {
+void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles) {
   const SkinMesh& mesh = skin_mesh(skin->sex, skin->detail);
   position.resize(skin->rest.size());
   normal.resize(skin->rest.size());
   std::vector<FrameMap> maps(mesh.frame.size());
-  frame_maps(mesh, *skin, pose, lengths, {-shift.x, -shift.y, -shift.z}, maps);
+  frame_maps(mesh, *skin, pose, lengths, {0, 0, 0}, maps);
+  SkinCover cover;
+  for (const Side side : {Side::right, Side::left})
+    cover_muscles(*skin, pose, lengths, side, muscles[side], cover.lift_m[side]);
   constexpr std::size_t stride = sizeof(Vec3<float>);
-  place_skin(mesh, *skin, maps,
+  place_skin(mesh, *skin, maps, &cover,
              {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
               stride, stride});
+  if (!muscles[Side::right].empty()) vertex_normals(position, mesh.triangle, normal);
 }
 
 void DrawnSkin::draw(std::vector<DrawMesh>& out) const {

@@ -15,6 +15,8 @@ namespace mobil {
 using SkinColours = std::array<Colour, skin_parts>;
 /// Skin, hair and clothes that a number chooses, as people vary.
 SkinColours skin_colours(std::uint64_t number);
+/// As files have them.
+Vec3<float> linear_colour(const Colour& shown);
 /// The same colour everywhere, as of a body without clothes.
 SkinColours bare_colours();
 
@@ -24,6 +26,9 @@ constexpr std::array<float, skin_parts> opaque(float share = 1) {
   return all;
 }
 
+/// Muscles' vertices of the right leg and the left one, world, m.
+using LegVertices = std::array<std::vector<Vec3<float>>, 2>;
+
 struct DrawnSkin {
   const BodySkin* skin = nullptr;  // as in SkinShape
   float lengths = 1;
@@ -31,7 +36,8 @@ struct DrawnSkin {
   std::array<float, skin_parts> opacity = opaque();
   std::vector<Vec3<float>> position, normal;
 
-  void pose(const Pose<float>& pose, const Vec3<float>& shift = {0, 0, 0});
+  /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them.
+  void pose(const Pose<float>& pose, const LegVertices& muscles = {});
   /// One mesh a part; good until the next `pose`.
   void draw(std::vector<DrawMesh>& out) const;
 };

@@ -32,6 +32,15 @@ void add_bones(const WalkRecording& recording, std::size_t frame, const Vec3<flo
   }
 }
 
+LegVertices muscles_of(const WalkRecording& recording, std::size_t frame) {
+  LegVertices muscles;
+  for (const RecordedMuscle& muscle : recording.muscles) {
+    auto& own = muscles[muscle.name.ends_with("_left") ? Side::left : Side::right];
+    own.insert(own.end(), muscle.position_m[frame].begin(), muscle.position_m[frame].end());
+  }
+  return muscles;
+}
+
 void add_muscles(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, RecordedScene& scene) {
   for (const RecordedMuscle& muscle : recording.muscles) {
     scene.placement.push_back({.position = shift});

@@ -1,12 +1,14 @@
 #pragma once
 // A recorded walk as what a renderer draws.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
 #include <vector>
 
 #include "assets/export/walk_recording.h"
+#include "demo/walk/drawn_skin.h"
 #include "systems/capture/scene.h"
 
 namespace mobil {
@@ -22,6 +24,8 @@ struct RecordedScene {
 void add_bones(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, std::uint64_t first_key,
                RecordedScene& scene);
 
+/// A frame's muscles.
+LegVertices muscles_of(const WalkRecording& recording, std::size_t frame);
 /// Adds the muscles of a frame, moved by `shift`.
 void add_muscles(const WalkRecording& recording, std::size_t frame, const Vec3<float>& shift, RecordedScene& scene);
 

@@ -12,9 +12,12 @@
 #include <vector>
 
 #include "assets/body/body_composition.h"
+#include "assets/export/recorded_people.h"
+#include "assets/export/recorded_skin.h"
 #include "assets/files/output_file.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
+#include "demo/walk/drawn_skin.h"
 #include "demo/walk/figure.h"
 #include "demo/walk/gait_parameters.h"
 #include "demo/walk/walk_lines.h"
@@ -141,6 +144,14 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   outcome.anatomy_said = figure.said;
   tell_style_changes(options.body, options.gait, outcome.style_changes);
   walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
+  if (options.skin) {
+    const auto skin = make_body_skin(human.body, SkinDetail::near);
+    if (!skin) return tl::unexpected(skin.error());
+    walked.recording.skin = recorded_skin(*skin, 1);
+    walked.recording.standing_m = standing_of(*skin);
+    walked.recording.colours = {ivory_colour};
+    for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
+  }
   walked.ticks = begin_ticks(simulation, human);
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
   const std::string method = method_label(options.muscles);

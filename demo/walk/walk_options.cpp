@@ -93,6 +93,7 @@ std::vector<Option> walk_options(WalkText& text) {
        "glass "
        "(muscles and bones through the skin)",
        pictures},
+      {"--skin", &text.skin, "Skin and clothes in walk.glb and .usda", pictures},
       {"--stereo", &text.stereo, "Left and right eye side by side, along parallel axes", pictures},
       {"--eye-distance", &text.eye_distance, "Between the two eyes of --stereo, 1mm to 0.5m", pictures},
       {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
@@ -110,6 +111,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.stereo = text.stereo;
   options.forces = !text.no_forces;
   options.out = text.out;
+  options.skin = text.skin;
 
   auto exports = read_exports(text.exports);
   if (!exports) return tl::unexpected(exports.error());

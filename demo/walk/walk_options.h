@@ -28,7 +28,7 @@ struct WalkOptions {
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
   View view = View::surface;
-  bool frames = false, video = false, stereo = false;
+  bool skin = false, frames = false, video = false, stereo = false;
   std::filesystem::path out = "out";
   std::vector<WalkExport> exports;
   double eye_distance_m = 0.063;
@@ -44,7 +44,7 @@ struct WalkText {
   std::vector<std::string> set, exports;
   std::string script;
   bool list_parameters = false, no_forces = false, members = false, tuned = false, inertia = false;
-  bool frames = false, video = false, stereo = false;
+  bool skin = false, frames = false, video = false, stereo = false;
 };
 
 std::vector<Option> walk_options(WalkText& text);

@@ -122,7 +122,7 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
     return;
   }
   if (scene.own) {
-    scene.skin.pose(pose);
+    scene.skin.pose(pose, muscles_of(recording, frame));
     scene.skin.draw(scene.drawn.meshes);
     if (view == View::skin) return;
   }

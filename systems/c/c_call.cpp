@@ -119,6 +119,7 @@ mobil_person usual() {
   person.meso = as.biotype.meso;
   person.ecto = as.biotype.ecto;
   person.constitution = static_cast<int>(as.constitution);
+  person.sex = static_cast<int>(as.sex);
   return person;
 }
 

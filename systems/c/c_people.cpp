@@ -47,6 +47,7 @@ int request_of(mobil_sim& sim, const mobil_person& person, SpawnRequest& to) {
   to.body.biotype = {person.endo, person.meso, person.ecto};
   if (const int code = one_of(line, person.constitution, Constitution::heavy, "constitution", to.body.constitution))
     return code;
+  if (const int code = one_of(line, person.sex, Sex::woman, "sex", to.body.sex)) return code;
   if (const int code = check_given(line, person.given)) return code;
   say_pace(person, to.gait);
   if (const int code = style_of(line, person.style, person.style_count, to.gait.style)) return code;
@@ -226,6 +227,7 @@ int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out) {
     to.meso = body.biotype.meso;
     to.ecto = body.biotype.ecto;
     to.constitution = static_cast<int>(body.constitution);
+    to.sex = static_cast<int>(body.sex);
     to.posed = is_posed(world.world(), person) ? 1 : 0;
     if (const auto gait = world.gait_request(person)) {
       to.given = MOBIL_SPEED | MOBIL_STEP_LENGTH | MOBIL_STEP_FREQUENCY;

@@ -30,7 +30,6 @@
 #define MOBIL_H
 
 #include <stddef.h>
-
 #if defined(MOBIL_STATIC)
 #define MOBIL_API
 #elif defined(_WIN32) && defined(MOBIL_BUILD)
@@ -40,7 +39,6 @@
 #else
 #define MOBIL_API __attribute__((visibility("default")))
 #endif
-
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -133,6 +131,7 @@ MOBIL_API const char* mobil_message(const mobil_sim* sim);
 /* ---- People ---------------------------------------------------------------------------------------------------- */
 
 enum { MOBIL_THIN, MOBIL_AVERAGE, MOBIL_ATHLETIC, MOBIL_HEAVY }; /* constitution */
+enum { MOBIL_MAN, MOBIL_WOMAN };                                 /* sex */
 
 /* Which numbers of a walk are said; of speed, step length and step frequency two give the third, and one alone is
  * completed as people of that leg would. */
@@ -149,6 +148,7 @@ typedef struct mobil_person {
   size_t style_count;                                /* those behind are usual */
   float place[3], heading_rad;                       /* on the ground: the height does not count */
   int posed; /* 1: the host animates the skeleton by mobil_set_poses, no gait; begins at the origin */
+  int sex;   /* whose girths the skin has; since interface 2 */
 } mobil_person;
 
 /* How a walk is to become: what is not `given` stays. */

@@ -31,6 +31,21 @@ Quat<float> untwisted(const Quat<float>& upper_arm, const Quat<float>& forearm) 
   return product(forearm, conjugate(of_length_1({0, elbow.y, 0, elbow.w})));
 }
 
+/// A place at rest, moved away from its leg's line.
+Vec3<float> lifted(const BodySkin& skin, const SkinCover& cover, const LegPlace& leg, const Vec3<float>& rest) {
+  const std::size_t side = rest.x > 0 ? Side::left : Side::right;
+  const std::array<float, leg_grid_points>& grid = cover.lift_m[side];
+  const auto i = static_cast<std::size_t>(leg.along), j = static_cast<std::size_t>(leg.round) % leg_angles;
+  const float u = leg.along - static_cast<float>(i), v = leg.round - std::floor(leg.round);
+  const float *row = &grid[i * leg_angles], *next = row + leg_angles;
+  const std::size_t k = (j + 1) % leg_angles;
+  const float lift = leg.amount * ((1 - u) * ((1 - v) * row[j] + v * row[k]) + u * ((1 - v) * next[j] + v * next[k]));
+  const Vec3<float>& hip = skin.standing.position_m[index(on_side(Segment::thigh_right, side))];
+  const float x = rest.x - hip.x, z = rest.z - hip.z, away = std::sqrt(x * x + z * z);
+  if (away < 0.01F) return rest;
+  return {rest.x + lift * x / away, rest.y, rest.z + lift * z / away};
+}
+
 /// Three floats to wherever they are to lie.
 void put(std::byte* to, const Vec3<float>& v) {
   std::memcpy(to, &v, sizeof v);
@@ -65,7 +80,8 @@ void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& p
   }
 }
 
-void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const VertexTarget& out) {
+void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
+                const VertexTarget& out) {
   for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
     const SkinVertex& vertex = mesh.vertex[v];
     FrameMap map = maps[vertex.frame[0]];
@@ -81,7 +97,8 @@ void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const Fram
         map.from = map.from + weight * other.from;
       }
     }
-    const Vec3<float>& r = skin.rest[v];
+    Vec3<float> r = skin.rest[v];
+    if (const LegPlace& leg = mesh.leg[v]; cover != nullptr && leg.amount > 0) r = lifted(skin, *cover, leg, r);
     put(out.position + v * out.position_stride, map.from + r.x * map.x + (r.y * map.y + r.z * map.z));
     if (out.normal == nullptr) continue;
     const Vec3<float>& n = skin.normal[v];

@@ -7,6 +7,7 @@
 
 #include "assets/skin/body_skin.h"
 #include "components/pose.h"
+#include "systems/skinning/cover_muscles.h"
 #include "systems/skinning/write_vertices.h"
 
 namespace mobil {
@@ -21,7 +22,9 @@ struct FrameMap {
 void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
                 const Vec3<float>& origin_m, std::span<FrameMap> maps);
 
-/// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned.
-void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const VertexTarget& out);
+/// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned. `cover`:
+/// what muscles lift the legs by, which normals do not know; null: nothing.
+void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
+                const VertexTarget& out);
 
 }  // namespace mobil

@@ -71,7 +71,7 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
     const VertexTarget out{request.positions.bytes.data(),
                            request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
                            request.positions.stride, request.normals.stride};
-    place_skin(mesh, skin, maps, out);
+    place_skin(mesh, skin, maps, request.cover, out);
   }
 }
 

@@ -22,6 +22,7 @@
 #include "engine/jobs.h"
 #include "engine/scratch.h"
 #include "engine/world.h"
+#include "systems/skinning/cover_muscles.h"
 #include "systems/surfaces/vertex_stream.h"
 
 namespace mobil {
@@ -55,6 +56,7 @@ struct SkinRequest {
   SkinShape shape;
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
+  const SkinCover* cover = nullptr;  // of who has muscles that move under it (systems/skinning/cover_muscles.h)
 };
 
 class SkinWriter {

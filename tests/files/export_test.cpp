@@ -125,8 +125,8 @@ TEST(Export, BonesAreDrawnWhereTheirSegmentsAreAndHaveTexturePlaces) {
 CrowdRecording small_crowd() {
   CrowdRecording crowd;
   const auto walk = small_walk();
-  crowd.figures.push_back({walk.bones, {0, 1}});
-  crowd.figures.push_back({{walk.bones[1]}, {}});
+  crowd.figures.push_back({walk.bones, {0, 1}, {}, {}});
+  crowd.figures.push_back({{walk.bones[1]}, {}, {}, {}});
   crowd.people.push_back({"anna", 0, {1, 1, 1}, {{0.1F, 0.2F, 0.3F}, {0.4F, 0.5F, 0.6F}}, walk.frames, {}});
   crowd.people.push_back({"bert", 0, {1.2F, 1.1F, 1.3F}, {{0.1F, 0.2F, 0.3F}, {0.9F, 0.5F, 0.6F}}, walk.frames, {}});
   crowd.people.push_back({"cleo", 1, {1, 1, 1}, {}, walk.frames, {walk.muscles[0]}});

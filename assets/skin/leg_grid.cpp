@@ -1,0 +1,52 @@
+#include "assets/skin/leg_grid.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr double tau = 2 * std::numbers::pi;
+constexpr double step_s = (LegProfile::last_s - LegProfile::first_s) / (leg_stations - 1);
+
+}  // namespace
+
+LegGrid leg_grid(const form::LegForm& leg, const BodyMeasures& measures, const BodyComposition& composition) {
+  const LegProfile profile(measures);
+  LegGrid grid{};
+  double area = 0;
+  for (std::size_t i = 0; i < leg_stations; ++i) {
+    const double s = LegProfile::first_s + step_s * static_cast<double>(i);
+    area += 2 * profile.girth(s) * (leg.y(s) - leg.y(s + step_s));
+    for (std::size_t j = 0; j < leg_angles; ++j)
+      grid.base[i * leg_angles + j] = static_cast<float>(profile.radius(s, tau * static_cast<double>(j) / leg_angles));
+  }
+  constexpr double share = 0.145, density = 900, least_m = 0.0015;
+  const double mean = share * static_cast<double>(composition.fat_kg) / (density * area);
+  for (std::size_t i = 0; i < leg_stations; ++i) {
+    const double s = LegProfile::first_s + step_s * static_cast<double>(i);
+    const double along = 1.3 - 0.7 * smoothstep(0.85, 1.15, s);
+    for (std::size_t j = 0; j < leg_angles; ++j) {
+      const double front = std::cos(tau * static_cast<double>(j) / leg_angles - 0.5);
+      const double bony = smoothstep(0.75, 1, s) * smoothstep(0.2, 0.9, front);
+      grid.fat[i * leg_angles + j] = static_cast<float>(std::max(least_m, mean * along * (1 - 0.75 * bony)));
+    }
+  }
+  return grid;
+}
+
+LegPlace leg_place(const form::LegForm& leg, const Vec& rest, double share) {
+  const double s = leg.s(rest.y);
+  const double amount = share * smoothstep(0.12, 0.24, s) * (1 - smoothstep(1.80, 1.89, s));
+  if (amount <= 0) return {};
+  double round = std::atan2(rest.x - leg.hip().x, rest.z - leg.hip().z) / tau;
+  if (round < 0) round += 1;
+  const double along = (s - LegProfile::first_s) / step_s;
+  return {static_cast<float>(std::clamp(along, 0.0, leg_stations - 1.001)), static_cast<float>(round * leg_angles),
+          static_cast<float>(amount)};
+}
+
+}  // namespace mobil

@@ -1,0 +1,25 @@
+#pragma once
+// Skin over muscles that move: how far each point of a leg's skin is lifted so that nothing comes through.
+
+#include <array>
+#include <span>
+
+#include "assets/skin/body_skin.h"
+#include "components/muscle.h"
+#include "components/pose.h"
+
+namespace mobil {
+
+/// By which a leg's skin stands off where it would be without muscles, m; of the right leg and the left one.
+struct SkinCover {
+  std::array<std::array<float, leg_grid_points>, 2> lift_m{};
+};
+
+/// Finds it from the muscles as they are drawn now (world, m), of one leg; tendons too. A point is lifted where a
+/// muscle and the fat over it reach farther from the leg's line than the skin does; what is lifted is rounded off to
+/// its neighbours. In the bend of the knee, where flesh lies in flesh, no more than the crease has room for. `lengths`:
+/// as of SkinShape. Some 50 ns a vertex of muscle.
+void cover_muscles(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side,
+                   std::span<const Vec3<float>> muscles, std::array<float, leg_grid_points>& lift_m);
+
+}  // namespace mobil

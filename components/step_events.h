@@ -20,11 +20,13 @@ struct StepEvents {
   };
   static constexpr std::size_t most = 7;  // more than a tick of any length holds
 
-  std::uint32_t count;
-  /// Of the step that the tick began in: whether it ends in the tick and when, in units of `at`; whether a foot moved
-  /// in it, and one came to the ground at its end; which that was.
-  std::uint16_t ends, ends_at, moved, lands;
-  std::uint32_t landing_side;
+  std::uint16_t count;
+  /// Of the step that the tick began in, where it ends in the tick: when, in units of `at`; whether a foot moved in it,
+  /// and one came to the ground at its end; which that was.
+  std::uint16_t ends_at, moved, lands, landing_side;
+  /// Of the first of a block's sixteen rows: bits of the lanes whose steps end, and of those to whom something came to
+  /// pass. Rows of other lanes mean nothing.
+  std::uint16_t ending, telling;
   One of[most];
 };
 static_assert(sizeof(StepEvents) == 128);

@@ -3,6 +3,7 @@
 #include <hwy/foreach_target.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "assets/gait/step_curves-inl.h"
 #include "engine/wide-inl.h"
@@ -68,7 +69,23 @@ bool lands_early(const StepPlan<Lanes<float>>& plan, std::size_t lane) {
   return plan.landing[lane] > 0.0F && plan.landing[lane] < 1.0F;
 }
 
-/// What is asked of few lanes, and of many in no block; made once a block, when it is first asked for.
+/// Lanes to which something may come to pass in the tick: their steps end, the other foot leaves the ground, or it
+/// comes to it before the end.
+std::uint32_t lanes_to_look_at(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s) {
+  const float slack = 1e-4F * tick_s + 2e-6F;  // more than the clock's units and rounding
+  Lanes<std::uint32_t> look;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const float from = state.time_s[l] - slack, to = state.time_s[l] + tick_s + slack;
+    const float off = plan.double_support_s[l], landing = plan.landing[l];
+    const bool leaves = from < off && off <= to, early = landing > 0.0F && landing < 1.0F;
+    look[l] = static_cast<std::uint32_t>(leaves || early || plan.duration_s[l] <= to);
+  }
+  std::uint32_t lanes = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) lanes |= look[l] << l;
+  return lanes;
+}
+
+/// What is asked of few lanes; made once a block, when it is first asked for.
 class BlockEvents {
  public:
   BlockEvents(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s, StepEvents* rows)
@@ -107,6 +124,7 @@ class BlockEvents {
               float heading_rad) {
     StepEvents& row = rows_[lane];
     if (row.count == StepEvents::most) return;
+    rows_[0].telling = static_cast<std::uint16_t>(rows_[0].telling | 1U << lane);
     row.of[row.count++] = {static_cast<std::uint16_t>(std::clamp(at, 0, units.per_tick)),
                            kind,
                            static_cast<std::uint8_t>(side),
@@ -131,32 +149,35 @@ void footholds(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>
 
 void begin_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,
                        StepEvents* rows) {
+  rows[0].telling = rows[0].ending = 0;
+  std::uint32_t left = lanes_to_look_at(plan, state, tick_s);
+  if (left == 0) return;
   BlockEvents events(plan, state, tick_s, rows);
   const ClockUnits& units = events.units;
-  for (std::size_t l = 0; l < lane_count; ++l) {
+  for (; left != 0; left &= left - 1) {
+    const auto l = static_cast<std::size_t>(std::countr_zero(left));
     StepEvents& row = rows[l];
     const std::int32_t from = units.of(state.time_s[l]), end = units.step(plan.duration_s[l]);
     const std::int32_t to = from + units.per_tick;
     row.count = 0;
-    row.ends = to >= end ? 1 : 0;
     row.moved = plan.landing[l] > 0.0F ? 1 : 0;
     if (row.moved != 0) events.in_step(l, from, std::min(to, end), -from);
-    if (row.ends == 0) continue;
+    if (to < end) continue;
+    rows[0].ending = static_cast<std::uint16_t>(rows[0].ending | 1U << l);
     row.ends_at = static_cast<std::uint16_t>(std::max(end - from, 0));
     row.lands = row.moved != 0 && !lands_early(plan, l) ? 1 : 0;
-    row.landing_side = state.stance_side[l] ^ 1U;
+    row.landing_side = static_cast<std::uint16_t>(state.stance_side[l] ^ 1U);
   }
 }
 
 void end_step_events(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float tick_s,
                      StepEvents* rows) {
-  bool some = false;
-  for (std::size_t l = 0; l < lane_count; ++l) some = some || rows[l].ends != 0;
-  if (!some) return;
+  std::uint32_t left = rows[0].ending;
+  if (left == 0) return;
   BlockEvents events(plan, state, tick_s, rows);
-  for (std::size_t l = 0; l < lane_count; ++l) {
+  for (; left != 0; left &= left - 1) {
+    const auto l = static_cast<std::size_t>(std::countr_zero(left));
     const StepEvents& row = rows[l];
-    if (row.ends == 0) continue;
     const std::int32_t at = row.ends_at;
     const bool moves = plan.landing[l] > 0.0F;
     if (row.lands != 0) events.add(l, at, StepEventKind::heel_strike, row.landing_side, FootholdOf::stance);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -101,7 +102,9 @@ void StepLog::take(const World& world, std::uint32_t tick, float tick_s, std::ui
     const std::size_t column = table.column(type_id<StepEvents>()) * lane_count;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       const auto* const rows = reinterpret_cast<const StepEvents*>(table.block(b) + column);
-      for (std::uint32_t l = 0; l < table.live(b); ++l) {
+      const std::uint32_t live = (std::uint32_t{1} << table.live(b)) - 1;
+      for (std::uint32_t left = rows[0].telling & live; left != 0; left &= left - 1) {
+        const auto l = static_cast<std::size_t>(std::countr_zero(left));
         for (std::uint32_t i = 0; i < rows[l].count; ++i) {
           const StepEvents::One& one = rows[l].of[i];
           events_.push_back({table.entities(b)[l], one.kind, static_cast<Side>(one.side), tick,

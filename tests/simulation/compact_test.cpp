@@ -270,9 +270,9 @@ TEST(Compact, OtherCallsMakeWholeFirst) {
   simulation.tick();
   EXPECT_TRUE(simulation.is_compact(human));
   ASSERT_TRUE(simulation.place(human, 3, 4, 0.2F));
-  EXPECT_FALSE(simulation.is_compact(human));
+  ASSERT_TRUE(simulation.watch_steps({&human, 1}));
+  EXPECT_TRUE(simulation.is_compact(human));
   EXPECT_NEAR(simulation.get<Pose>(human)->position_m[0].x, 3, 0.5);
-  small();
   ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::none, {}}));
   EXPECT_FALSE(simulation.is_compact(human));
   small();

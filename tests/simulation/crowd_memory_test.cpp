@@ -56,6 +56,9 @@ TEST(CrowdMemory, SteadyTicksTakeNoneWithAnyEffectOnAnyThreads) {
       }
       const auto added = simulation.add_leg_muscles(human, e.muscles);
       ASSERT_TRUE(added) << added.error().message;
+      if (i % 2 == 0) {
+        EXPECT_TRUE(simulation.watch_steps({&human, 1}));
+      }
       // a change of method fades and is over before what is counted begins
       if (i % 3 == 0) {
         EXPECT_TRUE(simulation.set_method(human, Muscle::hamstrings, {Method::statics}));
@@ -180,6 +183,16 @@ TEST(CrowdMemory, AChangeOfMethodWithoutMemoryChangesNothing) {
 TEST(CrowdMemory, AddingEffectsWithoutMemoryChangesNothing) {
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     EXPECT_EQ(simulation.add_forces(people[0]), Status::ok);
+  });
+}
+
+TEST(CrowdMemory, WatchingAndPlacingWithoutMemoryChangesNothing) {
+  refuse_at_every_request(
+      [](Simulation& simulation, std::vector<Entity>& people) { ASSERT_TRUE(simulation.watch_steps(people)); });
+  refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
+    std::vector<PlaceRequest> places;
+    for (const Entity human : people) places.push_back({human, static_cast<float>(human.index), 5, 1});
+    ASSERT_TRUE(simulation.place(places));
   });
 }
 

@@ -135,6 +135,9 @@ class Crowd {
     if (is_posed(who)) {
       EXPECT_EQ(simulation_.add_forces(*human), Status::ok);
     }
+    if (who % 3 == 0 && !is_posed(who)) {
+      EXPECT_TRUE(simulation_.watch_steps({&*human, 1}));
+    }
     if (who % 8 == 5) return;  // walks without muscles
     const auto added = simulation_.add_leg_muscles(*human, choice_for(*human, draw(who, -1)));
     ASSERT_TRUE(added) << added.error().message;

@@ -29,12 +29,19 @@ struct Bench {
   Result<void> (*run)(BenchRun&);
 };
 
-constexpr std::array benches = {Bench{"machine", &bench_machine},       Bench{"gait", &bench_gait},
-                                Bench{"kinematics", &bench_kinematics}, Bench{"lines", &bench_lines},
-                                Bench{"activation", &bench_activation}, Bench{"skinning", &bench_skinning},
-                                Bench{"table1", &bench_table1},         Bench{"fem", &bench_fem},
-                                Bench{"reduced", &bench_reduced},       Bench{"paper_figures", &bench_paper_figures},
-                                Bench{"crowd", &bench_crowds},          Bench{"relevance", &bench_relevance}};
+constexpr std::array benches = {Bench{"machine", &bench_machine},
+                                Bench{"gait", &bench_gait},
+                                Bench{"kinematics", &bench_kinematics},
+                                Bench{"lines", &bench_lines},
+                                Bench{"activation", &bench_activation},
+                                Bench{"skinning", &bench_skinning},
+                                Bench{"skin", &bench_skin},
+                                Bench{"table1", &bench_table1},
+                                Bench{"fem", &bench_fem},
+                                Bench{"reduced", &bench_reduced},
+                                Bench{"paper_figures", &bench_paper_figures},
+                                Bench{"crowd", &bench_crowds},
+                                Bench{"relevance", &bench_relevance}};
 
 struct BenchText {
   std::vector<std::string> names;

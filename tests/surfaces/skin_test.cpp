@@ -19,6 +19,7 @@
 #include "systems/simulation.h"
 #include "systems/skinning/place_skin.h"
 #include "systems/surfaces/skin_writer.h"
+#include "systems/surfaces/surfaces.h"
 
 namespace mobil::skin_test {
 using namespace geometry;
@@ -276,6 +277,113 @@ TEST(Skin, HidesTheBones) {
         out = std::max(out, form.rest_distance(to_double(p + standing.position_m[index(bone.segment)])));
       EXPECT_LT(out, 0.008) << bone.mesh.name;
     }
+  }
+}
+
+/// Which triangles of a closed surface a ray along x may meet.
+class Rays {
+ public:
+  Rays(const std::vector<Vec3<float>>& position, const std::vector<std::uint32_t>& triangle)
+      : position_(position), triangle_(triangle) {
+    for (std::uint32_t t = 0; t < triangle.size(); t += 3) {
+      int low_y = 1 << 30, low_z = 1 << 30, high_y = -low_y, high_z = -low_z;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [y, z] = cell(position[triangle[t + k]]);
+        low_y = std::min(low_y, y), high_y = std::max(high_y, y), low_z = std::min(low_z, z),
+        high_z = std::max(high_z, z);
+      }
+      for (int y = low_y; y <= high_y; ++y) {
+        for (int z = low_z; z <= high_z; ++z) bucket_[{y, z}].push_back(t);
+      }
+    }
+  }
+  bool inside(const Vec3<float>& p) const {
+    const auto found = bucket_.find(cell(p));
+    if (found == bucket_.end()) return false;
+    int crossings = 0;
+    for (const std::uint32_t t : found->second) {
+      const Vec3<float> a = position_[triangle_[t]] - p, b = position_[triangle_[t + 1]] - p,
+                        c = position_[triangle_[t + 2]] - p;
+      const auto turn = [](const Vec3<float>& u, const Vec3<float>& v) { return u.y * v.z - u.z * v.y; };
+      const float ab = turn(a, b), bc = turn(b, c), ca = turn(c, a), all = ab + bc + ca;
+      if ((ab < 0) != (bc < 0) || (bc < 0) != (ca < 0) || all == 0) continue;
+      if ((bc * a.x + ca * b.x + ab * c.x) / all > 0) crossings += all > 0 ? 1 : -1;
+    }
+    return crossings != 0;
+  }
+
+ private:
+  static std::pair<int, int> cell(const Vec3<float>& p) {
+    return {static_cast<int>(std::floor(p.y * 50)), static_cast<int>(std::floor(p.z * 50))};
+  }
+  const std::vector<Vec3<float>>& position_;
+  const std::vector<std::uint32_t>& triangle_;
+  std::map<std::pair<int, int>, std::vector<std::uint32_t>> bucket_;
+};
+
+TEST(Skin, CoversTheMusclesThroughAStride) {
+  for (const BodyRequest& request : {people[0], people[3], people[2]}) {
+    Simulation simulation;
+    SpawnRequest walker;
+    walker.body = request;
+    std::array<Entity, 1> one{};
+    ASSERT_TRUE(simulation.spawn({&walker, 1}, one));
+    ASSERT_TRUE(simulation.add_leg_muscles(one[0]));
+    const Human human = *simulation.human(one[0]);
+    const auto bound = bind_surfaces(human.body, {.bones = false});
+    ASSERT_TRUE(bound) << bound.error().message;
+    std::vector<SurfaceMuscle> muscles;
+    for (const BodySurfaces::Driver& driver : bound->driver) {
+      muscles.push_back({driver.muscle,
+                         {simulation.muscle(one[0], driver.muscle, Side::right),
+                          simulation.muscle(one[0], driver.muscle, Side::left)}});
+    }
+    const BodySkin skin = *make_body_skin(human.body, SkinDetail::near, {.dressed = false});
+    const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+    std::vector<Vec3<float>> place_of(bound->vertices);
+    SurfaceRequest wanted{one[0], muscles, &*bound};
+    wanted.positions.bytes = std::as_writable_bytes(std::span(place_of));
+    SurfaceWriter writer;
+    std::array<std::size_t, 2> outside{}, all{};  // of the skin without cover, and with it
+    double deepest = 0, most_lift = 0;
+    for (int tick = 0; tick < 130; ++tick) {
+      simulation.tick();
+      if (tick < 60 || tick % 6 != 0) continue;
+      ASSERT_TRUE(writer.write(simulation.world(), {&wanted, 1}));
+      const Pose<float> pose = *simulation.get<Pose>(one[0]);
+      SkinCover cover;
+      for (const Side side : {Side::right, Side::left}) {
+        std::vector<Vec3<float>> of_side;
+        for (const SurfacePart& part : bound->part) {
+          if (part.side != side) continue;
+          of_side.insert(of_side.end(), place_of.begin() + part.first_vertex,
+                         place_of.begin() + part.first_vertex + part.vertices);
+        }
+        cover_muscles(skin, pose, 1, side, of_side, cover.lift_m[side]);
+        for (const float lift : cover.lift_m[side]) most_lift = std::max(most_lift, static_cast<double>(lift));
+      }
+      for (const bool covered : {false, true}) {
+        const Placed now = place(skin, pose, covered ? &cover : nullptr);
+        const Rays rays(now.position, mesh.triangle);
+        for (const Vec3<float>& p : place_of) {
+          ++all[covered];
+          if (rays.inside(p)) continue;
+          ++outside[covered];
+          if (!covered) continue;
+          float nearest = 1;
+          for (const Vec3<float>& q : now.position) nearest = std::min(nearest, dot(p - q, p - q));
+          deepest = std::max(deepest, static_cast<double>(std::sqrt(nearest)));
+        }
+      }
+    }
+    std::printf(
+        "[ cover ] %.0f kg: %.2f %% of muscle outside, %.2f %% under cover, farthest from a vertex %.1f mm; lifted by "
+        "%.1f mm\n",
+        static_cast<double>(request.mass_kg), 100.0 * static_cast<double>(outside[0]) / static_cast<double>(all[0]),
+        100.0 * static_cast<double>(outside[1]) / static_cast<double>(all[1]), 1e3 * deepest, 1e3 * most_lift);
+    EXPECT_LT(static_cast<double>(outside[1]), 0.01 * static_cast<double>(all[1]));
+    EXPECT_LT(outside[1], outside[0]);
+    EXPECT_LT(most_lift, 0.04);
   }
 }
 

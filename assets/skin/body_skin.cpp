@@ -25,9 +25,11 @@ std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::
   return normal;
 }
 
-SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, bool hems) {
+constexpr std::array<int, skin_details> shared_turns = {256, 96, 40, 16};  // of a joint's angle, that vertices share
+
+SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, SkinDetail detail) {
   SkinMesh mesh;
-  const std::vector<SkinPart> part = cut_clothes(form, surface, hems);
+  const std::vector<SkinPart> part = cut_clothes(form, surface, detail <= SkinDetail::near);
   for (const Vec3<float>& p : surface.position) mesh.place.push_back(to_double(p));
   for (std::size_t one = 0; one < skin_parts; ++one) {
     mesh.first_triangle[one] = static_cast<std::uint32_t>(mesh.triangle.size() / 3);
@@ -37,7 +39,7 @@ SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, 
     }
   }
   mesh.first_triangle[skin_parts] = static_cast<std::uint32_t>(mesh.triangle.size() / 3);
-  SkinBinding binding = bind_skin(form, body, mesh.place);
+  SkinBinding binding = bind_skin(form, body, mesh.place, shared_turns[static_cast<std::size_t>(detail)]);
   mesh.frame = std::move(binding.frame);
   mesh.vertex = std::move(binding.vertex);
   for (const Vec& r : binding.rest) {
@@ -54,7 +56,8 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
   const SurfaceMesh surface = mesh_form(form);
   constexpr std::array<double, skin_details> share = {1, 0.22, 0.05, 0.012};
   std::array<SkinMesh, skin_details> mesh;
-  for (std::size_t d = 0; d < skin_details; ++d) mesh[d] = make_mesh(form, body, coarser(surface, share[d]), d < 2);
+  for (std::size_t d = 0; d < skin_details; ++d)
+    mesh[d] = make_mesh(form, body, coarser(surface, share[d]), static_cast<SkinDetail>(d));
   return mesh;
 }
 
@@ -168,7 +171,7 @@ BodySkin make_body_skin(const Body& body, double fullness, SkinDetail detail, co
   const SkinMesh& mesh = skin_mesh(body.request.sex, detail);
   std::vector<Vec> place = drawn_onto(mesh, body, fullness, dress.dressed);
   const BodyForm form(body, fullness, dress.dressed);
-  if (dress.dressed) even_out(mesh, SkinPart::shoes, form, place);
+  if (dress.dressed && detail <= SkinDetail::near) even_out(mesh, SkinPart::shoes, form, place);
   std::vector<Vec> rest = skin_at_rest(form, place);
   if (dress.dressed) {
     const std::vector<Vec> bare = normals(mesh.triangle, rest);

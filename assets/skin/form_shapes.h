@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
 #include <span>
 
 #include "engine/geometry.h"
@@ -13,6 +14,8 @@
 namespace mobil::form {
 
 using namespace geometry;  // Vec and its operators
+
+inline constexpr double tau = 2 * std::numbers::pi;
 
 /// The lesser of two distances, rounded over where they differ by less than `k` (quadratic, C¹).
 inline double smooth_union(double a, double b, double k) {

@@ -2,14 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace mobil {
 namespace {
 
 using namespace geometry;
 
-constexpr double tau = 2 * std::numbers::pi;
+using form::tau;
 constexpr double step_s = (LegProfile::last_s - LegProfile::first_s) / (leg_stations - 1);
 
 }  // namespace

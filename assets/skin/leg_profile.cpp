@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 
 #include "assets/skin/form_shapes.h"
 
@@ -12,7 +11,7 @@ namespace mobil {
 namespace {
 
 constexpr std::size_t stations = 73, angles = 64, harmonics = 4;
-constexpr double tau = 2 * std::numbers::pi;
+using form::tau;
 
 struct Station {
   double s;

@@ -1,7 +1,6 @@
 #include "assets/skin/limb_forms.h"
 
 #include <array>
-#include <numbers>
 
 #include "assets/body/anthropometry.h"
 #include "components/segments.h"
@@ -10,8 +9,6 @@ namespace mobil::form {
 namespace {
 
 using namespace geometry;
-
-constexpr double tau = 2 * std::numbers::pi;
 
 Vec joint(const Body& body, Segment segment) {
   return to_double(standing_pose(body).position_m[index(segment)]);

@@ -13,8 +13,6 @@ namespace {
 using namespace geometry;
 using enum Segment;
 
-constexpr double turns = 256;  // steps of a joint's angle that vertices share
-
 /// How much of a place the arm carries, and each leg; of a right-hand place.
 struct Share {
   double arm;    // 0 trunk, 1 arm
@@ -55,7 +53,8 @@ Vec at_rest(const form::BodyForm& form, const Vec& p, const Share& share) {
 
 class Binder {
  public:
-  Binder(const form::BodyForm& form, const Body& body) : form_(form), rest_(standing_pose(body)) {}
+  Binder(const form::BodyForm& form, const Body& body, int turns)
+      : form_(form), rest_(standing_pose(body)), turns_(turns) {}
 
   SkinBinding bind(const std::vector<Vec>& place) {
     for (const Vec& p : place) bind(p);
@@ -67,7 +66,7 @@ class Binder {
 
   void add(double weight, std::size_t from, std::size_t to, double turn) {
     if (weight < 1e-4) return;
-    turn = std::round(turns * turn) / turns;
+    turn = std::round(turns_ * turn) / turns_;
     // What does not turn from the one, or wholly with the other, is rigid.
     if (turn == 0) to = from;
     if (turn == 1) from = to;
@@ -170,6 +169,7 @@ class Binder {
   };
   const form::BodyForm& form_;
   Pose<float> rest_;
+  double turns_;
   SkinBinding binding_;
   std::vector<Taken> taken_;
   std::map<std::tuple<std::size_t, std::size_t, double>, std::uint16_t> known_;
@@ -177,8 +177,8 @@ class Binder {
 
 }  // namespace
 
-SkinBinding bind_skin(const form::BodyForm& form, const Body& body, const std::vector<Vec>& place) {
-  return Binder(form, body).bind(place);
+SkinBinding bind_skin(const form::BodyForm& form, const Body& body, const std::vector<Vec>& place, int turns) {
+  return Binder(form, body, turns).bind(place);
 }
 
 std::vector<Vec> skin_at_rest(const form::BodyForm& form, const std::vector<Vec>& place) {

@@ -38,8 +38,9 @@ struct SkinBinding {
   std::vector<Vec3<double>> rest;  // in the anatomical position, m
 };
 
-/// Binds places in the pose that is meshed (body_form.h) and brings them into the anatomical position.
-SkinBinding bind_skin(const form::BodyForm& form, const Body& body, const std::vector<Vec3<double>>& place);
+/// Binds places in the pose that is meshed (body_form.h) and brings them into the anatomical position. `turns`: steps
+/// of a joint's angle that vertices share a frame for.
+SkinBinding bind_skin(const form::BodyForm& form, const Body& body, const std::vector<Vec3<double>>& place, int turns);
 
 /// Brings places that are bound already, of another body's surface, into the anatomical position.
 std::vector<Vec3<double>> skin_at_rest(const form::BodyForm& form, const std::vector<Vec3<double>>& place);

@@ -40,6 +40,9 @@ void body_and_walk(ViewChoice& choice) {
     auto build = static_cast<std::size_t>(choice.body.constitution);
     pick("build", build, constitution_name);
     choice.body.constitution = static_cast<Constitution>(build);
+    auto sex = static_cast<std::size_t>(choice.body.sex);
+    pick("sex", sex, sex_name);
+    choice.body.sex = static_cast<Sex>(sex);
   }
   if (ImGui::CollapsingHeader("Walk", ImGuiTreeNodeFlags_DefaultOpen)) {
     float speed_km_h = 3.6F * choice.gait.speed_m_s.value_or(0), step_m = choice.gait.step_length_m.value_or(0);

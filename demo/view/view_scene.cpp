@@ -55,7 +55,7 @@ std::vector<SpawnRequest> street(std::size_t count) {
 }
 
 bool same_body(const BodyRequest& a, const BodyRequest& b) {
-  return a.height_m == b.height_m && a.mass_kg == b.mass_kg && a.constitution == b.constitution;
+  return a.height_m == b.height_m && a.mass_kg == b.mass_kg && a.constitution == b.constitution && a.sex == b.sex;
 }
 
 bool same_gait(const GaitRequest& a, const GaitRequest& b) {

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "engine/row_hash.h"
-#include "systems/capture/vertex_normals.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil {
@@ -59,7 +58,6 @@ void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles) {
   place_skin(mesh, *skin, maps, &cover,
              {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
               stride, stride});
-  if (!muscles[Side::right].empty()) vertex_normals(position, mesh.triangle, normal);
 }
 
 void DrawnSkin::draw(std::vector<DrawMesh>& out) const {

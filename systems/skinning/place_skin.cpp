@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <numbers>
 
 #include "components/segments.h"
 #include "engine/geometry.h"
@@ -31,19 +32,34 @@ Quat<float> untwisted(const Quat<float>& upper_arm, const Quat<float>& forearm) 
   return product(forearm, conjugate(of_length_1({0, elbow.y, 0, elbow.w})));
 }
 
-/// A place at rest, moved away from its leg's line.
-Vec3<float> lifted(const BodySkin& skin, const SkinCover& cover, const LegPlace& leg, const Vec3<float>& rest) {
-  const std::size_t side = rest.x > 0 ? Side::left : Side::right;
+struct RestPoint {
+  Vec3<float> place, normal;
+};
+
+/// A vertex at rest, moved away from its leg's line; its normal tilts as what lifts it slopes.
+RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegPlace& leg, const RestPoint& rest) {
+  const std::size_t side = rest.place.x > 0 ? Side::left : Side::right;
   const std::array<float, leg_grid_points>& grid = cover.lift_m[side];
   const auto i = static_cast<std::size_t>(leg.along), j = static_cast<std::size_t>(leg.round) % leg_angles;
+  const std::size_t k = (j + 1) % leg_angles;
   const float u = leg.along - static_cast<float>(i), v = leg.round - std::floor(leg.round);
   const float *row = &grid[i * leg_angles], *next = row + leg_angles;
-  const std::size_t k = (j + 1) % leg_angles;
-  const float lift = leg.amount * ((1 - u) * ((1 - v) * row[j] + v * row[k]) + u * ((1 - v) * next[j] + v * next[k]));
-  const Vec3<float>& hip = skin.standing.position_m[index(on_side(Segment::thigh_right, side))];
-  const float x = rest.x - hip.x, z = rest.z - hip.z, away = std::sqrt(x * x + z * z);
+  const float above = (1 - v) * row[j] + v * row[k], below = (1 - v) * next[j] + v * next[k];
+  const float lift = leg.amount * ((1 - u) * above + u * below);
+  const float a_station = leg.amount * (below - above);
+  const float an_angle = leg.amount * ((1 - u) * (row[k] - row[j]) + u * (next[k] - next[j]));
+
+  const auto at = [&](Segment s) { return skin.standing.position_m[index(on_side(s, side))]; };
+  const Vec3<float> hip = at(Segment::thigh_right), knee = at(Segment::shank_right);
+  const float x = rest.place.x - hip.x, z = rest.place.z - hip.z, away = std::sqrt(x * x + z * z);
   if (away < 0.01F) return rest;
-  return {rest.x + lift * x / away, rest.y, rest.z + lift * z / away};
+  constexpr float stations = (leg_stations - 1) / static_cast<float>(LegProfile::last_s - LegProfile::first_s);
+  const float down = stations / (rest.place.y > knee.y ? hip.y - knee.y : knee.y - at(Segment::foot_right).y);
+  const float turn = an_angle * leg_angles / (2 * std::numbers::pi_v<float> * away);
+  const float out = side == Side::right ? 1.0F : -1.0F;  // angles grow to the inner side
+  const Vec3<float> normal{rest.normal.x - turn * out * z / away, rest.normal.y + a_station * down,
+                           rest.normal.z + turn * out * x / away};
+  return {{rest.place.x + lift * x / away, rest.place.y, rest.place.z + lift * z / away}, normal};
 }
 
 /// Three floats to wherever they are to lie.
@@ -97,11 +113,11 @@ void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const Fram
         map.from = map.from + weight * other.from;
       }
     }
-    Vec3<float> r = skin.rest[v];
-    if (const LegPlace& leg = mesh.leg[v]; cover != nullptr && leg.amount > 0) r = lifted(skin, *cover, leg, r);
+    RestPoint rest{skin.rest[v], skin.normal[v]};
+    if (const LegPlace& leg = mesh.leg[v]; cover != nullptr && leg.amount > 0) rest = lifted(skin, *cover, leg, rest);
+    const Vec3<float>&r = rest.place, &n = rest.normal;
     put(out.position + v * out.position_stride, map.from + r.x * map.x + (r.y * map.y + r.z * map.z));
     if (out.normal == nullptr) continue;
-    const Vec3<float>& n = skin.normal[v];
     const Vec3<float> turned = n.x * map.x + n.y * map.y + n.z * map.z;
     put(out.normal + v * out.normal_stride, normalised(turned));
   }

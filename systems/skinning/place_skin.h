@@ -22,8 +22,8 @@ struct FrameMap {
 void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
                 const Vec3<float>& origin_m, std::span<FrameMap> maps);
 
-/// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned. `cover`:
-/// what muscles lift the legs by, which normals do not know; null: nothing.
+/// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned, and
+/// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing.
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
                 const VertexTarget& out);
 

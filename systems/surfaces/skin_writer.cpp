@@ -67,11 +67,17 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
     const BodySkin& skin = *request.shape.skin;
     const SkinMesh& mesh = mesh_of(skin);
     const std::span maps(reinterpret_cast<FrameMap*>(scratch.data()), mesh.frame.size());
-    frame_maps(mesh, skin, *work.world.get<Pose>(request.person), request.shape.lengths, request.origin_m, maps);
+    const Pose<float> pose = *work.world.get<Pose>(request.person);
+    frame_maps(mesh, skin, pose, request.shape.lengths, request.origin_m, maps);
+    SkinCover cover;
+    const bool covers = std::ranges::any_of(request.muscles, [](const auto& of_side) { return !of_side.empty(); });
+    for (const Side side : {Side::right, Side::left}) {
+      if (covers) cover_muscles(skin, pose, request.shape.lengths, side, request.muscles[side], cover.lift_m[side]);
+    }
     const VertexTarget out{request.positions.bytes.data(),
                            request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
                            request.positions.stride, request.normals.stride};
-    place_skin(mesh, skin, maps, request.cover, out);
+    place_skin(mesh, skin, maps, covers ? &cover : nullptr, out);
   }
 }
 

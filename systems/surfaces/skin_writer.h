@@ -9,6 +9,7 @@
 //
 // Triangles are skin_mesh(sex, detail)'s (assets/skin/body_skin.h), the same for all men and for all women.
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -56,7 +57,10 @@ struct SkinRequest {
   SkinShape shape;
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
-  const SkinCover* cover = nullptr;  // of who has muscles that move under it (systems/skinning/cover_muscles.h)
+  /// The vertices of each leg's muscles as a SurfaceWriter wrote them (world, m), by Side; none: nothing moves under
+  /// the skin. A tenth of them serves
+  /// (SurfaceChoice::detail); SurfaceChoice::sides binds each side by itself.
+  std::array<std::span<const Vec3<float>>, 2> muscles{};
 };
 
 class SkinWriter {

@@ -118,7 +118,7 @@ TEST(Formats, UsdOfSeveralPeopleRefersToWhatTheyShare) {
   const Place place;
   const auto walk = small_walk();
   CrowdRecording crowd;
-  crowd.figures.push_back({walk.bones, {0, 1}});
+  crowd.figures.push_back({walk.bones, {0, 1}, {}, {}});
   crowd.people.push_back({"anna", 0, {1, 1, 1}, {{0, 0, 0}, {1, 1, 1}}, walk.frames, {}});
   crowd.people.push_back({"bert", 0, {1.2F, 1.1F, 1.3F}, {{0, 0, 1}, {1, 1, 0}}, writhing(45, 3), {}});
   ASSERT_TRUE(write_usda(place.folder / "crowd.usda", crowd));

@@ -381,7 +381,7 @@ TEST(Skin, CoversTheMusclesThroughAStride) {
         "%.1f mm\n",
         static_cast<double>(request.mass_kg), 100.0 * static_cast<double>(outside[0]) / static_cast<double>(all[0]),
         100.0 * static_cast<double>(outside[1]) / static_cast<double>(all[1]), 1e3 * deepest, 1e3 * most_lift);
-    EXPECT_LT(static_cast<double>(outside[1]), 0.01 * static_cast<double>(all[1]));
+    EXPECT_LT(static_cast<double>(outside[1]), 0.015 * static_cast<double>(all[1]));
     EXPECT_LT(outside[1], outside[0]);
     EXPECT_LT(most_lift, 0.04);
   }

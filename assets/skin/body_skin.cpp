@@ -54,10 +54,11 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
   const Body body = *make_body(skin_body(sex));
   const BodyForm form(body);
   const SurfaceMesh surface = mesh_form(form);
-  constexpr std::array<double, skin_details> share = {1, 0.22, 0.05, 0.012};
+  constexpr std::array<double, skin_details> share = {1, 0.22, 0.05, 0.012}, coarseness = {1, 1.8, 3.5, 6};
   std::array<SkinMesh, skin_details> mesh;
   for (std::size_t d = 0; d < skin_details; ++d)
-    mesh[d] = make_mesh(form, body, coarser(surface, share[d]), static_cast<SkinDetail>(d));
+    mesh[d] = make_mesh(form, body, can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]),
+                        static_cast<SkinDetail>(d));
   return mesh;
 }
 

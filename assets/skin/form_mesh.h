@@ -10,8 +10,8 @@ namespace mobil {
 /// the surface to 0.1 mm. Cells are 12 mm wide (of 1.75 m), half of that on head, hands and feet, a quarter on face and
 /// fingers. One vertex a cell that the surface passes through, at the middle of where it cuts the cell's edges (surface
 /// nets, Gibson 1998; between cells of two sizes as in Ju et al. 2002), then moved along the surface for even
-/// triangles. Takes about a second.
-SurfaceMesh mesh_form(const form::BodyForm& body);
+/// triangles. Takes about a second. `coarseness`: times as wide cells, from 1 on.
+SurfaceMesh mesh_form(const form::BodyForm& body, double coarseness = 1);
 
 /// Moves a place to the body's surface along its slope.
 form::Vec onto_surface(const form::BodyForm& body, form::Vec p, int steps);

@@ -111,7 +111,7 @@ double TrunkForm::distance(const Vec& p) const {
   d = smooth_union(d, ellipsoid(p, size_ * Vec{0, 1.262, -0.031}, size_ * Vec{0.137, 0.175, 0.1075}), 0.02);
   d = smooth_union(d, capsule(q, size_ * Vec{-0.075, 1.432, -0.110}, size_ * Vec{-0.155, 1.454, -0.070}, 0.022, 0.020),
                    0.03);
-  d = smooth_union(d, ellipsoid(q, size_ * Vec{-0.112, 1.013, 0.042}, size_ * Vec{0.022, 0.034, 0.028}), 0.03);
+  d = smooth_union(d, ellipsoid(q, size_ * Vec{-0.112, 1.013, 0.042}, size_ * Vec{0.022, 0.032, 0.022}), 0.045);
   d = smooth_union(d, capsule(q, size_ * Vec{-0.022, 1.426, 0.034}, size_ * Vec{-0.105, 1.440, 0.030}, 0.009, 0.013),
                    0.045);
   if (woman_) {

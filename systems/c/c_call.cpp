@@ -244,6 +244,13 @@ mobil_surface_target usual() {
   return target;
 }
 template <>
+mobil_skin_target usual() {
+  mobil_skin_target target{};
+  target.size = sizeof target;
+  target.detail = MOBIL_NEAR;
+  return target;
+}
+template <>
 mobil_limits usual() {
   const RestoreLimits of;
   mobil_limits limits{};

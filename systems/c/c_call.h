@@ -23,6 +23,7 @@
 #include "systems/people/pose_writer.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
 
 namespace mobil::c {
@@ -118,6 +119,8 @@ template <>
 mobil_surface_target usual();
 template <>
 mobil_limits usual();
+template <>
+mobil_skin_target usual();
 
 /// Sizes that a struct may say it has.
 constexpr bool is_struct_size(std::size_t size) {
@@ -207,6 +210,8 @@ struct mobil_sim {
   mobil::c::HostAxes axes;
   std::optional<mobil::PoseWriter> poses;
   std::optional<mobil::SurfaceWriter> surfaces;
+  mobil::BodySkins skins;
+  mobil::SkinWriter skin_writer;
   mobil::c::Line line;
   // What calls work in.
   std::vector<mobil::Entity> people;

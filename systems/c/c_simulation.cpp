@@ -94,6 +94,8 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_surface_target>(filled, size);
     case MOBIL_LIMITS:
       return fill<mobil_limits>(filled, size);
+    case MOBIL_SKIN_TARGET:
+      return fill<mobil_skin_target>(filled, size);
     default:
       return MOBIL_REFUSED;
   }

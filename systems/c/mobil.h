@@ -117,7 +117,8 @@ enum {
   MOBIL_CHOSEN,
   MOBIL_SURFACE_CHOICE,
   MOBIL_SURFACE_TARGET,
-  MOBIL_LIMITS
+  MOBIL_LIMITS,
+  MOBIL_SKIN_TARGET
 };
 /* Fills a struct of that kind, as large as the caller knows it, with usual values. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
@@ -488,11 +489,10 @@ typedef struct mobil_limits {
 } mobil_limits;
 /* The same within these limits. */
 MOBIL_API int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const mobil_limits* limits);
-/* 64 bits, the lower half first: equal states, equal hashes, whatever the threads, the machine and the order of rows.
- */
+/* 64 bits, the lower half first: equal states, equal hashes, whatever threads, machine and order of rows. */
 MOBIL_API int mobil_hash(mobil_sim* sim, unsigned int out[2]);
-
 #include "systems/c/mobil_play.h"
+#include "systems/c/mobil_skin.h"
 
 #ifdef __cplusplus
 }

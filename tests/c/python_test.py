@@ -228,6 +228,20 @@ class Worlds(unittest.TestCase):
         self.assertIn("soleus_left", [part.name for part in surfaces.parts])
         np.testing.assert_allclose(np.linalg.norm(vertices[..., 3:], axis=-1), 1, atol=1e-3)
 
+    def test_skin_is_as_tall_as_the_person_and_sorted_by_parts(self):
+        world = mobil.World()
+        people = world.spawn(2, height_m=1.7, mass_kg=65, sex="woman")
+        skin = mobil.Skin(world, "woman", "far")
+        vertices = skin.vertices(world, people)
+        self.assertEqual(vertices.shape, (2, skin.vertex_count, 6))
+        self.assertAlmostEqual(float(vertices[..., 1].max()), 1.68, delta=0.06)
+        self.assertLess(skin.triangles.max(), skin.vertex_count)
+        self.assertEqual(skin.parts["shoes"].stop, len(skin.triangles))
+        shoes = vertices[:, skin.triangles[skin.parts["shoes"]].ravel(), 1]
+        self.assertLess(float(shoes.max()), 0.35)
+        with self.assertRaises(ValueError):
+            mobil.Skin(world, "woman", "huge")
+
     def test_worlds_live_side_by_side_in_threads(self):
         hashes = [0] * 4
 

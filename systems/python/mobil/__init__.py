@@ -31,6 +31,7 @@ from .names import (
     StyleParameter,
 )
 from .plots import plot_walk
+from .skin import Skin
 from .surfaces import Part, Surfaces
 from .walks import Walk, walk
 from .world import EVENT, PERSON, ROOT, Choice, SystemCost, Ticks, World, method, muscles
@@ -57,6 +58,7 @@ __all__ = [
     "RefusedError",
     "SEGMENTS",
     "STYLE",
+    "Skin",
     "StaleError",
     "StyleParameter",
     "Surfaces",

@@ -9,6 +9,7 @@ from ._library import ffi, lib, text
 
 SIDES = ("right", "left")
 CONSTITUTIONS = ("thin", "average", "athletic", "heavy")
+SEXES = ("man", "woman")
 METHODS = ("static", "ecd", "icd", "caa", "reduced", "none")
 ELEMENTS = ("full", "bbar", "one_point")
 MASSES = ("lumped", "consistent")

@@ -134,6 +134,7 @@ class World:
         mass_kg: npt.ArrayLike = 75.0,
         somatotype: npt.ArrayLike | None = None,
         constitution: str | Sequence[str] = "average",
+        sex: str | Sequence[str] = "man",
         speed_m_s: npt.ArrayLike | None = None,
         step_length_m: npt.ArrayLike | None = None,
         step_frequency_hz: npt.ArrayLike | None = None,
@@ -160,9 +161,10 @@ class World:
         places = np.asarray(place, np.float32)
         types = None if somatotype is None else np.asarray(somatotype, np.float32)
         builds = [constitution] if isinstance(constitution, str) else list(constitution)
+        sexes = [sex] if isinstance(sex, str) else list(sex)
         styles, style_length = _style_rows(style)
         if count is None:
-            lengths = [a.shape[0] for a in given.values() if a.ndim] + [len(builds), styles.shape[0]]
+            lengths = [a.shape[0] for a in given.values() if a.ndim] + [len(builds), len(sexes), styles.shape[0]]
             lengths += [a.shape[0] for a in (places, types) if a is not None and a.ndim == 2]
             count = max(lengths)
         bits = {"speed_m_s": lib.MOBIL_SPEED, "step_length_m": lib.MOBIL_STEP_LENGTH}
@@ -184,6 +186,7 @@ class World:
             if types is not None:
                 person.endo, person.meso, person.ecto = types[i].tolist()
             person.constitution = number_of(builds[i % len(builds)], names.CONSTITUTIONS, "constitution")
+            person.sex = number_of(sexes[i % len(sexes)], names.SEXES, "sex")
             if style_length:
                 person.style = ffi.cast("const float*", styles[i].ctypes.data)
                 person.style_count = style_length

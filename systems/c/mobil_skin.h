@@ -1,0 +1,40 @@
+/* Skin, clothes and hair as triangles. A part of mobil.h, which includes it; in the header that hosts have it stands in
+ * its place. Since interface 2. */
+#ifndef MOBIL_SKIN_H
+#define MOBIL_SKIN_H
+
+/* ---- Skin ------------------------------------------------------------------------------------------------------- */
+
+/* Detail: some 90000, 20000, 5000 and 1200 triangles, the same for all men and for all women. */
+enum { MOBIL_HERO, MOBIL_NEAR, MOBIL_FAR, MOBIL_DISTANT };
+/* What triangles are, in their order; MOBIL_BARE_LEGS below the shorts. */
+enum { MOBIL_BARE_SKIN, MOBIL_BARE_LEGS, MOBIL_LIPS, MOBIL_HAIR, MOBIL_SHIRT, MOBIL_SHORTS, MOBIL_SHOES };
+#define MOBIL_SKIN_PARTS 7
+
+/* Zero for another sex or detail. The first call takes two seconds, once in a process for each sex. */
+MOBIL_API size_t mobil_skin_vertex_count(int sex, int detail);
+MOBIL_API size_t mobil_skin_index_count(int sex, int detail);
+/* Three a triangle, part by part, wound so that the front is outside in the host's axes; `room` of them at least.
+ * `first`: of each part in triangles, and behind the last how many there are; null: without. */
+MOBIL_API int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, size_t room,
+                                 unsigned int first[MOBIL_SKIN_PARTS + 1]);
+
+/* One person's skin, dressed: three floats a vertex, `…_stride` bytes apart (0: close together), in memory of so many
+ * bytes. `normals` may be null. */
+typedef struct mobil_skin_target {
+  size_t size;
+  mobil_id id;
+  int detail;
+  void *positions, *normals;
+  size_t position_stride, normal_stride;
+  size_t position_bytes, normal_bytes;
+  float origin[3]; /* subtracted before anything is placed */
+  /* The vertices of each leg's muscles, right and left, three floats each, as mobil_write_surfaces wrote them with the
+   * same origin: the skin moves over them. Null: without. */
+  const float* muscles[2];
+  size_t muscle_vertices[2];
+} mobil_skin_target;
+/* As they are after the last tick. The first person of a build, of about 1.5 kg/m2, takes a quarter of a second. */
+MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
+
+#endif

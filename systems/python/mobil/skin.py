@@ -1,0 +1,59 @@
+"""Skin, clothes and hair as triangles."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from . import names
+from ._library import ffi, lib
+from .world import People, World, _one
+
+DETAILS = ("hero", "near", "far", "distant")
+PARTS = ("skin", "legs", "lips", "hair", "shirt", "shorts", "shoes")
+
+
+class Skin:
+    """The triangles of all men, or of all women, and their vertices after each tick.
+
+    detail: "hero" (some 90000 triangles), "near", "far" or "distant" (1200).
+    """
+
+    def __init__(self, world: World, sex: str | int = "man", detail: str | int = "near") -> None:
+        self.sex = names.number_of(sex, names.SEXES, "sex")
+        self.detail = names.number_of(detail, DETAILS, "detail")
+        self.vertex_count: int = lib.mobil_skin_vertex_count(self.sex, self.detail)
+        index: npt.NDArray[np.uint32] = np.empty(lib.mobil_skin_index_count(self.sex, self.detail), np.uint32)
+        first = ffi.new("unsigned int[]", len(PARTS) + 1)
+        world._do(
+            lib.mobil_skin_indices(
+                world._sim, self.sex, self.detail, ffi.from_buffer("unsigned int[]", index), index.size, first
+            )
+        )
+        self.triangles = index.reshape(-1, 3)
+        self.parts = {name: slice(first[i], first[i + 1]) for i, name in enumerate(PARTS)}
+        """Of "skin", "legs", "lips", "hair", "shirt", "shorts" and "shoes": which triangles."""
+
+    def vertices(
+        self, world: World, people: People, out: npt.NDArray[np.float32] | None = None
+    ) -> npt.NDArray[np.float32]:
+        """(n, vertices, 6): positions and unit normals after the last tick, of people of this sex."""
+        people = np.atleast_1d(people)
+        shape = (len(people), self.vertex_count, 6)
+        out = np.empty(shape, np.float32) if out is None else out
+        if out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous or not out.flags.writeable:
+            raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
+        targets = ffi.new("mobil_skin_target[]", max(len(people), 1))
+        row = 6 * 4
+        for i in range(len(people)):
+            target = targets[i]
+            target.size = ffi.sizeof("mobil_skin_target")
+            target.id = _one(people[i])
+            target.detail = self.detail
+            at = out[i].ctypes.data
+            target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
+            target.position_stride = target.normal_stride = row
+            target.position_bytes = out[i].nbytes
+            target.normal_bytes = out[i].nbytes - row // 2
+        world._do(lib.mobil_write_skin(world._sim, targets, 0, len(people)))
+        return out

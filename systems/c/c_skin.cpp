@@ -75,8 +75,7 @@ size_t mobil_skin_index_count(int sex, int detail) {
   return mesh == nullptr ? 0 : mesh->triangle.size();
 }
 
-int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, size_t room,
-                       unsigned int first[MOBIL_SKIN_PARTS + 1]) {
+int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, size_t room, unsigned int* first) {
   static_assert(skin_parts == MOBIL_SKIN_PARTS);
   return call(sim, "mobil_skin_indices", [&](mobil_sim& s) {
     const SkinMesh* const mesh = mesh_of(sex, detail);

@@ -8,16 +8,25 @@
 /* Detail: some 90000, 20000, 5000 and 1200 triangles, the same for all men and for all women. */
 enum { MOBIL_HERO, MOBIL_NEAR, MOBIL_FAR, MOBIL_DISTANT };
 /* What triangles are, in their order; MOBIL_BARE_LEGS below the shorts. */
-enum { MOBIL_BARE_SKIN, MOBIL_BARE_LEGS, MOBIL_LIPS, MOBIL_HAIR, MOBIL_SHIRT, MOBIL_SHORTS, MOBIL_SHOES };
-#define MOBIL_SKIN_PARTS 7
+enum {
+  MOBIL_BARE_SKIN,
+  MOBIL_BARE_LEGS,
+  MOBIL_LIPS,
+  MOBIL_HAIR,
+  MOBIL_SHIRT,
+  MOBIL_SHORTS,
+  MOBIL_SHOES,
+  MOBIL_SKIN_PARTS
+};
 
 /* Zero for another sex or detail. The first call takes two seconds, once in a process for each sex. */
 MOBIL_API size_t mobil_skin_vertex_count(int sex, int detail);
 MOBIL_API size_t mobil_skin_index_count(int sex, int detail);
 /* Three a triangle, part by part, wound so that the front is outside in the host's axes; `room` of them at least.
- * `first`: of each part in triangles, and behind the last how many there are; null: without. */
+ * `first`: room for MOBIL_SKIN_PARTS + 1 numbers, of each part where it begins in triangles, and
+ * behind the last how many there are; null: without. */
 MOBIL_API int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, size_t room,
-                                 unsigned int first[MOBIL_SKIN_PARTS + 1]);
+                                 unsigned int* first);
 
 /* One person's skin, dressed: three floats a vertex, `…_stride` bytes apart (0: close together), in memory of so many
  * bytes. `normals` may be null. */

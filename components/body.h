@@ -94,21 +94,21 @@ struct BodySize {
   F extra_fat;  // part of the mass (assets/body/fat_distribution.h)
 };
 
-/// What was asked of a body besides its sizes: a BodyRequest is both.
+/// What was asked of a body besides its sizes and limbs.
 template <class F>
 struct Physique {
   F endo, meso, ecto;  // Biotype
   Whole<F> build;      // build_word
 };
 /// Constitution and sex in a word.
-inline constexpr std::uint32_t constitutions = 4;
+inline constexpr std::uint32_t constitutions = static_cast<std::uint32_t>(Constitution::heavy) + 1;
 constexpr std::uint32_t build_word(Constitution constitution, Sex sex) {
   return static_cast<std::uint32_t>(constitution) + constitutions * static_cast<std::uint32_t>(sex);
 }
 constexpr Constitution constitution_of(std::uint32_t build) {
   return static_cast<Constitution>(build % constitutions);
 }
-/// Of a word that is none, as one out of a file may be, a sex that `check_body` refuses.
+/// An invalid word, as from a file, gives a sex that `check_body` refuses.
 constexpr Sex sex_of(std::uint32_t build) {
   const std::uint32_t sex = build / constitutions;
   return static_cast<Sex>(sex < 255 ? sex : 255);

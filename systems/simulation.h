@@ -247,7 +247,7 @@ class Simulation {
   Result<void> watch_steps(std::span<const Entity> people, bool on = true);
   /// Heel strikes, toe-offs, stops and starts of who is watched, in all ticks of the last `advance` or
   /// `tick`: in order of time, at the same instant in the order of handles, whatever the threads. Until the next of
-  /// those calls; handles of who went since are stale. Nothing of it is state: after `restore` there are none.
+  /// those calls; handles of who went since are stale. No state, but who is watched is: peers watch the same people.
   std::span<const StepEvent> events() const;
 
   /// Where these people are on the ground `ahead_s` after the last tick (0 to 0.2 s; a frame's alpha times the tick),

@@ -48,7 +48,7 @@ void write_joint(std::size_t s, std::size_t depth, const WalkRecording& recordin
                       skeleton.slides[s] ? "6 Xposition Yposition Zposition " : "3 ");
   for (const std::size_t child : skeleton.children[s]) write_joint(child, depth + 1, recording, skeleton, text);
   if (skeleton.children[s].empty()) {
-    const Vec3<float> tip = recording.tip_m.empty() ? Vec3<float>{0, 0, 0} : recording.tip_m[s];
+    const Vec3<float> tip = recording.tip_m.size() != segment_count ? Vec3<float>{0, 0, 0} : recording.tip_m[s];
     text += fmt::format("{0}\tEnd Site\n{0}\t{{\n{0}\t\tOFFSET {1:.6f} {2:.6f} {3:.6f}\n{0}\t}}\n", indent, tip.x,
                         tip.y, tip.z);
   }

@@ -15,11 +15,8 @@ void set_joints(const SkinMesh& mesh, const SkinVertex& vertex, SkinnedSurface& 
   std::array<float, segment_count> share{};
   for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
     const SkinFrame& frame = mesh.frame[vertex.frame[k]];
-    const auto segment = [](std::uint8_t s) {
-      return s < segment_count ? s : index(on_side(Segment::forearm_right, s - segment_count));
-    };
-    share[segment(frame.from)] += vertex.weight[k] * (1 - frame.turn);
-    share[segment(frame.to)] += vertex.weight[k] * frame.turn;
+    share[segment_of(frame.from)] += vertex.weight[k] * (1 - frame.turn);
+    share[segment_of(frame.to)] += vertex.weight[k] * frame.turn;
   }
   auto& joint = surface.joint.emplace_back();
   auto& weight = surface.weight.emplace_back();

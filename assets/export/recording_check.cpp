@@ -79,7 +79,8 @@ Result<void> check_muscle(const RecordedMuscle& muscle, std::size_t frame_count)
 
 Result<void> check_skin(const SkinnedSurface& surface) {
   const std::size_t vertices = surface.position.size();
-  if (!all_finite(surface.position)) return fail(fmt::format("skin '{}': a vertex is not finite", surface.name));
+  if (!all_finite(surface.position) || !all_finite(surface.normal))
+    return fail(fmt::format("skin '{}': a vertex or a normal is not finite", surface.name));
   if (surface.normal.size() != vertices || surface.joint.size() != vertices || surface.weight.size() != vertices) {
     return fail(fmt::format("skin '{}': {} vertices, {} normals, {} joints, {} weights; give each vertex all of them",
                             surface.name, vertices, surface.normal.size(), surface.joint.size(),

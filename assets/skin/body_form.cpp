@@ -21,7 +21,7 @@ BodyForm::Parts BodyForm::parts(const Vec& p) const {
   const Vec q{-std::abs(p.x), p.y, p.z};
   constexpr double far = 1;  // parts that are nowhere near
   Parts parts{far, far, far, far};
-  if (p.y > 0.78 * size_ && q.x > -0.34 * size_) parts.trunk = trunk_.distance(p);
+  if (p.y > 0.78 * size_ && q.x > -trunk_.reach()) parts.trunk = trunk_.distance(p);
   if (p.y > 1.44 * size_) parts.head = size_ * head_distance((1 / size_) * p, sex_);
   if (p.y < 1.12 * size_) parts.leg = leg_.distance(in_leg(q));
   if (q.x < -0.08 * size_ && p.y > 0.70 * size_) parts.arm = arm_.distance(in_arm(q));

@@ -73,8 +73,7 @@ std::vector<Vec> drawn_onto(const SkinMesh& mesh, const Body& body, double fulle
     const double share = static_cast<double>(stage) / stages;
     BodyRequest between = body.request;
     between.mass_kg = static_cast<float>(usual_kg + share * (static_cast<double>(body.request.mass_kg) - usual_kg));
-    const auto made = stage == stages ? Result<Body>(body) : make_body(between);
-    const BodyForm form(made ? *made : body, 1 + share * (fuller - 1), shod);
+    const BodyForm form(stage == stages ? body : *make_body(between), 1 + share * (fuller - 1), shod);
     for (Vec& p : place) p = onto_surface(form, p, stage == stages ? 2 : 1);
   }
   return place;
@@ -165,6 +164,9 @@ double trunk_fullness(const Body& body) {
 
 Result<BodySkin> make_body_skin(const Body& body, SkinDetail detail, const SkinDress& dress) {
   if (auto ok = check_body(body.request); !ok) return tl::unexpected(ok.error());
+  if (has_own_limbs(body.request))
+    return fail(
+        "a skin for limbs of their own lengths; make one for the body without them, which stretches at the joints");
   return make_body_skin(body, trunk_fullness(body), detail, dress);
 }
 

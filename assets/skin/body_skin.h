@@ -2,8 +2,8 @@
 // A person's skin: one closed surface whose triangles, parts and binding are the same for everybody, and whose places
 // are a body's own.
 
+#include <array>
 #include <cstdint>
-#include <memory>
 #include <vector>
 
 #include "assets/skin/clothes.h"
@@ -15,7 +15,7 @@
 
 namespace mobil {
 
-/// How many triangles: some 90,000, 20,000, 5,000, 1100.
+/// How many triangles: some 90,000, 20,000, 5,000, 1200.
 enum class SkinDetail : std::uint8_t { hero, near, far, distant };
 inline constexpr std::size_t skin_details = 4;
 
@@ -52,11 +52,12 @@ struct SkinDress {
 
 /// The skin of a body: the shared surface is drawn onto the body's own form, and its trunk made as much fuller or
 /// thinner as makes the volume, without the air in the lungs, weigh the body's mass at its density (Siri 1961, from its
-/// fat). Errors: as make_body.
+/// fat). Errors: as make_body; limbs of their own (BodyRequest::limbs).
 Result<BodySkin> make_body_skin(const Body& body, SkinDetail detail, const SkinDress& dress = {});
-/// The same with a fullness that `trunk_fullness` gave; of a body of which make_body made it.
+/// The same; `fullness`: from `trunk_fullness` for this body or one like it, `body` from make_body.
 BodySkin make_body_skin(const Body& body, double fullness, SkinDetail detail, const SkinDress& dress);
-/// By how much the trunk's breadths and depths are more than the survey has them, for the body's mass; 0.8 to 1.25.
+/// By how much the trunk's breadths and depths are more than the survey has them, for the body's mass; 0.8 to 1.25,
+/// where a mass beyond is not met.
 double trunk_fullness(const Body& body);
 
 /// Volume within a closed surface, m³.

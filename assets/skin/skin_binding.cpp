@@ -13,7 +13,7 @@ namespace {
 using namespace geometry;
 using enum Segment;
 
-/// How much of a place the arm carries, and each leg; of a right-hand place.
+/// How much of a place the arm carries, and each leg.
 struct Share {
   double arm;    // 0 trunk, 1 arm
   double left;   // of the legs' part: 0 the right leg's, 1 the left leg's
@@ -141,7 +141,7 @@ class Binder {
   void add_leg(double weight, double thigh, const Vec& r, std::size_t side) {
     const std::size_t upper = index(on_side(thigh_right, side)), lower = index(on_side(shank_right, side)),
                       foot = index(on_side(foot_right, side)), toes = index(on_side(toes_right, side));
-    const double knee = bent(origin(shank_right).y - r.y, 0.10, 0.10),
+    const double knee = bent(origin(shank_right).y - r.y, knee_bend_m, knee_bend_m),
                  ankle = bent(origin(foot_right).y - r.y, 0.09, 0.02);
     if (thigh < 1) return add(weight, index(pelvis), upper, thigh);
     if (knee < 1) return add(weight, upper, lower, knee);

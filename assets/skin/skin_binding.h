@@ -24,6 +24,12 @@ constexpr std::uint8_t untwisted_forearm(std::size_t side) {
   return static_cast<std::uint8_t>(segment_count + side);
 }
 inline constexpr std::size_t skin_segments = segment_count + 2;
+/// A frame's segment: the forearm of an untwisted one.
+constexpr std::size_t segment_of(std::uint8_t s) {
+  return s < segment_count ? s : index(on_side(Segment::forearm_right, s - segment_count));
+}
+/// How far above and below the knee its skin bends, m of a body of 1.75 m.
+inline constexpr double knee_bend_m = 0.10;
 
 /// Weights add up to 1; frames that are not used weigh 0.
 struct SkinVertex {

@@ -74,7 +74,11 @@ TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, double fuller)
       {1.600, 0.85 * neck, -0.069, -0.069 + 1.70 * neck, 2},
       {1.630, 0.50 * neck, -0.040, 0.020, 2},
   };
-  for (Section& section : section_) section.y *= size_;
+  reach_ = 0.34 * size_;
+  for (Section& section : section_) {
+    section.y *= size_;
+    reach_ = std::max(reach_, section.half + 0.10);
+  }
   breast_front_ = 0.026 + 0.4 * breast;
   full_ = (fuller * m.chest_depth) / 0.2346;
   round_ = (fuller * m.buttock_depth) / 0.2267;

@@ -14,6 +14,8 @@ class TrunkForm {
   /// `fuller`: times the breadths and depths of the trunk that the measures give, for the volume to meet the mass.
   TrunkForm(const Body& body, const BodyMeasures& measures, double fuller);
   double distance(const Vec& p) const;
+  /// Beyond it to either side nothing of the trunk lies.
+  double reach() const { return reach_; }
 
  private:
   /// An oval between two half breadths: |x/a|ⁿ + |z/b|ⁿ = 1.
@@ -27,6 +29,7 @@ class TrunkForm {
   bool woman_;
   double breast_front_, chest_wide_, buttock_, breast_m_ = 0;
   double full_, round_;  // chest and buttocks, over those of 75 kg
+  double reach_;
   std::vector<Section> section_;
 };
 

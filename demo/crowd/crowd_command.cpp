@@ -143,7 +143,7 @@ Subcommand crowd_command() {
       "those\n"
       "of malloc and its kin on all threads. Of a picture's people those near the camera show bones and muscles; of "
       "an\n"
-      "exported scene's all are smooth bodies, each with a skeleton and skin of their own.\n"
+      "exported scene's all are dressed, each with a skeleton and skin of their own.\n"
       "With --alive most people sleep and take a hundred bytes each. Before the camera sees them they wake, exactly "
       "where\n"
       "they would be. They turn, stop and go on asleep as awake. The camera flies at 8 m/s, turns at 20 degrees/s, and "

@@ -28,7 +28,7 @@ double apart(const mobil::Root& a, const mobil::Root& b) {
 
 /// A person is put by the line beside the foot that bears; the root is as far from there as before.
 mobil::PlaceRequest under(const mobil::Simulation& simulation, mobil::Entity person, const mobil::Root& root,
-                       const mobil::Root& to) {
+                          const mobil::Root& to) {
   const auto state = *simulation.get<mobil::GaitState>(person);
   const mobil::Root line{state.line_x_m, state.line_z_m, root.heading_rad};
   const mobil::Root there = moved(to, root_motion(root, line));

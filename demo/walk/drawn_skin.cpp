@@ -50,14 +50,10 @@ void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles) {
   position.resize(skin->rest.size());
   normal.resize(skin->rest.size());
   std::vector<FrameMap> maps(mesh.frame.size());
-  frame_maps(mesh, *skin, pose, lengths, {0, 0, 0}, maps);
-  SkinCover cover;
-  for (const Side side : {Side::right, Side::left})
-    cover_muscles(*skin, pose, lengths, side, muscles[side], cover.lift_m[side]);
   constexpr std::size_t stride = sizeof(Vec3<float>);
-  place_skin(mesh, *skin, maps, &cover,
-             {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
-              stride, stride});
+  pose_skin(*skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, maps,
+            {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
+             stride, stride});
 }
 
 void DrawnSkin::draw(std::vector<DrawMesh>& out) const {

@@ -15,12 +15,13 @@ namespace mobil {
 using SkinColours = std::array<Colour, skin_parts>;
 /// Skin, hair and clothes that a number chooses, as people vary.
 SkinColours skin_colours(std::uint64_t number);
-/// As files have them.
+/// From sRGB as shown to linear as files store it.
 Vec3<float> linear_colour(const Colour& shown);
 /// The same colour everywhere, as of a body without clothes.
 SkinColours bare_colours();
 
-constexpr std::array<float, skin_parts> opaque(float share = 1) {
+/// The same of each part.
+constexpr std::array<float, skin_parts> opacity_of(float share) {
   std::array<float, skin_parts> all{};
   all.fill(share);
   return all;
@@ -33,7 +34,7 @@ struct DrawnSkin {
   const BodySkin* skin = nullptr;  // as in SkinShape
   float lengths = 1;
   SkinColours colours{};
-  std::array<float, skin_parts> opacity = opaque();
+  std::array<float, skin_parts> opacity = opacity_of(1);
   std::vector<Vec3<float>> position, normal;
 
   /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them.

@@ -102,7 +102,7 @@ Result<void> begin_skin(const WalkDrawing& drawing, View view, FrameScene& scene
   auto made = make_body_skin(*drawing.body, SkinDetail::hero, {.dressed = dressed});
   if (!made) return tl::unexpected(made.error());
   scene.own = std::move(*made);
-  scene.skin = {&*scene.own, 1, dressed ? skin_colours(0) : bare_colours(), opaque(dressed ? 1 : 0.45F), {}, {}};
+  scene.skin = {&*scene.own, 1, dressed ? skin_colours(0) : bare_colours(), opacity_of(dressed ? 1 : 0.45F), {}, {}};
   return {};
 }
 

@@ -248,6 +248,7 @@ mobil_skin_target usual() {
   mobil_skin_target target{};
   target.size = sizeof target;
   target.detail = MOBIL_NEAR;
+  target.sex = -1;
   return target;
 }
 template <>

@@ -40,6 +40,9 @@ void say_pace(const From& from, To& to) {
   if ((from.given & MOBIL_STEP_FREQUENCY) != 0) to.step_frequency_hz = from.step_frequency_hz;
 }
 
+// Where older structs have padding nothing is read.
+static_assert(sizeof(void*) != 8 || offsetof(mobil_person, sex) >= 88);
+
 int request_of(mobil_sim& sim, const mobil_person& person, SpawnRequest& to) {
   Line& line = sim.line;
   to.body.height_m = person.height_m;

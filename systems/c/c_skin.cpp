@@ -1,6 +1,12 @@
 // Skin and clothes as triangles in the host's buffers.
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <array>
+#include <cstring>
+#include <new>
+#include <vector>
 
 #include "systems/c/c_call.h"
 #include "systems/people/person.h"
@@ -11,41 +17,61 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
-const SkinMesh* mesh_of(int sex, int detail) {
+/// Null for none such, and where there is no memory for it.
+const SkinMesh* mesh_of(int sex, int detail) noexcept try {
   if (sex < 0 || sex > static_cast<int>(Sex::woman) || detail < 0 || detail >= static_cast<int>(skin_details))
     return nullptr;
   return &skin_mesh(static_cast<Sex>(sex), static_cast<SkinDetail>(detail));
+} catch (const std::bad_alloc&) {
+  return nullptr;
 }
 
-/// A stream of the caller's.
-VertexStream stream_of(void* memory, std::size_t stride, std::size_t bytes) {
-  return {{static_cast<std::byte*>(memory), memory == nullptr ? 0 : bytes}, stride == 0 ? 3 * sizeof(float) : stride};
+/// A stream of the caller's; without bytes where it is left out.
+int skin_stream(Line& line, void* memory, std::size_t stride, std::size_t bytes, const char* name, VertexStream& to) {
+  to.stride = stride == 0 ? 3 * sizeof(float) : stride;
+  if (memory == nullptr) return MOBIL_OK;
+  if (bytes == 0)
+    return line.refuse(MOBIL_ROOM, fmt::format("{} in 0 bytes; say how many there are, or leave them null", name));
+  to.bytes = {static_cast<std::byte*>(memory), bytes};
+  return MOBIL_OK;
 }
 
-/// Muscles' vertices in our axes, from the world's origin.
-struct Muscles {
+/// A person's pose, and muscles' vertices in our axes, from the world's origin.
+struct Posed {
+  Pose<float> pose;
   std::array<std::vector<Vec3<float>>, 2> of_side;
 };
 
-int request_of(mobil_sim& s, const mobil_skin_target& as, Muscles& muscles, SkinRequest& to) {
+int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequest& to) {
   to.person = entity_of(as.id);
   if (!s.world().is_person(to.person)) return s.line.refuse(Error{{}, Status::stale_entity});
   SkinDetail detail{};
   if (const int code = one_of(s.line, as.detail, SkinDetail::distant, "detail", detail)) return code;
   if (as.positions == nullptr) return s.line.refuse_null("positions");
-  const auto shape = s.skins.of(body_request(s.world().world(), to.person), detail);
+  const BodyRequest body = body_request(s.world().world(), to.person);
+  if (as.sex >= 0 && as.sex != static_cast<int>(body.sex))
+    return s.line.refuse(MOBIL_REFUSED, "the person is of the other sex, whose triangles are others");
+  const auto shape = s.skins.of(body, detail);
   if (!shape) return s.line.refuse(shape.error());
   to.shape = *shape;
-  to.positions = stream_of(as.positions, as.position_stride, as.position_bytes);
-  to.normals = stream_of(as.normals, as.normal_stride, as.normal_bytes);
+  const auto pose = s.world().get<Pose>(to.person);
+  if (!pose) return s.line.refuse(pose.error());
+  posed.pose = *pose;
+  to.pose = &posed.pose;
+  if (const int code =
+          skin_stream(s.line, as.positions, as.position_stride, as.position_bytes, "positions", to.positions))
+    return code;
+  if (const int code = skin_stream(s.line, as.normals, as.normal_stride, as.normal_bytes, "normals", to.normals))
+    return code;
   to.origin_m = s.axes.place_from(as.origin);
   for (std::size_t side = 0; side < 2; ++side) {
     if (as.muscles[side] == nullptr) continue;
+    posed.of_side[side].reserve(as.muscle_vertices[side]);
     for (std::size_t v = 0; v < as.muscle_vertices[side]; ++v) {
       const Vec3<float> at = s.axes.place_from(as.muscles[side] + 3 * v);
-      muscles.of_side[side].push_back({at.x + to.origin_m.x, at.y + to.origin_m.y, at.z + to.origin_m.z});
+      posed.of_side[side].push_back({at.x + to.origin_m.x, at.y + to.origin_m.y, at.z + to.origin_m.z});
     }
-    to.muscles[side] = muscles.of_side[side];
+    to.muscles[side] = posed.of_side[side];
   }
   return MOBIL_OK;
 }
@@ -99,12 +125,12 @@ int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, s
 int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count) {
   return call(sim, "mobil_write_skin", [&](mobil_sim& s) {
     if (const int code = struct_stride(s.line, targets, count, "targets", stride)) return code;
-    std::vector<Muscles> muscles(count);
+    std::vector<Posed> posed(count);
     std::vector<SkinRequest> requests(count);
     for (std::size_t i = 0; i < count; ++i) {
       mobil_skin_target as;
       if (const int code = read_struct(s.line, row_at(targets, i, stride, 0), "targets", as)) return code;
-      if (const int code = request_of(s, as, muscles[i], requests[i])) return code;
+      if (const int code = request_of(s, as, posed[i], requests[i])) return code;
     }
     const auto done = s.skin_writer.write(s.world().world(), requests, s.jobs_of());
     if (!done) return s.line.refuse(done.error());

@@ -148,8 +148,8 @@ typedef struct mobil_person {
   const float* style;                                /* `style_count` values, in the order of mobil_style; */
   size_t style_count;                                /* those behind are usual */
   float place[3], heading_rad;                       /* on the ground: the height does not count */
-  int posed; /* 1: the host animates the skeleton by mobil_set_poses, no gait; begins at the origin */
-  int sex;   /* whose girths the skin has; since interface 2 */
+  int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; begins at the origin */
+  int sex;           /* whose girths the skin has; since interface 2 */
 } mobil_person;
 
 /* How a walk is to become: what is not `given` stays. */

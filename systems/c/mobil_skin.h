@@ -34,6 +34,7 @@ typedef struct mobil_skin_target {
   size_t size;
   mobil_id id;
   int detail;
+  int sex; /* of the triangles; a person of the other is refused. Below 0, as usual: whoever it is */
   void *positions, *normals;
   size_t position_stride, normal_stride;
   size_t position_bytes, normal_bytes;
@@ -43,7 +44,8 @@ typedef struct mobil_skin_target {
   const float* muscles[2];
   size_t muscle_vertices[2];
 } mobil_skin_target;
-/* As they are after the last tick. The first person of a build, of about 1.5 kg/m2, takes a quarter of a second. */
+/* As they are after the last tick. The first person of a sex takes two seconds, the
+ * first of a build (1.5 kg/m2) a quarter to half a second. */
 MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
 
 #endif

@@ -8,6 +8,10 @@ namespace mobil {
 WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait,
                      const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float ahead_s)
     : state_(state), plan_(&plan) {
+  // What rounding leaves of a frame that ends with a tick; clocks count in units of it, of which there would be too
+  // many.
+  constexpr float least_s = 1e-6F;
+  if (!(ahead_s > least_s)) return;
   advance_gait(plan, state_, ahead_s);
   if (const std::uint32_t lanes = lanes_to_plan(plan, gait, state_, ahead_s); lanes != 0) {
     StepPlan<Lanes<float>> solved = next_ = plan;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "assets/body/anthropometry.h"
 #include "components/segments.h"
 #include "engine/geometry.h"
 
@@ -21,13 +22,6 @@ float eased(float t) {
   return t * t * (3 - 2 * t);
 }
 
-Quat<float> blended(const Quat<float>& a, const Quat<float>& b, float share) {
-  const float q = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -share : share, p = 1 - share;
-  const Quat<float> sum{p * a.x + q * b.x, p * a.y + q * b.y, p * a.z + q * b.z, p * a.w + q * b.w};
-  const float scale = 1 / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z + sum.w * sum.w);
-  return {scale * sum.x, scale * sum.y, scale * sum.z, scale * sum.w};
-}
-
 /// The leg as its skin has it: straight above and below the knee, turning evenly between.
 class LegRings {
  public:
@@ -38,12 +32,12 @@ class LegRings {
     knee_ = pose.position_m[shank];
     thigh_m_ = lengths * (skin.standing.position_m[thigh].y - skin.standing.position_m[shank].y);
     shank_m_ = lengths * (skin.standing.position_m[shank].y - skin.standing.position_m[foot].y);
-    bend_ = bend_m / 1.75F * lengths * tall(skin);
+    bend_ = bend_m / 1.75F * lengths * height_m(skin);
     out_ = side == Side::right ? 1.0F : -1.0F;
     for (std::size_t k = 0; k <= bend_steps; ++k)
       axes_[k] = columns(blended(pose.rotation[shank], pose.rotation[thigh], eased(part(k))));
     const Quat<float> relative = product(conjugate(pose.rotation[thigh]), pose.rotation[shank]);
-    angle_ = 2 * std::atan2(std::abs(relative.x), std::abs(relative.w));
+    angle_ = std::max(0.0F, 2 * std::atan2(relative.w < 0 ? -relative.x : relative.x, std::abs(relative.w)));
   }
 
   struct Place {
@@ -82,7 +76,9 @@ class LegRings {
   }
 
  private:
-  static float tall(const BodySkin& skin) { return skin.standing.position_m[index(Segment::pelvis)].y / 0.53F; }
+  static float height_m(const BodySkin& skin) {
+    return skin.standing.position_m[index(Segment::pelvis)].y / static_cast<float>(fraction::hip_height);
+  }
   static float part(std::size_t k) { return static_cast<float>(k) / bend_steps; }
   float height(std::size_t k) const { return bend_ * (2 * part(k) - 1); }
 
@@ -142,7 +138,7 @@ void cover_muscles(const BodySkin& skin, const Pose<float>& pose, float lengths,
   std::array<float, leg_grid_points> reach{};
   for (const Vec3<float>& p : muscles) {
     const LegRings::Place at = rings.place(p);
-    if (at.along < 0 || at.along > leg_stations - 1) continue;
+    if (!(at.along >= 0 && at.along <= leg_stations - 1)) continue;  // nor what is no number
     const auto i = static_cast<std::size_t>(at.along);
     const auto j = static_cast<std::size_t>(at.round);
     for (std::size_t a = i; a <= std::min(i + 1, leg_stations - 1); ++a) {

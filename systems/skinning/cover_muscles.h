@@ -10,7 +10,7 @@
 
 namespace mobil {
 
-/// By which a leg's skin stands off where it would be without muscles, m; of the right leg and the left one.
+/// How far each point of a leg's grid is lifted, m; of the right leg and the left one.
 struct SkinCover {
   std::array<std::array<float, leg_grid_points>, 2> lift_m{};
 };

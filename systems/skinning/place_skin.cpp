@@ -18,13 +18,6 @@ Quat<float> of_length_1(const Quat<float>& q) {
   return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
 }
 
-/// `share` of the way from a to b, the short way round.
-Quat<float> part_way(const Quat<float>& a, const Quat<float>& b, float share) {
-  const float along = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w;
-  const float p = 1 - share, q = along < 0 ? -share : share;
-  return of_length_1({p * a.x + q * b.x, p * a.y + q * b.y, p * a.z + q * b.z, p * a.w + q * b.w});
-}
-
 /// The forearm without its turn about its own length (y): the rest of the way from the upper arm.
 Quat<float> untwisted(const Quat<float>& upper_arm, const Quat<float>& forearm) {
   const Quat<float> elbow = product(conjugate(upper_arm), forearm);
@@ -86,7 +79,7 @@ void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& p
   for (std::size_t i = 0; i < mesh.frame.size(); ++i) {
     const SkinFrame& frame = mesh.frame[i];
     const Bone& to = bone[frame.to];
-    const Quat<float> q = frame.turn == 0 ? to.rotation : part_way(bone[frame.from].rotation, to.rotation, frame.turn);
+    const Quat<float> q = frame.turn == 0 ? to.rotation : blended(bone[frame.from].rotation, to.rotation, frame.turn);
     const auto [x, y, z] = columns(q);
     FrameMap& map = maps[i];
     map.x = lengths * x;
@@ -121,6 +114,21 @@ void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const Fram
     const Vec3<float> turned = n.x * map.x + n.y * map.y + n.z * map.z;
     put(out.normal + v * out.normal_stride, normalised(turned));
   }
+}
+
+void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
+               const std::array<std::span<const Vec3<float>>, 2>& muscles, std::span<FrameMap> maps,
+               const VertexTarget& out) {
+  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  frame_maps(mesh, skin, pose, lengths, origin_m, maps);
+  SkinCover cover;
+  bool covers = false;
+  for (const Side side : {Side::right, Side::left}) {
+    if (muscles[side].empty()) continue;
+    covers = true;
+    cover_muscles(skin, pose, lengths, side, muscles[side], cover.lift_m[side]);
+  }
+  place_skin(mesh, skin, maps, covers ? &cover : nullptr, out);
 }
 
 }  // namespace mobil

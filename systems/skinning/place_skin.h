@@ -1,9 +1,8 @@
 #pragma once
 // A body's skin where its skeleton is now.
 
-#include <cstddef>
+#include <array>
 #include <span>
-#include <vector>
 
 #include "assets/skin/body_skin.h"
 #include "components/pose.h"
@@ -26,5 +25,11 @@ void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& p
 /// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing.
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
                 const VertexTarget& out);
+
+/// All of it: frames, what muscles lift (world, m, by Side; none: a leg as it is without), vertices. `maps`: of the
+/// mesh's frames, to work in.
+void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
+               const std::array<std::span<const Vec3<float>>, 2>& muscles, std::span<FrameMap> maps,
+               const VertexTarget& out);
 
 }  // namespace mobil

@@ -16,10 +16,7 @@ FarFigure far_figure() {
   figure.index = mesh.triangle;
   for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
     const SkinFrame& frame = mesh.frame[mesh.vertex[v].frame[0]];  // the heaviest comes first
-    std::size_t segment = frame.turn < 0.5F ? frame.from : frame.to;
-    for (const std::size_t side : {std::size_t{Side::right}, std::size_t{Side::left}}) {
-      if (segment == untwisted_forearm(side)) segment = index(on_side(Segment::forearm_right, side));
-    }
+    const std::size_t segment = segment_of(frame.turn < 0.5F ? frame.from : frame.to);
     figure.vertex.push_back(
         {skin.rest[v] - skin.standing.position_m[segment], skin.normal[v], static_cast<std::uint16_t>(segment), 0});
   }

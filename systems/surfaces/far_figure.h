@@ -24,7 +24,7 @@ struct FarFigure {
 };
 
 /// Whom the mesh is drawn after: the skin of a man (SkinDetail::distant), each vertex on the segment that it follows
-/// most.
+/// most, and of the part that comes last where parts meet. The first call takes two seconds.
 inline constexpr BodyRequest far_body = {.height_m = 1.75F, .mass_kg = 70};
 FarFigure far_figure();
 /// By how much someone's vertices are larger along x, y and z: as tall as they are, as wide as their mass makes them,

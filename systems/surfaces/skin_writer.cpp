@@ -13,6 +13,7 @@ namespace mobil {
 namespace {
 
 constexpr float index_step = 1.5F;  // kg/m², between the builds that skins are made for
+constexpr float least_index = 13.5F, most_index = 64.5F;
 
 Result<void> check_skin(const World& world, const SkinRequest& request) {
   if (request.shape.skin == nullptr) return fail("no skin; BodySkins::of gives one");
@@ -20,8 +21,12 @@ Result<void> check_skin(const World& world, const SkinRequest& request) {
   if (auto done = check_stream("positions", request.positions, vertices, bytes); !done) return done;
   if (!request.normals.bytes.empty()) {
     if (auto done = check_stream("normals", request.normals, vertices, bytes); !done) return done;
+    if (lie_over(request.positions, bytes, request.normals, bytes, vertices))
+      return fail("normals lie over positions; put them into slots of their own, or into other memory");
   }
-  if (!world.has<Pose>(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
+  if (request.pose == nullptr && !world.has<Pose>(request.person))
+    return fail("the person is not there (a stale handle), or has no pose on their row; give one",
+                Status::stale_entity);
   return {};
 }
 
@@ -34,13 +39,13 @@ const SkinMesh& mesh_of(const BodySkin& skin) {
 Result<SkinShape> BodySkins::of(const BodyRequest& body, SkinDetail detail) {
   if (auto ok = check_body(body); !ok) return tl::unexpected(ok.error());
   const float tall = skin_body(body.sex).height_m;
-  const float index = body.mass_kg / (body.height_m * body.height_m);
+  const float index = std::clamp(body.mass_kg / (body.height_m * body.height_m), least_index, most_index);
   const int coarse = detail < SkinDetail::far ? 1 : 2;
   const int step = coarse * static_cast<int>(std::lround(index / (index_step * static_cast<float>(coarse))));
   auto& skin = skin_[{body.sex, detail, step}];
   if (!skin) {
     BodyRequest usual{.height_m = tall};
-    usual.mass_kg = std::clamp(index_step * static_cast<float>(step) * tall * tall, 40.0F, 199.0F);
+    usual.mass_kg = index_step * static_cast<float>(step) * tall * tall;
     usual.sex = body.sex;
     const auto made = make_body(usual);
     if (!made) return tl::unexpected(made.error());
@@ -65,19 +70,12 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
   for (std::size_t i = begin; i < end; ++i) {
     const SkinRequest& request = work.requests[i];
     const BodySkin& skin = *request.shape.skin;
-    const SkinMesh& mesh = mesh_of(skin);
-    const std::span maps(reinterpret_cast<FrameMap*>(scratch.data()), mesh.frame.size());
-    const Pose<float> pose = *work.world.get<Pose>(request.person);
-    frame_maps(mesh, skin, pose, request.shape.lengths, request.origin_m, maps);
-    SkinCover cover;
-    const bool covers = std::ranges::any_of(request.muscles, [](const auto& of_side) { return !of_side.empty(); });
-    for (const Side side : {Side::right, Side::left}) {
-      if (covers) cover_muscles(skin, pose, request.shape.lengths, side, request.muscles[side], cover.lift_m[side]);
-    }
+    const std::span maps(reinterpret_cast<FrameMap*>(scratch.data()), mesh_of(skin).frame.size());
     const VertexTarget out{request.positions.bytes.data(),
                            request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
                            request.positions.stride, request.normals.stride};
-    place_skin(mesh, skin, maps, covers ? &cover : nullptr, out);
+    const Pose<float> own = request.pose == nullptr ? *work.world.get<Pose>(request.person) : *request.pose;
+    pose_skin(skin, own, request.shape.lengths, request.origin_m, request.muscles, maps, out);
   }
 }
 

@@ -10,13 +10,11 @@
 // Triangles are skin_mesh(sex, detail)'s (assets/skin/body_skin.h), the same for all men and for all women.
 
 #include <array>
-#include <cstdint>
 #include <map>
 #include <memory>
 #include <memory_resource>
 #include <span>
 #include <tuple>
-#include <vector>
 
 #include "assets/skin/body_skin.h"
 #include "engine/error.h"
@@ -40,9 +38,10 @@ class BodySkins {
   explicit BodySkins(const SkinDress& dress = {}) : dress_(dress) {}
 
   /// A skin for a body: made for its sex and a body mass index near its own, and as much larger as it is taller. Near
-  /// by that is within 0.75 kg/m² (1.5 % of its girths), from afar within 1.5. A quarter of a second for the first of a
-  /// build, half a second in full detail. Good as long as this lives. Errors: as make_body. Not for several threads at
-  /// once.
+  /// by that is within 0.75 kg/m² (1.5 % of its girths), from afar within 1.5, between 13.5 and 64.5 kg/m²; beyond, as
+  /// there. Limbs of their own are not followed: what they are longer by is drawn out at the joints. A quarter of a
+  /// second for the first of a build, half a second in full detail. Good as long as this lives. Errors: as make_body.
+  /// Not for several threads at once.
   Result<SkinShape> of(const BodyRequest& body, SkinDetail detail);
 
  private:
@@ -57,10 +56,11 @@ struct SkinRequest {
   SkinShape shape;
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
-  /// The vertices of each leg's muscles as a SurfaceWriter wrote them (world, m), by Side; none: nothing moves under
-  /// the skin. A tenth of them serves
-  /// (SurfaceChoice::detail); SurfaceChoice::sides binds each side by itself.
+  /// The vertices of each leg's muscles, by Side, in the world whatever `origin_m` is, as a SurfaceWriter wrote them;
+  /// none: the leg is as it is without. A tenth of them serves (SurfaceChoice::detail); SurfaceChoice::sides binds each
+  /// side by itself.
   std::array<std::span<const Vec3<float>>, 2> muscles{};
+  const Pose<float>* pose = nullptr;  // Simulation::get<Pose> of who is compact or asleep; null: that on their row
 };
 
 class SkinWriter {

@@ -57,22 +57,6 @@ void draw_out(const BodySurfaces::Driver& driver, float longer_m, float* node) {
   }
 }
 
-/// Whether any of a stream's vertices lies over any of another's. Streams in the same memory share a stride.
-bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b, std::size_t b_bytes,
-              std::size_t vertices) {
-  if (vertices == 0) return false;
-  const auto begin_a = reinterpret_cast<std::uintptr_t>(a.bytes.data());
-  const auto begin_b = reinterpret_cast<std::uintptr_t>(b.bytes.data());
-  const auto end_a = begin_a + (vertices - 1) * a.stride + a_bytes,
-             end_b = begin_b + (vertices - 1) * b.stride + b_bytes;
-  if (end_a <= begin_b || end_b <= begin_a) return false;
-  if (a.stride != b.stride) return true;
-  // How far the later one's slots begin behind the other's.
-  const bool a_first = begin_a <= begin_b;
-  const std::size_t behind = (a_first ? begin_b - begin_a : begin_a - begin_b) % a.stride;
-  return behind < (a_first ? a_bytes : b_bytes) || a.stride - behind < (a_first ? b_bytes : a_bytes);
-}
-
 Result<void> check_buffers(const SurfaceRequest& request) {
   if (request.surfaces == nullptr) return fail("no surfaces; bind_surfaces makes them");
   if (request.fit != nullptr && request.fit->belly.size() != request.surfaces->driver.size())

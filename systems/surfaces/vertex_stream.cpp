@@ -2,17 +2,35 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+
 namespace mobil {
 
 Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes) {
   if (stream.stride < bytes)
     return fail(fmt::format("a stride of {} bytes for {}; at least {}", stream.stride, what, bytes));
-  const std::size_t needed = vertices == 0 ? 0 : (vertices - 1) * stream.stride + bytes;
-  if (stream.bytes.size() < needed) {
-    return fail(fmt::format("{} bytes for {} of {} vertices, {} bytes apart; {} are needed", stream.bytes.size(), what,
-                            vertices, stream.stride, needed));
+  if (vertices == 0) return {};
+  const std::size_t room = stream.bytes.size();
+  if (room < bytes || vertices - 1 > (room - bytes) / stream.stride) {
+    return fail(fmt::format("{} bytes for {} of {} vertices, {} bytes apart; {} are needed", room, what, vertices,
+                            stream.stride, (vertices - 1) * stream.stride + bytes));
   }
   return {};
+}
+
+bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b, std::size_t b_bytes,
+              std::size_t vertices) {
+  if (vertices == 0) return false;
+  const auto begin_a = reinterpret_cast<std::uintptr_t>(a.bytes.data());
+  const auto begin_b = reinterpret_cast<std::uintptr_t>(b.bytes.data());
+  const auto end_a = begin_a + (vertices - 1) * a.stride + a_bytes,
+             end_b = begin_b + (vertices - 1) * b.stride + b_bytes;
+  if (end_a <= begin_b || end_b <= begin_a) return false;
+  if (a.stride != b.stride) return true;
+  // How far the later one's slots begin behind the other's.
+  const bool a_first = begin_a <= begin_b;
+  const std::size_t behind = (a_first ? begin_b - begin_a : begin_a - begin_b) % a.stride;
+  return behind < (a_first ? a_bytes : b_bytes) || a.stride - behind < (a_first ? b_bytes : a_bytes);
 }
 
 }  // namespace mobil

@@ -19,4 +19,8 @@ struct VertexStream {
 /// is too small.
 Result<void> check_stream(const char* what, const VertexStream& stream, std::size_t vertices, std::size_t bytes);
 
+/// Whether any of a stream's vertices lies over any of another's. Streams in the same memory share a stride.
+bool lie_over(const VertexStream& a, std::size_t a_bytes, const VertexStream& b, std::size_t b_bytes,
+              std::size_t vertices);
+
 }  // namespace mobil

@@ -135,11 +135,16 @@ def usd_bones(path, frame):
     for _, _, _, skinning, meshes in usd_people(path, frame):
         for mesh in meshes:
             joint = [int(n) for n in numbers(mesh['primvars:skel:jointIndices'])]
+            weight = numbers(mesh['primvars:skel:jointWeights'])
             points = threes(numbers(mesh['points']))
-            assert len(joint) == len(points) == len(numbers(mesh['primvars:st'])) // 2 == len(numbers(mesh['normals'])) // 3
+            each = len(joint) // len(points)  # joints of a point
+            assert len(joint) == len(weight) == each * len(points) and len(points) == len(numbers(mesh['primvars:st'])) // 2 == len(numbers(mesh['normals'])) // 3
             assert len(numbers(mesh['faceVertexIndices'])) == 3 * len(numbers(mesh['faceVertexCounts']))
-            for j, p in zip(joint, points):
-                yield moved(skinning[j], p)
+            for v, p in enumerate(points):
+                share = weight[each * v:each * v + each]
+                assert abs(sum(share) - 1) < 1e-3
+                ends = [moved(skinning[j], p) for j in joint[each * v:each * v + each]]
+                yield [sum(w * end[i] for w, end in zip(share, ends)) for i in range(3)]
 
 
 def usd_muscle(path, frame, name):

@@ -132,7 +132,9 @@ TEST(CrowdFormats, ACrowdIsOneValidGlbAndOneUsda) {
   for (const auto& mesh : scene.at("meshes")) {
     for (const auto& primitive : mesh.at("primitives")) positions.insert(primitive.at("attributes").at("POSITION"));
   }
-  EXPECT_EQ(positions.size(), 4U);  // skin, shirt, trousers, shoes: of all people the same
+  // Skin, legs, lips, hair, shirt, shorts, shoes: shared by all of about one build.
+  EXPECT_EQ(positions.size() % 7, 0U);
+  EXPECT_LT(positions.size(), 7U * 12);
   if (run_shell("python3 --version", folder.path).status == 0) {
     const Ran read =
         run_shell("python3 '" MOBIL_SOURCE_DIR "/tests/files/read_formats.py' bones crowd.usda 14", folder.path);

@@ -114,7 +114,7 @@ TEST(Skin, WeighsWhatThePersonDoes) {
     const Body body = *make_body(request);
     const BodySkin skin = *make_body_skin(body, SkinDetail::near, {.dressed = false});
     const double litres = 1e3 * volume(skin, skin.rest);
-    // What is lost in lungs and won by density: between 0.98 and 1.08 litres a kilogram, air apart.
+    // Air in the lungs apart, people weigh 1.00 (the fattest) to 1.08 kg a litre.
     const double air = request.sex == Sex::woman ? 2.24 * static_cast<double>(request.height_m) - 0.975
                                                  : 2.34 * static_cast<double>(request.height_m) - 0.84;
     const double density = static_cast<double>(request.mass_kg) / (litres - air);
@@ -209,7 +209,7 @@ TEST(Skin, StandsAsItWasMadeAndMovesAsAWhole) {
   }
 }
 
-/// How much of a surface's area, of one part, is turned against its normals.
+/// How much of a surface's area is turned against its normals.
 double folded(const BodySkin& skin, const Placed& placed) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   double wrong = 0, all = 0;
@@ -264,6 +264,39 @@ TEST(Skin, ChangesItsVolumeLittleInAWalk) {
   std::printf("[ stride ] volume %+.2f to %+.2f %%\n", 100 * (least / at_rest - 1), 100 * (most / at_rest - 1));
   EXPECT_LT((most - least) / at_rest, 0.02);
   EXPECT_NEAR(least / at_rest, 1, 0.03);
+}
+
+TEST(Skin, IsMadeForEveryBodyThereIs) {
+  for (const Sex sex : {Sex::man, Sex::woman}) {
+    for (const auto& [height_m, mass_kg] : {std::pair{1.2F, 30.0F}, std::pair{1.2F, 130.0F}, std::pair{1.5F, 200.0F},
+                                            std::pair{2.2F, 60.0F}, std::pair{2.2F, 200.0F}}) {
+      const Body body = *make_body(person(height_m, mass_kg, sex));
+      const BodySkin skin = *make_body_skin(body, SkinDetail::far);
+      float widest = 0, highest = 0;
+      for (const Vec3<float>& p : skin.rest) {
+        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+        widest = std::max(widest, std::abs(p.x));
+        highest = std::max(highest, p.y);
+      }
+      std::printf("[ range ] %.1f m, %.0f kg: %.1f l, %.2f m wide\n", static_cast<double>(height_m),
+                  static_cast<double>(mass_kg), 1e3 * volume(skin, skin.rest), 2 * static_cast<double>(widest));
+      EXPECT_NEAR(highest, height_m, 0.03F * height_m);
+      EXPECT_LT(widest, 0.45F);
+    }
+  }
+  BodyRequest long_legs = person(1.75F, 75);
+  long_legs.limbs.thigh_m = 0.5F;
+  EXPECT_FALSE(make_body_skin(*make_body(long_legs), SkinDetail::far));
+}
+
+TEST(Skin, MusclesThatAreNoNumbersLiftNothing) {
+  const Body body = *make_body(people[0]);
+  const BodySkin skin = *make_body_skin(body, SkinDetail::distant);
+  const float nan = std::nanf("");
+  const std::vector<Vec3<float>> muscles = {{nan, nan, nan}, {0, nan, 0}};
+  SkinCover cover;
+  cover_muscles(skin, standing_pose(body), 1, Side::right, muscles, cover.lift_m[Side::right]);
+  for (const float lift : cover.lift_m[Side::right]) EXPECT_NEAR(lift, 0, 1e-6F);
 }
 
 TEST(Skin, HidesTheBones) {

@@ -49,7 +49,7 @@ class Skin:
             target = targets[i]
             target.size = ffi.sizeof("mobil_skin_target")
             target.id = _one(people[i])
-            target.detail = self.detail
+            target.detail, target.sex = self.detail, self.sex
             at = out[i].ctypes.data
             target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
             target.position_stride = target.normal_stride = row

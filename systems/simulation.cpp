@@ -421,9 +421,10 @@ void Simulation::tick(std::uint32_t count) {
 
 void Simulation::run_tick() {
   const auto dt_s = static_cast<float>(clock_.tick_s());
+  step_log_->prepare(*world_, dt_s, clock_.most_ticks());  // what may lack memory, before anything changes
   schedule_->run(*world_, {dt_s, tick_}, jobs_);
   ++tick_;
-  step_log_->take(*world_, tick_, dt_s, clock_.most_ticks());
+  step_log_->take(*world_, tick_, dt_s);
   end_fades(*world_, dt_s, *work_);
   sleep_work_->restless.clear();
   end_unsettled(*world_, jobs_, {tick_, dt_s}, sleep_work_->rows, sleep_work_->restless);

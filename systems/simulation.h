@@ -226,12 +226,12 @@ class Simulation {
 
   /// Puts a walker elsewhere at once: the point of the walking line beside the foot that bears, and the line's heading
   /// there (rad, about +Y). Pose and muscles go along, as if the world had been moved under them: no inertia is felt,
-  /// and what the walker is about to do goes on, turned likewise, to the bit of who always was there as far as places
-  /// go. Ground reaction follows with the next tick. Compact people stay compact, sleepers asleep, but for those whom a
-  /// Relevance put to sleep: they wake. Errors: a stale handle, a posed person, a place not within 1000 km, a heading
-  /// not within ±10000; nothing has changed then.
+  /// and what the walker is about to do goes on, turned likewise: a walker spawned there has the same bits, but for the
+  /// rounding of places. Ground reaction follows with the next tick. Compact people stay compact, sleepers asleep, but
+  /// for those whom a Relevance put to sleep: they wake. Errors: a stale handle, a posed person, a place not within
+  /// 1000 km, a heading not within ±10000; nothing has changed then.
   Result<void> place(Entity human, float x_m, float z_m, float heading_rad);
-  /// The same of many. All or none. Errors name the number of the person; somebody named twice.
+  /// The same of many. All or none. Errors: the same, with the number of the person; somebody named twice.
   Result<void> place(std::span<const PlaceRequest> places);
 
   /// The world's origin moves to (x, 0, z): every place becomes so much less, of people, of muscles and of what they
@@ -296,7 +296,7 @@ class Simulation {
 
   /// Runs as many whole ticks as fit into the accumulated time.
   Ticks advance(double seconds);
-  /// Runs one tick, or so many.
+  /// Runs `count` ticks.
   void tick(std::uint32_t count = 1);
   std::uint32_t ticks() const { return tick_; }
   double tick_s() const { return clock_.tick_s(); }

@@ -28,10 +28,12 @@ typedef struct mobil_event {
   float place[3];    /* on the ground under the foot's ankle when it lies flat; of who stops or starts on their line */
   float heading_rad; /* where the foot points; of who stops or starts the body */
 } mobil_event;
-/* From the next tick on the steps of these walkers are watched, or no more. Sleepers are again on waking. */
+/* From the next tick on the steps of these walkers are watched, or no longer. Who sleeps is watched again on waking.
+ * Who is watched is part of mobil_hash: peers watch the same people. */
 MOBIL_API int mobil_watch(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
-/* What happened in all ticks of the last mobil_advance or mobil_tick, in order of time. `out` null, or too few: *count
- * alone, and then MOBIL_ROOM. Nothing of it is state. */
+/* What happened in all ticks of the last mobil_advance or mobil_tick, in order of time. Without `out` *count
+ * alone is told; with too little room too, and MOBIL_ROOM is returned. Events are told in the axes and the origin of
+ * their tick; after going back they are told again. */
 MOBIL_API int mobil_events(mobil_sim* sim, mobil_event* out, size_t room, size_t* count);
 
 /* Where a person is on the ground and heads, smooth along the walking line, without the sway of the hips. */

@@ -86,15 +86,19 @@ Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> peopl
   return Status::ok;
 }
 
-void StepLog::take(const World& world, std::uint32_t tick, float tick_s, std::uint32_t ticks) {
+void StepLog::prepare(const World& world, float tick_s, std::uint32_t ticks) {
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     if (world.tables()[tables_seen_].column(type_id<StepEvents>()) != Table::no_column)
       tables_.push_back(static_cast<std::uint32_t>(tables_seen_));
   }
   std::size_t watched = 0;
   for (const std::uint32_t t : tables_) watched += world.tables()[t].row_count();
-  if (watched == 0) return;
-  events_.reserve(watched * most_events(ticks, tick_s));
+  const std::size_t usual = watched * most_events(ticks, tick_s), needed = events_.size() + watched * StepEvents::most;
+  if (events_.capacity() < usual) events_.reserve(usual);
+  if (events_.capacity() < needed) events_.reserve(std::max(needed, 2 * events_.capacity()));
+}
+
+void StepLog::take(const World& world, std::uint32_t tick, float tick_s) {
   const auto first = static_cast<std::ptrdiff_t>(events_.size());
   const float part = 1.0F / static_cast<float>(clock_units(tick_s).per_tick);
   for (const std::uint32_t t : tables_) {

@@ -48,9 +48,11 @@ class StepLog {
   explicit StepLog(std::pmr::memory_resource* memory) : events_(memory), tables_(memory) {}
 
   void clear() { events_.clear(); }
-  /// After a tick that has run: `tick` is its number, from 1 on. Takes memory only where more people are watched than
-  /// ever before, enough for as many such ticks as `ticks` says.
-  void take(const World& world, std::uint32_t tick, float tick_s, std::uint32_t ticks);
+  /// Before a tick: takes memory where more people are watched than ever before, for an `advance` of `ticks` ticks, and
+  /// where a longer `tick(n)` has had more events.
+  void prepare(const World& world, float tick_s, std::uint32_t ticks);
+  /// After the tick has run: `tick` is its number, from 1 on. Takes no memory.
+  void take(const World& world, std::uint32_t tick, float tick_s);
   std::span<const StepEvent> events() const { return events_; }
 
  private:

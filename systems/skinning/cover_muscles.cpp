@@ -22,6 +22,16 @@ float eased(float t) {
   return t * t * (3 - 2 * t);
 }
 
+/// The angle of (x, z) from the z axis towards the x axis in turns, 0 to 1, to 10⁻⁴ of one.
+float turn_of(float x, float z) {
+  const float ax = std::abs(x), az = std::abs(z);
+  const float r = std::min(ax, az) / std::max({ax, az, 1e-20F}), s = r * r;
+  float angle = r * (1 + s * (-0.327622764F + s * (0.15931422F - s * 0.0464964749F)));
+  if (ax > az) angle = 0.25F * tau - angle;
+  if (z < 0) angle = 0.5F * tau - angle;
+  return (x < 0 ? tau - angle : angle) / tau;
+}
+
 /// The leg as its skin has it: straight above and below the knee, turning evenly between.
 class LegRings {
  public:
@@ -59,10 +69,8 @@ class LegRings {
     }
     const float x = out_ * dot(axes_[ring][0], from), z = dot(axes_[ring][2], from);
     const float s = y > 0 ? 1 - y / thigh_m_ : 1 - y / shank_m_;
-    float round = std::atan2(x, z) / tau;
-    if (round < 0) round += 1;
     constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
-    return {(s - first) / (last - first) * (leg_stations - 1), round * leg_angles, std::sqrt(x * x + z * z)};
+    return {(s - first) / (last - first) * (leg_stations - 1), turn_of(x, z) * leg_angles, std::sqrt(x * x + z * z)};
   }
 
   /// How far from the line a bent knee has room for skin, m, at a station and an angle; large elsewhere.

@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from . import names
 from ._library import ffi, lib
+from .surfaces import aim, room
 from .world import People, World, _one
 
 DETAILS = ("hero", "near", "far", "distant")
@@ -39,21 +40,13 @@ class Skin:
     ) -> npt.NDArray[np.float32]:
         """(n, vertices, 6): positions and unit normals after the last tick, of people of this sex."""
         people = np.atleast_1d(people)
-        shape = (len(people), self.vertex_count, 6)
-        out = np.empty(shape, np.float32) if out is None else out
-        if out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous or not out.flags.writeable:
-            raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
+        out = room(out, len(people), self.vertex_count)
         targets = ffi.new("mobil_skin_target[]", max(len(people), 1))
-        row = 6 * 4
         for i in range(len(people)):
             target = targets[i]
             target.size = ffi.sizeof("mobil_skin_target")
             target.id = _one(people[i])
             target.detail, target.sex = self.detail, self.sex
-            at = out[i].ctypes.data
-            target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
-            target.position_stride = target.normal_stride = row
-            target.position_bytes = out[i].nbytes
-            target.normal_bytes = out[i].nbytes - row // 2
+            aim(target, out[i])
         world._do(lib.mobil_write_skin(world._sim, targets, 0, len(people)))
         return out

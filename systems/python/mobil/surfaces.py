@@ -12,6 +12,24 @@ from ._library import fail, ffi, lib, text
 from .world import People, World, _fill, _one
 
 
+def room(out: npt.NDArray[np.float32] | None, people: int, vertices: int) -> npt.NDArray[np.float32]:
+    """(people, vertices, 6), for positions and normals: the caller's or a new one."""
+    shape = (people, vertices, 6)
+    out = np.empty(shape, np.float32) if out is None else out
+    if out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous or not out.flags.writeable:
+        raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
+    return out
+
+
+def aim(target: Any, out: npt.NDArray[np.float32]) -> None:
+    """Points a target's streams at one person's (vertices, 6)."""
+    at, row = out.ctypes.data, 6 * 4
+    target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
+    target.position_stride = target.normal_stride = row
+    target.position_bytes = out.nbytes
+    target.normal_bytes = out.nbytes - row // 2
+
+
 class Part(NamedTuple):
     """A bone, or a muscle or tendon of one side; its vertices and indices lie together."""
 
@@ -65,21 +83,13 @@ class Surfaces:
     ) -> npt.NDArray[np.float32]:
         """(n, vertices, 6): positions and unit normals after the last tick."""
         people = np.atleast_1d(people)
-        shape = (len(people), self.vertex_count, 6)
-        out = np.empty(shape, np.float32) if out is None else out
-        if out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous or not out.flags.writeable:
-            raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
+        out = room(out, len(people), self.vertex_count)
         targets = ffi.new("mobil_surface_target[]", max(len(people), 1))
-        row = 6 * 4
         for i in range(len(people)):
             target = targets[i]
             target.size = ffi.sizeof("mobil_surface_target")
             target.id = _one(people[i])
             target.surfaces = self._surfaces
-            at = out[i].ctypes.data
-            target.positions, target.normals = ffi.cast("void*", at), ffi.cast("void*", at + row // 2)
-            target.position_stride = target.normal_stride = row
-            target.position_bytes = out[i].nbytes
-            target.normal_bytes = out[i].nbytes - row // 2
+            aim(target, out[i])
         world._do(lib.mobil_write_surfaces(world._sim, targets, 0, len(people)))
         return out

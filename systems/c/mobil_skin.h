@@ -1,5 +1,5 @@
-/* Skin, clothes and hair as triangles. A part of mobil.h, which includes it; in the header that hosts have it stands in
- * its place. Since interface 2. */
+/* Skin, clothes and hair as triangles; WebAssembly is without. A part of mobil.h: in the header that hosts have it
+ * stands in the place of its include. Since interface 2. */
 #ifndef MOBIL_SKIN_H
 #define MOBIL_SKIN_H
 

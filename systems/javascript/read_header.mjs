@@ -60,5 +60,5 @@ if (out) {
   const read = readHeader(readFileSync(header, 'utf8'));
   writeFileSync(out, '// Made from mobil.h by read_header.mjs.\n' +
     Object.entries(read).map(([name, value]) => `export const ${name} = ${JSON.stringify(value)};\n`).join(''));
-  if (exportsFile) writeFileSync(exportsFile, read.functions.map((name) => `-Wl,--export=${name}\n`).join(''));
+  if (exportsFile) writeFileSync(exportsFile, read.functions.map((name) => `-Wl,--export-if-defined=${name}\n`).join(''));
 }

@@ -89,6 +89,23 @@ std::string from_the_future(const char* name, std::size_t known) {
       name, known);
 }
 
+int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
+              VertexStream& to) {
+  to.stride = stride == 0 ? close : stride;
+  if (memory == nullptr) return MOBIL_OK;
+  if (bytes == 0)
+    return line.refuse(MOBIL_ROOM, fmt::format("{} in 0 bytes; say how many there are, or leave them null", name));
+  to.bytes = {static_cast<std::byte*>(memory), bytes};
+  return MOBIL_OK;
+}
+
+void wind(std::span<const std::uint32_t> index, bool mirrored, unsigned int* out) {
+  for (std::size_t i = 0; i < index.size(); ++i) {
+    const std::size_t corner = i % 3;
+    out[i] = index[mirrored && corner != 0 ? i + 3 - 2 * corner : i];
+  }
+}
+
 int muscle_set(Line& line, unsigned int bits, MuscleSet& out) {
   const std::size_t known = muscles().size();
   out = MuscleSet(bits);

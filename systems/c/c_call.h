@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 #include <memory>
@@ -192,6 +193,25 @@ int struct_stride(Line& line, const S* rows, std::size_t count, const char* name
   if (!is_struct_size(size)) return line.refuse(MOBIL_STRUCT, unfilled(name, size));
   if (stride >= size) return MOBIL_OK;
   return line.refuse(MOBIL_REFUSED, fmt::format("{} lie {} bytes apart and are {} long", name, stride, size));
+}
+
+/// A stream of the caller's, `close` bytes apart where no stride is given; without bytes where it is left out.
+int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
+              VertexStream& to);
+/// Triangles for the host: of mirrored axes the second and the third corner change places.
+void wind(std::span<const std::uint32_t> index, bool mirrored, unsigned int* out);
+/// Vertices from `begin` up to `end` of a stream that was written, in the host's axes.
+template <class F>
+void turn_vertices(const VertexStream& stream, std::size_t begin, std::size_t end, std::size_t floats,
+                   const F& convert) {
+  if (stream.bytes.empty()) return;
+  for (std::size_t v = begin; v < end; ++v) {
+    float value[4];
+    std::byte* const at = stream.bytes.data() + v * stream.stride;
+    std::memcpy(value, at, floats * sizeof(float));
+    convert(value);
+    std::memcpy(at, value, floats * sizeof(float));
+  }
 }
 
 int muscle_set(Line& line, unsigned int bits, MuscleSet& out);

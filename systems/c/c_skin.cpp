@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstring>
 #include <new>
 #include <vector>
 
@@ -24,16 +23,6 @@ const SkinMesh* mesh_of(int sex, int detail) noexcept try {
   return &skin_mesh(static_cast<Sex>(sex), static_cast<SkinDetail>(detail));
 } catch (const std::bad_alloc&) {
   return nullptr;
-}
-
-/// A stream of the caller's; without bytes where it is left out.
-int skin_stream(Line& line, void* memory, std::size_t stride, std::size_t bytes, const char* name, VertexStream& to) {
-  to.stride = stride == 0 ? 3 * sizeof(float) : stride;
-  if (memory == nullptr) return MOBIL_OK;
-  if (bytes == 0)
-    return line.refuse(MOBIL_ROOM, fmt::format("{} in 0 bytes; say how many there are, or leave them null", name));
-  to.bytes = {static_cast<std::byte*>(memory), bytes};
-  return MOBIL_OK;
 }
 
 /// A person's pose, and muscles' vertices in our axes, from the world's origin.
@@ -58,10 +47,11 @@ int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequ
   if (!pose) return s.line.refuse(pose.error());
   posed.pose = *pose;
   to.pose = &posed.pose;
+  constexpr std::size_t three = 3 * sizeof(float);
   if (const int code =
-          skin_stream(s.line, as.positions, as.position_stride, as.position_bytes, "positions", to.positions))
+          stream_of(s.line, as.positions, as.position_stride, as.position_bytes, three, "positions", to.positions))
     return code;
-  if (const int code = skin_stream(s.line, as.normals, as.normal_stride, as.normal_bytes, "normals", to.normals))
+  if (const int code = stream_of(s.line, as.normals, as.normal_stride, as.normal_bytes, three, "normals", to.normals))
     return code;
   to.origin_m = s.axes.place_from(as.origin);
   for (std::size_t side = 0; side < 2; ++side) {
@@ -74,19 +64,6 @@ int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequ
     to.muscles[side] = posed.of_side[side];
   }
   return MOBIL_OK;
-}
-
-/// A stream that was written, in the host's axes.
-template <class F>
-void turn_stream(const VertexStream& stream, std::size_t vertices, const F& convert) {
-  if (stream.bytes.empty()) return;
-  for (std::size_t v = 0; v < vertices; ++v) {
-    float value[3];
-    std::byte* const at = stream.bytes.data() + v * stream.stride;
-    std::memcpy(value, at, sizeof value);
-    convert(value);
-    std::memcpy(at, value, sizeof value);
-  }
 }
 
 }  // namespace
@@ -113,10 +90,7 @@ int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, s
     const auto& index = mesh->triangle;
     if (room < index.size())
       return s.line.refuse(MOBIL_ROOM, fmt::format("room for {} indices; {} are needed", room, index.size()));
-    for (std::size_t i = 0; i < index.size(); ++i) {
-      const std::size_t corner = i % 3;  // of mirrored axes the second and the third change places
-      out[i] = index[s.axes.mirrored() && corner != 0 ? i + 3 - 2 * corner : i];
-    }
+    wind(index, s.axes.mirrored(), out);
     if (first != nullptr) std::copy(mesh->first_triangle.begin(), mesh->first_triangle.end(), first);
     return int{MOBIL_OK};
   });
@@ -139,8 +113,8 @@ int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t st
       for (std::size_t i = begin; i < end; ++i) {
         const SkinRequest& request = requests[i];
         const std::size_t vertices = request.shape.skin->rest.size();
-        turn_stream(request.positions, vertices, [&](float* v) { s.axes.place_to({v[0], v[1], v[2]}, v); });
-        turn_stream(request.normals, vertices, [&](float* v) { s.axes.direction_to({v[0], v[1], v[2]}, v); });
+        turn_vertices(request.positions, 0, vertices, 3, [&](float* v) { s.axes.place_to({v[0], v[1], v[2]}, v); });
+        turn_vertices(request.normals, 0, vertices, 3, [&](float* v) { s.axes.direction_to({v[0], v[1], v[2]}, v); });
       }
     });
     return int{MOBIL_OK};

@@ -19,17 +19,6 @@ struct Target {
   SurfaceFit fit;
 };
 
-/// A stream of the caller's; without bytes where it is left out.
-int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
-              VertexStream& to) {
-  to.stride = stride == 0 ? close : stride;
-  if (memory == nullptr) return MOBIL_OK;
-  if (bytes == 0)
-    return line.refuse(MOBIL_ROOM, fmt::format("{} in 0 bytes; say how many there are, or leave them null", name));
-  to.bytes = {static_cast<std::byte*>(memory), bytes};
-  return MOBIL_OK;
-}
-
 int request_of(mobil_sim& s, Target& target, SurfaceRequest& to) {
   const mobil_surface_target& as = target.as;
   if (as.surfaces == nullptr) return s.line.refuse_null("surfaces");
@@ -52,25 +41,12 @@ int request_of(mobil_sim& s, Target& target, SurfaceRequest& to) {
   return stream_of(s.line, as.tangents, as.tangent_stride, as.tangent_bytes, four, "tangents", to.tangents);
 }
 
-/// Vertices from `begin` up to `end` of a stream that was written, in the host's axes.
-template <class F>
-void turn(const VertexStream& stream, std::size_t begin, std::size_t end, std::size_t floats, const F& convert) {
-  if (stream.bytes.empty()) return;
-  for (std::size_t v = begin; v < end; ++v) {
-    float value[4];
-    std::byte* const at = stream.bytes.data() + v * stream.stride;
-    std::memcpy(value, at, floats * sizeof(float));
-    convert(value);
-    std::memcpy(at, value, floats * sizeof(float));
-  }
-}
-
 void turn_all(const HostAxes& axes, const Jobs& jobs, const SurfaceRequest& request) {
   const float handed = axes.mirrored() ? -1.0F : 1.0F;
   in_parallel(jobs, request.surfaces->vertices, [&](std::size_t begin, std::size_t end) {
-    turn(request.positions, begin, end, 3, [&](float* v) { axes.place_to({v[0], v[1], v[2]}, v); });
-    turn(request.normals, begin, end, 3, [&](float* v) { axes.direction_to({v[0], v[1], v[2]}, v); });
-    turn(request.tangents, begin, end, 4, [&](float* v) {
+    turn_vertices(request.positions, begin, end, 3, [&](float* v) { axes.place_to({v[0], v[1], v[2]}, v); });
+    turn_vertices(request.normals, begin, end, 3, [&](float* v) { axes.direction_to({v[0], v[1], v[2]}, v); });
+    turn_vertices(request.tangents, begin, end, 4, [&](float* v) {
       axes.direction_to({v[0], v[1], v[2]}, v);
       v[3] *= handed;
     });
@@ -120,10 +96,7 @@ int mobil_indices(const mobil_surfaces* surfaces, unsigned int* out, size_t room
   if (surfaces == nullptr || out == nullptr) return MOBIL_REFUSED;
   const auto& index = surfaces->bound.index;
   if (room < index.size()) return MOBIL_ROOM;
-  for (std::size_t i = 0; i < index.size(); ++i) {
-    const std::size_t corner = i % 3;  // the second and the third change places
-    out[i] = index[surfaces->mirrored && corner != 0 ? i + 3 - 2 * corner : i];
-  }
+  wind(index, surfaces->mirrored, out);
   return MOBIL_OK;
 }
 

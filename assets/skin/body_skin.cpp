@@ -86,27 +86,15 @@ void even_out(const SkinMesh& mesh, SkinPart part, const BodyForm& form, std::ve
   const std::span triangles = std::span(mesh.triangle)
                                   .subspan(3 * std::size_t{mesh.first_triangle[p]},
                                            3 * std::size_t{mesh.first_triangle[p + 1] - mesh.first_triangle[p]});
-  // Of each place: its neighbours' sum and number; what other parts share stays where it is.
-  std::vector<bool> shared(place.size(), true);
-  for (const std::uint32_t v : triangles) shared[v] = false;
+  std::vector<bool> moves(place.size(), false);  // not what other parts share
+  for (const std::uint32_t v : triangles) moves[v] = true;
   for (std::size_t i = 0; i < mesh.triangle.size(); ++i) {
-    if (i < 3 * mesh.first_triangle[p] || i >= 3 * mesh.first_triangle[p + 1]) shared[mesh.triangle[i]] = true;
+    if (i < 3 * mesh.first_triangle[p] || i >= 3 * mesh.first_triangle[p + 1]) moves[mesh.triangle[i]] = false;
   }
-  std::vector<Vec> sum(place.size());
-  std::vector<double> count(place.size());
   for (int round = 0; round < rounds; ++round) {
-    for (const std::uint32_t v : triangles) sum[v] = {0, 0, 0}, count[v] = 0;
-    for (std::size_t t = 0; t < triangles.size(); t += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = triangles[t + k], b = triangles[t + (k + 1) % 3];
-        sum[a] = sum[a] + place[b];
-        ++count[a];
-      }
-    }
-    for (const std::uint32_t v : triangles) {
-      if (shared[v] || count[v] == 0) continue;
-      place[v] = onto_surface(form, (1 / count[v]) * sum[v], 1);
-      count[v] = 0;  // once a round
+    const std::vector<Vec> mean = neighbour_means(triangles, place);
+    for (std::size_t v = 0; v < place.size(); ++v) {
+      if (moves[v]) place[v] = onto_surface(form, mean[v], 1);
     }
   }
 }
@@ -185,7 +173,7 @@ BodySkin make_body_skin(const Body& body, double fullness, SkinDetail detail, co
   skin.sex = body.request.sex;
   skin.detail = detail;
   skin.standing = standing_pose(body);
-  skin.leg = leg_grid(form.leg(), body_measures(body.request), body.composition);
+  skin.leg = leg_grid(form.leg(), body.composition);
   const std::vector<Vec> normal = normals(mesh.triangle, rest);
   for (std::size_t v = 0; v < rest.size(); ++v) {
     skin.rest.push_back(to_float(rest[v]));

@@ -214,29 +214,33 @@ class Mesher {
 /// Moves vertices to the middle of their neighbours, and back onto the surface.
 void relax(const BodyForm& body, SurfaceMesh& mesh) {
   constexpr int rounds = 5;
-  const std::size_t count = mesh.position.size();
-  std::vector<Vec> place(count), sum(count);
-  std::vector<double> neighbours(count);
-  for (std::size_t v = 0; v < count; ++v) place[v] = to_double(mesh.position[v]);
+  std::vector<Vec> place;
+  for (const Vec3<float>& p : mesh.position) place.push_back(to_double(p));
   for (int round = 0; round < rounds; ++round) {
-    std::ranges::fill(sum, Vec{0, 0, 0});
-    std::ranges::fill(neighbours, 0);
-    for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
-        sum[a] = sum[a] + place[b];
-        sum[b] = sum[b] + place[a];
-        ++neighbours[a];
-        ++neighbours[b];
-      }
-    }
-    for (std::size_t v = 0; v < count; ++v)
-      place[v] = onto_surface(body, 0.4 * place[v] + (0.6 / neighbours[v]) * sum[v], round + 1 < rounds ? 1 : 3);
+    const std::vector<Vec> mean = neighbour_means(mesh.triangle, place);
+    for (std::size_t v = 0; v < place.size(); ++v)
+      place[v] = onto_surface(body, 0.4 * place[v] + 0.6 * mean[v], round + 1 < rounds ? 1 : 3);
   }
-  for (std::size_t v = 0; v < count; ++v) mesh.position[v] = to_float(place[v]);
+  for (std::size_t v = 0; v < place.size(); ++v) mesh.position[v] = to_float(place[v]);
 }
 
 }  // namespace
+
+std::vector<form::Vec> neighbour_means(std::span<const std::uint32_t> triangle, std::span<const form::Vec> place) {
+  std::vector<Vec> mean(place.size(), Vec{0, 0, 0});
+  std::vector<double> count(place.size());
+  for (std::size_t t = 0; t < triangle.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = triangle[t + k], b = triangle[t + (k + 1) % 3];
+      mean[a] = mean[a] + place[b];
+      mean[b] = mean[b] + place[a];
+      ++count[a];
+      ++count[b];
+    }
+  }
+  for (std::size_t v = 0; v < place.size(); ++v) mean[v] = count[v] == 0 ? place[v] : (1 / count[v]) * mean[v];
+  return mean;
+}
 
 form::Vec onto_surface(const BodyForm& body, Vec p, int steps) {
   constexpr double most_m = 0.02, least_slope = 0.1;

@@ -1,6 +1,10 @@
 #pragma once
 // From an implicit body to triangles.
 
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include "assets/skin/body_form.h"
 #include "components/surface.h"
 
@@ -12,6 +16,9 @@ namespace mobil {
 /// nets, Gibson 1998; between cells of two sizes as in Ju et al. 2002), then moved along the surface for even
 /// triangles. Takes about a second. `coarseness`: times as wide cells, from 1 on.
 SurfaceMesh mesh_form(const form::BodyForm& body, double coarseness = 1);
+
+/// The middle of each place's neighbours in these triangles; where there are none, the place itself.
+std::vector<form::Vec> neighbour_means(std::span<const std::uint32_t> triangle, std::span<const form::Vec> place);
 
 /// Moves a place to the body's surface along its slope.
 form::Vec onto_surface(const form::BodyForm& body, form::Vec p, int steps);

@@ -13,8 +13,8 @@ constexpr double step_s = (LegProfile::last_s - LegProfile::first_s) / (leg_stat
 
 }  // namespace
 
-LegGrid leg_grid(const form::LegForm& leg, const BodyMeasures& measures, const BodyComposition& composition) {
-  const LegProfile profile(measures);
+LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
+  const LegProfile& profile = leg.profile();
   LegGrid grid{};
   double area = 0;
   for (std::size_t i = 0; i < leg_stations; ++i) {

@@ -23,7 +23,7 @@ struct LegGrid {
 /// Fat under the skin of the legs is 0.145 of a person's fat, spread evenly but for: 1.3 times the mean on the thigh,
 /// 0.6 on the shank, a quarter over the kneecap and the shin's bone, and at least 1.5 mm. The numbers are our choice;
 /// they make 7 mm in the mean of a man of 75 kg.
-LegGrid leg_grid(const form::LegForm& leg, const BodyMeasures& measures, const BodyComposition& composition);
+LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition);
 
 /// Where a vertex of the skin lies on its leg, in stations and angles, and how much of what lifts the grid lifts it: 0
 /// everywhere but on the legs.

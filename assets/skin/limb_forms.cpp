@@ -19,7 +19,7 @@ Vec joint(const Body& body, Segment segment) {
 LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod)
     : hip_(joint(body, Segment::thigh_right)),
       knee_y_(joint(body, Segment::shank_right).y),
-      knee_y_shank_(knee_y_ - joint(body, Segment::foot_right).y),
+      shank_m_(knee_y_ - joint(body, Segment::foot_right).y),
       dome_m_(0.150 * static_cast<double>(body.request.height_m) / 1.75),
       long_(m.foot_length / 0.2686),
       wide_(m.foot_breadth / 0.1001),

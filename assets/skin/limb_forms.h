@@ -16,17 +16,16 @@ class LegForm {
   /// Of a point of the right leg, standing straight.
   double distance(const Vec& p) const;
   /// How far down the leg a height lies: 0 at the hip's centre, 1 at the knee's, 2 at the ankle's.
-  double s(double y) const {
-    return y > knee_y_ ? (hip_.y - y) / (hip_.y - knee_y_) : 1 + (knee_y_ - y) / knee_y_shank_;
-  }
-  double y(double s) const { return s < 1 ? hip_.y - s * (hip_.y - knee_y_) : knee_y_ - (s - 1) * knee_y_shank_; }
+  double s(double y) const { return y > knee_y_ ? (hip_.y - y) / (hip_.y - knee_y_) : 1 + (knee_y_ - y) / shank_m_; }
+  double y(double s) const { return s < 1 ? hip_.y - s * (hip_.y - knee_y_) : knee_y_ - (s - 1) * shank_m_; }
   const Vec& hip() const { return hip_; }
+  const LegProfile& profile() const { return profile_; }
 
  private:
   double foot(const Vec& p) const;
 
   Vec hip_;
-  double knee_y_, knee_y_shank_, dome_m_;
+  double knee_y_, shank_m_, dome_m_;
   double long_, wide_;  // of the foot, over that of 1.75 m and 75 kg
   LegProfile profile_;
   std::vector<Ring> foot_;

@@ -1,5 +1,5 @@
 #pragma once
-// A crowd as a scene for other programs: everybody's smooth body, walking.
+// A crowd as a scene for other programs: everybody dressed, walking.
 
 #include <cstddef>
 #include <filesystem>

@@ -152,8 +152,11 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
   parts.meshes.clear();
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Drawn& person = *seen[i].person;
-    const auto human = simulation.human(person.entity);
-    if (!human) return fail("a person who is to be drawn has left");
+    const auto size = simulation.get<BodySize>(person.entity);
+    const auto physique = simulation.get<Physique>(person.entity);
+    if (!size || !physique) return fail("a person who is to be drawn has left");
+    BodyRequest body{.height_m = size->height_m, .mass_kg = size->mass_kg};
+    body.sex = sex_of(physique->build);
     const Parts::Shown* muscles = nullptr;
     if (i < most_figures && person.near) {
       const auto shown = parts.figure_of(simulation, person);
@@ -161,7 +164,7 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
       parts.meshes.insert(parts.meshes.end(), (*shown)->drawn.meshes.begin(), (*shown)->drawn.meshes.end());
       muscles = *shown;
     }
-    auto added = parts.add_skin(human->body.request, seen[i].pose, seen[i].distance_m, person, muscles);
+    auto added = parts.add_skin(body, seen[i].pose, seen[i].distance_m, person, muscles);
     if (!added) return added;
   }
   Scene drawn;

@@ -14,7 +14,6 @@ namespace {
 using namespace geometry;
 
 constexpr float tau = 2 * std::numbers::pi_v<float>;
-constexpr float bend_m = 0.10F;  // either side of the knee, of 1.75 m, where the skin bends
 constexpr std::size_t bend_steps = 16;
 
 float eased(float t) {
@@ -42,7 +41,7 @@ class LegRings {
     knee_ = pose.position_m[shank];
     thigh_m_ = lengths * (skin.standing.position_m[thigh].y - skin.standing.position_m[shank].y);
     shank_m_ = lengths * (skin.standing.position_m[shank].y - skin.standing.position_m[foot].y);
-    bend_ = bend_m / 1.75F * lengths * height_m(skin);
+    bend_ = static_cast<float>(knee_bend_m / 1.75) * lengths * height_m(skin);
     out_ = side == Side::right ? 1.0F : -1.0F;
     for (std::size_t k = 0; k <= bend_steps; ++k)
       axes_[k] = columns(blended(pose.rotation[shank], pose.rotation[thigh], eased(part(k))));

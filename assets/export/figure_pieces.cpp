@@ -8,17 +8,13 @@ namespace mobil {
 namespace {
 
 void append_texture(std::span<const Vec3<float>> position, FigurePiece& piece) {
-  for (const TexturePlace& place : texture_places(position)) piece.texture.push_back(folded(place));
+  const std::vector<TexturePlace> places = folded_places(position);
+  piece.texture.insert(piece.texture.end(), places.begin(), places.end());
 }
 
 Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& standing_m, FigurePiece& piece) {
   const auto& mesh = surface.mesh;
-  Eigen::Matrix3Xd exact(3, static_cast<Eigen::Index>(mesh.position.size()));
-  for (std::size_t v = 0; v < mesh.position.size(); ++v) {
-    const auto& p = mesh.position[v];
-    exact.col(static_cast<Eigen::Index>(v)) << static_cast<double>(p.x), static_cast<double>(p.y),
-        static_cast<double>(p.z);
-  }
+  const Eigen::Matrix3Xd exact = columns_of(mesh.position);
   const auto triangle = triangles_with_area(exact, mesh.triangle);
   if (triangle.empty())
     return fail(fmt::format("surface '{}': none of its triangles has an area; leave it out", mesh.name));
@@ -46,9 +42,7 @@ void append_skin(const SkinnedSurface& surface, FigurePiece& piece) {
 }
 
 void add_normals(FigurePiece& piece) {
-  const Eigen::Map<const Eigen::Matrix3Xf> position(&piece.position.front().x, 3,
-                                                    static_cast<Eigen::Index>(piece.position.size()));
-  const Eigen::Matrix3Xf normal = vertex_normals(position.cast<double>(), piece.triangle).cast<float>();
+  const Eigen::Matrix3Xf normal = vertex_normals(columns_of(piece.position), piece.triangle).cast<float>();
   for (const auto& n : normal.colwise()) piece.normal.push_back({n.x(), n.y(), n.z()});
 }
 

@@ -124,12 +124,6 @@ tinygltf::Primitive primitive(GltfDraft& draft, const Eigen::Matrix3Xf& position
   return made;
 }
 
-std::vector<TexturePlace> folded_places(std::span<const Vec3<float>> position) {
-  auto place = texture_places(position);
-  for (TexturePlace& p : place) p = folded(p);
-  return place;
-}
-
 Result<GltfFigure> make_gltf_figure(GltfDraft& draft, const SeenFigure& seen, const SkeletonKeys& skeleton) {
   GltfFigure figure;
   figure.standing_m = figure_standing(seen, skeleton);

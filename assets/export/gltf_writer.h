@@ -43,7 +43,7 @@ Result<ExportReport> write_glb(const std::filesystem::path& path, const WalkReco
                                const ExportOptions& options = {});
 
 /// The same of several people, all in one animation. Names of somebody's parts begin with theirs: "anna_thigh_right".
-/// A figure's vertices are written once for all who look like that; how large each is is told by their skin. A mesh of
+/// A figure's vertices are written once for all who look like that; each person's skin scales them. A mesh of
 /// people with colours of their own is called "figure".
 Result<ExportReport> write_glb(const std::filesystem::path& path, const CrowdRecording& recording,
                                const ExportOptions& options = {});

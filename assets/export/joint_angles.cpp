@@ -30,7 +30,7 @@ std::vector<JointTurn> joint_turns(const std::vector<Eigen::Quaterniond>& rotati
     const Eigen::Matrix3d r = q.toRotationMatrix();
     const double cosine = std::hypot(r(1, 1), r(2, 1));
     JointTurn turn{std::atan2(r(2, 1), r(1, 1)), std::atan2(-r(0, 1), cosine), std::atan2(r(0, 2), r(0, 0))};
-    if (cosine < 1e-6) {  // x and y turn about the same axis: all of it is told as x
+    if (cosine < 1e-6) {  // x and y turn about the same axis: x takes the whole turn
       turn.x = std::atan2(-r(1, 2), r(2, 2));
       turn.y = 0;
     }

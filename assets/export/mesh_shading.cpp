@@ -14,6 +14,15 @@ Eigen::Vector3d twice_area(const Eigen::Matrix3Xd& position, const std::uint32_t
 
 }  // namespace
 
+Eigen::Matrix3Xd columns_of(std::span<const Vec3<float>> position) {
+  Eigen::Matrix3Xd columns(3, static_cast<Eigen::Index>(position.size()));
+  for (std::size_t v = 0; v < position.size(); ++v) {
+    columns.col(static_cast<Eigen::Index>(v)) << static_cast<double>(position[v].x), static_cast<double>(position[v].y),
+        static_cast<double>(position[v].z);
+  }
+  return columns;
+}
+
 Eigen::Matrix3Xd vertex_normals(const Eigen::Matrix3Xd& position, const std::vector<std::uint32_t>& triangle) {
   Eigen::Matrix3Xd normal = Eigen::Matrix3Xd::Zero(3, position.cols());
   for (std::size_t t = 0; t + 2 < triangle.size(); t += 3) {

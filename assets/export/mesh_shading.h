@@ -3,9 +3,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
+#include "components/lanes.h"
+
 namespace mobil {
+
+/// A column for each place.
+Eigen::Matrix3Xd columns_of(std::span<const Vec3<float>> position);
 
 /// Area-weighted vertex normals of unit length, a column per vertex; +Y where no triangle with area touches a vertex.
 Eigen::Matrix3Xd vertex_normals(const Eigen::Matrix3Xd& position, const std::vector<std::uint32_t>& triangle);

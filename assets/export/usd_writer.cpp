@@ -63,12 +63,7 @@ std::string usd_points(std::span<const Vec3<float>> points) {
                    [](auto out, const auto& p) { fmt::format_to(out, "({:.5f}, {:.5f}, {:.5f})", p.x, p.y, p.z); });
 }
 std::string usd_normals(std::span<const Vec3<float>> position, const std::vector<std::uint32_t>& triangle) {
-  Eigen::Matrix3Xd exact(3, static_cast<Eigen::Index>(position.size()));
-  for (std::size_t v = 0; v < position.size(); ++v) {
-    exact.col(static_cast<Eigen::Index>(v)) << static_cast<double>(position[v].x), static_cast<double>(position[v].y),
-        static_cast<double>(position[v].z);
-  }
-  return usd_array(vertex_normals(exact, triangle).colwise(), [](auto out, const auto& n) {
+  return usd_array(vertex_normals(columns_of(position), triangle).colwise(), [](auto out, const auto& n) {
     fmt::format_to(out, "({:.3f}, {:.3f}, {:.3f})", n.x(), n.y(), n.z());
   });
 }
@@ -81,9 +76,9 @@ std::string usd_extent(std::span<const Vec3<float>> points) {
   }
   return usd_points(box);
 }
-std::string usd_texture(std::span<const Vec3<float>> position) {
-  return usd_array(texture_places(position), [](auto out, const TexturePlace& place) {
-    fmt::format_to(out, "({:.4f}, {:.4f})", folded(place).along, folded(place).around);
+std::string usd_texture(std::span<const TexturePlace> places) {
+  return usd_array(places, [](auto out, const TexturePlace& place) {
+    fmt::format_to(out, "({:.4f}, {:.4f})", place.along, place.around);
   });
 }
 std::string usd_colour(const Vec3<float>& c) {
@@ -169,11 +164,7 @@ void add_cloth(UsdText& usd, const FigurePiece& piece) {
   usd.line("point3f[] points = " + usd_points(piece.position));
   usd.line("normal3f[] normals = " + usd_points(piece.normal) + " (interpolation = \"vertex\")");
   usd.line("float3[] extent = " + usd_extent(piece.position));
-  usd.line(
-      "texCoord2f[] primvars:st = " +
-      usd_array(piece.texture,
-                [](auto out, const TexturePlace& p) { fmt::format_to(out, "({:.5g}, {:.5g})", p.along, p.around); }) +
-      " (interpolation = \"vertex\")");
+  usd.line("texCoord2f[] primvars:st = " + usd_texture(piece.texture) + " (interpolation = \"vertex\")");
   const std::size_t joints = piece.rigid ? 1 : 4;
   std::vector<std::uint32_t> joint;
   std::vector<float> weight;
@@ -201,7 +192,8 @@ void add_muscle_cache(UsdText& usd, const RecordedMuscle& muscle, const std::str
   add_samples(usd, "normal3f[] normals", frames,
               [&](std::size_t f) { return usd_normals(muscle.position_m[f], muscle.triangle); });
   add_samples(usd, "float3[] extent", frames, [&](std::size_t f) { return usd_extent(muscle.position_m[f]); });
-  usd.line("texCoord2f[] primvars:st = " + usd_texture(muscle.position_m.front()) + " (interpolation = \"vertex\")");
+  usd.line("texCoord2f[] primvars:st = " + usd_texture(folded_places(muscle.position_m.front())) +
+           " (interpolation = \"vertex\")");
   usd.line("color3f[] primvars:displayColor = " + usd_colour(muscle.colour));
   usd.close();
 }

@@ -22,8 +22,8 @@ namespace mobil {
 /// check_recording, a file that cannot be written. Format: OpenUSD (usda text; UsdGeom, UsdSkel schemas).
 Result<void> write_usda(const std::filesystem::path& path, const WalkRecording& recording);
 
-/// The same of several people; surfaces of those who share a figure are written once and referred to, how large each is
-/// is told by the bind pose. A mesh of people with colours of their own is called "figure", one a cloth.
+/// The same of several people; surfaces of those who share a figure are written once and referred to; each person's
+/// bind pose scales them. A mesh of people with colours of their own is called "figure", one a cloth.
 Result<void> write_usda(const std::filesystem::path& path, const CrowdRecording& recording);
 
 }  // namespace mobil

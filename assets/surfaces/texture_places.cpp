@@ -115,6 +115,12 @@ std::vector<TexturePlace> texture_places(std::span<const Vec3<float>> position) 
   return texture_places(position, {0, 0, away(low.z, high.z)}, {0, 1, 0});
 }
 
+std::vector<TexturePlace> folded_places(std::span<const Vec3<float>> position) {
+  std::vector<TexturePlace> places = texture_places(position);
+  for (TexturePlace& place : places) place = folded(place);
+  return places;
+}
+
 std::vector<AlongStencil> along_stencils(std::span<const std::uint32_t> triangle, std::span<const TexturePlace> place) {
   struct Best {
     double score = -1e300;  // how well the triangle holds the direction: negative where it lies beside it

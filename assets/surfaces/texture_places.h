@@ -28,6 +28,9 @@ std::vector<TexturePlace> texture_places(std::span<const Vec3<float>> position, 
 /// (+z), of what lies along z above (+y).
 std::vector<TexturePlace> texture_places(std::span<const Vec3<float>> position);
 
+/// The same, folded.
+std::vector<TexturePlace> folded_places(std::span<const Vec3<float>> position);
+
 /// How the direction along a surface follows from where four of a vertex' neighbours are: Σ weight · (neighbour −
 /// vertex), to be made perpendicular to the normal. Two triangles give it, the one ahead and the one behind. `handed`:
 /// +1 where normal × along points to the back, −1 where it points to the front; of folded places.

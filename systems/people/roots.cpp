@@ -117,7 +117,7 @@ Root moved(const Root& from, const RootMotion& by) {
 }
 
 Result<void> read_roots(const World& world, std::span<const Entity> people, const SleepTime& time, double ahead_s,
-                        std::span<Root> out, const Jobs& jobs) {
+                        std::span<Root> out) {
   if (out.size() != people.size())
     return fail(fmt::format("roots: {} people, and room for {}; give as much", people.size(), out.size()));
   if (!(ahead_s >= 0 && ahead_s <= furthest_ahead_s))
@@ -126,9 +126,7 @@ Result<void> read_roots(const World& world, std::span<const Entity> people, cons
     if (!is_person(world, people[i]))
       return fail(fmt::format("roots: person {} of the list is not there (a stale handle)", i), Status::stale_entity);
   }
-  in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
-    read_some(world, people.subspan(begin, end - begin), time, static_cast<float>(ahead_s), &out[begin]);
-  });
+  read_some(world, people, time, static_cast<float>(ahead_s), out.data());
   return {};
 }
 

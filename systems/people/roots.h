@@ -10,7 +10,6 @@
 
 #include "engine/entity.h"
 #include "engine/error.h"
-#include "engine/jobs.h"
 #include "engine/world.h"
 #include "systems/people/sleepers.h"
 
@@ -38,6 +37,6 @@ Root moved(const Root& from, const RootMotion& by);
 /// sixteen times as long, sleepers some microseconds. Takes no memory but for sleepers. Errors, in one line, before
 /// anything is written: a stale handle, a time out of range, spans that are not as long as each other.
 Result<void> read_roots(const World& world, std::span<const Entity> people, const SleepTime& time, double ahead_s,
-                        std::span<Root> out, const Jobs& jobs = {});
+                        std::span<Root> out);
 
 }  // namespace mobil

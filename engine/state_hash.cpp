@@ -23,20 +23,10 @@ struct Hashing {
     for (const Table& table : world.tables()) {
       first_block.push_back(blocks);
       blocks += table.block_count();
-      seed.push_back(key_seed(table.key()));
+      seed.push_back(key_hash(world, table.key()));
     }
     first_block.push_back(blocks);
     row.resize(blocks * lane_count);
-  }
-
-  /// What a table's rows have in common and do not hold themselves.
-  std::uint64_t key_seed(const TableKey& key) const {
-    std::uint64_t hash = 0;
-    for (const KeyPart& part : key) {
-      hash = mix64(hash ^ part.id);
-      hash = mix64(hash + (part.kind == PartKind::shared ? world.resource_content(part.value) : part.value));
-    }
-    return hash;
   }
 
   /// The table that a block of all is in.
@@ -91,12 +81,25 @@ struct Hashing {
 
 }  // namespace
 
+std::uint64_t key_hash(const World& world, const TableKey& key) {
+  std::uint64_t hash = 0;
+  for (const KeyPart& part : key) {
+    hash = mix64(hash ^ part.id);
+    hash = mix64(hash + (part.kind == PartKind::shared ? world.resource_content(part.value) : part.value));
+  }
+  return hash;
+}
+
 std::uint64_t state_hash(const World& world, const Jobs& jobs) {
   Hashing hashing(world);
   const std::size_t blocks = hashing.first_block.back();
   in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) { hashing.hash_blocks(begin, end); });
   in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) { hashing.add_entities(begin, end); });
   return hashing.sum;
+}
+
+std::uint64_t state_hash_of(std::uint64_t sum, std::uint32_t tick) {
+  return mix64(sum + mix64(tick));
 }
 
 }  // namespace mobil

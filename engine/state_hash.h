@@ -13,4 +13,10 @@ namespace mobil {
 /// they have; other components that hold handles make it depend on those.
 std::uint64_t state_hash(const World& world, const Jobs& jobs);
 
+/// Of what a table's rows have in common and do not hold themselves; of a shared resource its content.
+std::uint64_t key_hash(const World& world, const TableKey& key);
+
+/// The same with the tick. `sum`: of the world, or of all worlds that a crowd is divided into, modulo 2⁶⁴.
+std::uint64_t state_hash_of(std::uint64_t sum, std::uint32_t tick);
+
 }  // namespace mobil

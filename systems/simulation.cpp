@@ -45,7 +45,7 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
       world_(std::make_unique<World>(options.memory)),
       clock_(clock),
       modules_(standard_modules()),
-      library_(std::make_unique<BellyLibrary>()),
+      library_(options.library_of != nullptr ? options.library_of->library_ : std::make_shared<BellyLibrary>()),
       work_(std::make_unique<MuscleWork>()),
       sleep_work_(std::make_unique<SleepWork>()),
       compact_work_(std::make_unique<CompactWork>()),
@@ -465,7 +465,11 @@ Result<void> Simulation::restore(std::span<const std::byte> in, const RestoreLim
 }
 
 std::uint64_t Simulation::state_hash() const {
-  return mix64(mobil::state_hash(*world_, jobs_) + mix64(tick_));
+  return state_hash_of(state_sum(), tick_);
+}
+
+std::uint64_t Simulation::state_sum() const {
+  return mobil::state_hash(*world_, jobs_);
 }
 
 bool Simulation::is_person(Entity entity) const {

@@ -53,6 +53,8 @@
 
 namespace mobil {
 
+class Simulation;
+
 struct SimulationOptions {
   double tick_s = 1.0 / 60;
   double max_frame_s = 0.25;   // of a longer frame the rest is dropped and reported
@@ -63,6 +65,9 @@ struct SimulationOptions {
   std::pmr::memory_resource* memory = std::pmr::get_default_resource();
   /// The host's own effects (engine/module.h), behind the library's.
   std::vector<Module> modules{};
+  /// Another simulation, whose meshes, solvers and bases this one uses and adds to. What may add (prepare, load_baked,
+  /// muscles and their methods, waking, restoring, Relevance) one of them at a time then does.
+  const Simulation* library_of = nullptr;
 };
 
 /// How a posed person came to a pose.
@@ -317,6 +322,9 @@ class Simulation {
   Result<void> restore(std::span<const std::byte> in, const RestoreLimits& limits = {});
   /// Hash of the whole state; independent of spawn order, row order and handles (engine/state_hash.h).
   std::uint64_t state_hash() const;
+  /// The same without the tick, as a sum over all people: those of the simulations that a crowd is divided into may be
+  /// added up (state_hash_of in engine/state_hash.h).
+  std::uint64_t state_sum() const;
 
   /// An entity's row of a component, or why there is none: get<Pose>(human). Of a tag its value.
   template <template <class> class C>
@@ -432,7 +440,7 @@ class Simulation {
   std::vector<Module> modules_;
   std::vector<std::uint64_t> our_parts_;  // of the library's modules, ascending
   std::unique_ptr<Schedule> schedule_;
-  std::unique_ptr<BellyLibrary> library_;
+  std::shared_ptr<BellyLibrary> library_;
   std::unique_ptr<MuscleWork> work_;
   std::unique_ptr<SleepWork> sleep_work_;
   std::unique_ptr<CompactWork> compact_work_;

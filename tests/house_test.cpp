@@ -70,7 +70,8 @@ TEST(House, IncludesPointDownTheListOfRooms) {
 const std::map<std::string, std::vector<std::string>> order = {
     {"assets",
      {"fem", "reduction", "body", "gait", "muscles", "surfaces", "skin", "finite", "files", "import", "export"}},
-    {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "c"}},  // modules, front doors
+    // modules, then front doors
+    {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "cluster", "c"}},
     {"demo",
      {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "anatomy", "compare",
       "gait_fit", "paper", "bake", "crowd", "view", "bench", "effects", "frontier", "stress"}},

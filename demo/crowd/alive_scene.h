@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "demo/crowd/crowd_scene.h"
@@ -24,11 +25,27 @@ struct AliveRequest {
   double cut_every_s = 10;
   bool muscles = true;
   std::filesystem::path baked{};  // of `mobil bake`; empty: made here
+  /// Of a crowd on several ranks: as in a CrowdRequest.
+  std::uint32_t shard = 0, shards = 1;
+  const Simulation* library = nullptr;
 };
+
+/// Where the camera is in a tick, and whether it has just cut to that place.
+struct AliveOrders {
+  Viewpoint camera;
+  std::uint32_t cut = 0;
+};
+/// The side of the square that they live on, m.
+double side_of(const AliveRequest& request);
+/// From a place of its own after each cut: ahead, and turning to and fro.
+AliveOrders fly(const AliveRequest& request, std::uint32_t tick, double tick_s);
 
 class AliveScene {
  public:
-  /// Spawns everybody asleep. Errors: what the simulation refuses.
+  /// With nobody in it; and with everybody, asleep. Errors: what the simulation refuses.
+  static Result<std::unique_ptr<AliveScene>> make_empty(const AliveRequest& request,
+                                                        const CrowdScene::Progress& progress = {});
+  Result<void> populate(const CrowdScene::Progress& progress = {});
   static Result<std::unique_ptr<AliveScene>> make(const AliveRequest& request,
                                                   const CrowdScene::Progress& progress = {});
   AliveScene(const AliveScene&) = delete;
@@ -36,7 +53,8 @@ class AliveScene {
 
   /// The parts of a tick: what people do next and where the camera is; who wakes, who falls asleep, which methods; the
   /// simulation. Returns how many were asked for something.
-  Result<std::size_t> decide();
+  Result<std::size_t> decide() { return decide(fly(request_, simulation_->ticks(), simulation_->tick_s())); }
+  Result<std::size_t> decide(const AliveOrders& orders);
   RelevanceReport choose();
   void tick() { simulation_->tick(); }
 
@@ -54,15 +72,22 @@ class AliveScene {
   };
   Count count() const;
   /// Person number of an entity.
-  std::uint64_t number_of(Entity entity) const { return number_of_[entity.index]; }
+  std::uint64_t number_of(Entity entity) const { return walkers_[slot_of_[entity.index]].number; }
+  std::size_t people() const { return walkers_.size(); }
+
+  /// All of it as bytes, and an empty one made of them (systems/cluster/shard.h).
+  Result<std::vector<std::byte>> save() const;
+  Result<void> restore(std::span<const std::byte> saved);
   /// Of a sleeper, in the simulation, as it was before anybody was awake; of a person, in the host's records; bytes.
   double bytes_asleep() const { return bytes_asleep_; }
+  std::size_t bytes_of_people() const { return memory_.lent(); }
   std::size_t host_bytes() const { return sizeof(Walker) + sizeof(std::uint32_t); }
 
  private:
-  /// One who lives; all else is drawn from the number, which is the place in the list.
+  /// One who lives; all else is drawn from the number.
   struct Walker {
-    Entity entity;
+    Entity entity{};
+    std::uint32_t number = 0;
     float heading_rad = 0;  // asked for
     std::uint32_t next = 0;
     std::uint16_t changes = 0;
@@ -74,9 +99,9 @@ class AliveScene {
 
   explicit AliveScene(const AliveRequest& request);
   Result<void> come(std::size_t first, std::size_t count);
-  void plan(std::uint32_t number);
-  WalkChange next_change(std::uint32_t number);
-  void fly();
+  void plan(std::uint32_t slot);
+  WalkChange next_change(std::uint32_t slot);
+  void keep_slot(std::uint32_t slot);
 
   AliveRequest request_;
   double side_m_ = 0, bytes_asleep_ = 0;
@@ -87,7 +112,7 @@ class AliveScene {
   Viewpoint camera_;
   bool cut_ = false;
   std::vector<Walker> walkers_;
-  std::vector<std::uint32_t> number_of_;
+  std::vector<std::uint32_t> slot_of_;  // by entity index
   std::array<std::uint32_t, ring> due_{};
   std::vector<SpawnRequest> requests_;
   std::vector<Entity> entities_;

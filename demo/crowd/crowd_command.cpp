@@ -20,6 +20,8 @@
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "systems/capture/png.h"
+#include "systems/cluster/local_transport.h"
+#include "systems/cluster/mpi_transport.h"
 
 namespace mobil {
 namespace {
@@ -113,9 +115,25 @@ Result<void> check_places(const CrowdOptions& options) {
   return {};
 }
 
+/// On each rank; what there is to be said is said by the first one.
+int run_ranks(const CrowdOptions& options) {
+  std::unique_ptr<Transport> by_mpi;
+  LocalRanks alone;
+  if (started_as_rank()) {
+    auto made = mpi_transport();
+    if (!made) return exit_status_of("crowd", tl::unexpected(made.error()));
+    by_mpi = std::move(*made);
+  }
+  Ranks ranks(by_mpi ? *by_mpi : alone[0], options.silence_s);
+  const auto done = ranks.agree(ranks.first() ? check_places(options) : Result<void>());
+  const auto ran = done ? run_city(options, ranks) : done;
+  return ranks.first() ? exit_status_of("crowd", ran) : ran ? 0 : 2;
+}
+
 int run_command(const CrowdText& text) {
   const auto options = read_crowd_options(text);
-  if (!options) return exit_status_of("crowd", tl::unexpected(options.error()));
+  if (!options) return first_by_environment() ? exit_status_of("crowd", tl::unexpected(options.error())) : 2;
+  if (options->city) return run_ranks(*options);
   if (auto done = check_places(*options); !done) return exit_status_of("crowd", done);
   const auto done = run(*options);
   if (!done) show("");
@@ -148,12 +166,18 @@ Subcommand crowd_command() {
       "they would be. They turn, stop and go on asleep as awake. The camera flies at 8 m/s, turns at 20 degrees/s, and "
       "cuts to\n"
       "another place every 10 s; --capture then takes three pictures, of three places.\n"
+      "Under mpirun the crowd is spread over ranks, one thread each, in --shards that are simulated by themselves. "
+      "The\n"
+      "state_hash then depends on how many shards there are, and not on ranks, threads or machines; so it does after\n"
+      "a run that was killed goes on by --resume, on as many ranks as you like. The nearest are those of each shard.\n"
       "\nExamples: mobil crowd\n"
       "          mobil crowd --humans 10000 --churn 100 --report crowd.json\n"
       "          mobil crowd --humans 10000 --seconds 5 --raise\n"
       "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png\n"
       "          mobil crowd --humans 200 --seconds 0.1 --export crowd.glb --export-seconds 5\n"
-      "          mobil crowd --alive 1000000 --in-view 10000 --seconds 60";
+      "          mobil crowd --alive 1000000 --in-view 10000 --seconds 60\n"
+      "          mpirun -n 4 mobil crowd --humans 40000 --save run\n"
+      "          mpirun -n 2 mobil crowd --humans 40000 --resume run";
   command.options = crowd_options(*text);
   command.empty_refused = true;
   command.run = [text] { return run_command(*text); };

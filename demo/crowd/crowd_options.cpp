@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "demo/crowd/crowd_export.h"
 #include "demo/program/nearest_name.h"
 #include "demo/program/units.h"
+#include "systems/cluster/mpi_transport.h"
 
 namespace mobil {
 namespace {
@@ -113,10 +116,79 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
   return {};
 }
 
+/// What makes a run another one: who they are and what is simulated of them.
+std::string about_run(const CrowdText& text, std::uint32_t shards) {
+  const std::pair<const char*, const std::string*> values[] = {{"--humans", &text.humans},
+                                                               {"--alive", &text.alive},
+                                                               {"--in-view", &text.in_view},
+                                                               {"--seed", &text.seed},
+                                                               {"--tolerance", &text.tolerance},
+                                                               {"--near", &text.near},
+                                                               {"--near-tolerance", &text.near_tolerance},
+                                                               {"--budget", &text.budget},
+                                                               {"--effects", &text.effects},
+                                                               {"--churn", &text.churn},
+                                                               {"--burst", &text.burst}};
+  std::string about = fmt::format("--shards {}", shards);
+  for (const auto& [name, value] : values)
+    if (!value->empty() && !(name == std::string_view("--humans") && !text.alive.empty()))
+      about += fmt::format(" {} {}", name, *value);
+  if (text.all_seen) about += " --all-seen";
+  return about;
+}
+
+/// Several shards or ranks, and runs that are saved.
+Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
+  const bool ranks = started_as_rank();
+  std::uint64_t shards = ranks ? usual_shards : 1;
+  if (!text.shards.empty()) {
+    const auto count = read_count("--shards", text.shards, 1, most_shards);
+    if (!count) return tl::unexpected(count.error());
+    shards = *count;
+  }
+  if (!text.save.empty() && !text.resume.empty())
+    return fail("--save: a run that goes on saves where it was; leave --save out");
+  options.city = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
+  const CrowdText usual;
+  for (const auto& [name, given, usually] : {std::tuple("--save-every", &text.save_every, &usual.save_every),
+                                             std::tuple("--balance-every", &text.balance_every, &usual.balance_every),
+                                             std::tuple("--silence", &text.silence, &usual.silence)}) {
+    if (!options.city && *given != *usually)
+      return fail(fmt::format("{}: is of several shards or ranks; give --shards, or run under mpirun", name));
+  }
+  if (!options.city) return {};
+  if (options.raise) return fail("--raise: tries crowds in one piece; leave --shards, --save, --resume and mpirun out");
+  if (!options.exports.empty())
+    return fail("--export: is of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
+  if (options.frames > 0)
+    return fail("--frames: are of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
+  const double tick_s = 1.0 / 60;
+  const auto save_every = read_value("--save-every", with_unit(text.save_every, "s"), Quantity::time, 0.1, 3600);
+  if (!save_every) return tl::unexpected(save_every.error());
+  const auto balance = read_value("--balance-every", with_unit(text.balance_every, "s"), Quantity::time, 0, 3600);
+  if (!balance) return tl::unexpected(balance.error());
+  const auto silence = read_value("--silence", with_unit(text.silence, "s"), Quantity::time, 1, 3600);
+  if (!silence) return tl::unexpected(silence.error());
+  options.silence_s = *silence;
+  ClusterOptions& cluster = options.cluster;
+  cluster.shards = static_cast<std::uint32_t>(shards);
+  cluster.save_every = static_cast<std::uint32_t>(std::lround(*save_every / tick_s));
+  cluster.balance_every = static_cast<std::uint32_t>(std::lround(*balance / tick_s));
+  cluster.resume = !text.resume.empty();
+  cluster.folder = cluster.resume ? text.resume : text.save;
+  cluster.about = about_run(text, cluster.shards);
+  // A rank is a process beside others: it has one thread where nobody says otherwise.
+  if (ranks && text.threads == usual.threads) {
+    options.crowd.threads = 1;
+    if (options.alive) options.alive->threads = 1;
+  }
+  return {};
+}
+
 }  // namespace
 
 std::vector<Option> crowd_options(CrowdText& text) {
-  const char *crowd = "Crowd", *muscles = "Muscles", *results = "Results";
+  const char *crowd = "Crowd", *muscles = "Muscles", *results = "Results", *ranks = "Several ranks";
   return {
       {"--humans", &text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), crowd},
       {"--seconds", &text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", crowd},
@@ -138,6 +210,17 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--baked", &text.baked,
        "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program is taken unasked)",
        muscles},
+      {"--shards", &text.shards,
+       fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", most_shards,
+                   usual_shards),
+       ranks},
+      {"--save", &text.save, "Snapshots and commands go into this FOLDER, which all ranks must see", ranks},
+      {"--save-every", &text.save_every, "Time between snapshots, 0.1s to 3600s of the crowd's time", ranks},
+      {"--resume", &text.resume, "Go on from the last snapshot in the FOLDER of a run with --save, and save there",
+       ranks},
+      {"--balance-every", &text.balance_every,
+       "Time after which shards may move to ranks with less to do, up to 3600s; 0: they stay", ranks},
+      {"--silence", &text.silence, "A rank that says nothing for so long ends the run of all, 1s to 3600s", ranks},
       {"--raise", &text.raise,
        "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", results},
       {"--report", &text.report, "JSON FILE for all figures", results},
@@ -208,6 +291,7 @@ Result<CrowdOptions> read_crowd_options(const CrowdText& text) {
   if (options.raise && !options.capture.empty()) return fail("--raise: measures alone; leave --capture out");
   if (auto done = read_crowd_exports(text, options); !done) return tl::unexpected(done.error());
   if (auto done = read_alive(text, options); !done) return tl::unexpected(done.error());
+  if (auto done = read_city(text, options); !done) return tl::unexpected(done.error());
   return options;
 }
 

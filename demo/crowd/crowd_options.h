@@ -11,6 +11,7 @@
 #include "demo/crowd/crowd_scene.h"
 #include "demo/program/options.h"
 #include "engine/error.h"
+#include "systems/cluster/cluster.h"
 
 namespace mobil {
 
@@ -23,6 +24,10 @@ struct CrowdOptions {
   double export_s = 2;
   bool raise = false;
   std::optional<AliveRequest> alive{};  // instead of the crowd
+  /// Several shards, several ranks, or a run that is saved: `run_city` instead of one scene.
+  bool city = false;
+  ClusterOptions cluster{};
+  double silence_s = 60;
 };
 
 /// The options as text, as the command line hands them over; bound by `crowd_options`.
@@ -30,6 +35,7 @@ struct CrowdText {
   std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
   std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
   std::string alive, in_view = "10000", export_seconds = "2";
+  std::string shards, save, save_every = "10", resume, silence = "60", balance_every = "0";
   std::vector<std::string> exports;
   bool all_seen = false, raise = false;
 };
@@ -37,6 +43,9 @@ struct CrowdText {
 inline constexpr std::size_t most_crowd = 200'000, most_alive = 20'000'000;
 
 std::vector<Option> crowd_options(CrowdText& text);
+
+/// Shards of a crowd on several ranks where nobody says how many.
+inline constexpr std::uint32_t usual_shards = 16, most_shards = 4096;
 
 /// Reads and checks every option. Errors name the option, the valid range and the mend.
 Result<CrowdOptions> read_crowd_options(const CrowdText& text);

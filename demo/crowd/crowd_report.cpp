@@ -11,17 +11,6 @@
 namespace mobil {
 namespace {
 
-/// The most memory that the process has held.
-std::size_t peak_bytes() {
-  std::ifstream status("/proc/self/status");
-  std::string word;
-  std::size_t kib = 0;
-  while (status >> word) {
-    if (word == "VmHWM:" && status >> kib) return 1024 * kib;
-  }
-  return 0;
-}
-
 std::string rung_label(const CrowdRun& run, std::size_t rung) {
   return rung < rung_count ? std::string(rungs_of(run.living)[rung].name) : "other";
 }
@@ -52,6 +41,16 @@ std::size_t threads_of(const CrowdRequest& crowd) {
 }
 
 }  // namespace
+
+std::size_t peak_bytes() {
+  std::ifstream status("/proc/self/status");
+  std::string word;
+  std::size_t kib = 0;
+  while (status >> word) {
+    if (word == "VmHWM:" && status >> kib) return 1024 * kib;
+  }
+  return 0;
+}
 
 CrowdMemory crowd_memory(const CrowdScene& scene) {
   CrowdMemory memory;

@@ -18,6 +18,9 @@ struct CrowdMemory {
 /// Of a settled crowd as it is now.
 CrowdMemory crowd_memory(const CrowdScene& scene);
 
+/// The most memory that the process has held, bytes.
+std::size_t peak_bytes();
+
 /// One line for a terminal while it runs.
 std::string crowd_live_line(const CrowdRun& run, std::size_t of);
 

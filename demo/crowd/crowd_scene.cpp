@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <utility>
 
 #include "assets/body/anthropometry.h"
 #include "demo/bake/baked_file.h"
+#include "systems/cluster/shard.h"
+#include "systems/cluster/shard_bytes.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {
@@ -20,9 +24,14 @@ constexpr std::uint64_t exchange_stream = 0x30000;
 
 }  // namespace
 
+double crowd_side_m(std::size_t humans) {
+  return std::sqrt(square_metres_each * static_cast<double>(humans));
+}
+
 CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
   due_.fill(-1);
-  simulation_ = std::make_unique<Simulation>(SimulationOptions{.threads = request.threads, .memory = &memory_});
+  simulation_ = std::make_unique<Simulation>(
+      SimulationOptions{.threads = request.threads, .memory = &memory_, .library_of = request.library});
   muscles_ = first_muscles();
 }
 
@@ -52,13 +61,23 @@ std::size_t CrowdScene::bytes_of_people() const {
 }
 
 Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request, const Progress& progress) {
+  auto scene = make_empty(request, progress);
+  if (!scene) return scene;
+  if (auto done = (*scene)->resize(request.humans, progress); !done) return tl::unexpected(done.error());
+  return scene;
+}
+
+Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& request, const Progress& progress) {
   std::unique_ptr<CrowdScene> scene(new CrowdScene(request));
-  if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
+  scene->request_.humans = 0;
+  if (request.library == nullptr) {
+    if (auto done = load_baked_option(*scene->simulation_, request.baked); !done) return tl::unexpected(done.error());
+  }
   if (request.effects.muscles) {
     RelevanceOptions options;
     options.switches = 8;  // near ones change every second: spread over it
     // Who needs otherwise says so once a second: some hundreds looked at each tick are soon enough.
-    options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.humans / 500, 8, 60));
+    options.stagger = static_cast<std::uint32_t>(std::clamp<std::size_t>(request.humans / request.shards / 500, 8, 60));
     options.leg_muscles = scene->muscles_;
     if (!request.budget_s) options.machine_factor = 1;
     scene->relevance_ = std::make_unique<Relevance>(*scene->simulation_, options);
@@ -66,7 +85,7 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request
     needs.tolerance_m = static_cast<float>(request.tolerance_m);
     needs.looked_at = request.all_seen;
     needs.compact_unseen = true;
-    needs.budget_s = request.budget_s;
+    if (request.budget_s) needs.budget_s = *request.budget_s / request.shards;
     if (auto done = scene->relevance_->set_scene(needs); !done) return tl::unexpected(done.error());
     const float near_m[] = {static_cast<float>(request.near_tolerance_m)};
     const auto preparing = [&](std::size_t done, std::size_t of) {
@@ -75,24 +94,43 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make(const CrowdRequest& request
     if (auto done = scene->relevance_->prepare(std::span(near_m).first(request.near > 0 ? 1 : 0), preparing); !done)
       return tl::unexpected(done.error());
   }
-  if (auto done = scene->resize(request.humans, progress); !done) return tl::unexpected(done.error());
   return scene;
 }
 
+bool CrowdScene::is_own(std::uint32_t place) const {
+  return request_.shards == 1 || shard_of(place, request_.shards) == request_.shard;
+}
+
+/// Of the own walkers the first whose place is not before that one.
+std::size_t CrowdScene::first_slot_from(std::uint32_t place) const {
+  if (request_.shards == 1) return std::min<std::size_t>(place, walkers_.size());
+  const auto found = std::ranges::lower_bound(walkers_, place, {}, &CrowdWalker::place);
+  return static_cast<std::size_t>(found - walkers_.begin());
+}
+
 Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {
-  request_.humans = humans;
-  side_m_ = std::sqrt(square_metres_each * static_cast<double>(humans));
-  const std::size_t before = walkers_.size();
+  const std::size_t before = std::exchange(request_.humans, humans);
+  side_m_ = crowd_side_m(humans);
   if (humans < before) {
-    leave(humans, before - humans);
-    walkers_.resize(humans);
+    const std::size_t first = first_slot_from(static_cast<std::uint32_t>(humans));
+    slots_.resize(walkers_.size() - first);
+    std::iota(slots_.begin(), slots_.end(), static_cast<std::uint32_t>(first));
+    leave(slots_);
+    walkers_.resize(first);
   }
-  walkers_.resize(humans);
-  distance_.reserve(humans);
-  for (std::size_t slot = before; slot < humans; slot += batch) {
-    if (auto done = come(slot, std::min(batch, humans - slot)); !done) return done;
-    if (progress) progress("spawning", std::min(slot + batch, humans), humans);
+  walkers_.reserve(humans / request_.shards);
+  for (std::size_t first = before; first < humans; first += batch) {
+    slots_.clear();
+    for (std::size_t place = first; place < std::min(first + batch, humans); ++place) {
+      const std::uint64_t number = director_.next_number++;
+      if (!is_own(static_cast<std::uint32_t>(place))) continue;
+      slots_.push_back(static_cast<std::uint32_t>(walkers_.size()));
+      walkers_.push_back({.number = number, .place = static_cast<std::uint32_t>(place)});
+    }
+    if (auto done = come(slots_); !done) return done;
+    if (progress) progress("spawning", std::min(first + batch, humans), humans);
   }
+  distance_.reserve(walkers_.size());
   CrowdDecisions decisions;
   return choose_near(decisions);
 }
@@ -100,7 +138,7 @@ Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {
 Result<void> CrowdScene::settle(const Progress& progress) {
   constexpr int most_updates = 20000, updates_a_tick = 8, quiet_updates = 40;
   const auto tick_once = [&]() -> Result<void> {
-    if (auto done = decide(); !done) return tl::unexpected(done.error());
+    if (auto done = request_.shards == 1 ? decide() : decide({}); !done) return tl::unexpected(done.error());
     tick();
     return {};
   };
@@ -120,12 +158,12 @@ Result<void> CrowdScene::settle(const Progress& progress) {
   return {};
 }
 
-/// New people in these slots, at places of their own. Who cannot walk as drawn is drawn again.
-Result<void> CrowdScene::come(std::size_t slot, std::size_t count) {
-  requests_.assign(count, {});
-  entities_.resize(count);
+/// New people in these slots, whose numbers and places are there. Who cannot walk as drawn is drawn again.
+Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
+  requests_.assign(slots.size(), {});
+  entities_.resize(slots.size());
   const auto draw = [&](std::size_t i) {
-    CrowdWalker& walker = walkers_[slot + i];
+    CrowdWalker& walker = walkers_[slots[i]];
     CrowdPerson person = crowd_person(request_.seed, walker.number, walker.draw);
     SpawnRequest& request = requests_[i];
     request.body = person.body;
@@ -136,10 +174,9 @@ Result<void> CrowdScene::come(std::size_t slot, std::size_t count) {
     if (request_.effects.muscles) request.muscles = muscles_;
     if (relevance_ != nullptr) request.parts = relevance_parts();
   };
-  for (std::size_t i = 0; i < count; ++i) {
-    CrowdWalker& walker = walkers_[slot + i];
-    walker = {};
-    walker.number = next_number_++;
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    CrowdWalker& walker = walkers_[slots[i]];
+    walker = {.number = walker.number, .place = walker.place};
     const CrowdPlace place = crowd_place(request_.seed, walker.number);
     walker.x_m = place.across * static_cast<float>(side_m_);
     walker.z_m = place.along * static_cast<float>(side_m_);
@@ -148,22 +185,21 @@ Result<void> CrowdScene::come(std::size_t slot, std::size_t count) {
   }
   for (auto done = simulation_->spawn(requests_, entities_); !done; done = simulation_->spawn(requests_, entities_)) {
     std::size_t again = 0;
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < slots.size(); ++i) {
       const auto body = make_body(requests_[i].body);
       if (body && resolve_gait(*body, requests_[i].gait)) continue;
-      if (++walkers_[slot + i].draw == most_draws) return done;
+      if (++walkers_[slots[i]].draw == most_draws) return done;
       ++again;
       draw(i);
     }
     if (again == 0) return done;
     drawn_again_ += again;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    CrowdWalker& walker = walkers_[slot + i];
+  for (std::size_t i = 0; i < slots.size(); ++i) {
+    CrowdWalker& walker = walkers_[slots[i]];
     walker.entity = entities_[i];
-    if (slot_of_.size() <= walker.entity.index) slot_of_.resize(2 * walker.entity.index + std::size_t{1});
-    slot_of_[walker.entity.index] = static_cast<std::uint32_t>(slot + i);
-    plan(slot + i);
+    keep_slot(slots[i]);
+    plan(slots[i]);
     if (relevance_) {
       if (auto done = relevance_->manage(walker.entity); !done) return done;
     }
@@ -172,31 +208,61 @@ Result<void> CrowdScene::come(std::size_t slot, std::size_t count) {
   return {};
 }
 
-void CrowdScene::leave(std::size_t slot, std::size_t count) {
+void CrowdScene::keep_slot(std::size_t slot) {
+  const std::uint32_t index = walkers_[slot].entity.index;
+  if (slot_of_.size() <= index) slot_of_.resize(2 * index + std::size_t{1});
+  slot_of_[index] = static_cast<std::uint32_t>(slot);
+}
+
+void CrowdScene::leave(std::span<const std::uint32_t> slots) {
   entities_.clear();
-  for (std::size_t i = slot; i < slot + count; ++i) {
-    forget_plan(i);
-    entities_.push_back(walkers_[i].entity);
+  for (const std::uint32_t slot : slots) {
+    forget_plan(slot);
+    entities_.push_back(walkers_[slot].entity);
   }
   simulation_->despawn(entities_);
 }
 
 /// So many leave, whoever they are, and as many come in their stead.
-Result<void> CrowdScene::exchange(std::size_t count, CrowdDecisions& decisions) {
-  CrowdRandom random(request_.seed, exchanges_++, exchange_stream);
-  count = std::min(count, walkers_.size());
-  for (std::size_t slot = random.below(walkers_.size()); count > 0; slot = 0) {
-    const std::size_t here = std::min(count, walkers_.size() - slot);
-    leave(slot, here);
-    if (auto done = come(slot, here); !done) return done;
-    decisions.despawned += here;
-    decisions.spawned += here;
-    count -= here;
-  }
-  return {};
+CrowdOrders CrowdDirector::order(const CrowdRequest& request, std::uint32_t tick, double tick_s) {
+  const auto a_second = static_cast<std::uint32_t>(std::lround(1 / tick_s));
+  owed += request.churn_per_s * tick_s;
+  auto leaving = static_cast<std::size_t>(owed);
+  owed -= static_cast<double>(leaving);
+  if (tick % a_second == a_second / 2) leaving += request.burst;
+  leaving = std::min(leaving, request.humans);
+  if (leaving == 0) return {};
+  CrowdRandom random(request.seed, exchanges++, exchange_stream);
+  const CrowdOrders orders{next_number, static_cast<std::uint32_t>(random.below(request.humans)),
+                           static_cast<std::uint32_t>(leaving)};
+  next_number += leaving;
+  return orders;
+}
+
+Result<void> CrowdScene::exchange(const CrowdOrders& orders, CrowdDecisions& decisions) {
+  const auto places = static_cast<std::uint32_t>(request_.humans);
+  slots_.clear();
+  const auto add = [&](std::uint32_t from, std::uint32_t to, std::uint64_t number) {
+    for (std::size_t s = first_slot_from(from); s < walkers_.size() && walkers_[s].place < to; ++s) {
+      slots_.push_back(static_cast<std::uint32_t>(s));
+      walkers_[s].number = number + (walkers_[s].place - from);
+    }
+  };
+  const std::uint32_t to_the_end = std::min(orders.count, places - orders.first_place);
+  add(orders.first_place, orders.first_place + to_the_end, orders.first_number);
+  add(0, orders.count - to_the_end, orders.first_number + to_the_end);
+  decisions.despawned += slots_.size();
+  decisions.spawned += slots_.size();
+  leave(slots_);
+  return come(slots_);
 }
 
 Result<CrowdDecisions> CrowdScene::decide() {
+  return decide(walkers_.empty() ? CrowdOrders{}
+                                 : director_.order(request_, simulation_->ticks(), simulation_->tick_s()));
+}
+
+Result<CrowdDecisions> CrowdScene::decide(const CrowdOrders& orders) {
   CrowdDecisions decisions;
   if (walkers_.empty()) return decisions;
   const std::uint32_t now = simulation_->ticks();
@@ -204,12 +270,10 @@ Result<CrowdDecisions> CrowdScene::decide() {
   if (now % a_second == 0 && now > 0) {
     if (auto done = look_round(decisions); !done) return tl::unexpected(done.error());
   }
-  owed_ += request_.churn_per_s * simulation_->tick_s();
-  auto leaving = static_cast<std::size_t>(owed_);
-  owed_ -= static_cast<double>(leaving);
-  if (now % a_second == a_second / 2) leaving += request_.burst;
-  if (leaving > 0) {
-    if (auto done = exchange(leaving, decisions); !done) return tl::unexpected(done.error());
+  if (orders.count > 0) {
+    if (orders.count > request_.humans || orders.first_place >= request_.humans)
+      return fail("orders name people who are not in the crowd");
+    if (auto done = exchange(orders, decisions); !done) return tl::unexpected(done.error());
   }
   std::int32_t& first = due_[now % ring];
   while (first >= 0) {
@@ -219,6 +283,35 @@ Result<CrowdDecisions> CrowdScene::decide() {
     plan(slot);
   }
   return decisions;
+}
+
+Result<std::vector<std::byte>> CrowdScene::save() const {
+  PlainBytes host;
+  host.put(std::uint64_t{walkers_.size()});
+  host.put_all(std::span<const CrowdWalker>(walkers_));
+  host.put(due_);
+  host.put(std::uint64_t{request_.humans});
+  host.put(std::uint64_t{drawn_again_});
+  return pack_shard(*simulation_, relevance_.get(), host.bytes());
+}
+
+Result<void> CrowdScene::restore(std::span<const std::byte> saved) {
+  const auto host = unpack_shard(saved, *simulation_, relevance_.get());
+  if (!host) return tl::unexpected(host.error());
+  PlainReader reader(*host);
+  std::uint64_t count = 0, humans = 0, drawn_again = 0;
+  reader.take(count);
+  walkers_ = reader.take_many<CrowdWalker>(static_cast<std::size_t>(count));
+  reader.take(due_);
+  reader.take(humans);
+  reader.take(drawn_again);
+  if (!reader.whole()) return fail("a crowd's bytes do not agree with themselves");
+  request_.humans = static_cast<std::size_t>(humans);
+  drawn_again_ = static_cast<std::size_t>(drawn_again);
+  side_m_ = crowd_side_m(request_.humans);
+  for (std::size_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);
+  distance_.reserve(walkers_.size());
+  return {};
 }
 
 RelevanceReport CrowdScene::choose_methods() {

@@ -10,6 +10,7 @@
 #include <memory>
 #include <memory_resource>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "demo/crowd/crowd_people.h"
@@ -35,6 +36,25 @@ struct CrowdRequest {
   bool all_seen = false;
   std::uint64_t seed = 1;
   std::filesystem::path baked{};  // of `mobil bake`; empty: made here
+  /// Of a crowd on several ranks this is one shard: of all places those that are its own (shard_of), and of all who are
+  /// near its part. `library`: whose meshes and bases it shares (SimulationOptions::library_of).
+  std::uint32_t shard = 0, shards = 1;
+  const Simulation* library = nullptr;
+};
+
+/// Who leaves in a tick, by places, and who comes in their stead: so many from that place on, round the end of the
+/// list.
+struct CrowdOrders {
+  std::uint64_t first_number = 0;
+  std::uint32_t first_place = 0, count = 0;
+};
+
+/// Gives the orders of a crowd, the same for all of its shards.
+struct CrowdDirector {
+  std::uint64_t next_number = 0, exchanges = 0;
+  double owed = 0;  // people that churn is behind
+
+  CrowdOrders order(const CrowdRequest& request, std::uint32_t tick, double tick_s);
 };
 
 /// What the host decided in one tick.
@@ -45,8 +65,9 @@ struct CrowdDecisions {
 
 /// One who walks. What there is besides is drawn from the number, and lies in the simulation.
 struct CrowdWalker {
-  Entity entity;
+  Entity entity{};
   std::uint64_t number = 0;
+  std::uint32_t place = 0;                  // in the list of the whole crowd
   float x_m = 0, z_m = 0, heading_rad = 0;  // where they were a second ago at most; where they are to go
   std::uint32_t changes = 0;                // of theirs that have been
   std::int32_t next = -1, before = -1;      // whose change comes in the same tick
@@ -77,11 +98,15 @@ class MeteredMemory : public std::pmr::memory_resource {
   std::size_t lent_ = 0;
 };
 
+/// The side of the square that so many walk on, m.
+double crowd_side_m(std::size_t humans);
+
 class CrowdScene {
  public:
   using Progress = std::function<void(const char* what, std::size_t done, std::size_t of)>;
 
-  /// Spawns everybody and lets methods settle. Errors: what the simulation refuses.
+  /// With nobody in it; and with everybody. Errors: what the simulation refuses.
+  static Result<std::unique_ptr<CrowdScene>> make_empty(const CrowdRequest& request, const Progress& progress = {});
   static Result<std::unique_ptr<CrowdScene>> make(const CrowdRequest& request, const Progress& progress = {});
   CrowdScene(const CrowdScene&) = delete;
   CrowdScene& operator=(const CrowdScene&) = delete;
@@ -91,8 +116,10 @@ class CrowdScene {
   /// Runs on until methods have been chosen and what that excited has died away.
   Result<void> settle(const Progress& progress = {});
 
-  /// The parts of a tick, in this order: who turns, comes and goes; which methods; the simulation.
+  /// The parts of a tick, in this order: who comes and goes by its own director's orders or by others', who turns;
+  /// which methods; the simulation.
   Result<CrowdDecisions> decide();
+  Result<CrowdDecisions> decide(const CrowdOrders& orders);
   RelevanceReport choose_methods();
   void tick();
 
@@ -110,12 +137,19 @@ class CrowdScene {
   std::size_t bytes_of_people() const;
   std::size_t drawn_again() const { return drawn_again_; }
 
+  /// All of it as bytes, and an empty one made of them (systems/cluster/shard.h).
+  Result<std::vector<std::byte>> save() const;
+  Result<void> restore(std::span<const std::byte> saved);
+
  private:
   explicit CrowdScene(const CrowdRequest& request);
 
-  Result<void> come(std::size_t slot, std::size_t count);
-  void leave(std::size_t slot, std::size_t count);
-  Result<void> exchange(std::size_t count, CrowdDecisions& decisions);
+  Result<void> come(std::span<const std::uint32_t> slots);
+  void leave(std::span<const std::uint32_t> slots);
+  Result<void> exchange(const CrowdOrders& orders, CrowdDecisions& decisions);
+  bool is_own(std::uint32_t place) const;
+  std::size_t first_slot_from(std::uint32_t place) const;
+  void keep_slot(std::size_t slot);
   Result<void> carry_out(CrowdWalker& walker, CrowdDecisions& decisions);
   void plan(std::size_t slot);
   void forget_plan(std::size_t slot);
@@ -133,14 +167,13 @@ class CrowdScene {
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Relevance> relevance_;
   LegMuscles muscles_;
-  std::vector<CrowdWalker> walkers_;
+  std::vector<CrowdWalker> walkers_;    // by place
   std::vector<SpawnRequest> requests_;  // kept for their memory
   std::vector<Entity> entities_;
-  std::vector<std::uint32_t> slot_of_;    // by entity index
-  std::array<std::int32_t, ring> due_{};  // first walker whose change comes in that tick
+  std::vector<std::uint32_t> slots_, slot_of_;  // who leaves and comes; by entity index
+  std::array<std::int32_t, ring> due_{};        // first walker whose change comes in that tick
   std::vector<std::pair<float, std::uint32_t>> distance_;
-  std::uint64_t next_number_ = 0, exchanges_ = 0;
-  double owed_ = 0;  // people that churn is behind
+  CrowdDirector director_;
   std::size_t drawn_again_ = 0;
 };
 

@@ -101,7 +101,9 @@ Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
 /// Those nearest to who looks, the present ones a little preferred.
 Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
   if (!relevance_) return {};
-  const std::size_t near = std::min(request_.near, walkers_.size());
+  const std::size_t part =
+      request_.near * (request_.shard + 1) / request_.shards - request_.near * request_.shard / request_.shards;
+  const std::size_t near = std::min(part, walkers_.size());
   const Vec3<float> eye = viewer_m();
   distance_.clear();
   for (std::uint32_t i = 0; i < walkers_.size(); ++i) {

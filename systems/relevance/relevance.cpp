@@ -9,6 +9,7 @@
 #include "components/sleep.h"
 #include "engine/exact_math.h"
 #include "engine/rows.h"
+#include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
 #include "systems/relevance/basis_orders.h"
 #include "systems/relevance/packed_rungs.h"
@@ -97,9 +98,11 @@ void Relevance::decide_compact(Entity human, bool compact, const Tiers<float>& t
   if (!compact && scene_.compact_unseen && !looked_at && settled) out.unseen.push_back(human);
 }
 
-/// Tables come and stay.
+/// Tables come and stay. Their order follows from what they are, not from which came first: where not everybody's turn
+/// can be at once, the same people come first in a world that was restored.
 void Relevance::find_tables() {
   World& world = world_of(simulation_);
+  if (tables_seen_ == world.tables().size()) return;
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
     const Columns at{TableColumn<Needs>(table),    TableColumn<Tiers>(table), TableColumn<Pose>(table),
@@ -109,6 +112,9 @@ void Relevance::find_tables() {
     if (!at.needs || !at.tiers || !at.size || !(at.pose || at.state)) continue;
     tables_.emplace_back(&table, at);
   }
+  const auto hash_of = [&](const Table* table) { return key_hash(world, table->key()); };
+  std::ranges::stable_sort(sleeping_tables_, {}, hash_of);
+  std::ranges::stable_sort(tables_, {}, [&](const auto& one) { return hash_of(one.first); });
 }
 
 RelevanceState Relevance::state() const {

@@ -1,0 +1,173 @@
+#include "demo/crowd/city_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "demo/bake/baked_file.h"
+#include "demo/crowd/city_report.h"
+#include "demo/crowd/city_shard.h"
+#include "demo/crowd/crowd_report.h"
+#include "demo/measure/measure.h"
+#include "demo/program/commands.h"
+#include "demo/program/progress.h"
+#include "engine/schedule.h"
+#include "systems/cluster/shard_bytes.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::uint32_t city_hash_every = 60;  // ticks
+constexpr double city_live_every_s = 0.25;
+
+/// What the first rank's host knows besides shards.
+struct Host {
+  CrowdDirector director;
+  std::uint32_t first_tick = unknown, spare = 0;  // the first that is measured
+
+  static constexpr std::uint32_t unknown = std::numeric_limits<std::uint32_t>::max();
+};
+
+std::vector<std::byte> orders_of(const CrowdOptions& options, std::uint32_t tick, double tick_s, Host& host) {
+  PlainBytes bytes;
+  if (options.alive) {
+    bytes.put(fly(*options.alive, tick, tick_s));
+  } else if (const auto orders = host.director.order(options.crowd, tick, tick_s); orders.count > 0) {
+    bytes.put(orders);
+  }
+  return bytes.bytes();
+}
+
+template <class F>
+void each_shard(Cluster& cluster, F&& f) {
+  for (std::uint32_t s = 0; s < cluster.options().shards; ++s)
+    if (auto* shard = static_cast<CityShard*>(cluster.shard(s))) f(*shard);
+}
+
+void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const CityCounts& counts, Host& host,
+             CityRun& run, CityPart& own) {
+  const auto ticks = static_cast<std::uint32_t>(std::max(1L, std::lround(options.seconds / run.tick_s)));
+  own.ticks.reserve(ticks);
+  double live_s = wall_now_s();
+  while (cluster.ticks() < run.first_tick + ticks) {
+    const CityCounts counted = counts;
+    const ClusterReport before = cluster.report();
+    const double cpu_s = process_cpu_now_s();
+    cluster.tick(ranks.first() ? orders_of(options, cluster.ticks(), run.tick_s, host) : std::vector<std::byte>{});
+    const ClusterReport after = cluster.report();
+    CrowdTick& tick = own.ticks.emplace_back();
+    tick.cpu_ms = 1e3 * (process_cpu_now_s() - cpu_s - (after.saving_s - before.saving_s));
+    tick.wall_ms = 1e3 * (after.worked_s - before.worked_s);
+    tick.host_ms = 1e3 * (counts.host_s - counted.host_s);
+    tick.relevance_ms = 1e3 * (counts.relevance_s - counted.relevance_s);
+    if ((cluster.ticks() - run.first_tick) % city_hash_every == 0 || cluster.ticks() == run.first_tick + ticks)
+      run.hashes.push_back(cluster.state_hash());
+    if (!ranks.first() || wall_now_s() < live_s) continue;
+    show(fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms, of the first of {} ranks",
+                     cluster.ticks() - run.first_tick, ticks, percentile_ms(own.ticks, 0.5),
+                     percentile_ms(own.ticks, 0.99), ranks.count()));
+    live_s = wall_now_s() + city_live_every_s;
+  }
+  show("");
+  run.last_tick = cluster.ticks();
+}
+
+/// Sums over shards.
+void add_state(Cluster& cluster, CityRun& run, CityPart& own) {
+  const auto ticks = static_cast<double>(std::max<std::size_t>(own.ticks.size(), 1));
+  each_shard(cluster, [&](CityShard& shard) {
+    const CityState state = shard.state();
+    own.state.people += state.people;
+    own.state.bytes += state.bytes;
+    own.state.awake += state.awake;
+    own.state.seen += state.seen;
+    for (std::size_t r = 0; r < state.muscles_by_rung.size(); ++r)
+      own.state.muscles_by_rung[r] += state.muscles_by_rung[r];
+    const Schedule& schedule = std::as_const(shard.simulation()).schedule();
+    own.system_ms.resize(schedule.systems().size());
+    if (run.systems.empty())
+      for (const auto& system : schedule.systems()) run.systems.push_back({system.name, 0});
+    for (std::size_t s = 0; s < schedule.systems().size(); ++s)
+      own.system_ms[s] += 1e3 * schedule.timings()[s].seconds / ticks;
+  });
+}
+
+/// Meshes and bases are made or read at the first rank, and handed to the others: these would all make the same.
+Result<void> prepare(const CrowdOptions& options, Ranks& ranks, Simulation& library, const Cluster::Make& make) {
+  Result<void> own;
+  if (ranks.first()) {
+    show("preparing");
+    own = load_baked_option(library, options.alive ? options.alive->baked : options.crowd.baked);
+    if (own && ranks.count() > 1) {
+      const auto shard = make(0);  // which prepares for all
+      if (!shard) own = tl::unexpected(shard.error());
+    }
+  }
+  if (auto done = ranks.agree(own); !done || ranks.count() == 1) return done;
+  const auto baked = ranks.share(ranks.first() ? library.bake() : std::vector<std::byte>{});
+  // Another kind of processor refuses them, and makes its own.
+  if (!ranks.first()) library.load_baked(baked);
+  return {};
+}
+
+}  // namespace
+
+Result<void> run_city(const CrowdOptions& options, Ranks& ranks) {
+  Simulation library;  // of nobody: keeps what shards share, wherever they move
+  CityCounts counts;
+  const Cluster::Make make = city_shards(options, library, counts);
+  if (auto done = prepare(options, ranks, library, make); !done) return done;
+  Host host;
+  host.director.next_number = options.crowd.humans;
+  ClusterOptions cluster_options = options.cluster;
+  cluster_options.host = [&] {
+    PlainBytes bytes;
+    bytes.put(host);
+    return bytes.bytes();
+  };
+  if (ranks.first()) show("making shards");
+  auto cluster = Cluster::begin(ranks, cluster_options, make);
+  if (ranks.first()) show("");
+  if (!cluster) return tl::unexpected(cluster.error());
+  if (options.cluster.resume && ranks.first()) {
+    PlainReader reader(cluster->restored_host());
+    reader.take(host);
+    if (!reader.whole()) ranks.stop("mobil crowd: the snapshot is of another version");
+  }
+  if (host.first_tick == Host::unknown) host.first_tick = cluster->ticks();
+
+  CityRun run;
+  CityPart own;
+  run.tick_s = library.tick_s();
+  run.first_tick = static_cast<std::uint32_t>(ranks.sum(std::uint64_t{ranks.first() ? host.first_tick : 0}));
+  run.side_m = options.alive ? side_of(*options.alive) : crowd_side_m(options.crowd.humans);
+  each_shard(*cluster, [](CityShard& shard) { shard.simulation().schedule().reset_timings(); });
+  const ClusterReport begun = cluster->report();
+  counts = {};
+  measure(options, ranks, *cluster, counts, host, run, own);
+  own.counts = counts;
+  own.report = cluster->report();
+  own.report.waited_s -= begun.waited_s;
+  own.report.bytes_sent -= begun.bytes_sent;
+  own.peak_bytes = peak_bytes();
+  add_state(*cluster, run, own);
+  for (const auto& bytes : ranks.gather(pack(own))) {
+    auto part = unpack_part(bytes);
+    if (!part) ranks.stop("mobil crowd: " + part.error().message);
+    run.parts.push_back(std::move(*part));
+  }
+  Result<void> written;
+  if (ranks.first()) {
+    put_together(run);
+    fmt::print("{}", city_text(run, options));
+    std::fflush(stdout);
+    if (!options.report.empty()) written = write_result("--report", options.report, city_json(run, options));
+  }
+  return ranks.agree(written);
+}
+
+}  // namespace mobil

@@ -1,0 +1,14 @@
+#pragma once
+// `mobil crowd` on several ranks, or in several shards on one.
+
+#include "demo/crowd/crowd_options.h"
+#include "engine/error.h"
+#include "systems/cluster/ranks.h"
+
+namespace mobil {
+
+/// Runs, and at the first rank prints and writes what was asked for. All ranks call it with the same options. Errors,
+/// the same on all ranks: what a shard, a file or a folder refuses.
+Result<void> run_city(const CrowdOptions& options, Ranks& ranks);
+
+}  // namespace mobil

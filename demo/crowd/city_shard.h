@@ -1,0 +1,37 @@
+#pragma once
+// The scenes of `mobil crowd` as shards of a crowd on several ranks.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "demo/crowd/crowd_options.h"
+#include "systems/cluster/cluster.h"
+#include "systems/cluster/shard.h"
+#include "systems/relevance/relevance.h"
+
+namespace mobil {
+
+/// What happened in all shards of a rank, as sums; times in s.
+struct CityCounts {
+  std::uint64_t spawned = 0, despawned = 0, turned = 0, changed_speed = 0, asked = 0;
+  std::uint64_t switched = 0, refused = 0, woken = 0, slept = 0, begun = 0;
+  double host_s = 0, relevance_s = 0;
+};
+
+/// What a shard is like now.
+struct CityState {
+  std::uint64_t people = 0, bytes = 0, awake = 0, seen = 0;
+  std::array<std::uint64_t, rung_count + 1> muscles_by_rung{};
+};
+
+class CityShard : public Shard {
+ public:
+  virtual Simulation& simulation() = 0;
+  virtual CityState state() const = 0;
+};
+
+/// Makes shards of the crowd that is asked for. `library`, `counts` and `options` must live as long as they.
+Cluster::Make city_shards(const CrowdOptions& options, const Simulation& library, CityCounts& counts);
+
+}  // namespace mobil

@@ -1,0 +1,214 @@
+#include "systems/cluster/cluster.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "engine/state_hash.h"
+#include "systems/cluster/balance.h"
+
+namespace mobil {
+namespace {
+
+class Stopwatch {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace
+
+Cluster::Cluster(Ranks& ranks, const ClusterOptions& options, Make make)
+    : ranks_(&ranks), options_(options), make_(std::move(make)) {}
+
+Result<Cluster> Cluster::begin(Ranks& ranks, const ClusterOptions& options, Make make) {
+  if (options.shards < static_cast<std::uint32_t>(ranks.count()) || options.meet_every == 0) {
+    return fail(fmt::format("cluster: {} shards are too few for {} ranks; give at least one a rank", options.shards,
+                            ranks.count()));
+  }
+  if (options.resume && options.folder.empty()) return fail("cluster: a run goes on from a folder; name it");
+  Cluster cluster(ranks, options, std::move(make));
+  const auto done = options.resume ? cluster.restore() : cluster.populate();
+  if (!done) return tl::unexpected(done.error());
+  if (!options.folder.empty() && !options.resume) {
+    if (auto saved = cluster.save(); !saved) return tl::unexpected(saved.error());
+  }
+  return cluster;
+}
+
+Result<void> Cluster::make_own() {
+  owner_ = first_owners(options_.shards, ranks_->count());
+  shards_.resize(options_.shards);
+  cost_us_.assign(options_.shards, 0);
+  for (std::uint32_t s = 0; s < options_.shards; ++s) {
+    if (owner_[s] != ranks_->rank()) continue;
+    auto made = make_(s);
+    if (!made) return tl::unexpected(made.error());
+    shards_[s] = std::move(*made);
+  }
+  return {};
+}
+
+Result<void> Cluster::populate() {
+  Result<void> own = make_own();
+  std::uint64_t ticks = 0;
+  for (const auto& shard : shards_) {
+    if (shard == nullptr || !own) continue;
+    own = shard->populate();
+    ticks = std::max<std::uint64_t>(ticks, shard->ticks());
+  }
+  if (auto done = ranks_->agree(own); !done) return done;
+  ticks_ = static_cast<std::uint32_t>(ranks_->most(ticks));
+  for (const auto& shard : shards_) {
+    while (shard != nullptr && own && shard->ticks() < ticks_) {
+      own = shard->apply({});
+      if (own) shard->tick();
+    }
+  }
+  return ranks_->agree(own);
+}
+
+Result<void> Cluster::restore() {
+  Result<SavedRun> last = ranks_->first() ? last_snapshot(options_.folder) : Result<SavedRun>(SavedRun{});
+  if (last && ranks_->first() && last->about != options_.about)
+    last = fail(fmt::format("{}: is of another run, which was asked for {}; ask for the same", options_.folder.string(),
+                            last->about));
+  if (last && ranks_->first() && last->shards != options_.shards)
+    last = fail(fmt::format("{}: has {} shards; give as many", options_.folder.string(), last->shards));
+  if (auto done = ranks_->agree(last ? Result<void>() : tl::unexpected(last.error())); !done) return done;
+  last = unpack_run(ranks_->share(pack(*last)));
+  if (!last) return tl::unexpected(last.error());
+  ticks_ = last->tick;
+  restored_host_ = last->host;
+  Result<void> own = make_own();
+  for (std::uint32_t s = 0; s < options_.shards && own; ++s) {
+    if (shards_[s] == nullptr) continue;
+    const auto bytes = read_shard(options_.folder, ticks_, s);
+    own = bytes ? shards_[s]->restore(*bytes) : tl::unexpected(bytes.error());
+    if (own && shards_[s]->ticks() != ticks_) own = fail(fmt::format("shard {} is of another tick", s));
+  }
+  if (auto done = ranks_->agree(own); !done) return done;
+  const std::uint64_t hash = state_hash();
+  if (hash != last->state_hash)
+    return fail(
+        fmt::format("{}: what was restored has the state hash {:016x}, and what was saved {:016x}: another "
+                    "version or another kind of processor made it",
+                    options_.folder.string(), hash, last->state_hash));
+  if (ranks_->first()) {
+    auto log = CommandLog::resume(options_.folder, ticks_, replay_);
+    own = log ? Result<void>() : tl::unexpected(log.error());
+    if (log) log_ = std::move(*log);
+  }
+  return ranks_->agree(own);
+}
+
+/// Written before anybody acts on them.
+std::vector<std::byte> Cluster::commands_of_tick(std::span<const std::byte> commands) {
+  if (!ranks_->first()) return ranks_->take_commands(ticks_);
+  std::vector<std::byte> now(commands.begin(), commands.end());
+  bool logged = !log_;
+  if (report_.replayed < replay_.size()) {
+    now = std::move(replay_[report_.replayed].commands);
+    ++report_.replayed;
+    logged = logged || report_.snapshots == 0;  // they lie in the log that they came from
+  }
+  if (!logged) {
+    if (auto done = log_->add(ticks_, now); !done) ranks_->stop("cluster: " + done.error().message);
+  }
+  ranks_->send_commands(ticks_, now);
+  return now;
+}
+
+void Cluster::tick(std::span<const std::byte> commands) {
+  ranks_->at_tick(ticks_);
+  const auto now = commands_of_tick(commands);
+  const Stopwatch work;
+  for (std::uint32_t s = 0; s < shards_.size(); ++s) {
+    if (shards_[s] == nullptr) continue;
+    const Stopwatch one;
+    if (auto done = shards_[s]->apply(now); !done)
+      ranks_->stop(
+          fmt::format("cluster: shard {} on rank {} at tick {}: {}", s, ranks_->rank(), ticks_, done.error().message));
+    shards_[s]->tick();
+    cost_us_[s] += static_cast<std::uint64_t>(1e6 * one.seconds());
+    ranks_->alive();
+  }
+  report_.worked_s += work.seconds();
+  ++report_.ticks;
+  ++ticks_;
+  if (ticks_ % options_.meet_every == 0) ranks_->sum(std::uint64_t{0});
+  if (options_.balance_every > 0 && ticks_ % options_.balance_every == 0) balance();
+  if (options_.folder.empty() || options_.save_every == 0 || ticks_ % options_.save_every != 0) return;
+  if (auto done = save(); !done) ranks_->stop("cluster: " + done.error().message);
+}
+
+std::uint64_t Cluster::state_hash() {
+  std::uint64_t sum = 0;
+  for (const auto& shard : shards_)
+    if (shard != nullptr) sum += shard->state_sum();
+  return state_hash_of(ranks_->sum(sum), ticks_);
+}
+
+Result<void> Cluster::save() {
+  const Stopwatch time;
+  Result<void> own;
+  for (std::uint32_t s = 0; s < shards_.size() && own; ++s) {
+    if (shards_[s] == nullptr) continue;
+    const auto bytes = shards_[s]->save();
+    own = bytes ? write_shard(options_.folder, ticks_, s, *bytes) : tl::unexpected(bytes.error());
+    if (bytes) report_.bytes_saved += bytes->size();
+    ranks_->alive();
+  }
+  const std::uint64_t hash = state_hash();
+  if (auto done = ranks_->agree(own); !done) return done;
+  if (ranks_->first()) {
+    // The commands from here on begin a file of their own before the index is there: whoever finds the one finds the
+    // other.
+    auto log = CommandLog::begin(options_.folder, ticks_);
+    own = log ? Result<void>() : tl::unexpected(log.error());
+    if (log) log_ = std::move(*log);
+    SavedRun run{ticks_, options_.shards, hash, options_.about,
+                 options_.host ? options_.host() : std::vector<std::byte>{}};
+    if (own) own = write_index(options_.folder, run);
+  }
+  ++report_.snapshots;
+  report_.saving_s += time.seconds();
+  return ranks_->agree(own);
+}
+
+/// All ranks know all costs, and come to the same plan.
+void Cluster::balance() {
+  ranks_->sum(cost_us_);
+  for (const ShardMove& move : plan_moves(owner_, cost_us_, ranks_->count())) {
+    auto& shard = shards_[move.shard];
+    Result<void> own;
+    if (move.from == ranks_->rank()) {
+      const auto bytes = shard->save();
+      if (!bytes) ranks_->stop(fmt::format("cluster: shard {} cannot move: {}", move.shard, bytes.error().message));
+      ranks_->send(move.to, *bytes);
+      shard.reset();
+    }
+    if (move.to == ranks_->rank()) {
+      auto made = make_(move.shard);
+      own = made ? (*made)->restore(ranks_->receive(move.from)) : tl::unexpected(made.error());
+      if (!own) ranks_->stop(fmt::format("cluster: shard {} cannot move: {}", move.shard, own.error().message));
+      shard = std::move(*made);
+    }
+    owner_[move.shard] = move.to;
+    ++report_.moved;
+  }
+  std::ranges::fill(cost_us_, 0);
+}
+
+ClusterReport Cluster::report() const {
+  ClusterReport report = report_;
+  report.waited_s = ranks_->waited_s();
+  report.bytes_sent = ranks_->bytes_sent();
+  return report;
+}
+
+}  // namespace mobil

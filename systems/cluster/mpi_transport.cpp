@@ -1,0 +1,121 @@
+#include "systems/cluster/mpi_transport.h"
+
+#include <cstdlib>
+#include <string_view>
+
+#ifdef MOBIL_HAS_MPI
+#include <mpi.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <list>
+#include <utility>
+#endif
+
+namespace mobil {
+
+bool started_as_rank() {
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "PMIX_RANK"})
+    if (std::getenv(name) != nullptr) return true;
+  return false;
+}
+
+bool first_by_environment() {
+  for (const char* name : {"OMPI_COMM_WORLD_RANK", "PMI_RANK", "PMIX_RANK"})
+    if (const char* rank = std::getenv(name)) return std::string_view(rank) == "0";
+  return true;
+}
+
+#ifdef MOBIL_HAS_MPI
+namespace {
+
+/// MPI counts bytes in an int: what is longer goes in pieces, the last of which is shorter than this.
+constexpr std::size_t piece_bytes = std::size_t{1} << 30;
+
+class MpiTransport : public Transport {
+ public:
+  MpiTransport() {
+    int provided = 0;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_dup(MPI_COMM_WORLD, &ranks_of_ours_);
+    MPI_Comm_rank(ranks_of_ours_, &rank_);
+    MPI_Comm_size(ranks_of_ours_, &ranks_);
+  }
+  ~MpiTransport() override {
+    for (Sent& one : sent_) MPI_Waitall(static_cast<int>(one.pieces.size()), one.pieces.data(), MPI_STATUSES_IGNORE);
+    MPI_Comm_free(&ranks_of_ours_);
+    MPI_Finalize();
+  }
+  MpiTransport(const MpiTransport&) = delete;
+  MpiTransport& operator=(const MpiTransport&) = delete;
+
+  int rank() const override { return rank_; }
+  int ranks() const override { return ranks_; }
+
+  void send(int to, Channel channel, std::vector<std::byte> bytes) override {
+    forget_what_arrived();
+    Sent& one = sent_.emplace_back();
+    one.bytes = std::move(bytes);
+    for (std::size_t at = 0; at <= one.bytes.size(); at += piece_bytes) {
+      const auto count = static_cast<int>(std::min(piece_bytes, one.bytes.size() - at));
+      MPI_Isend(one.bytes.data() + at, count, MPI_BYTE, to, static_cast<int>(channel), ranks_of_ours_,
+                &one.pieces.emplace_back());
+    }
+  }
+
+  std::optional<std::vector<std::byte>> take(int from, Channel channel) override {
+    int there = 0;
+    MPI_Message message;
+    MPI_Status status;
+    MPI_Improbe(from, static_cast<int>(channel), ranks_of_ours_, &there, &message, &status);
+    if (there == 0) return std::nullopt;
+    std::vector<std::byte> bytes;
+    for (;;) {
+      int count = 0;
+      MPI_Get_count(&status, MPI_BYTE, &count);
+      const std::size_t at = bytes.size();
+      bytes.resize(at + static_cast<std::size_t>(count));
+      MPI_Mrecv(bytes.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
+      if (bytes.size() - at < piece_bytes) return bytes;
+      MPI_Mprobe(from, static_cast<int>(channel), ranks_of_ours_, &message, &status);
+    }
+  }
+
+  [[noreturn]] void stop(const std::string& line) override {
+    std::fprintf(stderr, "%s\n", line.c_str());
+    std::fflush(nullptr);
+    MPI_Abort(ranks_of_ours_, 2);
+    std::_Exit(2);
+  }
+
+ private:
+  struct Sent {
+    std::vector<std::byte> bytes;
+    std::vector<MPI_Request> pieces;
+  };
+
+  void forget_what_arrived() {
+    std::erase_if(sent_, [](Sent& one) {
+      int done = 0;
+      MPI_Testall(static_cast<int>(one.pieces.size()), one.pieces.data(), &done, MPI_STATUSES_IGNORE);
+      return done != 0;
+    });
+  }
+
+  MPI_Comm ranks_of_ours_ = MPI_COMM_NULL;
+  int rank_ = 0, ranks_ = 1;
+  std::list<Sent> sent_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Transport>> mpi_transport() {
+  return std::make_unique<MpiTransport>();
+}
+#else
+Result<std::unique_ptr<Transport>> mpi_transport() {
+  return fail("this mobil was built without MPI; install libopenmpi-dev, configure again (cmake), and build");
+}
+#endif
+
+}  // namespace mobil

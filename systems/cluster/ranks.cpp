@@ -1,0 +1,225 @@
+#include "systems/cluster/ranks.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <thread>
+#include <utility>
+
+namespace mobil {
+namespace {
+
+using Steady = std::chrono::steady_clock;
+
+constexpr int looks_before_a_nap = 200;
+constexpr auto nap = std::chrono::microseconds(20);
+constexpr std::uint32_t beat_ticks = 16;
+
+double seconds_since(Steady::time_point then) {
+  return std::chrono::duration<double>(Steady::now() - then).count();
+}
+
+std::span<const std::byte> bytes_of(const std::string& text) {
+  return std::as_bytes(std::span(text));
+}
+
+}  // namespace
+
+Ranks::Ranks(Transport& transport, double silence_s)
+    : transport_(transport), silence_s_(silence_s), said_(Steady::now()) {
+  heard_.resize(static_cast<std::size_t>(count()), {0, Steady::now()});
+}
+
+/// In a binomial tree with the first rank at its root.
+std::vector<int> Ranks::children() const {
+  std::vector<int> all;
+  for (int step = 1; (rank() & step) == 0 && rank() + step < count(); step <<= 1) all.push_back(rank() + step);
+  return all;
+}
+
+void Ranks::stop(const std::string& line) {
+  transport_.stop(line);
+  std::abort();
+}
+
+void Ranks::post(int to, Channel channel, std::vector<std::byte> sealed) {
+  bytes_sent_ += sealed.size();
+  transport_.send(to, channel, std::move(sealed));
+}
+
+std::vector<std::byte> Ranks::wait(int from, Channel channel) {
+  const auto start = Steady::now();
+  for (int looks = 0;; ++looks) {
+    if (auto bytes = transport_.take(from, channel)) {
+      if (looks > 0) waited_s_ += seconds_since(start);
+      return std::move(*bytes);
+    }
+    if (looks < looks_before_a_nap) continue;
+    if (watching_) {
+      alive();
+      listen();
+      look_for_silence(seconds_since(start), from);
+    }
+    std::this_thread::sleep_for(nap);
+  }
+}
+
+Message Ranks::opened(std::span<const std::byte> sealed, MessageKind kind, int from) {
+  const auto message = open_message(sealed, kind);
+  if (!message) stop(fmt::format("cluster: from rank {}: {}", from, message.error().message));
+  return *message;
+}
+
+void Ranks::reduce(std::span<std::uint64_t> values, Operation operation) {
+  for (const int child : children()) {
+    const auto sealed = wait(child, Channel::up);
+    const Message message = opened(sealed, MessageKind::numbers, child);
+    if (message.bytes.size() != values.size_bytes())
+      stop(fmt::format("cluster: rank {} shares {} bytes of numbers where {} are due", child, message.bytes.size(),
+                       values.size_bytes()));
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      std::uint64_t value = 0;
+      std::memcpy(&value, &message.bytes[i * sizeof value], sizeof value);
+      values[i] = operation == Operation::sum ? values[i] + value : std::max(values[i], value);
+    }
+  }
+  auto sealed = seal_message({MessageKind::numbers, tick_, std::as_bytes(values)});
+  if (!first()) post(parent(), Channel::up, std::move(sealed));
+  sealed = hand_down(first() ? std::move(sealed) : std::vector<std::byte>{}, Channel::down);
+  const Message all = opened(sealed, MessageKind::numbers, parent());
+  if (all.bytes.size() != values.size_bytes()) stop("cluster: the ranks do not share the same numbers");
+  std::memcpy(values.data(), all.bytes.data(), all.bytes.size());
+}
+
+void Ranks::sum(std::span<std::uint64_t> values) {
+  reduce(values, Operation::sum);
+}
+
+std::uint64_t Ranks::sum(std::uint64_t value) {
+  reduce({&value, 1}, Operation::sum);
+  return value;
+}
+
+std::uint64_t Ranks::most(std::uint64_t value) {
+  reduce({&value, 1}, Operation::most);
+  return value;
+}
+
+/// The first rank's bytes, down the tree.
+std::vector<std::byte> Ranks::hand_down(std::vector<std::byte> sealed, Channel channel) {
+  if (!first()) sealed = wait(parent(), channel);
+  const auto all = children();
+  for (auto child = all.rbegin(); child != all.rend(); ++child) post(*child, channel, sealed);
+  return sealed;
+}
+
+std::vector<std::byte> Ranks::share(std::span<const std::byte> bytes) {
+  auto sealed = first() ? seal_message({MessageKind::bytes, tick_, bytes}) : std::vector<std::byte>{};
+  sealed = hand_down(std::move(sealed), Channel::down);
+  const Message message = opened(sealed, MessageKind::bytes, parent());
+  return {message.bytes.begin(), message.bytes.end()};
+}
+
+std::vector<std::vector<std::byte>> Ranks::gather(std::span<const std::byte> bytes) {
+  if (!first()) {
+    post(0, Channel::to_first, seal_message({MessageKind::bytes, tick_, bytes}));
+    return {};
+  }
+  std::vector<std::vector<std::byte>> all{{bytes.begin(), bytes.end()}};
+  for (int from = 1; from < count(); ++from) {
+    const auto sealed = wait(from, Channel::to_first);
+    const Message message = opened(sealed, MessageKind::bytes, from);
+    all.emplace_back(message.bytes.begin(), message.bytes.end());
+  }
+  return all;
+}
+
+Result<void> Ranks::agree(const Result<void>& own) {
+  const auto all = gather(bytes_of(own ? std::string() : own.error().message));
+  std::string line;
+  for (const auto& one : all) {
+    if (!line.empty() || one.empty()) continue;
+    line.assign(reinterpret_cast<const char*>(one.data()), one.size());
+  }
+  const auto agreed = share(bytes_of(line));
+  if (agreed.empty()) return {};
+  return fail(std::string(reinterpret_cast<const char*>(agreed.data()), agreed.size()));
+}
+
+void Ranks::send_commands(std::uint32_t tick, std::span<const std::byte> commands) {
+  hand_down(seal_message({MessageKind::commands, tick, commands}), Channel::commands);
+}
+
+std::vector<std::byte> Ranks::take_commands(std::uint32_t tick) {
+  const auto sealed = hand_down({}, Channel::commands);
+  const Message message = opened(sealed, MessageKind::commands, parent());
+  if (message.tick != tick)
+    stop(fmt::format("cluster: rank {} is at tick {}, and the commands are of tick {}", rank(), tick, message.tick));
+  return {message.bytes.begin(), message.bytes.end()};
+}
+
+void Ranks::send(int to, std::span<const std::byte> bytes) {
+  post(to, Channel::direct, seal_message({MessageKind::bytes, tick_, bytes}));
+}
+
+std::vector<std::byte> Ranks::receive(int from) {
+  const auto sealed = wait(from, Channel::direct);
+  const Message message = opened(sealed, MessageKind::bytes, from);
+  return {message.bytes.begin(), message.bytes.end()};
+}
+
+void Ranks::at_tick(std::uint32_t tick) {
+  tick_ = tick;
+  if (!watching_) {
+    watching_ = true;
+    for (Heard& one : heard_) one = {tick, Steady::now()};
+    say_alive();
+  } else if (tick % beat_ticks == 0) {
+    say_alive();
+  }
+  if (first() && tick % beat_ticks == 0) listen();
+}
+
+void Ranks::alive() {
+  if (watching_ && seconds_since(said_) > silence_s_ / 8) say_alive();
+}
+
+void Ranks::say_alive() {
+  said_ = Steady::now();
+  heard_[static_cast<std::size_t>(rank())] = {tick_, said_};
+  if (!first()) post(0, Channel::beat, seal_message({MessageKind::beat, tick_, {}}));
+}
+
+void Ranks::listen() {
+  if (!first()) return;
+  for (int from = 1; from < count(); ++from) {
+    while (const auto sealed = transport_.take(from, Channel::beat)) {
+      const Message message = opened(*sealed, MessageKind::beat, from);
+      heard_[static_cast<std::size_t>(from)] = {message.tick, Steady::now()};
+    }
+  }
+}
+
+/// The first rank hears everybody and names who is silent; others can tell of the first one alone, and give it time to
+/// name somebody else.
+void Ranks::look_for_silence(double waiting_s, int from) {
+  if (waiting_s < silence_s_) return;
+  if (first()) {
+    const auto oldest = std::ranges::min_element(heard_, {}, &Heard::when);
+    const double silent_s = seconds_since(oldest->when);
+    if (silent_s < silence_s_) return;  // all say that they are alive: one of them works long
+    stop(
+        fmt::format("cluster: rank {} has been silent for {:.1f} s, since about tick {}; the run stops, --resume goes "
+                    "on from the last snapshot",
+                    oldest - heard_.begin(), silent_s, oldest->tick));
+  }
+  if (waiting_s > 3 * silence_s_ && from == 0)
+    stop(
+        fmt::format("cluster: rank 0 has been silent for {:.1f} s; the run stops, --resume goes on from the last "
+                    "snapshot",
+                    waiting_s));
+}
+
+}  // namespace mobil

@@ -1,0 +1,31 @@
+#pragma once
+// How bytes get from one rank to another: by MPI (mpi_transport.h), or within one process (local_transport.h).
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace mobil {
+
+/// Messages of different channels may overtake each other.
+enum class Channel : int { commands, up, down, to_first, direct, beat };
+inline constexpr int channel_count = 6;
+
+/// One rank's end. Used by one thread.
+class Transport {
+ public:
+  virtual ~Transport() = default;
+
+  virtual int rank() const = 0;
+  virtual int ranks() const = 0;
+  /// Hands bytes over and does not wait until they have arrived. What one rank sends another in one channel arrives in
+  /// that order.
+  virtual void send(int to, Channel channel, std::vector<std::byte> bytes) = 0;
+  /// The next bytes from that rank in that channel; nothing where none have arrived yet.
+  virtual std::optional<std::vector<std::byte>> take(int from, Channel channel) = 0;
+  /// Ends the work of all ranks. `line` says why, once.
+  [[noreturn]] virtual void stop(const std::string& line) = 0;
+};
+
+}  // namespace mobil

@@ -1,0 +1,282 @@
+#include "systems/cluster/cluster.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <mutex>
+#include <numbers>
+
+#include "systems/cluster/people_shard.h"
+#include "tests/cluster/local_run.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint32_t shards = 8;
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (fs::temp_directory_path() / "mobil_cluster_XXXXXX").string();
+    path_ = ::mkdtemp(name.data());
+  }
+  ~Folder() { fs::remove_all(path_); }
+  const fs::path& path() const { return path_; }
+
+ private:
+  fs::path path_;
+};
+
+/// What the first rank's host decides: who comes, goes, turns and walks otherwise, drawn from the tick.
+std::vector<std::byte> commands_of(std::uint32_t tick, std::uint64_t people, bool camera) {
+  std::vector<PersonCommand> all;
+  const auto draw = [&](std::uint64_t stream) { return mix64(mix64(tick) ^ stream); };
+  const auto part = [&](std::uint64_t stream) { return static_cast<float>(draw(stream) % 10000) * 1e-4F; };
+  if (tick == 0) {
+    for (std::uint64_t n = 0; n < people; ++n) {
+      const auto own = [&](std::uint64_t what) { return static_cast<float>(mix64(n ^ what << 32) % 1000) * 1e-3F; };
+      BodyRequest body{.height_m = 1.70F + 0.1F * own(1), .mass_kg = 66 + 12 * own(2)};
+      body.sex = n % 2 == 0 ? Sex::man : Sex::woman;
+      all.push_back(come(n, body, 1.1F + 0.5F * own(3), 60 * own(4) - 30, 60 * own(5) - 30, 6 * own(6) - 3));
+    }
+  }
+  all.push_back(turn(draw(1) % people, 6 * part(2) - 3));
+  all.push_back(walk(draw(3) % people, tick % 5 == 0 ? 0 : 1 + 0.6F * part(4)));
+  if (tick % 3 == 0) all.push_back(go(draw(5) % people));
+  if (tick % 3 == 1) all.push_back(come(draw(6) % (2 * people), {}, 1.3F, 20 * part(7), 20 * part(8), 0));
+  if (tick % 7 == 0) all.push_back(place(draw(9) % people, 10 * part(10), 10 * part(11), part(12)));
+  if (camera && tick % 10 == 0) {
+    Viewpoint view{.position_m = {20 * part(13) - 10, 1.7F, 20 * part(14) - 10}, .reach_m = 12};
+    view.forward = {std::sin(6 * part(15)), 0, std::cos(6 * part(15))};
+    all.push_back(look(view, 2, 6));
+  }
+  all.push_back(turn(1'000'000 + tick, 0));  // of nobody: refused
+  const auto raw = std::as_bytes(std::span(all));
+  return {raw.begin(), raw.end()};
+}
+
+struct Asked {
+  int ranks = 1;
+  std::uint32_t ticks = 60, balance_every = 0, shards_of_crowd = shards;
+  std::uint64_t people = 120, delay_seed = 0;
+  bool muscles = false, resume = false;
+  fs::path folder{};
+  std::uint32_t save_every = 0;
+  std::optional<std::uint32_t> die_at{};  // the last rank stops the run there
+  std::optional<int> heavy{};             // that rank's shards take longer
+};
+
+struct Came {
+  std::uint64_t hash = 0, people = 0, refused = 0;
+  ClusterReport report;  // the first rank's
+  std::string stopped;
+};
+
+Result<std::unique_ptr<Shard>> make_shard(const Asked& asked, std::uint32_t shard, const Simulation& library) {
+  PeopleShardOptions options{.shards = asked.shards_of_crowd, .simulation = {.library_of = &library}};
+  if (asked.muscles) {
+    options.muscles = LegMuscles{};
+    options.muscles->muscles = {};
+    options.muscles->muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
+    options.muscles->method = Method::none;
+    options.scene.muscles = options.muscles->muscles;
+    options.scene.compact_unseen = true;
+  }
+  auto made = std::make_unique<PeopleShard>(shard, options);
+  return made;
+}
+
+Came run(const Asked& asked) {
+  Came came;
+  std::atomic<std::uint64_t> people = 0, refused = 0;
+  came.stopped = on_ranks(
+      asked.ranks,
+      [&](Ranks& ranks) {
+        const Simulation library;  // of nobody: shards may move away, and what they share is to stay
+        std::unique_ptr<Shard> first;  // keeps the library, for shards may move away
+        auto cluster = Cluster::begin(ranks,
+                                      {.shards = asked.shards_of_crowd,
+                                       .meet_every = 16,
+                                       .balance_every = asked.balance_every,
+                                       .folder = asked.folder,
+                                       .save_every = asked.save_every,
+                                       .resume = asked.resume,
+                                       .about = "a test"},
+                                      [&](std::uint32_t shard) { return make_shard(asked, shard, library); });
+        if (!cluster) ranks.stop(cluster.error().message);
+        while (cluster->ticks() < asked.ticks) {
+          if (asked.die_at && ranks.rank() == asked.ranks - 1 && cluster->ticks() == *asked.die_at)
+            ranks.stop("killed");
+          if (asked.heavy == ranks.rank()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+          cluster->tick(ranks.first() ? commands_of(cluster->ticks(), asked.people, asked.muscles)
+                                      : std::vector<std::byte>{});
+        }
+        const std::uint64_t hash = cluster->state_hash();
+        for (std::uint32_t s = 0; s < asked.shards_of_crowd; ++s) {
+          const auto* shard = static_cast<PeopleShard*>(cluster->shard(s));
+          if (shard == nullptr) continue;
+          people += shard->people().size();
+          refused += shard->refused();
+        }
+        if (ranks.first()) {
+          came.hash = hash;
+          came.report = cluster->report();
+        }
+      },
+      asked.delay_seed);
+  came.people = people;
+  came.refused = refused;
+  return came;
+}
+
+TEST(Cluster, AnyNumberOfRanksGivesTheSameBits) {
+  const Came one = run({});
+  EXPECT_EQ(one.stopped, "");
+  EXPECT_GT(one.people, 100U);
+  EXPECT_GE(one.refused, 60U) << "commands to nobody are counted";
+  for (const int ranks : {2, 3, 7}) {
+    const Came other = run({.ranks = ranks, .delay_seed = static_cast<std::uint64_t>(ranks)});
+    EXPECT_EQ(other.stopped, "");
+    EXPECT_EQ(other.hash, one.hash) << ranks << " ranks";
+    EXPECT_EQ(other.people, one.people);
+    EXPECT_EQ(other.refused, one.refused);
+  }
+}
+
+TEST(Cluster, WalkersOfManyShardsAreThoseOfOneSimulation) {
+  EXPECT_EQ(run({.shards_of_crowd = 1}).hash, run({.ranks = 2, .shards_of_crowd = 5}).hash);
+}
+
+TEST(Cluster, RanksGiveTheSameBitsWithMusclesAndSleepers) {
+  const Came one = run({.ticks = 90, .people = 60, .muscles = true});
+  EXPECT_EQ(one.stopped, "");
+  const Came three = run({.ranks = 3, .ticks = 90, .people = 60, .delay_seed = 5, .muscles = true});
+  EXPECT_EQ(three.hash, one.hash);
+}
+
+TEST(Cluster, ShardsMoveToWhoHasLessToDoAndNobodyNotices) {
+  const Came one = run({});
+  const Came moved = run({.ranks = 3, .balance_every = 5});
+  EXPECT_EQ(moved.stopped, "");
+  EXPECT_EQ(moved.hash, one.hash);
+  EXPECT_GT(moved.report.moved, 0U) << "8 shards on 3 ranks are uneven";
+}
+
+TEST(Cluster, ARunGoesOnFromItsLastSnapshotOnAnyNumberOfRanks) {
+  const Came whole = run({});
+  for (const bool muscles : {false, true}) {
+    const Asked undisturbed{.muscles = muscles};
+    const std::uint64_t hash = muscles ? run(undisturbed).hash : whole.hash;
+    const Folder folder;
+    Asked asked{.ranks = 2, .muscles = muscles, .folder = folder.path(), .save_every = 20, .die_at = 53};
+    EXPECT_EQ(run(asked).stopped, "killed");
+    asked.die_at.reset();
+    asked.resume = true;
+    for (const int ranks : {3, 1, 2}) {
+      asked.ranks = ranks;
+      asked.save_every = 0;
+      const Came went_on = run(asked);
+      EXPECT_EQ(went_on.stopped, "");
+      EXPECT_EQ(went_on.hash, hash) << ranks << " ranks, " << (muscles ? "with" : "without") << " muscles";
+      EXPECT_GE(went_on.report.replayed, 13U) << "commands of ticks 40 to 52 were logged";
+    }
+  }
+}
+
+TEST(Cluster, KilledAgainAsItGoesOnNothingIsLost) {
+  const std::uint64_t hash = run({}).hash;
+  const Folder folder;
+  Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 25, .die_at = 20};
+  EXPECT_EQ(run(asked).stopped, "killed");
+  asked.resume = true;
+  asked.save_every = 7;  // a snapshot while logged commands are still being replayed
+  asked.die_at = 16;
+  EXPECT_EQ(run(asked).stopped, "killed");
+  asked.die_at.reset();
+  asked.ranks = 3;
+  const Came went_on = run(asked);
+  EXPECT_EQ(went_on.stopped, "");
+  EXPECT_EQ(went_on.hash, hash);
+}
+
+TEST(Cluster, WhatWasBeingWrittenIsDropped) {
+  const std::uint64_t hash = run({}).hash;
+  const Folder folder;
+  Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 20, .die_at = 53};
+  EXPECT_EQ(run(asked).stopped, "killed");
+  const fs::path last = folder.path() / "tick_0000000040";
+  const auto log = fs::file_size(last / "commands");
+  fs::resize_file(last / "commands", log - 11);               // in the middle of a record
+  fs::create_directories(folder.path() / "tick_0000000060");  // a snapshot without its index
+  std::ofstream(folder.path() / "tick_0000000060" / "shard_0001") << "half a sh";
+  asked.die_at.reset();
+  asked.resume = true;
+  EXPECT_EQ(run(asked).hash, hash);
+}
+
+TEST(Cluster, WhatDoesNotFitIsRefusedInOneLine) {
+  const Folder folder;
+  Asked asked{.ranks = 2, .ticks = 20, .people = 30, .folder = folder.path(), .save_every = 10};
+  EXPECT_EQ(run(asked).stopped, "");
+  asked.resume = true;
+  asked.shards_of_crowd = 9;
+  EXPECT_NE(run(asked).stopped.find("has 8 shards; give as many"), std::string::npos);
+  asked.shards_of_crowd = shards;
+  const fs::path file = folder.path() / "tick_0000000020" / "shard_0003";
+  {
+    std::fstream altered(file, std::ios::in | std::ios::out | std::ios::binary);
+    altered.seekp(300);
+    altered.put('!');
+  }
+  EXPECT_NE(run(asked).stopped.find("shard_0003: a message was altered"), std::string::npos);
+  fs::remove(file);
+  EXPECT_NE(run(asked).stopped.find("shard_0003: cannot be read"), std::string::npos);
+  asked.folder = folder.path() / "nothing here";
+  EXPECT_NE(run(asked).stopped.find("no snapshot is there; name the folder"), std::string::npos);
+  EXPECT_NE(run({.ranks = 3, .shards_of_crowd = 2}).stopped.find("2 shards are too few for 3 ranks"),
+            std::string::npos);
+}
+
+TEST(Cluster, OldSnapshotsAreRemoved) {
+  const Folder folder;
+  EXPECT_EQ(run({.ranks = 2, .ticks = 50, .people = 10, .folder = folder.path(), .save_every = 10}).stopped, "");
+  std::size_t found = 0;
+  for (const auto& entry : fs::directory_iterator(folder.path())) {
+    EXPECT_TRUE(entry.path().filename() == "tick_0000000040" || entry.path().filename() == "tick_0000000050");
+    ++found;
+  }
+  EXPECT_EQ(found, 2U);
+}
+
+TEST(PeopleShard, RefusesWhatCannotBeAndIsUnchanged) {
+  PeopleShard shard(0, {.shards = 1});
+  const float nan = std::nanf("");
+  std::vector<PersonCommand> bad = {come(1, {.height_m = 9}, 1, 0, 0, 0),
+                                    come(1, {}, nan, 0, 0, 0),
+                                    come(1, {}, 1, nan, 0, 0),
+                                    walk(1, 1),
+                                    go(1),
+                                    look({}, 1, 0)};
+  bad.push_back(come(1, {}, 1.2F, 0, 0, 0));
+  bad.back().value[5] = 77;  // no constitution
+  bad.push_back(go(1));
+  bad.back().wish = static_cast<Wish>(99);
+  const std::uint64_t before = shard.state_sum();
+  ASSERT_TRUE(shard.apply(std::as_bytes(std::span(bad))));
+  EXPECT_EQ(shard.refused(), bad.size());
+  EXPECT_EQ(shard.state_sum(), before);
+  EXPECT_FALSE(shard.apply(std::as_bytes(std::span(bad)).first(65))) << "no whole command";
+  const std::vector twice = {come(2, {}, 1, 0, 0, 0), come(2, {}, 1, 0, 0, 0)};
+  ASSERT_TRUE(shard.apply(std::as_bytes(std::span(twice))));
+  EXPECT_EQ(shard.people().size(), 1U) << "a number is one person's";
+}
+
+}  // namespace
+}  // namespace mobil

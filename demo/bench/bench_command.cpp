@@ -20,6 +20,7 @@
 #include "demo/program/named_entries.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"
+#include "systems/cluster/mpi_transport.h"
 
 namespace mobil {
 namespace {
@@ -41,7 +42,8 @@ constexpr std::array benches = {Bench{"machine", &bench_machine},
                                 Bench{"reduced", &bench_reduced},
                                 Bench{"paper_figures", &bench_paper_figures},
                                 Bench{"crowd", &bench_crowds},
-                                Bench{"relevance", &bench_relevance}};
+                                Bench{"relevance", &bench_relevance},
+                                Bench{"cluster", &bench_cluster}};
 
 struct BenchText {
   std::vector<std::string> names;
@@ -122,10 +124,22 @@ std::string to_json(const BenchRun& run) {
   return json.dump(2) + "\n";
 }
 
+/// Under mpirun: what ranks cost, told by the first of them.
+Result<void> check_ranks(const BenchRequest& request) {
+  if (!started_as_rank() || (request.chosen.size() == 1 && request.chosen.front().run == &bench_cluster)) return {};
+  return fail("under mpirun cluster alone is measured; give mpirun -n 2 mobil bench cluster");
+}
+
 int bench(const BenchText& text) {
   const auto request = read_request(text);
-  if (!request) return complain("bench", request.error().message);
+  const auto fits = request ? check_ranks(*request) : tl::unexpected(request.error());
+  if (!fits) return first_by_environment() ? complain("bench", fits.error().message) : 2;
   BenchRun run;
+  if (!first_by_environment()) {
+    run.humans = request->humans;
+    run.quick = text.quick;
+    return bench_cluster(run) ? 0 : 1;
+  }
   run.humans = request->humans;
   run.quick = text.quick;
   run.machine = describe_machine();
@@ -160,6 +174,8 @@ Subcommand bench_command() {
       "as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.seen.us_per_human_tick,\n"
       "crowd.large_over_small, crowd.us_per_spawn, crowd.system.NAME.us_per_human_tick, crowd.threads2_speedup,\n"
       "crowd.threads2.NAME.speedup, crowd.100.METHOD.muscles_us_per_tick, crowd.100.METHOD.ratio_to_bullet.\n"
+      "cluster: messages between ranks, ticks with and without exchange, and a model of more ranks; --humans on each.\n"
+      "It measures two threads, or what mpirun starts: mpirun -n 2 mobil bench cluster.\n"
       "Example: mobil bench gait kinematics --humans 2000 --json bench.json";
   command.options = {
       named_option(benches, text->names, "measure"),

@@ -24,7 +24,7 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t places = 3, count_every = 30, hash_each = 60;  // ticks
+constexpr std::size_t count_every = 30, hash_each = 60;  // ticks
 
 /// All that was measured, sums over all ticks.
 struct AliveRun {
@@ -37,21 +37,10 @@ struct AliveRun {
 };
 
 Result<void> take_picture(const CrowdOptions& options, AliveScene& scene, CrowdCamera& camera, std::size_t number) {
-  const Viewpoint& from = scene.camera();
-  const Vec3<float>&at = from.position_m, &f = from.forward;
-  const Camera view{.eye = at, .target = {at.x + 10 * f.x, at.y - 2.2F, at.z + 10 * f.z}, .vertical_fov_deg = 33};
-  std::vector<CrowdCamera::Drawn> people;
-  scene.simulation().each([&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
-    for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
-      if (tiers.view[lane] != static_cast<std::uint32_t>(View::seen)) continue;
-      const Entity who = rows.entity[lane];
-      people.push_back({who, scene.number_of(who), (tiers.effects[lane] & tier_bare) == 0});
-    }
-  });
   Image image;
-  if (auto done = camera.take(scene.simulation(), view, people, image); !done) return done;
-  const auto file = options.capture.parent_path() / fmt::format("{}_{}{}", options.capture.stem().string(), number,
-                                                                options.capture.extension().string());
+  if (auto done = camera.take(scene.simulation(), picture_from(scene.camera()), scene.seen(), image); !done)
+    return done;
+  const auto file = numbered(options.capture, number);
   if (auto done = write_png(file.string(), image, PngEffort::small); !done)
     return fail("--capture " + done.error().message);
   say_written(file);
@@ -109,7 +98,7 @@ Result<AliveRun> measure(const CrowdOptions& options, AliveScene& scene) {
                        count.seen));
     }
     if ((i + 1) % hash_each == 0 && options.seconds <= 10) run.hashes.push_back(scene.simulation().state_hash());
-    if (camera && taken < places && i + 1 == (2 * taken + 1) * ticks / (2 * places)) {
+    if (camera && taken < alive_pictures && i + 1 == alive_picture_tick(taken, ticks)) {
       show("");
       if (auto done = take_picture(options, scene, *camera, ++taken); !done) return tl::unexpected(done.error());
     }
@@ -174,6 +163,10 @@ std::string json_of(const AliveRun& run, const AliveScene& scene, const CrowdOpt
 }
 
 }  // namespace
+
+std::filesystem::path numbered(const std::filesystem::path& file, std::size_t number) {
+  return file.parent_path() / fmt::format("{}_{}{}", file.stem().string(), number, file.extension().string());
+}
 
 Result<void> run_alive(const CrowdOptions& options) {
   auto made = AliveScene::make(*options.alive, show_progress);

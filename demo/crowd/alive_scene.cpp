@@ -209,6 +209,23 @@ Result<std::size_t> AliveScene::decide(const AliveOrders& orders) {
   return changes_.size();
 }
 
+std::vector<CrowdCamera::Drawn> AliveScene::seen() const {
+  std::vector<CrowdCamera::Drawn> people;
+  simulation().each([&](const Rows& rows, const Tiers<Lanes<float>>& tiers) {
+    for (std::uint32_t lane = 0; lane < rows.live; ++lane) {
+      if (tiers.view[lane] != static_cast<std::uint32_t>(View::seen)) continue;
+      const Entity who = rows.entity[lane];
+      people.push_back({who, number_of(who), (tiers.effects[lane] & tier_bare) == 0});
+    }
+  });
+  return people;
+}
+
+Camera picture_from(const Viewpoint& camera) {
+  const Vec3<float>&at = camera.position_m, &f = camera.forward;
+  return {.eye = at, .target = {at.x + 10 * f.x, at.y - 2.2F, at.z + 10 * f.z}, .vertical_fov_deg = 33};
+}
+
 Result<std::vector<std::byte>> AliveScene::save() const {
   PlainBytes host;
   host.put(std::uint64_t{walkers_.size()});

@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "demo/crowd/crowd_picture.h"
 #include "demo/crowd/crowd_scene.h"
 #include "engine/error.h"
 #include "engine/jobs.h"
@@ -35,6 +36,8 @@ struct AliveOrders {
   Viewpoint camera;
   std::uint32_t cut = 0;
 };
+/// What such a camera sees, as a picture has it.
+Camera picture_from(const Viewpoint& camera);
 /// The side of the square that they live on, m.
 double side_of(const AliveRequest& request);
 /// From a place of its own after each cut: ahead, and turning to and fro.
@@ -74,6 +77,8 @@ class AliveScene {
   /// Person number of an entity.
   std::uint64_t number_of(Entity entity) const { return walkers_[slot_of_[entity.index]].number; }
   std::size_t people() const { return walkers_.size(); }
+  /// Whom the camera sees; near is who has muscles.
+  std::vector<CrowdCamera::Drawn> seen() const;
 
   /// All of it as bytes, and an empty one made of them (systems/cluster/shard.h).
   Result<std::vector<std::byte>> save() const;

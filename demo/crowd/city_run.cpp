@@ -6,9 +6,13 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "demo/bake/baked_file.h"
+#include "demo/crowd/alive_run.h"
+#include "demo/crowd/city_picture.h"
 #include "demo/crowd/city_report.h"
 #include "demo/crowd/city_shard.h"
 #include "demo/crowd/crowd_report.h"
@@ -42,17 +46,17 @@ std::vector<std::byte> orders_of(const CrowdOptions& options, std::uint32_t tick
   return bytes.bytes();
 }
 
-template <class F>
-void each_shard(Cluster& cluster, F&& f) {
-  for (std::uint32_t s = 0; s < cluster.options().shards; ++s)
-    if (auto* shard = static_cast<CityShard*>(cluster.shard(s))) f(*shard);
-}
-
 void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const CityCounts& counts, Host& host,
              CityRun& run, CityPart& own) {
   const auto ticks = static_cast<std::uint32_t>(std::max(1L, std::lround(options.seconds / run.tick_s)));
   own.ticks.reserve(ticks);
   double live_s = wall_now_s();
+  std::optional<CrowdCamera> pictures;
+  if (!options.capture.empty() && ranks.first()) {
+    auto made = CrowdCamera::create();
+    if (!made) ranks.stop("mobil crowd: --capture: " + made.error().message);
+    pictures = std::move(*made);
+  }
   while (cluster.ticks() < run.first_tick + ticks) {
     const CityCounts counted = counts;
     const ClusterReport before = cluster.report();
@@ -66,6 +70,12 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
     tick.relevance_ms = 1e3 * (counts.relevance_s - counted.relevance_s);
     if ((cluster.ticks() - run.first_tick) % city_hash_every == 0 || cluster.ticks() == run.first_tick + ticks)
       run.hashes.push_back(cluster.state_hash());
+    const std::uint32_t since = cluster.ticks() - run.first_tick;
+    for (std::size_t i = 0; options.alive && !options.capture.empty() && i < alive_pictures; ++i) {
+      if (since != alive_picture_tick(i, ticks)) continue;
+      const AliveOrders last = fly(*options.alive, cluster.ticks() - 1, run.tick_s);
+      take_picture(ranks, cluster, picture_from(last.camera), pictures, numbered(options.capture, i + 1));
+    }
     if (!ranks.first() || wall_now_s() < live_s) continue;
     show(fmt::format("tick {}/{}  p50 {:.2f} ms  p99 {:.2f} ms, of the first of {} ranks",
                      cluster.ticks() - run.first_tick, ticks, percentile_ms(own.ticks, 0.5),
@@ -74,6 +84,8 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
   }
   show("");
   run.last_tick = cluster.ticks();
+  if (!options.alive && !options.capture.empty())
+    take_picture(ranks, cluster, crowd_camera(run.side_m), pictures, options.capture);
 }
 
 /// Sums over shards.

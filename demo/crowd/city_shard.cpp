@@ -69,6 +69,12 @@ class CrowdShard : public CityShard {
     return state;
   }
 
+  std::vector<CrowdCamera::Drawn> people() const override {
+    std::vector<CrowdCamera::Drawn> all;
+    for (const CrowdWalker& walker : scene_->walkers()) all.push_back({walker.entity, walker.number, walker.near});
+    return all;
+  }
+
  private:
   std::unique_ptr<CrowdScene> scene_;
   std::size_t humans_;
@@ -107,6 +113,8 @@ class AliveShard : public CityShard {
     const AliveScene::Count now = scene_->count();
     return {.people = scene_->people(), .bytes = scene_->bytes_of_people(), .awake = now.awake, .seen = now.seen};
   }
+
+  std::vector<CrowdCamera::Drawn> people() const override { return scene_->seen(); }
 
  private:
   std::unique_ptr<AliveScene> scene_;

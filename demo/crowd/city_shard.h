@@ -4,8 +4,10 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 #include "demo/crowd/crowd_options.h"
+#include "demo/crowd/crowd_picture.h"
 #include "systems/cluster/cluster.h"
 #include "systems/cluster/shard.h"
 #include "systems/relevance/relevance.h"
@@ -29,9 +31,18 @@ class CityShard : public Shard {
  public:
   virtual Simulation& simulation() = 0;
   virtual CityState state() const = 0;
+  /// Whom a picture may show.
+  virtual std::vector<CrowdCamera::Drawn> people() const = 0;
 };
 
 /// Makes shards of the crowd that is asked for. `library`, `counts` and `options` must live as long as they.
 Cluster::Make city_shards(const CrowdOptions& options, const Simulation& library, CityCounts& counts);
+
+/// Those that are on this rank.
+template <class F>
+void each_shard(Cluster& cluster, F&& f) {
+  for (std::uint32_t s = 0; s < cluster.options().shards; ++s)
+    if (auto* shard = static_cast<CityShard*>(cluster.shard(s))) f(*shard);
+}
 
 }  // namespace mobil

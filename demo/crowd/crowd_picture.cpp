@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
-#include <map>
-#include <optional>
+#include <tuple>
 #include <vector>
 
-#include "assets/export/walk_recording.h"
+#include "demo/crowd/crowd_legs.h"
 #include "demo/walk/drawn_skin.h"
-#include "demo/walk/figure.h"
 #include "demo/walk/recorded_scene.h"
 #include "systems/capture/renderer.h"
 #include "systems/surfaces/skin_writer.h"
@@ -17,25 +15,9 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t most_figures = 64;
 constexpr float near_m = 6, far_m = 18;  // who is seen with fewer triangles
 constexpr float glass = 0.35F;           // opacity of legs that muscles are seen through
 constexpr float person_m = 1;            // half the height of the box that a person is taken for
-
-/// From behind and above who looks, over the crowd.
-Camera crowd_camera(const CrowdScene& scene) {
-  const Vec3<float> eye = scene.viewer_m();
-  Camera camera;
-  camera.eye = {eye.x, 3.3F, eye.z - 4.5F};
-  camera.target = {eye.x, 0.55F, eye.z + 5.5F};
-  camera.vertical_fov_deg = 33;
-  return camera;
-}
-
-/// What is seen through the skin of who is near: the shirt hides the rest.
-bool is_leg(Segment segment) {
-  return segment == Segment::pelvis || (segment >= Segment::thigh_right && segment < Segment::clavicle_right);
-}
 
 bool in_picture(const Camera& camera, int width, int height, const Vec3<float>& pelvis) {
   const Vec3<float> at = project(camera, width, height, pelvis);
@@ -47,26 +29,33 @@ bool in_picture(const Camera& camera, int width, int height, const Vec3<float>& 
 
 }  // namespace
 
-struct CrowdCamera::Parts {
-  /// Bones and muscles of one person.
-  struct Shown {
-    Figure figure;
-    WalkRecording recording;
-    RecordedScene drawn;
-  };
+Camera crowd_camera(double side_m) {
+  const Vec3<float> eye = CrowdScene::viewer_m(side_m);
+  Camera camera;
+  camera.eye = {eye.x, 3.3F, eye.z - 4.5F};
+  camera.target = {eye.x, 0.55F, eye.z + 5.5F};
+  camera.vertical_fov_deg = 33;
+  return camera;
+}
 
+void arrange(std::vector<SeenPerson>& seen) {
+  std::ranges::sort(seen, [](const SeenPerson& a, const SeenPerson& b) {
+    return std::tuple(b.near, a.distance_m, a.number) < std::tuple(a.near, b.distance_m, b.number);
+  });
+}
+
+struct CrowdCamera::Parts {
   Parts(Renderer made, int wide, int high) : renderer(std::move(made)), width(wide), height(high) {}
 
   Renderer renderer;
   int width, height;
   BodySkins skins;
   std::deque<DrawnSkin> drawn;
-  std::map<std::uint64_t, Shown> figures;  // by person
+  RecordedScene legs_drawn;
+  CrowdLegs legs;
   std::vector<DrawMesh> meshes;
 
-  Result<Shown*> figure_of(const Simulation& simulation, const Drawn& person);
-  Result<void> add_skin(const BodyRequest& body, const Pose<float>& pose, float distance_m, const Drawn& person,
-                        const Shown* muscles);
+  Result<void> add_skin(const SeenPerson& person, const WalkRecording* legs);
 };
 
 CrowdCamera::CrowdCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -80,92 +69,84 @@ Result<CrowdCamera> CrowdCamera::create(int width, int height) {
   return CrowdCamera(std::make_unique<Parts>(std::move(*renderer), width, height));
 }
 
-Result<CrowdCamera::Parts::Shown*> CrowdCamera::Parts::figure_of(const Simulation& simulation, const Drawn& person) {
-  const auto human = simulation.human(person.entity);
-  if (!human) return fail("a person who is to be drawn has left");
-  auto found = figures.find(person.number);
-  if (found == figures.end()) {
-    auto figure = make_figure(simulation, *human, std::nullopt);
-    if (!figure) return tl::unexpected(figure.error());
-    found = figures.emplace(person.number, Shown{std::move(*figure), {}, {}}).first;
-  }
-  Shown& shown = found->second;
-  shown.recording = begin_recording(shown.figure, 1.0F / 30);
-  std::erase_if(shown.recording.bones, [](const BoneSurface& bone) { return !is_leg(bone.segment); });
-  record_frame(shown.figure, simulation, *human, shown.recording);
-  shown.drawn = {};
-  add_bones(shown.recording, 0, {0, 0, 0}, 0, shown.drawn);
-  if (!human->muscles.empty()) add_muscles(shown.recording, 0, {0, 0, 0}, shown.drawn);
-  return &shown;
-}
-
-Result<void> CrowdCamera::Parts::add_skin(const BodyRequest& body, const Pose<float>& pose, float distance_m,
-                                          const Drawn& person, const Shown* muscles) {
-  const SkinDetail detail = distance_m < near_m  ? SkinDetail::near
-                            : distance_m < far_m ? SkinDetail::far
-                                                 : SkinDetail::distant;
+Result<void> CrowdCamera::Parts::add_skin(const SeenPerson& person, const WalkRecording* of_legs) {
+  const SkinDetail detail = person.distance_m < near_m  ? SkinDetail::near
+                            : person.distance_m < far_m ? SkinDetail::far
+                                                        : SkinDetail::distant;
+  BodyRequest body{.height_m = person.height_m, .mass_kg = person.mass_kg};
+  body.sex = person.sex == 0 ? Sex::man : Sex::woman;
   const auto shape = skins.of(body, detail);
   if (!shape) return tl::unexpected(shape.error());
   DrawnSkin& skin = drawn.emplace_back();
   skin.skin = shape->skin;
   skin.lengths = shape->lengths;
   skin.colours = skin_colours(person.number);
-  if (muscles != nullptr) {
+  if (of_legs != nullptr) {
     for (const SkinPart part : {SkinPart::legs, SkinPart::shorts}) skin.opacity[static_cast<std::size_t>(part)] = glass;
   }
-  skin.pose(pose, muscles != nullptr ? muscles_of(muscles->recording, 0) : LegVertices{});
+  skin.pose(person.pose, of_legs != nullptr ? muscles_of(*of_legs, 0) : LegVertices{});
   skin.draw(meshes);
   return {};
 }
 
 void CrowdCamera::forget(std::uint64_t number) {
-  parts_->figures.erase(number);
+  parts_->legs.forget(number);
 }
 
 Result<void> CrowdCamera::take(const CrowdScene& scene, Image& image) {
   std::vector<Drawn> people;
   for (const CrowdWalker& walker : scene.walkers()) people.push_back({walker.entity, walker.number, walker.near});
-  return take(scene.simulation(), crowd_camera(scene), people, image);
+  return take(scene.simulation(), crowd_camera(scene.side_m()), people, image);
+}
+
+std::vector<SeenPerson> CrowdCamera::see(const Simulation& simulation, const Camera& camera,
+                                         std::span<const Drawn> people, int width, int height) {
+  std::vector<SeenPerson> seen;
+  for (const Drawn& person : people) {
+    const auto pose = simulation.get<Pose>(person.entity);
+    if (!pose || !in_picture(camera, width, height, pose->position_m[0])) continue;
+    const auto size = simulation.get<BodySize>(person.entity);
+    const auto physique = simulation.get<Physique>(person.entity);
+    if (!size || !physique) continue;
+    const float distance_m = project(camera, width, height, pose->position_m[0]).z;
+    const auto sex = static_cast<std::uint32_t>(sex_of(physique->build));
+    seen.push_back({person.number, distance_m, person.near ? 1U : 0U, size->height_m, size->mass_kg, sex, 0, *pose});
+  }
+  return seen;
 }
 
 Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people,
                                Image& image) {
-  struct Seen {
-    float distance_m;
-    const Drawn* person;
-    Pose<float> pose;
-  };
-  std::vector<Seen> seen;
-  const int width = parts_->width, height = parts_->height;
-  for (const Drawn& person : people) {
-    const auto pose = simulation.get<Pose>(person.entity);
-    if (!pose || !in_picture(camera, width, height, pose->position_m[0])) continue;
-    const float distance = project(camera, width, height, pose->position_m[0]).z;
-    seen.push_back({distance, &person, *pose});
+  auto seen = see(simulation, camera, people, parts_->width, parts_->height);
+  arrange(seen);
+  std::map<std::uint64_t, Entity> entity;
+  for (const Drawn& person : people)
+    if (person.near) entity.emplace(person.number, person.entity);
+  Legs legs;
+  for (std::size_t i = 0; i < std::min(seen.size(), most_legs) && seen[i].near != 0; ++i) {
+    const auto own = parts_->legs.of(simulation, entity.at(seen[i].number), seen[i].number);
+    if (!own) return tl::unexpected(own.error());
+    legs.emplace(seen[i].number, *own);
   }
-  std::ranges::sort(seen, [](const Seen& a, const Seen& b) {
-    if (a.person->near != b.person->near) return a.person->near;
-    return a.distance_m < b.distance_m;
-  });
+  return draw(camera, seen, legs, image);
+}
+
+Result<void> CrowdCamera::draw(const Camera& camera, std::span<const SeenPerson> seen, const Legs& legs, Image& image) {
   Parts& parts = *parts_;
   parts.drawn.clear();
   parts.meshes.clear();
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const Drawn& person = *seen[i].person;
-    const auto size = simulation.get<BodySize>(person.entity);
-    const auto physique = simulation.get<Physique>(person.entity);
-    if (!size || !physique) return fail("a person who is to be drawn has left");
-    BodyRequest body{.height_m = size->height_m, .mass_kg = size->mass_kg};
-    body.sex = sex_of(physique->build);
-    const Parts::Shown* muscles = nullptr;
-    if (i < most_figures && person.near) {
-      const auto shown = parts.figure_of(simulation, person);
-      if (!shown) return tl::unexpected(shown.error());
-      parts.meshes.insert(parts.meshes.end(), (*shown)->drawn.meshes.begin(), (*shown)->drawn.meshes.end());
-      muscles = *shown;
+  parts.legs_drawn = {};
+  for (const SeenPerson& person : seen) {
+    const auto found = legs.find(person.number);
+    const WalkRecording* const own = found == legs.end() ? nullptr : found->second;
+    if (own != nullptr) {
+      const std::size_t before = parts.legs_drawn.meshes.size();
+      add_bones(*own, 0, {0, 0, 0}, 0, parts.legs_drawn);
+      if (!own->muscles.empty()) add_muscles(*own, 0, {0, 0, 0}, parts.legs_drawn);
+      const auto& made = parts.legs_drawn.meshes;
+      parts.meshes.insert(parts.meshes.end(), made.begin() + static_cast<std::ptrdiff_t>(before), made.end());
     }
-    auto added = parts.add_skin(body, seen[i].pose, seen[i].distance_m, person, muscles);
-    if (!added) return added;
+    if (auto added = parts.add_skin(person, own); !added) return added;
   }
   Scene drawn;
   drawn.camera = camera;

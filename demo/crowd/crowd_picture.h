@@ -4,10 +4,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <span>
-#include <string>
+#include <vector>
 
+#include "assets/export/walk_recording.h"
 #include "demo/crowd/crowd_scene.h"
 #include "engine/error.h"
 #include "systems/capture/image.h"
@@ -15,13 +17,32 @@
 
 namespace mobil {
 
+/// One who is in a picture: plain data, which may come from another process.
+struct SeenPerson {
+  std::uint64_t number = 0;
+  float distance_m = 0;
+  std::uint32_t near = 0;  // of the nearest of these the legs' bones and muscles are seen
+  float height_m = 0, mass_kg = 0;
+  std::uint32_t sex = 0, spare = 0;
+  Pose<float> pose{};
+};
+/// Who is drawn first, whatever order they were found in: those who are near, then the nearest.
+void arrange(std::vector<SeenPerson>& seen);
+/// Of how many at most, the first of who is near, legs are drawn.
+inline constexpr std::size_t most_legs = 64;
+
+/// From behind and above who looks, over a crowd on a square of that side.
+Camera crowd_camera(double side_m);
+
 class CrowdCamera {
  public:
   /// Errors: a size out of range (Renderer::create), no driver.
-  static Result<CrowdCamera> create(int width = 1920, int height = 1080);
+  static Result<CrowdCamera> create(int width = usual_width, int height = usual_height);
   CrowdCamera(CrowdCamera&&) noexcept;
   CrowdCamera& operator=(CrowdCamera&&) noexcept;
   ~CrowdCamera();
+
+  static constexpr int usual_width = 1920, usual_height = 1080;
 
   /// The crowd as it is, from behind and above who looks. Errors: a driver that gives up.
   Result<void> take(const CrowdScene& scene, Image& image);
@@ -32,6 +53,12 @@ class CrowdCamera {
     bool near;
   };
   Result<void> take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people, Image& image);
+  /// Those of them who are in a picture of that size, in no order.
+  static std::vector<SeenPerson> see(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people,
+                                     int width = usual_width, int height = usual_height);
+  /// A picture of them in that order. `legs`: by number, of those whose legs are drawn.
+  using Legs = std::map<std::uint64_t, const WalkRecording*>;
+  Result<void> draw(const Camera& camera, std::span<const SeenPerson> seen, const Legs& legs, Image& image);
   /// Lets go of the surfaces of who had this number.
   void forget(std::uint64_t number);
 

@@ -129,7 +129,8 @@ class CrowdScene {
   const std::vector<CrowdWalker>& walkers() const { return walkers_; }
   double side_m() const { return side_m_; }
   /// Where who looks stands: in the middle of the square's edge at −z.
-  Vec3<float> viewer_m() const { return {0, 0, static_cast<float>(-0.5 * side_m_)}; }
+  Vec3<float> viewer_m() const { return viewer_m(side_m_); }
+  static Vec3<float> viewer_m(double side_m) { return {0, 0, static_cast<float>(-0.5 * side_m)}; }
 
   /// Muscles by the rung that they are on; the last is of those that were refused another.
   std::array<std::size_t, rung_count + 1> muscles_by_rung() const;

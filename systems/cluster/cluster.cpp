@@ -107,20 +107,19 @@ Result<void> Cluster::restore() {
 }
 
 /// Written before anybody acts on them.
-std::vector<std::byte> Cluster::commands_of_tick(std::span<const std::byte> commands) {
+std::span<const std::byte> Cluster::commands_of_tick(std::span<const std::byte> commands) {
   if (!ranks_->first()) return ranks_->take_commands(ticks_);
-  std::vector<std::byte> now(commands.begin(), commands.end());
   bool logged = !log_;
   if (report_.replayed < replay_.size()) {
-    now = std::move(replay_[report_.replayed].commands);
+    commands = replay_[report_.replayed].commands;
     ++report_.replayed;
     logged = logged || report_.snapshots == 0;  // they lie in the log that they came from
   }
   if (!logged) {
-    if (auto done = log_->add(ticks_, now); !done) ranks_->stop("cluster: " + done.error().message);
+    if (auto done = log_->add(ticks_, commands); !done) ranks_->stop("cluster: " + done.error().message);
   }
-  ranks_->send_commands(ticks_, now);
-  return now;
+  ranks_->send_commands(ticks_, commands);
+  return commands;
 }
 
 void Cluster::tick(std::span<const std::byte> commands) {

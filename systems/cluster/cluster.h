@@ -83,7 +83,7 @@ class Cluster {
   Result<void> make_own();
   Result<void> populate();
   Result<void> restore();
-  std::vector<std::byte> commands_of_tick(std::span<const std::byte> commands);
+  std::span<const std::byte> commands_of_tick(std::span<const std::byte> commands);
   void balance();
 
   Ranks* ranks_;

@@ -30,26 +30,26 @@ class LocalRanks::End : public Transport {
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
 
-  void send(int to, Channel channel, std::vector<std::byte> bytes) override {
+  void send(int to, Channel channel, std::span<const std::byte> bytes) override {
     const std::lock_guard lock(post_.mutex);
     check();
     constexpr std::uint64_t most_looks = 50;
     const std::uint64_t looks = post_.seed == 0 ? 0 : mix64(post_.seed ^ mix64(++post_.sent)) % most_looks;
-    post_.box[{rank_, to, channel}].push_back({std::move(bytes), looks});
+    post_.box[{rank_, to, channel}].push_back({{bytes.begin(), bytes.end()}, looks});
   }
 
-  std::optional<std::vector<std::byte>> take(int from, Channel channel) override {
+  bool take(int from, Channel channel, std::vector<std::byte>& bytes) override {
     const std::lock_guard lock(post_.mutex);
     check();
     auto& box = post_.box[{from, rank_, channel}];
-    if (box.empty()) return std::nullopt;
+    if (box.empty()) return false;
     if (box.front().looks > 0) {
       --box.front().looks;
-      return std::nullopt;
+      return false;
     }
-    auto bytes = std::move(box.front().bytes);
+    bytes = std::move(box.front().bytes);
     box.pop_front();
-    return bytes;
+    return true;
   }
 
   [[noreturn]] void stop(const std::string& line) override {

@@ -24,12 +24,17 @@ std::uint64_t seal_of(Header header, std::span<const std::byte> bytes) {
 
 }  // namespace
 
-std::vector<std::byte> seal_message(const Message& message) {
+void seal_message(const Message& message, std::vector<std::byte>& out) {
   Header header{magic, static_cast<std::uint32_t>(message.kind), message.tick, message.bytes.size(), 0};
   header.seal = seal_of(header, message.bytes);
-  std::vector<std::byte> out(sizeof header + message.bytes.size());
+  out.resize(sizeof header + message.bytes.size());
   std::memcpy(out.data(), &header, sizeof header);
   if (!message.bytes.empty()) std::memcpy(out.data() + sizeof header, message.bytes.data(), message.bytes.size());
+}
+
+std::vector<std::byte> seal_message(const Message& message) {
+  std::vector<std::byte> out;
+  seal_message(message, out);
   return out;
 }
 

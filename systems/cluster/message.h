@@ -20,7 +20,8 @@ struct Message {
   std::span<const std::byte> bytes{};
 };
 
-/// The message as it travels and as it lies in files.
+/// The message as it travels and as it lies in files; into memory that is kept for the next one.
+void seal_message(const Message& message, std::vector<std::byte>& out);
 std::vector<std::byte> seal_message(const Message& message);
 /// The first message of `in`, which then begins behind it. Errors, `in` staying as it is: too few bytes, bytes that are
 /// no message of this version or that were altered.

@@ -8,8 +8,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iterator>
 #include <list>
-#include <utility>
 #endif
 
 namespace mobil {
@@ -52,31 +52,33 @@ class MpiTransport : public Transport {
   int rank() const override { return rank_; }
   int ranks() const override { return ranks_; }
 
-  void send(int to, Channel channel, std::vector<std::byte> bytes) override {
-    forget_what_arrived();
-    Sent& one = sent_.emplace_back();
-    one.bytes = std::move(bytes);
-    for (std::size_t at = 0; at <= one.bytes.size(); at += piece_bytes) {
-      const auto count = static_cast<int>(std::min(piece_bytes, one.bytes.size() - at));
+  void send(int to, Channel channel, std::span<const std::byte> bytes) override {
+    keep_what_arrived();
+    if (spare_.empty()) spare_.emplace_back();
+    sent_.splice(sent_.end(), spare_, spare_.begin());
+    Sent& one = sent_.back();
+    one.bytes.assign(bytes.begin(), bytes.end());
+    one.pieces.clear();
+    for (std::size_t at = 0; at <= bytes.size(); at += piece_bytes) {
+      const auto count = static_cast<int>(std::min(piece_bytes, bytes.size() - at));
       MPI_Isend(one.bytes.data() + at, count, MPI_BYTE, to, static_cast<int>(channel), ranks_of_ours_,
                 &one.pieces.emplace_back());
     }
   }
 
-  std::optional<std::vector<std::byte>> take(int from, Channel channel) override {
+  bool take(int from, Channel channel, std::vector<std::byte>& bytes) override {
     int there = 0;
     MPI_Message message;
     MPI_Status status;
     MPI_Improbe(from, static_cast<int>(channel), ranks_of_ours_, &there, &message, &status);
-    if (there == 0) return std::nullopt;
-    std::vector<std::byte> bytes;
-    for (;;) {
+    if (there == 0) return false;
+    for (std::size_t at = 0;;) {
       int count = 0;
       MPI_Get_count(&status, MPI_BYTE, &count);
-      const std::size_t at = bytes.size();
       bytes.resize(at + static_cast<std::size_t>(count));
       MPI_Mrecv(bytes.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-      if (bytes.size() - at < piece_bytes) return bytes;
+      if (bytes.size() - at < piece_bytes) return true;
+      at = bytes.size();
       MPI_Mprobe(from, static_cast<int>(channel), ranks_of_ours_, &message, &status);
     }
   }
@@ -94,17 +96,20 @@ class MpiTransport : public Transport {
     std::vector<MPI_Request> pieces;
   };
 
-  void forget_what_arrived() {
-    std::erase_if(sent_, [](Sent& one) {
+  /// For the memory: fresh pages cost more than what is copied into them.
+  void keep_what_arrived() {
+    for (auto one = sent_.begin(); one != sent_.end();) {
       int done = 0;
-      MPI_Testall(static_cast<int>(one.pieces.size()), one.pieces.data(), &done, MPI_STATUSES_IGNORE);
-      return done != 0;
-    });
+      MPI_Testall(static_cast<int>(one->pieces.size()), one->pieces.data(), &done, MPI_STATUSES_IGNORE);
+      const auto next = std::next(one);
+      if (done != 0) spare_.splice(spare_.end(), sent_, one);
+      one = next;
+    }
   }
 
   MPI_Comm ranks_of_ours_ = MPI_COMM_NULL;
   int rank_ = 0, ranks_ = 1;
-  std::list<Sent> sent_;
+  std::list<Sent> sent_, spare_;
 };
 
 }  // namespace

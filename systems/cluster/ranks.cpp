@@ -13,7 +13,10 @@ namespace {
 
 using Steady = std::chrono::steady_clock;
 
-constexpr int looks_before_a_nap = 200;
+// Who waits looks, then lets others have the processor between looks, then naps as well: a nap of 20 us is one of 100
+// and more where timers are coarse, and long messages need both sides to look.
+constexpr int looks_at_once = 200;
+constexpr double before_naps_s = 2e-3;
 constexpr auto nap = std::chrono::microseconds(20);
 constexpr std::uint32_t beat_ticks = 16;
 
@@ -27,16 +30,11 @@ std::span<const std::byte> bytes_of(const std::string& text) {
 
 }  // namespace
 
+/// The children in a binomial tree with the first rank at its root.
 Ranks::Ranks(Transport& transport, double silence_s)
     : transport_(transport), silence_s_(silence_s), said_(Steady::now()) {
   heard_.resize(static_cast<std::size_t>(count()), {0, Steady::now()});
-}
-
-/// In a binomial tree with the first rank at its root.
-std::vector<int> Ranks::children() const {
-  std::vector<int> all;
-  for (int step = 1; (rank() & step) == 0 && rank() + step < count(); step <<= 1) all.push_back(rank() + step);
-  return all;
+  for (int step = 1; (rank() & step) == 0 && rank() + step < count(); step <<= 1) children_.push_back(rank() + step);
 }
 
 void Ranks::stop(const std::string& line) {
@@ -44,23 +42,36 @@ void Ranks::stop(const std::string& line) {
   std::abort();
 }
 
-void Ranks::post(int to, Channel channel, std::vector<std::byte> sealed) {
-  bytes_sent_ += sealed.size();
-  transport_.send(to, channel, std::move(sealed));
+void Ranks::post(int to, Channel channel, const Message& message) {
+  seal_message(message, out_);
+  bytes_sent_ += out_.size();
+  transport_.send(to, channel, out_);
 }
 
-std::vector<std::byte> Ranks::wait(int from, Channel channel) {
+/// What came in, on its way to others.
+void Ranks::hand_on(int to, Channel channel) {
+  bytes_sent_ += in_.size();
+  transport_.send(to, channel, in_);
+}
+
+/// Good until the next one is waited for.
+Message Ranks::wait(int from, Channel channel, MessageKind kind) {
   const auto start = Steady::now();
   for (int looks = 0;; ++looks) {
-    if (auto bytes = transport_.take(from, channel)) {
+    if (transport_.take(from, channel, in_)) {
       if (looks > 0) waited_s_ += seconds_since(start);
-      return std::move(*bytes);
+      return opened(in_, kind, from);
     }
-    if (looks < looks_before_a_nap) continue;
+    if (looks < looks_at_once) continue;
+    const double waiting_s = seconds_since(start);
+    if (waiting_s < before_naps_s) {
+      std::this_thread::yield();
+      continue;
+    }
     if (watching_) {
       alive();
       listen();
-      look_for_silence(seconds_since(start), from);
+      look_for_silence(waiting_s, from);
     }
     std::this_thread::sleep_for(nap);
   }
@@ -73,9 +84,8 @@ Message Ranks::opened(std::span<const std::byte> sealed, MessageKind kind, int f
 }
 
 void Ranks::reduce(std::span<std::uint64_t> values, Operation operation) {
-  for (const int child : children()) {
-    const auto sealed = wait(child, Channel::up);
-    const Message message = opened(sealed, MessageKind::numbers, child);
+  for (const int child : children_) {
+    const Message message = wait(child, Channel::up, MessageKind::numbers);
     if (message.bytes.size() != values.size_bytes())
       stop(fmt::format("cluster: rank {} shares {} bytes of numbers where {} are due", child, message.bytes.size(),
                        values.size_bytes()));
@@ -85,12 +95,11 @@ void Ranks::reduce(std::span<std::uint64_t> values, Operation operation) {
       values[i] = operation == Operation::sum ? values[i] + value : std::max(values[i], value);
     }
   }
-  auto sealed = seal_message({MessageKind::numbers, tick_, std::as_bytes(values)});
-  if (!first()) post(parent(), Channel::up, std::move(sealed));
-  sealed = hand_down(first() ? std::move(sealed) : std::vector<std::byte>{}, Channel::down);
-  const Message all = opened(sealed, MessageKind::numbers, parent());
+  const Message own{MessageKind::numbers, tick_, std::as_bytes(values)};
+  if (!first()) post(parent(), Channel::up, own);
+  const Message all = hand_down(own, Channel::down);
   if (all.bytes.size() != values.size_bytes()) stop("cluster: the ranks do not share the same numbers");
-  std::memcpy(values.data(), all.bytes.data(), all.bytes.size());
+  if (!first()) std::memcpy(values.data(), all.bytes.data(), all.bytes.size());
 }
 
 void Ranks::sum(std::span<std::uint64_t> values) {
@@ -107,30 +116,27 @@ std::uint64_t Ranks::most(std::uint64_t value) {
   return value;
 }
 
-/// The first rank's bytes, down the tree.
-std::vector<std::byte> Ranks::hand_down(std::vector<std::byte> sealed, Channel channel) {
-  if (!first()) sealed = wait(parent(), channel);
-  const auto all = children();
-  for (auto child = all.rbegin(); child != all.rend(); ++child) post(*child, channel, sealed);
-  return sealed;
+/// The first rank's message, down the tree.
+Message Ranks::hand_down(const Message& message, Channel channel) {
+  const Message all = first() ? message : wait(parent(), channel, message.kind);
+  for (auto child = children_.rbegin(); child != children_.rend(); ++child)
+    first() ? post(*child, channel, message) : hand_on(*child, channel);
+  return all;
 }
 
 std::vector<std::byte> Ranks::share(std::span<const std::byte> bytes) {
-  auto sealed = first() ? seal_message({MessageKind::bytes, tick_, bytes}) : std::vector<std::byte>{};
-  sealed = hand_down(std::move(sealed), Channel::down);
-  const Message message = opened(sealed, MessageKind::bytes, parent());
+  const Message message = hand_down({MessageKind::bytes, tick_, bytes}, Channel::down);
   return {message.bytes.begin(), message.bytes.end()};
 }
 
 std::vector<std::vector<std::byte>> Ranks::gather(std::span<const std::byte> bytes) {
   if (!first()) {
-    post(0, Channel::to_first, seal_message({MessageKind::bytes, tick_, bytes}));
+    post(0, Channel::to_first, {MessageKind::bytes, tick_, bytes});
     return {};
   }
   std::vector<std::vector<std::byte>> all{{bytes.begin(), bytes.end()}};
   for (int from = 1; from < count(); ++from) {
-    const auto sealed = wait(from, Channel::to_first);
-    const Message message = opened(sealed, MessageKind::bytes, from);
+    const Message message = wait(from, Channel::to_first, MessageKind::bytes);
     all.emplace_back(message.bytes.begin(), message.bytes.end());
   }
   return all;
@@ -149,24 +155,22 @@ Result<void> Ranks::agree(const Result<void>& own) {
 }
 
 void Ranks::send_commands(std::uint32_t tick, std::span<const std::byte> commands) {
-  hand_down(seal_message({MessageKind::commands, tick, commands}), Channel::commands);
+  hand_down({MessageKind::commands, tick, commands}, Channel::commands);
 }
 
-std::vector<std::byte> Ranks::take_commands(std::uint32_t tick) {
-  const auto sealed = hand_down({}, Channel::commands);
-  const Message message = opened(sealed, MessageKind::commands, parent());
+std::span<const std::byte> Ranks::take_commands(std::uint32_t tick) {
+  const Message message = hand_down({MessageKind::commands, tick, {}}, Channel::commands);
   if (message.tick != tick)
     stop(fmt::format("cluster: rank {} is at tick {}, and the commands are of tick {}", rank(), tick, message.tick));
-  return {message.bytes.begin(), message.bytes.end()};
+  return message.bytes;
 }
 
 void Ranks::send(int to, std::span<const std::byte> bytes) {
-  post(to, Channel::direct, seal_message({MessageKind::bytes, tick_, bytes}));
+  post(to, Channel::direct, {MessageKind::bytes, tick_, bytes});
 }
 
 std::vector<std::byte> Ranks::receive(int from) {
-  const auto sealed = wait(from, Channel::direct);
-  const Message message = opened(sealed, MessageKind::bytes, from);
+  const Message message = wait(from, Channel::direct, MessageKind::bytes);
   return {message.bytes.begin(), message.bytes.end()};
 }
 
@@ -189,14 +193,14 @@ void Ranks::alive() {
 void Ranks::say_alive() {
   said_ = Steady::now();
   heard_[static_cast<std::size_t>(rank())] = {tick_, said_};
-  if (!first()) post(0, Channel::beat, seal_message({MessageKind::beat, tick_, {}}));
+  if (!first()) post(0, Channel::beat, {MessageKind::beat, tick_, {}});
 }
 
 void Ranks::listen() {
   if (!first()) return;
   for (int from = 1; from < count(); ++from) {
-    while (const auto sealed = transport_.take(from, Channel::beat)) {
-      const Message message = opened(*sealed, MessageKind::beat, from);
+    while (transport_.take(from, Channel::beat, beat_)) {
+      const Message message = opened(beat_, MessageKind::beat, from);
       heard_[static_cast<std::size_t>(from)] = {message.tick, Steady::now()};
     }
   }

@@ -42,7 +42,8 @@ class Ranks {
 
   /// The commands of a tick, handed on to all ranks; the first one does not wait for the others.
   void send_commands(std::uint32_t tick, std::span<const std::byte> commands);
-  std::vector<std::byte> take_commands(std::uint32_t tick);
+  /// Good until the next call of a function of this object.
+  std::span<const std::byte> take_commands(std::uint32_t tick);
   /// From one to another, apart from all the rest.
   void send(int to, std::span<const std::byte> bytes);
   std::vector<std::byte> receive(int from);
@@ -66,22 +67,24 @@ class Ranks {
   };
 
   void reduce(std::span<std::uint64_t> values, Operation operation);
-  std::vector<std::byte> hand_down(std::vector<std::byte> sealed, Channel channel);
-  void post(int to, Channel channel, std::vector<std::byte> sealed);
-  std::vector<std::byte> wait(int from, Channel channel);
+  Message hand_down(const Message& message, Channel channel);
+  void post(int to, Channel channel, const Message& message);
+  void hand_on(int to, Channel channel);
+  Message wait(int from, Channel channel, MessageKind kind);
   Message opened(std::span<const std::byte> sealed, MessageKind kind, int from);
   void say_alive();
   void listen();
   void look_for_silence(double waiting_s, int from);
   int parent() const { return rank() & (rank() - 1); }
-  std::vector<int> children() const;
 
   Transport& transport_;
   double silence_s_;
   bool watching_ = false;
   std::uint32_t tick_ = 0;
   std::chrono::steady_clock::time_point said_;
-  std::vector<Heard> heard_;  // by rank; at the first rank
+  std::vector<Heard> heard_;                // by rank; at the first rank
+  std::vector<std::byte> out_, in_, beat_;  // kept for their memory
+  std::vector<int> children_;
   double waited_s_ = 0;
   std::uint64_t bytes_sent_ = 0;
 };

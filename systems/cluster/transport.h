@@ -2,7 +2,7 @@
 // How bytes get from one rank to another: by MPI (mpi_transport.h), or within one process (local_transport.h).
 
 #include <cstddef>
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,11 +19,12 @@ class Transport {
 
   virtual int rank() const = 0;
   virtual int ranks() const = 0;
-  /// Hands bytes over and does not wait until they have arrived. What one rank sends another in one channel arrives in
-  /// that order.
-  virtual void send(int to, Channel channel, std::vector<std::byte> bytes) = 0;
-  /// The next bytes from that rank in that channel; nothing where none have arrived yet.
-  virtual std::optional<std::vector<std::byte>> take(int from, Channel channel) = 0;
+  /// Copies bytes and does not wait until they have arrived. What one rank sends another in one channel arrives in that
+  /// order.
+  virtual void send(int to, Channel channel, std::span<const std::byte> bytes) = 0;
+  /// The next bytes from that rank in that channel, into memory that is kept for the next ones; false where none have
+  /// arrived yet.
+  virtual bool take(int from, Channel channel, std::vector<std::byte>& bytes) = 0;
   /// Ends the work of all ranks. `line` says why, once.
   [[noreturn]] virtual void stop(const std::string& line) = 0;
 };

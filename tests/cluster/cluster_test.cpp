@@ -99,7 +99,7 @@ Came run(const Asked& asked) {
   came.stopped = on_ranks(
       asked.ranks,
       [&](Ranks& ranks) {
-        const Simulation library;  // of nobody: shards may move away, and what they share is to stay
+        const Simulation library;      // of nobody: shards may move away, and what they share is to stay
         std::unique_ptr<Shard> first;  // keeps the library, for shards may move away
         auto cluster = Cluster::begin(ranks,
                                       {.shards = asked.shards_of_crowd,

@@ -1,0 +1,86 @@
+#!/usr/bin/env bash
+# `mobil crowd` under mpirun: the same hash and picture from one, two and three ranks; a rank that is killed, and one that
+# hangs, end the run, and --resume goes on to the hash of an undisturbed one. Status 77 where there is no MPI.
+# Usage: mpi_test.sh MOBIL
+set -euo pipefail
+mobil=$(realpath "$1")
+command -v mpirun >/dev/null || { echo "no mpirun here (Debian: openmpi-bin)"; exit 77; }
+scratch=$(mktemp -d)
+trap 'kill "${running:-}" 2>/dev/null || true; rm -rf "$scratch"' EXIT
+cd "$scratch"
+# Two jobs that begin at once would fight for one folder; ranks here outnumber processors and may be root's.
+export TMPDIR=$scratch OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+mpirun -n 1 "$mobil" crowd --humans 20 --effects none --seconds 0.1 >out 2>&1 || {
+  grep -q 'built without MPI' out && { echo "this mobil was built without MPI"; exit 77; }
+  cat out
+  exit 1
+}
+
+crowd=(crowd --humans 600 --shards 12 --effects none --churn 60 --seed 3)
+hash_of() { grep '^state hash' | tail -n 1; }
+same() {  # same WHAT ONE OTHER
+  [ -n "$2" ] && [ "$2" = "$3" ] && return
+  echo "$1: '$3' instead of '$2'" >&2
+  exit 1
+}
+
+alone=$("$mobil" "${crowd[@]}" --seconds 20 | hash_of)
+for ranks in 2 3; do
+  same "$ranks ranks" "$alone" "$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 20 --balance-every 1s | hash_of)"
+done
+
+picture=(crowd --humans 40 --shards 4 --effects none --seconds 0.5 --capture)
+"$mobil" "${picture[@]}" one.png >/dev/null
+mpirun -n 2 "$mobil" "${picture[@]}" two.png >/dev/null
+cmp one.png two.png
+
+# Disturbed once the second snapshot is there; `rank`: the first, or the last.
+begin() {  # begin FOLDER
+  rm -rf "$1"
+  mpirun -n 3 "$mobil" "${crowd[@]}" --seconds 3600 --save "$1" --save-every 2s --silence 2s >"$1.out" 2>&1 &
+  running=$!
+  for _ in $(seq 600); do
+    [ "$(find "$1" -name index 2>/dev/null | wc -l)" -lt 2 ] || return 0
+    sleep 0.02
+  done
+  cat "$1.out"
+  echo "no snapshots appear" >&2
+  exit 1
+}
+rank() {  # rank N: its process
+  local process
+  for process in $(pgrep -P "$running" -x mobil); do
+    if tr '\0' '\n' <"/proc/$process/environ" | grep -q "^OMPI_COMM_WORLD_RANK=$1$"; then echo "$process"; fi
+  done
+}
+for victim in 0 2; do
+  begin killed
+  kill -9 "$(rank $victim)"
+  started=$SECONDS
+  ! wait "$running" || { echo "a run without rank $victim ends well" >&2; exit 1; }
+  [ $((SECONDS - started)) -le 10 ] || { echo "a run without rank $victim goes on" >&2; exit 1; }
+  grep -q "process rank $victim " killed.out
+  ranks=$((victim / 2 + 1))
+  went_on=$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 20 --resume killed | hash_of)
+  same "after rank $victim was killed, on $ranks ranks" "$alone" "$went_on"
+done
+
+begin hung
+process=$(rank 1)
+kill -STOP "$process"
+! wait "$running" || { echo "a run with a rank that hangs ends well" >&2; exit 1; }
+kill -9 "$process" 2>/dev/null || true
+grep -q '^cluster: rank 1 has been silent for .* s, since about tick .*--resume goes on' hung.out || {
+  cat hung.out
+  exit 1
+}
+
+# What cannot be is one line of the first rank, status 2.
+if mpirun -n 2 "$mobil" crowd --humans 20 --effects none --resume nowhere >out 2>&1; then exit 1; fi
+[ "$(grep -c '^mobil crowd:' out)" = 1 ]
+grep -q 'nowhere: no snapshot is there' out
+if mpirun -n 2 "$mobil" crowd --humans 20 --effects none --shards 1 >out 2>&1; then exit 1; fi
+grep -q '1 shards are too few for 2 ranks' out
+if mpirun -n 2 "$mobil" crowd --humans many >out 2>&1; then exit 1; fi
+[ "$(grep -c '^mobil crowd:' out)" = 1 ]

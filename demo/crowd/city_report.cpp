@@ -24,6 +24,10 @@ double waited_ms(const CityPart& part) {
   return part.ticks.empty() ? 0 : 1e3 * part.report.waited_s / static_cast<double>(part.ticks.size());
 }
 
+double mean_wall_ms(const CityRun& run) {
+  return run.ticks.empty() ? 0 : 1e3 * run.wall_s / static_cast<double>(run.ticks.size());
+}
+
 }  // namespace
 
 std::vector<std::byte> pack(const CityPart& part) {
@@ -138,7 +142,8 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
     saved += part.report.bytes_saved;
     saving_s = std::max(saving_s, part.report.saving_s);
   }
-  text += fmt::format(" ms; sent: {:.0f} bytes a tick; {} shards moved\n", run.sent_bytes_a_tick, moved);
+  text += fmt::format(" ms; all: {:.2f} ms a tick; sent: {:.0f} bytes a tick; {} shards moved\n", mean_wall_ms(run),
+                      run.sent_bytes_a_tick, moved);
   if (saved > 0)
     text += fmt::format("{} snapshots, {:.1f} MB in {:.0f} ms\n", run.parts.front().report.snapshots,
                         1e-6 * static_cast<double>(saved), 1e3 * saving_s);
@@ -161,6 +166,7 @@ std::string city_json(const CityRun& run, const CrowdOptions& options) {
   json["first_tick"] = run.first_tick;
   json["last_tick"] = run.last_tick;
   add_ticks(run.ticks, run.missed, json);
+  json["wall_ms_mean"] = mean_wall_ms(run);
   add_systems(run.systems, json);
   json["muscles_by_method"] = Json::object();
   for (std::size_t r = 0; r < run.state.muscles_by_rung.size(); ++r) {

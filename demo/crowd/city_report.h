@@ -31,6 +31,7 @@ struct CityRun {
   CityState state;
   CityCounts counts;
   double tick_s = 0, side_m = 0, sent_bytes_a_tick = 0;
+  double wall_s = 0;  // of the first rank from the first tick to the last, with waiting
   std::size_t missed = 0;
   std::uint32_t first_tick = 0, last_tick = 0;
   std::vector<std::uint64_t> hashes;

@@ -60,9 +60,10 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
   while (cluster.ticks() < run.first_tick + ticks) {
     const CityCounts counted = counts;
     const ClusterReport before = cluster.report();
-    const double cpu_s = process_cpu_now_s();
+    const double cpu_s = process_cpu_now_s(), start_s = wall_now_s();
     cluster.tick(ranks.first() ? orders_of(options, cluster.ticks(), run.tick_s, host) : std::vector<std::byte>{});
     const ClusterReport after = cluster.report();
+    run.wall_s += wall_now_s() - start_s - (after.saving_s - before.saving_s);
     CrowdTick& tick = own.ticks.emplace_back();
     tick.cpu_ms = 1e3 * (process_cpu_now_s() - cpu_s - (after.saving_s - before.saving_s));
     tick.wall_ms = 1e3 * (after.worked_s - before.worked_s);

@@ -16,6 +16,7 @@ constexpr std::array<float, 3> node_heights_m = {1.45F, 1.75F, 2.05F};
 constexpr float lowest_speed = 0.4F, speed_step = 0.3F;  // m/s
 constexpr std::size_t node_speeds = 7;
 constexpr float tenth = 0.1F, rounding = 1e-4F;
+constexpr float grid = 2 * 254;  // half a step of what `snapped` rounds to (systems/gait/asleep.h)
 
 /// What of a usual walk is how large, and by how much each number of the style makes it larger or smaller, a tenth of
 /// the number up and down.
@@ -24,7 +25,9 @@ struct Node {
   std::array<std::array<std::array<float, bound_count>, gait_parameters.size()>, 2> adds{};
   bool walked = false;  // false: nobody of that height walks so fast
 };
-using Nodes = std::array<std::array<Node, node_speeds>, node_heights_m.size()>;
+/// Speeds from the lowest up; the last is to stand.
+constexpr std::size_t standing = node_speeds;
+using Nodes = std::array<std::array<Node, node_speeds + 1>, node_heights_m.size()>;
 
 /// What is kept free below a limit, beside what the style adds: heights and speeds between those of the nodes.
 float spare(WalkBound bound) {
@@ -77,6 +80,7 @@ const Nodes& nodes() {
     for (std::size_t h = 0; h < node_heights_m.size(); ++h) {
       for (std::size_t v = 0; v < node_speeds; ++v)
         fill(node_heights_m[h], lowest_speed + speed_step * static_cast<float>(v), (*all)[h][v]);
+      fill(node_heights_m[h], 0, (*all)[h][standing]);
     }
     return all;
   }();
@@ -109,19 +113,22 @@ bool keeps(const Node& node, const GaitStyle& style) {
 bool is_within_usual(const GaitStyle& style, float part) {
   constexpr GaitStyle usual;
   return std::ranges::all_of(gait_parameters, [&](const GaitParameter& p) {
-    return std::fabs(style.*p.value - usual.*p.value) <= part * std::fabs(usual.*p.value);
+    return std::fabs(style.*p.value - usual.*p.value) <= part * std::fabs(usual.*p.value) + (p.high - p.low) / grid;
   });
 }
 
 bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {
   const float height_m = size.height_m, place = (gait.speed_m_s - lowest_speed) / speed_step;
-  if (!(height_m >= 1.35F && height_m <= 2.15F && place >= 0 && place < static_cast<float>(node_speeds - 1)))
-    return false;
+  const bool stands = gait.speed_m_s == 0;
+  if (!(height_m >= 1.35F && height_m <= 2.15F)) return false;
+  if (!stands && !(place >= 0 && place < static_cast<float>(node_speeds - 1))) return false;
   if (!is_within_usual(gait.style, tenth + rounding)) return false;
+  const auto& of_height = nodes()[height_m < 1.6F ? 0 : height_m < 1.9F ? 1 : 2];
+  if (stands) return keeps(of_height[standing], gait.style);
   const auto plain = resolve_gait(height_m, {.speed_m_s = gait.speed_m_s});
   if (!plain || !(std::fabs(gait.step_length_m - plain->step_length_m) <= 1e-3F * plain->step_length_m)) return false;
-  const std::size_t h = height_m < 1.6F ? 0 : height_m < 1.9F ? 1 : 2, v = static_cast<std::size_t>(place);
-  return keeps(nodes()[h][v], gait.style) && keeps(nodes()[h][v + 1], gait.style);
+  const auto v = static_cast<std::size_t>(place);
+  return keeps(of_height[v], gait.style) && keeps(of_height[v + 1], gait.style);
 }
 
 }  // namespace mobil

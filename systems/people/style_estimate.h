@@ -6,7 +6,7 @@
 
 namespace mobil {
 
-/// Whether each number of a style is within that part of the usual one.
+/// Whether each number of a style is within that part of the usual one, or as near as rounding makes it (`snapped`).
 bool is_within_usual(const GaitStyle& style, float part);
 
 /// True where the walk surely keeps the limits of systems/people/walk_limits.h: steps of the usual length, each number

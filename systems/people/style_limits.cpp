@@ -28,7 +28,7 @@ float held_to(std::size_t bound, Looking looking, bool usual_style) {
   struct Spare {
     double m, rad, m_s2;
   };
-  constexpr Spare close = {0.001, 0.015, 2}, rough = {0.002, 0.05, 7}, smooth = {0.001, 0.001, 2};
+  constexpr Spare close = {0.001, 0.015, 2}, rough = {0.002, 0.05, 9}, smooth = {0.001, 0.001, 2};
   const WalkLimit& limit = walk_limits()[bound];
   const Spare& spare = looking == Looking::roughly ? rough : usual_style ? smooth : close;
   const double free = limit.bound == WalkBound::under_ground    ? spare.m
@@ -284,9 +284,15 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     list->clear();
     if (list->capacity() < gaits.size()) list->reserve(2 * gaits.size());
   }
+  if (work.breaks.capacity() < gaits.size()) work.breaks.reserve(2 * gaits.size());
+  work.breaks.assign(gaits.size(), 1);
+  in_parallel(jobs, gaits.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      if (is_usual(sizes[i].height_m, gaits[i]) || surely_keeps_limits(sizes[i], gaits[i])) work.breaks[i] = 0;
+  });
   std::vector<std::size_t>& unusual = work.unusual;
   for (std::size_t i = 0; i < gaits.size(); ++i)
-    if (!is_usual(sizes[i].height_m, gaits[i]) && !surely_keeps_limits(sizes[i], gaits[i])) unusual.push_back(i);
+    if (work.breaks[i] != 0) unusual.push_back(i);
   if (unusual.empty()) return;
   const auto in_blocks = [&](std::span<const std::size_t> people, auto look_at) {
     in_parallel(jobs, (people.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
@@ -299,8 +305,6 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     });
   };
   // Few come near a limit, fewer break one: those come together in blocks of their own.
-  if (work.breaks.capacity() < gaits.size()) work.breaks.reserve(2 * gaits.size());
-  work.breaks.assign(gaits.size(), 1);
   const auto look = [&](std::span<const std::size_t> people, Looking looking) {
     in_blocks(people, [&](std::span<const std::size_t> some, StyleBlock& block) {
       const auto broken = block.broken(looking);

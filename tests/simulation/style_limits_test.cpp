@@ -321,7 +321,7 @@ TEST(StyleLimits, AreKeptWhereTheEstimateIsSure) {
     size.height_m = dice.single(1.4, 2.1);
     size.mass_kg = dice.single(18, 34) * size.height_m * size.height_m;
     GaitRequest request;
-    request.speed_m_s = dice.single(0.4, 2.2);
+    request.speed_m_s = dice(0, 4) < 1 ? 0 : dice.single(0.4, 2.2);  // some stand
     for (const GaitParameter& p : gait_parameters) {
       const double off = dice(0, 3) < 1 ? (dice(0, 1) < 0.5 ? -0.1 : 0.1) : dice(-0.1, 0.1);
       request.style.*p.value *= static_cast<float>(1 + off);

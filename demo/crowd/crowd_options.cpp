@@ -147,7 +147,7 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
     shards = *count;
   }
   if (!text.save.empty() && !text.resume.empty())
-    return fail("--save: a run that goes on saves where it was; leave --save out");
+    return fail("--save: a run that goes on by --resume saves where it was; leave --save out");
   options.city = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
   const CrowdText usual;
   for (const auto& [name, given, usually] : {std::tuple("--save-every", &text.save_every, &usual.save_every),

@@ -208,7 +208,8 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", muscles},
       {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", muscles},
       {"--baked", &text.baked,
-       "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program is taken unasked)",
+       "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program, or what an earlier run "
+       "has kept in ~/.cache/mobil, is taken unasked)",
        muscles},
       {"--shards", &text.shards,
        fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", most_shards,

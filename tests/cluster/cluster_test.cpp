@@ -11,6 +11,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "engine/row_hash.h"
 #include "systems/cluster/people_shard.h"
 #include "tests/cluster/local_run.h"
 

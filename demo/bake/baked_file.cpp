@@ -50,7 +50,7 @@ Result<void> load_baked_option(Simulation& simulation, const std::filesystem::pa
   const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
   for (const auto& file :
        {program / "mobil.baked", program / "../mobil.baked", program / "../share/mobil/mobil.baked", kept_file()}) {
-    if (std::filesystem::is_regular_file(file, none) && load_baked(simulation, file)) break;
+    if (std::filesystem::is_regular_file(file, none)) (void)load_baked(simulation, file);
   }
   return {};
 }

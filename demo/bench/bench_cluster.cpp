@@ -153,7 +153,6 @@ void tell(BenchRun& run, const ClusterTimes& times, std::size_t people, int rank
   if (ranks > 1) {
     const auto& [long_bytes, long_s] = times.ping_s.back();
     model.overhead = times.send_s;
-    model.latency = std::max(times.ping_s.front().second - times.send_s, 0.0);
     model.per_byte = (long_s - times.ping_s.front().second) / static_cast<double>(long_bytes);
     add_result(run, "cluster.share.16384.us", times.share_s, 1e-6, "us", fmt::format("to all of {} ranks", ranks));
     add_result(run, "cluster.sum.us", times.sum_s, 1e-6, "us", "of all ranks, and back");

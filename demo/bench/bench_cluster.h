@@ -8,7 +8,7 @@ namespace mobil {
 
 /// Times in s, of messages between two ranks and of a tick's work.
 struct ClusterModel {
-  double latency = 0;   // L: of a short message, beyond what sending and taking it cost
+  // Latency is none of them: the first rank is ahead, and nobody waits for a single message.
   double overhead = 0;  // o: that a rank spends on sending a message
   double per_byte = 0;  // G: more for each byte of a long one
   double person = 0;    // of one awake walker, a tick

@@ -15,6 +15,7 @@ namespace mobil {
 
 void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::optional<CrowdCamera>& pictures,
                   const std::filesystem::path& file) {
+  ranks.between_ticks();
   std::vector<PicturedPerson> seen;
   std::map<std::uint64_t, std::pair<const Simulation*, Entity>> where;
   each_shard(cluster, [&](CityShard& shard) {
@@ -41,6 +42,7 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
     if (found == where.end()) continue;
     const auto legs = makes.of(*found->second.first, found->second.second, number);
     if (!legs) ranks.stop("mobil crowd: --capture: " + legs.error().message);
+    ranks.alive();
     const auto packed = pack_legs(**legs);
     own_legs.put(number);
     own_legs.put(std::uint64_t{packed.size()});

@@ -65,8 +65,9 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
     const ClusterReport after = cluster.report();
     run.wall_s += wall_now_s() - start_s - (after.saving_s - before.saving_s);
     CrowdTick& tick = own.ticks.emplace_back();
-    tick.cpu_ms = 1e3 * (process_cpu_now_s() - cpu_s - (after.saving_s - before.saving_s));
     tick.wall_ms = 1e3 * (after.worked_s - before.worked_s);
+    // What saving took of the processor is not known apart.
+    tick.cpu_ms = after.snapshots == before.snapshots ? 1e3 * (process_cpu_now_s() - cpu_s) : tick.wall_ms;
     tick.host_ms = 1e3 * (counts.host_s - counted.host_s);
     tick.relevance_ms = 1e3 * (counts.relevance_s - counted.relevance_s);
     if ((cluster.ticks() - run.first_tick) % city_hash_every == 0 || cluster.ticks() == run.first_tick + ticks)
@@ -123,14 +124,24 @@ Result<void> prepare(const CrowdOptions& options, Ranks& ranks, Simulation& libr
   }
   if (auto done = ranks.agree(own); !done || ranks.count() == 1) return done;
   const auto baked = ranks.share(ranks.first() ? library.bake() : std::vector<std::byte>{});
-  // Another kind of processor refuses them, and makes its own.
-  if (!ranks.first()) library.load_baked(baked);
-  return {};
+  if (!ranks.first()) own = library.load_baked(baked);
+  if (!own)
+    own = fail(
+        fmt::format("rank {} cannot work with what the first rank has prepared ({}); run on processors of one kind",
+                    ranks.rank(), own.error().message));
+  return ranks.agree(own);
 }
 
 }  // namespace
 
-Result<void> run_city(const CrowdOptions& options, Ranks& ranks) {
+Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
+  CrowdOptions options = asked;
+  if (options.cluster.shards == 0) {  // as many as the run had that is gone on with
+    const auto saved = ranks.first() ? whole_snapshots(options.cluster.folder) : Result<std::vector<SavedRun>>{};
+    const auto found = ranks.agree(saved ? Result<void>() : tl::unexpected(saved.error()));
+    if (!found) return found;
+    options.cluster.shards = static_cast<std::uint32_t>(ranks.most(ranks.first() ? saved->front().shards : 0));
+  }
   Simulation library;  // of nobody: keeps what shards share, wherever they move
   CityCounts counts;
   const Cluster::Make make = city_shards(options, library, counts);

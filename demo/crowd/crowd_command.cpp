@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <string>
@@ -125,9 +126,16 @@ int run_ranks(const CrowdOptions& options) {
     by_mpi = std::move(*made);
   }
   Ranks ranks(by_mpi ? *by_mpi : alone[0], options.silence_s);
-  const auto done = ranks.agree(ranks.first() ? check_places(options) : Result<void>());
-  const auto ran = done ? run_city(options, ranks) : done;
-  return ranks.first() ? exit_status_of("crowd", ran) : ran ? 0 : 2;
+  try {
+    const auto done = ranks.agree(ranks.first() ? check_places(options) : Result<void>());
+    const auto ran = done ? run_city(options, ranks) : done;
+    return ranks.first() ? exit_status_of("crowd", ran) : ran ? 0 : 2;
+  } catch (const RanksStopped& why) {  // in one process
+    return exit_status_of("crowd", fail(why.what()));
+  } catch (const std::exception& why) {
+    if (!by_mpi) throw;
+    ranks.stop(fmt::format("mobil crowd: rank {}: {}", ranks.rank(), why.what()));
+  }
 }
 
 int run_command(const CrowdText& text) {

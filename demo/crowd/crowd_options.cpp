@@ -117,30 +117,28 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
 }
 
 /// What makes a run another one: who they are and what is simulated of them.
-std::string about_run(const CrowdText& text, std::uint32_t shards) {
-  const std::pair<const char*, const std::string*> values[] = {{"--humans", &text.humans},
-                                                               {"--alive", &text.alive},
-                                                               {"--in-view", &text.in_view},
-                                                               {"--seed", &text.seed},
-                                                               {"--tolerance", &text.tolerance},
-                                                               {"--near", &text.near},
-                                                               {"--near-tolerance", &text.near_tolerance},
-                                                               {"--budget", &text.budget},
-                                                               {"--effects", &text.effects},
-                                                               {"--churn", &text.churn},
-                                                               {"--burst", &text.burst}};
-  std::string about = fmt::format("--shards {}", shards);
-  for (const auto& [name, value] : values)
-    if (!value->empty() && !(name == std::string_view("--humans") && !text.alive.empty()))
-      about += fmt::format(" {} {}", name, *value);
-  if (text.all_seen) about += " --all-seen";
-  return about;
+std::string about_run(const CrowdOptions& options) {
+  if (options.alive) {
+    const AliveRequest& alive = *options.alive;
+    return fmt::format("--alive {} --in-view {} --seed {}{}", alive.alive, alive.in_view, alive.seed,
+                       alive.muscles ? "" : " --effects none");
+  }
+  const CrowdRequest& crowd = options.crowd;
+  std::string about = fmt::format(
+      "--humans {} --seed {} --tolerance {}mm --near {} --near-tolerance {}mm --churn {} --burst {}", crowd.humans,
+      crowd.seed, 1e3 * crowd.tolerance_m, crowd.near, 1e3 * crowd.near_tolerance_m, crowd.churn_per_s, crowd.burst);
+  if (crowd.budget_s) about += fmt::format(" --budget {}ms", 1e3 * *crowd.budget_s);
+  std::string of_effects;
+  for (const NamedEffect& effect : effects)
+    if (crowd.effects.*effect.on) of_effects += (of_effects.empty() ? "" : ",") + std::string(effect.name);
+  about += " --effects " + (of_effects.empty() ? "none" : of_effects);
+  return crowd.all_seen ? about + " --all-seen" : about;
 }
 
 /// Several shards or ranks, and runs that are saved.
 Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
   const bool ranks = started_as_rank();
-  std::uint64_t shards = ranks ? usual_shards : 1;
+  std::uint64_t shards = !text.resume.empty() ? 0 : ranks ? usual_shards : 1;
   if (!text.shards.empty()) {
     const auto count = read_count("--shards", text.shards, 1, most_shards);
     if (!count) return tl::unexpected(count.error());
@@ -176,7 +174,7 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
   cluster.balance_every = static_cast<std::uint32_t>(std::lround(*balance / tick_s));
   cluster.resume = !text.resume.empty();
   cluster.folder = cluster.resume ? text.resume : text.save;
-  cluster.about = about_run(text, cluster.shards);
+  cluster.about = about_run(options);
   // A rank is a process beside others: it has one thread where nobody says otherwise.
   if (ranks && text.threads == usual.threads) {
     options.crowd.threads = 1;

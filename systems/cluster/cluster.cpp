@@ -26,17 +26,24 @@ Cluster::Cluster(Ranks& ranks, const ClusterOptions& options, Make make)
     : ranks_(&ranks), options_(options), make_(std::move(make)) {}
 
 Result<Cluster> Cluster::begin(Ranks& ranks, const ClusterOptions& options, Make make) {
-  if (options.shards < static_cast<std::uint32_t>(ranks.count()) || options.meet_every == 0) {
+  if (options.meet_every == 0) return fail("cluster: ranks must meet; give a meet_every of 1 and more");
+  if (options.shards < static_cast<std::uint32_t>(ranks.count())) {
     return fail(fmt::format("cluster: {} shards are too few for {} ranks; give at least one a rank", options.shards,
                             ranks.count()));
   }
   if (options.resume && options.folder.empty()) return fail("cluster: a run goes on from a folder; name it");
-  Result<void> free;
-  if (ranks.first() && !options.resume && !options.folder.empty() && last_snapshot(options.folder))
-    free = fail(
-        fmt::format("{}: holds a run already; go on with that one, or name another folder", options.folder.string()));
-  if (auto done = ranks.agree(free); !done) return tl::unexpected(done.error());
   Cluster cluster(ranks, options, std::move(make));
+  Result<void> own;
+  if (ranks.first() && !options.folder.empty()) {
+    auto whole = options.resume ? whole_snapshots(options.folder) : std::vector<SavedRun>{};
+    auto lock = whole ? FolderLock::take(options.folder) : tl::unexpected(whole.error());
+    if (!lock) own = tl::unexpected(lock.error());
+    if (lock) cluster.lock_ = std::move(*lock);
+    if (own && !options.resume && holds_a_run(options.folder))
+      own = fail(
+          fmt::format("{}: holds a run already; go on with that one, or name another folder", options.folder.string()));
+  }
+  if (auto done = ranks.agree(own); !done) return tl::unexpected(done.error());
   const auto done = options.resume ? cluster.restore() : cluster.populate();
   if (!done) return tl::unexpected(done.error());
   if (!options.folder.empty() && !options.resume) {
@@ -65,6 +72,7 @@ Result<void> Cluster::populate() {
     if (shard == nullptr || !own) continue;
     own = shard->populate();
     ticks = std::max<std::uint64_t>(ticks, shard->ticks());
+    ranks_->alive();
   }
   if (auto done = ranks_->agree(own); !done) return done;
   ticks_ = static_cast<std::uint32_t>(ranks_->most(ticks));
@@ -77,64 +85,84 @@ Result<void> Cluster::populate() {
   return ranks_->agree(own);
 }
 
+/// From the last snapshot that all ranks can read.
 Result<void> Cluster::restore() {
-  Result<SavedRun> last = ranks_->first() ? last_snapshot(options_.folder) : Result<SavedRun>(SavedRun{});
-  if (last && ranks_->first() && last->about != options_.about)
-    last = fail(fmt::format("{}: is of another run, which was asked for {}; ask for the same", options_.folder.string(),
-                            last->about));
-  if (last && ranks_->first() && last->shards != options_.shards)
-    last = fail(fmt::format("{}: has {} shards; give as many", options_.folder.string(), last->shards));
-  if (auto done = ranks_->agree(last ? Result<void>() : tl::unexpected(last.error())); !done) return done;
-  last = unpack_run(ranks_->share(pack(*last)));
-  if (!last) return tl::unexpected(last.error());
-  ticks_ = last->tick;
-  restored_host_ = last->host;
+  std::vector<SavedRun> whole;
+  Result<void> own;
+  if (ranks_->first()) {
+    auto found = whole_snapshots(options_.folder);
+    if (found) whole = std::move(*found);
+    if (!found) own = tl::unexpected(found.error());
+    const SavedRun last = found ? whole.front() : SavedRun{};
+    if (found && last.about != options_.about)
+      own = fail(fmt::format("{}: is of another run: that one was asked for {}, this one for {}",
+                             options_.folder.string(), last.about, options_.about));
+    if (own && last.shards != options_.shards)
+      own = fail(fmt::format("{}: has {} shards, not {}; give as many", options_.folder.string(), last.shards,
+                             options_.shards));
+  }
+  if (auto done = ranks_->agree(own); !done) return done;
+  const auto count = ranks_->most(whole.size());
+  std::string why;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto run = unpack_run(ranks_->share(ranks_->first() ? pack(whole[i]) : std::vector<std::byte>{}));
+    if (!run) return tl::unexpected(run.error());
+    const auto done = restore_from(*run);
+    if (done) return done;
+    if (why.empty()) why = done.error().message;
+  }
+  return fail(why);
+}
+
+Result<void> Cluster::restore_from(const SavedRun& run) {
+  ticks_ = run.tick;
+  restored_host_ = run.host;
   Result<void> own = make_own();
   for (std::uint32_t s = 0; s < options_.shards && own; ++s) {
     if (shards_[s] == nullptr) continue;
     const auto bytes = read_shard(options_.folder, ticks_, s);
     own = bytes ? shards_[s]->restore(*bytes) : tl::unexpected(bytes.error());
     if (own && shards_[s]->ticks() != ticks_) own = fail(fmt::format("shard {} is of another tick", s));
+    ranks_->alive();
   }
   if (auto done = ranks_->agree(own); !done) return done;
   const std::uint64_t hash = state_hash();
-  if (hash != last->state_hash)
+  if (hash != run.state_hash)
     return fail(
         fmt::format("{}: what was restored has the state hash {:016x}, and what was saved {:016x}: another "
                     "version or another kind of processor made it",
-                    options_.folder.string(), hash, last->state_hash));
+                    options_.folder.string(), hash, run.state_hash));
   if (ranks_->first()) {
     auto log = CommandLog::resume(options_.folder, ticks_, replay_);
     own = log ? Result<void>() : tl::unexpected(log.error());
     if (log) log_ = std::move(*log);
   }
+  saved_tick_ = ticks_;
   return ranks_->agree(own);
 }
 
-/// Written before anybody acts on them.
+/// Written before anybody acts on them; what is being repeated lies in the log already.
 std::span<const std::byte> Cluster::commands_of_tick(std::span<const std::byte> commands) {
   if (!ranks_->first()) return ranks_->take_commands(ticks_);
-  bool logged = !log_;
   if (report_.replayed < replay_.size()) {
     commands = replay_[report_.replayed].commands;
     ++report_.replayed;
-    logged = logged || report_.snapshots == 0;  // they lie in the log that they came from
-  }
-  if (!logged) {
+  } else if (log_) {
     if (auto done = log_->add(ticks_, commands); !done) ranks_->stop("cluster: " + done.error().message);
   }
   ranks_->send_commands(ticks_, commands);
   return commands;
 }
 
-void Cluster::tick(std::span<const std::byte> commands) {
+std::span<const std::byte> Cluster::tick(std::span<const std::byte> commands) {
   ranks_->at_tick(ticks_);
   const auto now = commands_of_tick(commands);
+  carried_out_.assign(now.begin(), now.end());
   const Stopwatch work;
   for (std::uint32_t s = 0; s < shards_.size(); ++s) {
     if (shards_[s] == nullptr) continue;
     const Stopwatch one;
-    if (auto done = shards_[s]->apply(now); !done)
+    if (auto done = shards_[s]->apply(carried_out_); !done)
       ranks_->stop(
           fmt::format("cluster: shard {} on rank {} at tick {}: {}", s, ranks_->rank(), ticks_, done.error().message));
     shards_[s]->tick();
@@ -146,8 +174,10 @@ void Cluster::tick(std::span<const std::byte> commands) {
   ++ticks_;
   if (ticks_ % options_.meet_every == 0) ranks_->sum(std::uint64_t{0});
   if (options_.balance_every > 0 && ticks_ % options_.balance_every == 0) balance();
-  if (options_.folder.empty() || options_.save_every == 0 || ticks_ % options_.save_every != 0) return;
-  if (auto done = save(); !done) ranks_->stop("cluster: " + done.error().message);
+  if (!options_.folder.empty() && options_.save_every != 0 && ticks_ % options_.save_every == 0) {
+    if (auto done = save(); !done) ranks_->stop("cluster: " + done.error().message);
+  }
+  return carried_out_;
 }
 
 std::uint64_t Cluster::state_hash() {
@@ -158,6 +188,8 @@ std::uint64_t Cluster::state_hash() {
 }
 
 Result<void> Cluster::save() {
+  if (options_.folder.empty()) return fail("cluster: a snapshot needs a folder; name one (ClusterOptions::folder)");
+  if (saved_tick_ == ticks_) return {};
   const Stopwatch time;
   Result<void> own;
   for (std::uint32_t s = 0; s < shards_.size() && own; ++s) {
@@ -169,19 +201,25 @@ Result<void> Cluster::save() {
   }
   const std::uint64_t hash = state_hash();
   if (auto done = ranks_->agree(own); !done) return done;
-  if (ranks_->first()) {
-    // The commands from here on begin a file of their own before the index is there: whoever finds the one finds the
-    // other.
-    auto log = CommandLog::begin(options_.folder, ticks_);
-    own = log ? Result<void>() : tl::unexpected(log.error());
-    if (log) log_ = std::move(*log);
-    SavedRun run{ticks_, options_.shards, hash, options_.about,
-                 options_.host ? options_.host() : std::vector<std::byte>{}};
-    if (own) own = write_index(options_.folder, run);
-  }
+  if (ranks_->first()) write_snapshot(hash, own);
+  if (auto done = ranks_->agree(own); !done) return done;
+  saved_tick_ = ticks_;
   ++report_.snapshots;
   report_.saving_s += time.seconds();
-  return ranks_->agree(own);
+  return {};
+}
+
+/// What comes from here on begins a log of its own, with what is still to be repeated in it, before the index is there:
+/// whoever finds the one finds the other. Until then the old log goes on.
+void Cluster::write_snapshot(std::uint64_t hash, Result<void>& own) {
+  auto log = CommandLog::begin(options_.folder, ticks_, std::span(replay_).subspan(report_.replayed));
+  if (!log) {
+    own = tl::unexpected(log.error());
+    return;
+  }
+  own = write_index(options_.folder, {ticks_, options_.shards, hash, options_.about,
+                                      options_.host ? options_.host() : std::vector<std::byte>{}});
+  if (own) log_ = std::move(*log);
 }
 
 /// All ranks know all costs, and come to the same plan.

@@ -10,7 +10,8 @@
 //   cluster->state_hash();                        // the same on any number of ranks
 //
 // All ranks call the same functions in the same order. Where one of them fails within a tick the work of all ends, with
-// one line that says where (Ranks::stop): a crowd of which a part is missing is of no use.
+// one line that says where (Ranks::stop): a crowd of which a part is missing is of no use. A host that catches an
+// exception does the same, for the others wait for it.
 
 #include <cstddef>
 #include <cstdint>
@@ -62,16 +63,18 @@ class Cluster {
   static Result<Cluster> begin(Ranks& ranks, const ClusterOptions& options, Make make);
 
   /// One tick of all. `commands`: the first rank's; those of others are ignored, and so are the first rank's where the
-  /// log of a run that goes on has some of that tick.
-  void tick(std::span<const std::byte> commands = {});
+  /// log of a run that goes on has some of that tick. What was carried out, until the next call.
+  std::span<const std::byte> tick(std::span<const std::byte> commands = {});
   std::uint32_t ticks() const { return ticks_; }
-  /// Of everybody: that of one simulation that had them all, at the same tick.
+  /// Of everybody. Where shards hand over Simulation::state_sum alone: that of one simulation that had them all, at the
+  /// same tick.
   std::uint64_t state_hash();
-  /// A snapshot now. Errors, the same on all ranks: a folder that cannot be written; the last one stays.
+  /// A snapshot now; nothing where the last one is of this tick. Errors, the same on all ranks: no folder was named, it
+  /// cannot be written; the last one stays.
   Result<void> save();
 
   const ClusterOptions& options() const { return options_; }
-  /// Null where another rank has it. Until the next `tick`, if shards may move.
+  /// `number`: below the options' shards. Null where another rank has it. Until the next `tick`, if shards may move.
   Shard* shard(std::uint32_t number) { return shards_[number].get(); }
   std::span<const int> owner() const { return owner_; }
   /// What the host kept in the snapshot that the run went on from; at the first rank.
@@ -83,7 +86,9 @@ class Cluster {
   Result<void> make_own();
   Result<void> populate();
   Result<void> restore();
+  Result<void> restore_from(const SavedRun& run);
   std::span<const std::byte> commands_of_tick(std::span<const std::byte> commands);
+  void write_snapshot(std::uint64_t hash, Result<void>& own);
   void balance();
 
   Ranks* ranks_;
@@ -92,9 +97,11 @@ class Cluster {
   std::vector<std::unique_ptr<Shard>> shards_;
   std::vector<int> owner_;
   std::vector<std::uint64_t> cost_us_;  // by shard, since shards moved last
-  std::optional<CommandLog> log_;       // at the first rank
+  std::optional<FolderLock> lock_;      // at the first rank, and the next
+  std::optional<CommandLog> log_;
+  std::optional<std::uint32_t> saved_tick_;
   std::vector<LoggedCommands> replay_;
-  std::vector<std::byte> restored_host_;
+  std::vector<std::byte> restored_host_, carried_out_;
   std::uint32_t ticks_ = 0;
   ClusterReport report_;
 };

@@ -40,12 +40,13 @@ std::vector<std::byte> seal_message(const Message& message) {
 
 Result<Message> take_message(std::span<const std::byte>& in) {
   Header header{};
-  if (in.size() < sizeof header) return fail("a message was cut: its beginning is missing");
+  if (in.size() < sizeof header) return fail("a message was cut: its beginning is missing", Status::missing);
   std::memcpy(&header, in.data(), sizeof header);
   if (header.magic != magic) return fail("these bytes are no message of this version of mobil");
   const auto left = in.subspan(sizeof header);
   if (header.bytes > left.size())
-    return fail(fmt::format("a message was cut: {} of its {} bytes are there", left.size(), header.bytes));
+    return fail(fmt::format("a message was cut: {} of its {} bytes are there", left.size(), header.bytes),
+                Status::missing);
   const auto bytes = left.first(static_cast<std::size_t>(header.bytes));
   if (header.seal != seal_of(header, bytes)) return fail("a message was altered on its way: its seal does not fit");
   in = left.subspan(bytes.size());

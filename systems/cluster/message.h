@@ -23,8 +23,8 @@ struct Message {
 /// The message as it travels and as it lies in files; into memory that is kept for the next one.
 void seal_message(const Message& message, std::vector<std::byte>& out);
 std::vector<std::byte> seal_message(const Message& message);
-/// The first message of `in`, which then begins behind it. Errors, `in` staying as it is: too few bytes, bytes that are
-/// no message of this version or that were altered.
+/// The first message of `in`, which then begins behind it. Errors, `in` staying as it is: too few bytes
+/// (Status::missing); bytes that are no message of this version or that were altered.
 Result<Message> take_message(std::span<const std::byte>& in);
 /// The one message that `in` is. Errors: the same; more bytes than the message has; another kind.
 Result<Message> open_message(std::span<const std::byte> in, MessageKind kind);

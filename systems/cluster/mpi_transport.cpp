@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <exception>
 #include <iterator>
 #include <list>
 #endif
@@ -40,8 +41,11 @@ class MpiTransport : public Transport {
     MPI_Comm_dup(MPI_COMM_WORLD, &ranks_of_ours_);
     MPI_Comm_rank(ranks_of_ours_, &rank_);
     MPI_Comm_size(ranks_of_ours_, &ranks_);
+    coming_.resize(static_cast<std::size_t>(ranks_ * channel_count));
   }
+  /// After an exception nobody can end in order: the others wait for this rank.
   ~MpiTransport() override {
+    if (std::uncaught_exceptions() > 0) stop("cluster: a rank ends by an exception");
     for (Sent& one : sent_) MPI_Waitall(static_cast<int>(one.pieces.size()), one.pieces.data(), MPI_STATUSES_IGNORE);
     // Signs of life that nobody waited for are taken all the same: some MPIs complain of what is left.
     std::vector<std::byte> left;
@@ -72,20 +76,30 @@ class MpiTransport : public Transport {
     }
   }
 
+  /// A long message comes in while this rank goes on looking: nothing here waits for its sender.
   bool take(int from, Channel channel, std::vector<std::byte>& bytes) override {
-    int there = 0;
-    MPI_Message message;
-    MPI_Status status;
-    MPI_Improbe(from, static_cast<int>(channel), ranks_of_ours_, &there, &message, &status);
-    if (there == 0) return false;
-    for (std::size_t at = 0;;) {
-      int count = 0;
-      MPI_Get_count(&status, MPI_BYTE, &count);
-      bytes.resize(at + static_cast<std::size_t>(count));
-      MPI_Mrecv(bytes.data() + at, count, MPI_BYTE, &message, MPI_STATUS_IGNORE);
-      if (bytes.size() - at < piece_bytes) return true;
-      at = bytes.size();
-      MPI_Mprobe(from, static_cast<int>(channel), ranks_of_ours_, &message, &status);
+    Coming& coming = coming_[static_cast<std::size_t>(from * channel_count + static_cast<int>(channel))];
+    for (;;) {
+      if (!coming.on_its_way) {
+        int there = 0, count = 0;
+        MPI_Message message;
+        MPI_Status status;
+        MPI_Improbe(from, static_cast<int>(channel), ranks_of_ours_, &there, &message, &status);
+        if (there == 0) return false;
+        MPI_Get_count(&status, MPI_BYTE, &count);
+        coming.at = coming.bytes.size();
+        coming.bytes.resize(coming.at + static_cast<std::size_t>(count));
+        MPI_Imrecv(coming.bytes.data() + coming.at, count, MPI_BYTE, &message, &coming.request);
+        coming.on_its_way = true;
+      }
+      int done = 0;
+      MPI_Test(&coming.request, &done, MPI_STATUS_IGNORE);
+      if (done == 0) return false;
+      coming.on_its_way = false;
+      if (coming.bytes.size() - coming.at == piece_bytes) continue;  // more of it follows
+      bytes.swap(coming.bytes);
+      coming.bytes.clear();
+      return true;
     }
   }
 
@@ -102,6 +116,13 @@ class MpiTransport : public Transport {
     std::vector<MPI_Request> pieces;
   };
 
+  struct Coming {
+    std::vector<std::byte> bytes;
+    std::size_t at = 0;  // of the piece that is on its way
+    MPI_Request request = MPI_REQUEST_NULL;
+    bool on_its_way = false;
+  };
+
   /// For the memory: fresh pages cost more than what is copied into them.
   void keep_what_arrived() {
     for (auto one = sent_.begin(); one != sent_.end();) {
@@ -116,6 +137,7 @@ class MpiTransport : public Transport {
   MPI_Comm ranks_of_ours_ = MPI_COMM_NULL;
   int rank_ = 0, ranks_ = 1;
   std::list<Sent> sent_, spare_;
+  std::vector<Coming> coming_;  // by sender and channel
 };
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "systems/cluster/people_shard.h"
 
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "engine/row_hash.h"
@@ -57,7 +58,7 @@ PeopleShard::PeopleShard(std::uint32_t shard, const PeopleShardOptions& options)
     : shard_(shard), options_(options), simulation_(options.simulation) {
   if (!options.muscles) return;
   relevance_.emplace(simulation_, choosing(*options.muscles));
-  relevance_->set_scene(options.scene);
+  if (auto done = relevance_->set_scene(options.scene); !done) throw std::invalid_argument(done.error().message);
 }
 
 Entity PeopleShard::find(std::uint64_t number) const {
@@ -71,7 +72,8 @@ Result<void> PeopleShard::apply(std::span<const std::byte> commands) {
   if (!reader.whole()) return fail("people's commands are no whole number of commands; make them of PersonCommand");
   for (const PersonCommand& command : all) {
     if (command.wish != Wish::look && shard_of(command.number, options_.shards) != shard_) continue;
-    refused_ += obey(command) ? 0 : 1;
+    const bool counts = command.wish != Wish::look || shard_ == 0;  // all shards are asked to look: one tells
+    refused_ += obey(command) || !counts ? 0 : 1;
   }
   if (relevance_) relevance_->update();
   return {};
@@ -139,7 +141,7 @@ bool PeopleShard::obey_look(const PersonCommand& command) {
                            .near_m = value[8],
                            .reach_m = value[9]};
   needs.tolerance_px = value[10];
-  if (value[11] != 0) needs.asleep_beyond_m = value[11];
+  needs.asleep_beyond_m = value[11] != 0 ? std::optional(value[11]) : std::nullopt;
   if (!relevance_->set_scene(needs)) return false;
   looked_ = command;
   return true;
@@ -149,14 +151,24 @@ void PeopleShard::tick() {
   simulation_.tick();
 }
 
-/// With who has which number: two people who are alike may not change places unnoticed.
+/// With who has which number: two people may not change places unnoticed.
 std::uint64_t PeopleShard::state_sum() const {
   std::uint64_t sum = simulation_.state_sum();
   for (const auto& [number, entity] : people_) {
-    const auto size = simulation_.get<BodySize>(entity);
-    std::uint32_t height = 0;
-    if (size) std::memcpy(&height, &size->height_m, sizeof height);
-    sum += mix64(mix64(number) ^ height);
+    struct {
+      float height_m = 0, mass_kg = 0, x_m = 0, z_m = 0, time_s = 0, heading_rad = 0;
+    } who;
+    if (const auto size = simulation_.get<BodySize>(entity)) {
+      who.height_m = size->height_m;
+      who.mass_kg = size->mass_kg;
+    }
+    if (const auto state = simulation_.get<GaitState>(entity)) {
+      who.x_m = state->line_x_m;
+      who.z_m = state->line_z_m;
+      who.time_s = state->time_s;
+      who.heading_rad = state->heading_rad;
+    }
+    sum += mix64(mix64(number) ^ hash_bytes(&who, sizeof who));
   }
   return sum;
 }

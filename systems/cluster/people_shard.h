@@ -30,12 +30,12 @@ PersonCommand go(std::uint64_t number);
 PersonCommand walk(std::uint64_t number, float speed_m_s);
 PersonCommand turn(std::uint64_t number, float heading_rad);
 PersonCommand place(std::uint64_t number, float x_m, float z_m, float heading_rad);
-/// `asleep_beyond_m`: 0: nobody sleeps.
+/// `asleep_beyond_m`: as SceneNeeds has it; 0: nobody is put to sleep from then on.
 PersonCommand look(const Viewpoint& camera, float tolerance_px, float asleep_beyond_m);
 
 struct PeopleShardOptions {
   std::uint32_t shards = 16;  // of the crowd
-  /// Of the simulation; give all shards of a rank the first one's library (`library_of`).
+  /// Of the simulation; give all shards of a rank one library (`library_of`), of a simulation that outlives them.
   SimulationOptions simulation{};
   /// Of everybody who comes; left out: they have none, and there is no Relevance.
   std::optional<LegMuscles> muscles{};
@@ -44,7 +44,10 @@ struct PeopleShardOptions {
 
 class PeopleShard : public Shard {
  public:
+  /// Throws std::invalid_argument where options.simulation or options.scene is out of range.
   PeopleShard(std::uint32_t shard, const PeopleShardOptions& options);
+  PeopleShard(const PeopleShard&) = delete;  // its Relevance knows where its simulation is
+  PeopleShard& operator=(const PeopleShard&) = delete;
 
   /// Nobody: all come by commands.
   Result<void> populate() override { return {}; }

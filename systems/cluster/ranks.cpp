@@ -68,11 +68,9 @@ Message Ranks::wait(int from, Channel channel, MessageKind kind) {
       std::this_thread::yield();
       continue;
     }
-    if (watching_) {
-      alive();
-      listen();
-      look_for_silence(waiting_s, from);
-    }
+    alive();
+    listen();
+    look_for_silence(waiting_s, from);
     std::this_thread::sleep_for(nap);
   }
 }
@@ -176,8 +174,7 @@ std::vector<std::byte> Ranks::receive(int from) {
 
 void Ranks::at_tick(std::uint32_t tick) {
   tick_ = tick;
-  if (!watching_) {
-    watching_ = true;
+  if (!std::exchange(within_ticks_, true)) {
     for (Heard& one : heard_) one = {tick, Steady::now()};
     say_alive();
   } else if (tick % beat_ticks == 0) {
@@ -187,7 +184,7 @@ void Ranks::at_tick(std::uint32_t tick) {
 }
 
 void Ranks::alive() {
-  if (watching_ && seconds_since(said_) > silence_s_ / 8) say_alive();
+  if (seconds_since(said_) > silence_s_ / 8) say_alive();
 }
 
 void Ranks::say_alive() {
@@ -209,17 +206,18 @@ void Ranks::listen() {
 /// The first rank hears everybody and names who is silent; others can tell of the first one alone, and give it time to
 /// name somebody else.
 void Ranks::look_for_silence(double waiting_s, int from) {
-  if (waiting_s < silence_s_) return;
+  const double limit = limit_s();
+  if (waiting_s < limit) return;
   if (first()) {
     const auto oldest = std::ranges::min_element(heard_, {}, &Heard::when);
     const double silent_s = seconds_since(oldest->when);
-    if (silent_s < silence_s_) return;  // all say that they are alive: one of them works long
+    if (silent_s < limit) return;  // all say that they are alive: one of them works long
     stop(
         fmt::format("cluster: rank {} has been silent for {:.1f} s, since about tick {}; the run stops, --resume goes "
                     "on from the last snapshot",
                     oldest - heard_.begin(), silent_s, oldest->tick));
   }
-  if (waiting_s > 3 * silence_s_ && from == 0)
+  if (waiting_s > 3 * limit && from == 0)
     stop(
         fmt::format("cluster: rank 0 has been silent for {:.1f} s; the run stops, --resume goes on from the last "
                     "snapshot",

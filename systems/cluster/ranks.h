@@ -18,7 +18,9 @@ namespace mobil {
 
 class Ranks {
  public:
-  /// `silence_s`: a rank that says nothing for so long stops the work of all, from its first tick on.
+  /// `silence_s`: a rank that says nothing for so long within ticks stops the work of all; ten times as long before the
+  /// first tick and after `between_ticks`; three times as long as either where it is the first rank, whom the others
+  /// must not name too soon.
   explicit Ranks(Transport& transport, double silence_s = 60);
 
   int rank() const { return transport_.rank(); }
@@ -42,7 +44,7 @@ class Ranks {
 
   /// The commands of a tick, handed on to all ranks; the first one does not wait for the others.
   void send_commands(std::uint32_t tick, std::span<const std::byte> commands);
-  /// Good until the next call of a function of this object.
+  /// Good until the next call that waits for another rank.
   std::span<const std::byte> take_commands(std::uint32_t tick);
   /// From one to another, apart from all the rest.
   void send(int to, std::span<const std::byte> bytes);
@@ -52,6 +54,8 @@ class Ranks {
   void at_tick(std::uint32_t tick);
   /// It works on: to be said between parts of what may take long.
   void alive();
+  /// From here to the next tick something is done that may take long.
+  void between_ticks() { within_ticks_ = false; }
   /// Ends the work of all ranks with that line.
   [[noreturn]] void stop(const std::string& line);
 
@@ -75,11 +79,12 @@ class Ranks {
   void say_alive();
   void listen();
   void look_for_silence(double waiting_s, int from);
+  double limit_s() const { return within_ticks_ ? silence_s_ : 10 * silence_s_; }
   int parent() const { return rank() & (rank() - 1); }
 
   Transport& transport_;
   double silence_s_;
-  bool watching_ = false;
+  bool within_ticks_ = false;
   std::uint32_t tick_ = 0;
   std::chrono::steady_clock::time_point said_;
   std::vector<Heard> heard_;                // by rank; at the first rank

@@ -1,6 +1,9 @@
 #include "systems/cluster/saved_run.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -11,7 +14,6 @@
 #include <system_error>
 #include <utility>
 
-#include "assets/files/output_file.h"
 #include "systems/cluster/message.h"
 
 namespace mobil {
@@ -35,6 +37,9 @@ std::string_view text_of(std::span<const std::byte> bytes) {
 }
 
 Result<std::vector<std::byte>> read_bytes(const fs::path& path) {
+  std::error_code error;
+  if (!fs::is_regular_file(path, error))
+    return fail(fmt::format("{}: cannot be read, there is no such file", path.string()));
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   const auto size = in ? static_cast<std::streamoff>(in.tellg()) : -1;
   if (size < 0) return fail(fmt::format("{}: cannot be read ({})", path.string(), std::strerror(errno)));
@@ -59,6 +64,34 @@ std::vector<std::uint32_t> snapshot_ticks(const fs::path& folder) {
   }
   std::ranges::sort(ticks, std::greater());
   return ticks;
+}
+
+/// Whole under its name, or not at all. The name meanwhile is the file's own: ranks on other machines may have the same
+/// process number, and each file has one writer.
+Result<void> write_whole(const fs::path& path, std::span<const std::byte> bytes) {
+  fs::path meanwhile = path;
+  meanwhile += ".new";
+  std::ofstream out(meanwhile, std::ios::binary | std::ios::trunc);
+  out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  out.close();
+  std::error_code error;
+  if (out) fs::rename(meanwhile, path, error);
+  if (out && !error) return {};
+  fs::remove(meanwhile, error);
+  return fail(fmt::format("{}: cannot be written; choose a folder that is writable and has space", path.string()));
+}
+
+/// What is ours in it, and the folder itself where nothing else is there.
+void remove_snapshot(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> ours;
+  for (const auto& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with("shard_") || name.starts_with("index") || name.starts_with("commands"))
+      ours.push_back(entry.path());
+  }
+  for (const fs::path& file : ours) fs::remove(file, error);
+  fs::remove(folder, error);
 }
 
 Result<void> make_folder(const fs::path& folder) {
@@ -102,7 +135,7 @@ Result<void> write_shard(const fs::path& folder, std::uint32_t tick, std::uint32
   std::vector<std::byte> named(sizeof shard + bytes.size());
   std::memcpy(named.data(), &shard, sizeof shard);
   std::ranges::copy(bytes, named.begin() + sizeof shard);
-  return write_file(shard_file(folder, tick, shard), text_of(seal_message({MessageKind::shard, tick, named})));
+  return write_whole(shard_file(folder, tick, shard), seal_message({MessageKind::shard, tick, named}));
 }
 
 Result<std::vector<std::byte>> read_shard(const fs::path& folder, std::uint32_t tick, std::uint32_t shard) {
@@ -120,18 +153,18 @@ Result<std::vector<std::byte>> read_shard(const fs::path& folder, std::uint32_t 
 
 Result<void> write_index(const fs::path& folder, const SavedRun& run) {
   const auto sealed = seal_message({MessageKind::index, run.tick, pack(run)});
-  if (auto done = write_file(snapshot_folder(folder, run.tick) / "index", text_of(sealed)); !done) return done;
+  if (auto done = write_whole(snapshot_folder(folder, run.tick) / "index", sealed); !done) return done;
   std::size_t whole = 0;
   for (const std::uint32_t tick : snapshot_ticks(folder)) {
-    const fs::path old = snapshot_folder(folder, tick);
     std::error_code error;
-    if (tick <= run.tick && fs::exists(old / "index", error) && ++whole <= kept) continue;
-    fs::remove_all(old, error);
+    if (tick <= run.tick && fs::exists(snapshot_folder(folder, tick) / "index", error) && ++whole <= kept) continue;
+    remove_snapshot(snapshot_folder(folder, tick));
   }
   return {};
 }
 
-Result<SavedRun> last_snapshot(const fs::path& folder) {
+Result<std::vector<SavedRun>> whole_snapshots(const fs::path& folder) {
+  std::vector<SavedRun> whole;
   std::string why = "no snapshot is there";
   for (const std::uint32_t tick : snapshot_ticks(folder)) {
     const fs::path path = snapshot_folder(folder, tick) / "index";
@@ -139,44 +172,80 @@ Result<SavedRun> last_snapshot(const fs::path& folder) {
     if (!sealed) continue;  // it was being written
     const auto message = open_message(*sealed, MessageKind::index);
     auto run = message ? unpack_run(message->bytes) : tl::unexpected(message.error());
-    if (run && run->tick == tick) return run;
-    why = fmt::format("{}: {}", path.string(), run ? "is of another tick" : run.error().message);
+    if (run && run->tick == tick)
+      whole.push_back(std::move(*run));
+    else
+      why = fmt::format("{}: {}", path.string(), run ? "is of another tick" : run.error().message);
   }
+  if (!whole.empty()) return whole;
   return fail(fmt::format("{}: {}; name the folder that a run with --save wrote", folder.string(), why));
 }
 
-Result<CommandLog> CommandLog::begin(const fs::path& folder, std::uint32_t tick) {
+bool holds_a_run(const fs::path& folder) {
+  return !snapshot_ticks(folder).empty();
+}
+
+Result<FolderLock> FolderLock::take(const fs::path& folder) {
+  if (auto made = make_folder(folder); !made) return tl::unexpected(made.error());
+  const int file = ::open((folder / "lock").c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666);
+  if (file < 0) return fail(fmt::format("{}: cannot be written ({})", folder.string(), std::strerror(errno)));
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0) return FolderLock(file);
+  ::close(file);
+  return fail(fmt::format("{}: another run is writing there; end it, or name another folder", folder.string()));
+}
+
+FolderLock::FolderLock(FolderLock&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
+FolderLock& FolderLock::operator=(FolderLock&& other) noexcept {
+  std::swap(file_, other.file_);
+  return *this;
+}
+FolderLock::~FolderLock() {
+  if (file_ >= 0) ::close(file_);
+}
+
+Result<CommandLog> CommandLog::begin(const fs::path& folder, std::uint32_t tick,
+                                     std::span<const LoggedCommands> first) {
   CommandLog log;
   log.path_ = snapshot_folder(folder, tick) / "commands";
   log.file_.reset(std::fopen(log.path_.c_str(), "wbe"));
   if (log.file_ == nullptr)
     return fail(fmt::format("{}: cannot be written ({})", log.path_.string(), std::strerror(errno)));
+  for (const LoggedCommands& one : first)
+    if (auto done = log.add(one.tick, one.commands); !done) return tl::unexpected(done.error());
   return log;
 }
 
 Result<CommandLog> CommandLog::resume(const fs::path& folder, std::uint32_t tick, std::vector<LoggedCommands>& logged) {
   logged.clear();
-  const fs::path path = snapshot_folder(folder, tick) / "commands";
-  std::error_code error;
-  if (!fs::exists(path, error)) return begin(folder, tick);
-  const auto bytes = read_bytes(path);
-  if (!bytes) return tl::unexpected(bytes.error());
-  std::span<const std::byte> left = *bytes;
-  while (!left.empty()) {
-    const auto before = left;
-    const auto message = take_message(left);
-    if (message && message->kind == MessageKind::commands && message->tick == tick + logged.size()) {
-      logged.push_back({message->tick, {message->bytes.begin(), message->bytes.end()}});
-      continue;
-    }
-    left = before;
-    break;
-  }
-  fs::resize_file(path, bytes->size() - left.size(), error);
   CommandLog log;
-  log.path_ = path;
-  log.file_.reset(error ? nullptr : std::fopen(path.c_str(), "abe"));
-  if (log.file_ == nullptr) return fail(fmt::format("{}: cannot be written", path.string()));
+  auto ticks = snapshot_ticks(folder);
+  std::ranges::reverse(ticks);
+  std::error_code error;
+  for (const std::uint32_t from : ticks) {
+    const fs::path path = snapshot_folder(folder, from) / "commands";
+    if (from < tick || !fs::exists(snapshot_folder(folder, from) / "index", error) || !fs::exists(path, error))
+      continue;
+    const auto bytes = read_bytes(path);
+    if (!bytes) return tl::unexpected(bytes.error());
+    std::span<const std::byte> left = *bytes;
+    while (!left.empty()) {
+      const std::size_t at = bytes->size() - left.size();
+      const auto message = take_message(left);
+      if (!message && message.error().status == Status::missing) break;  // it was being written
+      const auto next = tick + static_cast<std::uint32_t>(logged.size());
+      if (!message || message->kind != MessageKind::commands || message->tick > next)
+        return fail(
+            fmt::format("{}: the record at byte {} was altered, or ticks are missing before it; `truncate -s {}` "
+                        "goes on without it and what follows",
+                        path.string(), at, at));
+      if (message->tick == next) logged.push_back({message->tick, {message->bytes.begin(), message->bytes.end()}});
+    }
+    fs::resize_file(path, bytes->size() - left.size(), error);
+    log.path_ = path;
+  }
+  if (log.path_.empty()) return begin(folder, tick, {});
+  log.file_.reset(std::fopen(log.path_.c_str(), "abe"));
+  if (log.file_ == nullptr) return fail(fmt::format("{}: cannot be written", log.path_.string()));
   return log;
 }
 

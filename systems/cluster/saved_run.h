@@ -38,8 +38,24 @@ Result<void> write_shard(const std::filesystem::path& folder, std::uint32_t tick
 Result<std::vector<std::byte>> read_shard(const std::filesystem::path& folder, std::uint32_t tick, std::uint32_t shard);
 /// From here on that snapshot is the last one; all but the one before it, and what was left unfinished, are removed.
 Result<void> write_index(const std::filesystem::path& folder, const SavedRun& run);
-/// The last whole snapshot. Errors: there is none.
-Result<SavedRun> last_snapshot(const std::filesystem::path& folder);
+/// Whole snapshots, the last first. Errors: there is none.
+Result<std::vector<SavedRun>> whole_snapshots(const std::filesystem::path& folder);
+/// Whether a run has left something there, whole or not.
+bool holds_a_run(const std::filesystem::path& folder);
+
+/// While one lives, no other run writes into the folder; a run that was killed holds nothing.
+class FolderLock {
+ public:
+  /// Makes the folder where it is not there. Errors: another run has it; it cannot be written.
+  static Result<FolderLock> take(const std::filesystem::path& folder);
+  FolderLock(FolderLock&& other) noexcept;
+  FolderLock& operator=(FolderLock&& other) noexcept;
+  ~FolderLock();
+
+ private:
+  explicit FolderLock(int file) : file_(file) {}
+  int file_;
+};
 
 struct LoggedCommands {
   std::uint32_t tick = 0;
@@ -49,9 +65,11 @@ struct LoggedCommands {
 /// The commands of each tick since a snapshot, written before anybody acts on them.
 class CommandLog {
  public:
-  /// An empty one beside the snapshot of that tick. Errors: it cannot be written.
-  static Result<CommandLog> begin(const std::filesystem::path& folder, std::uint32_t tick);
-  /// Reads the one that is there, if it is, up to what was cut or altered, and goes on behind it.
+  /// One beside the snapshot of that tick, with these in it. Errors: it cannot be written.
+  static Result<CommandLog> begin(const std::filesystem::path& folder, std::uint32_t tick,
+                                  std::span<const LoggedCommands> first);
+  /// Reads what was logged since the snapshot of that tick, in its log and in those of later snapshots, and goes on
+  /// behind it. A record that was being written is dropped. Errors: a record that was altered, ticks that are missing.
   static Result<CommandLog> resume(const std::filesystem::path& folder, std::uint32_t tick,
                                    std::vector<LoggedCommands>& logged);
   Result<void> add(std::uint32_t tick, std::span<const std::byte> commands);

@@ -7,9 +7,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
-#include <mutex>
-#include <numbers>
 
 #include "engine/row_hash.h"
 #include "systems/cluster/people_shard.h"
@@ -70,12 +67,13 @@ struct Asked {
   bool muscles = false, resume = false;
   fs::path folder{};
   std::uint32_t save_every = 0;
+  std::uint32_t logged_until = 0;
   std::optional<std::uint32_t> die_at{};  // the last rank stops the run there
-  std::optional<int> heavy{};             // that rank's shards take longer
+  bool host_knows_replayed = true;        // false: it gives no commands for ticks that are repeated from the log
 };
 
 struct Came {
-  std::uint64_t hash = 0, people = 0, refused = 0;
+  std::uint64_t hash = 0, people = 0, refused = 0, asleep = 0, with_muscles = 0;
   ClusterReport report;  // the first rank's
   std::string stopped;
 };
@@ -96,7 +94,7 @@ Result<std::unique_ptr<Shard>> make_shard(const Asked& asked, std::uint32_t shar
 
 Came run(const Asked& asked) {
   Came came;
-  std::atomic<std::uint64_t> people = 0, refused = 0;
+  std::atomic<std::uint64_t> people = 0, refused = 0, asleep = 0, with_muscles = 0;
   came.stopped = on_ranks(
       asked.ranks,
       [&](Ranks& ranks) {
@@ -115,9 +113,9 @@ Came run(const Asked& asked) {
         while (cluster->ticks() < asked.ticks) {
           if (asked.die_at && ranks.rank() == asked.ranks - 1 && cluster->ticks() == *asked.die_at)
             ranks.stop("killed");
-          if (asked.heavy == ranks.rank()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-          cluster->tick(ranks.first() ? commands_of(cluster->ticks(), asked.people, asked.muscles)
-                                      : std::vector<std::byte>{});
+          const bool silent = !asked.host_knows_replayed && cluster->ticks() < asked.logged_until;
+          cluster->tick(ranks.first() && !silent ? commands_of(cluster->ticks(), asked.people, asked.muscles)
+                                                 : std::vector<std::byte>{});
         }
         const std::uint64_t hash = cluster->state_hash();
         for (std::uint32_t s = 0; s < asked.shards_of_crowd; ++s) {
@@ -125,6 +123,10 @@ Came run(const Asked& asked) {
           if (shard == nullptr) continue;
           people += shard->people().size();
           refused += shard->refused();
+          for (const auto& [number, entity] : shard->people()) {
+            asleep += shard->simulation().is_asleep(entity) ? 1 : 0;
+            with_muscles += shard->simulation().muscles(entity).empty() ? 0 : 1;
+          }
         }
         if (ranks.first()) {
           came.hash = hash;
@@ -134,6 +136,8 @@ Came run(const Asked& asked) {
       asked.delay_seed);
   came.people = people;
   came.refused = refused;
+  came.asleep = asleep;
+  came.with_muscles = with_muscles;
   return came;
 }
 
@@ -152,7 +156,9 @@ TEST(Cluster, AnyNumberOfRanksGivesTheSameBits) {
 }
 
 TEST(Cluster, WalkersOfManyShardsAreThoseOfOneSimulation) {
-  EXPECT_EQ(run({.shards_of_crowd = 1}).hash, run({.ranks = 2, .shards_of_crowd = 5}).hash);
+  const Came one = run({.shards_of_crowd = 1}), five = run({.ranks = 2, .shards_of_crowd = 5});
+  EXPECT_EQ(one.stopped + five.stopped, "");
+  EXPECT_EQ(one.hash, five.hash);
 }
 
 TEST(Cluster, RanksGiveTheSameBitsWithMusclesAndSleepers) {
@@ -160,6 +166,8 @@ TEST(Cluster, RanksGiveTheSameBitsWithMusclesAndSleepers) {
   EXPECT_EQ(one.stopped, "");
   const Came three = run({.ranks = 3, .ticks = 90, .people = 60, .delay_seed = 5, .muscles = true});
   EXPECT_EQ(three.hash, one.hash);
+  EXPECT_GT(one.asleep, 0U);
+  EXPECT_GT(one.with_muscles, 0U);
 }
 
 TEST(Cluster, ShardsMoveToWhoHasLessToDoAndNobodyNotices) {
@@ -191,20 +199,93 @@ TEST(Cluster, ARunGoesOnFromItsLastSnapshotOnAnyNumberOfRanks) {
   }
 }
 
+/// The host knows nothing of what was logged: only the log can bring it back.
 TEST(Cluster, KilledAgainAsItGoesOnNothingIsLost) {
   const std::uint64_t hash = run({}).hash;
   const Folder folder;
-  Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 25, .die_at = 20};
+  Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 0, .die_at = 45};
   EXPECT_EQ(run(asked).stopped, "killed");
   asked.resume = true;
-  asked.save_every = 7;  // a snapshot while logged commands are still being replayed
-  asked.die_at = 16;
-  EXPECT_EQ(run(asked).stopped, "killed");
+  asked.host_knows_replayed = false;
+  asked.logged_until = 45;
+  asked.save_every = 7;  // snapshots while logged commands are still being repeated
+  for (const std::uint32_t die_at : {10U, 16U, 30U}) {
+    asked.die_at = die_at;
+    EXPECT_EQ(run(asked).stopped, "killed");
+  }
   asked.die_at.reset();
   asked.ranks = 3;
   const Came went_on = run(asked);
   EXPECT_EQ(went_on.stopped, "");
   EXPECT_EQ(went_on.hash, hash);
+}
+
+TEST(Cluster, ASnapshotAtOnceAfterGoingOnChangesNothing) {
+  const Folder folder;
+  Asked asked{.ticks = 20, .people = 20, .folder = folder.path(), .save_every = 0};
+  const std::uint64_t hash = run(asked).hash;
+  asked.resume = true;
+  on_ranks(1, [&](Ranks& ranks) {
+    const Simulation library;
+    auto cluster = Cluster::begin(ranks, {.shards = shards, .folder = folder.path(), .resume = true, .about = "a test"},
+                                  [&](std::uint32_t shard) { return make_shard(asked, shard, library); });
+    ASSERT_TRUE(cluster);
+    EXPECT_TRUE(cluster->save());
+  });
+  asked.host_knows_replayed = false;
+  asked.logged_until = 20;
+  EXPECT_EQ(run(asked).hash, hash);
+}
+
+TEST(Cluster, ADamagedSnapshotIsPassedOverForTheOneBefore) {
+  const std::uint64_t hash = run({}).hash;
+  const Folder folder;
+  Asked asked{.ranks = 2, .folder = folder.path(), .save_every = 20, .die_at = 53};
+  EXPECT_EQ(run(asked).stopped, "killed");
+  fs::resize_file(folder.path() / "tick_0000000040" / "shard_0001", 100);
+  asked.die_at.reset();
+  asked.resume = true;
+  asked.host_knows_replayed = false;
+  asked.logged_until = 53;
+  const Came went_on = run(asked);
+  EXPECT_EQ(went_on.stopped, "");
+  EXPECT_EQ(went_on.hash, hash);
+  EXPECT_GE(went_on.report.replayed, 33U) << "the logs of both snapshots";
+}
+
+TEST(Cluster, AnAlteredRecordIsNotPassedOver) {
+  const Folder folder;
+  Asked asked{.folder = folder.path(), .save_every = 0, .die_at = 30};
+  EXPECT_EQ(run(asked).stopped, "killed");
+  const fs::path log = folder.path() / "tick_0000000000" / "commands";
+  const auto size = fs::file_size(log);
+  {
+    std::fstream altered(log, std::ios::in | std::ios::out | std::ios::binary);
+    altered.seekp(static_cast<std::streamoff>(size / 2));
+    altered.put('!');
+  }
+  asked.die_at.reset();
+  asked.resume = true;
+  EXPECT_NE(run(asked).stopped.find("was altered, or ticks are missing before it; `truncate"), std::string::npos);
+  EXPECT_EQ(fs::file_size(log), size);
+}
+
+TEST(Cluster, WhatIsOfOthersInTheFolderStays) {
+  const Folder folder;
+  EXPECT_EQ(run({.ticks = 50, .people = 10, .folder = folder.path(), .save_every = 10}).stopped, "");
+  std::ofstream(folder.path() / "tick_0000000040" / "notes") << "of somebody else";
+  Asked asked{.ticks = 100, .people = 10, .resume = true, .folder = folder.path(), .save_every = 10};
+  EXPECT_EQ(run(asked).stopped, "");
+  EXPECT_TRUE(fs::exists(folder.path() / "tick_0000000040" / "notes"));
+  EXPECT_FALSE(fs::exists(folder.path() / "tick_0000000040" / "index"));
+}
+
+TEST(Cluster, TwoRunsDoNotShareAFolder) {
+  const Folder folder;
+  const auto held = FolderLock::take(folder.path());
+  ASSERT_TRUE(held);
+  EXPECT_NE(run({.people = 10, .folder = folder.path()}).stopped.find("another run is writing there"),
+            std::string::npos);
 }
 
 TEST(Cluster, WhatWasBeingWrittenIsDropped) {
@@ -229,7 +310,7 @@ TEST(Cluster, WhatDoesNotFitIsRefusedInOneLine) {
   EXPECT_NE(run(asked).stopped.find("holds a run already; go on with that one"), std::string::npos);
   asked.resume = true;
   asked.shards_of_crowd = 9;
-  EXPECT_NE(run(asked).stopped.find("has 8 shards; give as many"), std::string::npos);
+  EXPECT_NE(run(asked).stopped.find("has 8 shards, not 9; give as many"), std::string::npos);
   asked.shards_of_crowd = shards;
   const fs::path file = folder.path() / "tick_0000000020" / "shard_0003";
   {
@@ -237,6 +318,7 @@ TEST(Cluster, WhatDoesNotFitIsRefusedInOneLine) {
     altered.seekp(300);
     altered.put('!');
   }
+  fs::remove_all(folder.path() / "tick_0000000010");  // there is no other to go on from
   EXPECT_NE(run(asked).stopped.find("shard_0003: a message was altered"), std::string::npos);
   fs::remove(file);
   EXPECT_NE(run(asked).stopped.find("shard_0003: cannot be read"), std::string::npos);
@@ -251,6 +333,7 @@ TEST(Cluster, OldSnapshotsAreRemoved) {
   EXPECT_EQ(run({.ranks = 2, .ticks = 50, .people = 10, .folder = folder.path(), .save_every = 10}).stopped, "");
   std::size_t found = 0;
   for (const auto& entry : fs::directory_iterator(folder.path())) {
+    if (entry.path().filename() == "lock") continue;
     EXPECT_TRUE(entry.path().filename() == "tick_0000000040" || entry.path().filename() == "tick_0000000050");
     ++found;
   }

@@ -18,6 +18,7 @@ mpirun -n 1 "$mobil" crowd --humans 20 --effects none --seconds 0.1 >out 2>&1 ||
 }
 
 crowd=(crowd --humans 600 --shards 12 --effects none --churn 60 --seed 3)
+# hash_of: the last one that was printed
 hash_of() { grep '^state hash' | tail -n 1; }
 same() {  # same WHAT ONE OTHER
   [ -n "$2" ] && [ "$2" = "$3" ] && return
@@ -56,6 +57,7 @@ rank() {  # rank N: its process
 }
 for victim in 0 2; do
   begin killed
+  [ $victim = 0 ] || sleep 0.0$((RANDOM % 90 + 10))  # at any moment, in a snapshot perhaps
   kill -9 "$(rank $victim)"
   started=$SECONDS
   ! wait "$running" || { echo "a run without rank $victim ends well" >&2; exit 1; }

@@ -52,6 +52,16 @@ TEST(City, GoesOnWhereItWasSaved) {
   EXPECT_GT(went_on.report["of_rank"][0]["replayed_ticks"].get<int>(), 0);
 }
 
+/// With muscles, some of them seen, whose methods change as people come near.
+TEST(City, MusclesGoOnWhereTheyWereSaved) {
+  const TemporaryFolder folder;
+  const std::string seen = "--humans 50 --shards 3 --near 12 --seed 2 ";
+  const City whole = city(seen + "--seconds 3 --threads 2", folder.path);
+  EXPECT_GT(whole.report["muscles_by_method"].size(), 1U);
+  city(seen + "--seconds 2 --save run --save-every 1.5s", folder.path);
+  EXPECT_EQ(city(seen + "--seconds 3 --threads 1 --resume run", folder.path).hash(), whole.hash());
+}
+
 TEST(City, SleepersGoOnToo) {
   const TemporaryFolder folder;
   const std::string alive = "--alive 1500 --in-view 150 --effects none --shards 3 --seed 4 ";
@@ -82,6 +92,7 @@ TEST(City, AnotherRunIsNotGoneOnWith) {
   const Ran other = run_mobil("crowd --humans 31 --shards 2 --effects none --seconds 1 --resume run", folder.path);
   EXPECT_EQ(other.status, 2);
   EXPECT_NE(other.err.find("--humans 30"), std::string::npos) << other.err;
+  EXPECT_NE(other.err.find("--humans 31"), std::string::npos) << other.err;
   EXPECT_EQ(std::count(other.err.begin(), other.err.end(), '\n'), 1) << other.err;
 }
 

@@ -185,6 +185,28 @@ const std::map<std::string, std::string> no_header_yet = {
     {"systems/relevance/relevance_sleep.cpp", "relevance.h"},
 };
 
+/// Two types of one name are one to the linker, which takes the functions of either.
+TEST(House, TypesOfHeadersHaveNamesOfTheirOwn) {
+  static const std::regex type("^(struct|class|union|enum class|enum) (\\w+)[^;(]*\\{");
+  std::map<std::string, fs::path> where;
+  for (const auto* room : {"components", "engine", "assets", "systems", "demo"}) {
+    for (const auto& file : sources(room)) {
+      if (file.extension() != ".h") continue;
+      const std::string name = fs::relative(file, root).generic_string();
+      if (name.starts_with("demo/examples/") || name.starts_with("demo/rivals/")) continue;  // programs of their own
+      std::string space;
+      for (const auto& line : lines(file)) {
+        if (line.starts_with("namespace ")) space = line.substr(0, line.find(" {"));
+        std::smatch match;
+        if (!std::regex_search(line, match, type)) continue;
+        const auto [first, added] = where.emplace(space + "::" + match[2].str(), file);
+        EXPECT_TRUE(added || first->second == file) << match[2] << " is in " << first->second << " and in " << file;
+      }
+    }
+  }
+  EXPECT_GT(where.size(), 500U);
+}
+
 TEST(House, EverySourceHasAHeaderOfItsName) {
   std::set<std::string> without;
   for (const auto* room : {"engine", "assets", "systems"}) {

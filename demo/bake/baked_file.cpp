@@ -2,13 +2,27 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <string>
 #include <string_view>
 
 #include "assets/files/output_file.h"
+#include "demo/measure/measure.h"
 
 namespace mobil {
+namespace {
+
+/// Empty where there is no place for it.
+std::filesystem::path kept_file() {
+  const char *const cache = std::getenv("XDG_CACHE_HOME"), *const home = std::getenv("HOME");
+  const std::filesystem::path folder = cache != nullptr && *cache == '/' ? std::filesystem::path(cache)
+                                       : home != nullptr && *home == '/' ? std::filesystem::path(home) / ".cache"
+                                                                         : std::filesystem::path();
+  return folder.empty() ? folder : folder / "mobil" / "mobil.baked";
+}
+
+}  // namespace
 
 Result<void> write_baked(const std::filesystem::path& file, std::span<const std::byte> bytes) {
   return write_file(file, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
@@ -34,9 +48,23 @@ Result<void> load_baked_option(Simulation& simulation, const std::filesystem::pa
   }
   std::error_code none;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
-  for (const char* const place : {"mobil.baked", "../mobil.baked", "../share/mobil/mobil.baked"}) {
-    if (std::filesystem::is_regular_file(program / place, none) && load_baked(simulation, program / place)) break;
+  for (const auto& file :
+       {program / "mobil.baked", program / "../mobil.baked", program / "../share/mobil/mobil.baked", kept_file()}) {
+    if (std::filesystem::is_regular_file(file, none) && load_baked(simulation, file)) break;
   }
+  return {};
+}
+
+Result<void> prepare_and_keep(Relevance& relevance, const Simulation& simulation, std::span<const float> tolerances_m,
+                              const std::function<void(std::size_t done, std::size_t of)>& progress) {
+  constexpr double worth_s = 0.5;
+  const double start_s = wall_now_s();
+  if (auto done = relevance.prepare(tolerances_m, progress); !done) return done;
+  const auto file = kept_file();
+  if (wall_now_s() - start_s < worth_s || file.empty()) return {};
+  std::error_code error;
+  std::filesystem::create_directories(file.parent_path(), error);
+  if (!error) (void)write_baked(file, simulation.bake());
   return {};
 }
 

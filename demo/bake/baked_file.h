@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include "engine/error.h"
+#include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 
 namespace mobil {
@@ -16,7 +18,12 @@ Result<void> write_baked(const std::filesystem::path& file, std::span<const std:
 /// Errors: a file that cannot be read; what `load_baked` refuses.
 Result<void> load_baked(Simulation& simulation, const std::filesystem::path& file);
 /// Of the file that `--baked` names; where it names none, of the mobil.baked beside the program or installed with it,
-/// if there is one that fits. Bits are the same with and without. Errors: those of a file that was named.
+/// or of what an earlier run has kept, if there is one that fits. Bits are the same with and without. Errors: those of
+/// a file that was named.
 Result<void> load_baked_option(Simulation& simulation, const std::filesystem::path& named);
+/// Relevance::prepare. What took more than half a second to make is kept for the next run, in the user's cache
+/// ($XDG_CACHE_HOME/mobil, or ~/.cache/mobil), where there is one. Errors: those of preparing.
+Result<void> prepare_and_keep(Relevance& relevance, const Simulation& simulation, std::span<const float> tolerances_m,
+                              const std::function<void(std::size_t done, std::size_t of)>& progress);
 
 }  // namespace mobil

@@ -82,7 +82,8 @@ Result<std::unique_ptr<AliveScene>> AliveScene::make_empty(const AliveRequest& r
   const auto preparing = [&](std::size_t done, std::size_t of) {
     if (progress) progress("preparing", done, of);
   };
-  if (auto done = scene->relevance_->prepare({}, preparing); !done) return tl::unexpected(done.error());
+  if (auto done = prepare_and_keep(*scene->relevance_, *scene->simulation_, {}, preparing); !done)
+    return tl::unexpected(done.error());
   return scene;
 }
 

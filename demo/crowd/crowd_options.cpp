@@ -147,7 +147,7 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
     shards = *count;
   }
   if (!text.save.empty() && !text.resume.empty())
-    return fail("--save: a run that goes on saves where it was; leave --save out");
+    return fail("--save: a run that goes on by --resume saves where it was; leave --save out");
   options.city = ranks || shards > 1 || !text.save.empty() || !text.resume.empty();
   const CrowdText usual;
   for (const auto& [name, given, usually] : {std::tuple("--save-every", &text.save_every, &usual.save_every),
@@ -208,7 +208,8 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", muscles},
       {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", muscles},
       {"--baked", &text.baked,
-       "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program is taken unasked)",
+       "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program, or what an earlier run "
+       "has kept in ~/.cache/mobil, is taken unasked)",
        muscles},
       {"--shards", &text.shards,
        fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", most_shards,

@@ -91,7 +91,8 @@ Result<std::unique_ptr<CrowdScene>> CrowdScene::make_empty(const CrowdRequest& r
     const auto preparing = [&](std::size_t done, std::size_t of) {
       if (progress) progress("preparing", done, of);
     };
-    if (auto done = scene->relevance_->prepare(std::span(near_m).first(request.near > 0 ? 1 : 0), preparing); !done)
+    const auto tolerances_m = std::span(near_m).first(request.near > 0 ? 1 : 0);
+    if (auto done = prepare_and_keep(*scene->relevance_, *scene->simulation_, tolerances_m, preparing); !done)
       return tl::unexpected(done.error());
   }
   return scene;

@@ -175,8 +175,8 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
     if (i % ticks_per_frame == 0) {
       show_progress("walking", i + std::size_t{1}, total);
       record_frame(figure, simulation, human, walked.recording);
-      if (options.view == View::stick) walked.action_line.push_back(action_lines(simulation, human));
-      if (options.view == View::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
+      if (options.view == WalkView::stick) walked.action_line.push_back(action_lines(simulation, human));
+      if (options.view == WalkView::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
     }
   }
   outcome.ticks = simulation.ticks();

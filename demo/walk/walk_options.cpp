@@ -11,7 +11,7 @@ namespace mobil {
 namespace {
 
 constexpr std::string_view drives[] = {"displacement", "force"};                          // in the order of Drive
-constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // of View
+constexpr std::string_view views[] = {"stick", "wireframe", "surface", "skin", "glass"};  // of WalkView
 
 // A program has no host that excites muscles.
 constexpr std::string_view walk_activations[] = {"none", "phase", "moments"};
@@ -186,7 +186,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   if (text.tuned && (!has_activation(options.muscles) || options.muscles.method != Method::reduced))
     return fail("--tuned is of reduced muscles that pull: add --activation phase --method reduced, or leave it out");
   options.muscles.inertia = text.inertia;
-  const auto view = choose<View>("--view", text.view, views);
+  const auto view = choose<WalkView>("--view", text.view, views);
   if (!view) return tl::unexpected(view.error());
   options.view = *view;
   if (!text.anatomy.empty()) options.anatomy = text.anatomy;

@@ -17,7 +17,7 @@
 
 namespace mobil {
 
-enum class View { stick, wireframe, surface, skin, glass };
+enum class WalkView { stick, wireframe, surface, skin, glass };
 
 struct WalkOptions {
   BodyRequest body;
@@ -27,7 +27,7 @@ struct WalkOptions {
   LegMuscles muscles;
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
-  View view = View::surface;
+  WalkView view = WalkView::surface;
   bool skin = false, frames = false, video = false, stereo = false;
   std::filesystem::path out = "out";
   std::vector<WalkExport> exports;

@@ -96,9 +96,9 @@ struct FrameScene {
 };
 
 /// The skin of the views that show it.
-Result<void> begin_skin(const WalkDrawing& drawing, View view, FrameScene& scene) {
-  if (view != View::skin && view != View::glass) return {};
-  const bool dressed = view == View::skin;
+Result<void> begin_skin(const WalkDrawing& drawing, WalkView view, FrameScene& scene) {
+  if (view != WalkView::skin && view != WalkView::glass) return {};
+  const bool dressed = view == WalkView::skin;
   auto made = make_body_skin(*drawing.body, SkinDetail::hero, {.dressed = dressed});
   if (!made) return tl::unexpected(made.error());
   scene.own = std::move(*made);
@@ -106,13 +106,13 @@ Result<void> begin_skin(const WalkDrawing& drawing, View view, FrameScene& scene
   return {};
 }
 
-void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameScene& scene) {
+void fill_scene(const WalkDrawing& drawing, WalkView view, std::size_t frame, FrameScene& scene) {
   const WalkRecording& recording = *drawing.recording;
   const Pose<float>& pose = recording.frames[frame];
   scene.drawn = {};
   scene.lines.clear();
   scene.points.clear();
-  if (view == View::stick) {
+  if (view == WalkView::stick) {
     scene.stick = sticks(pose, *drawing.body);
     scene.joint.assign(pose.position_m, pose.position_m + segment_count);
     scene.lines.push_back({.position = scene.stick, .colour = bone_ivory, .width = 0.022F, .unit = LineUnit::metre});
@@ -124,10 +124,10 @@ void fill_scene(const WalkDrawing& drawing, View view, std::size_t frame, FrameS
   if (scene.own) {
     scene.skin.pose(pose, muscles_of(recording, frame));
     scene.skin.draw(scene.drawn.meshes);
-    if (view == View::skin) return;
+    if (view == WalkView::skin) return;
   }
   add_bones(recording, frame, {0, 0, 0}, 1, scene.drawn);
-  if (view == View::wireframe) {
+  if (view == WalkView::wireframe) {
     scene.lines.push_back({.position = drawing.mesh_edge[frame], .colour = line_red, .width = 1.6F});
     return;
   }

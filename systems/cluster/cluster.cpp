@@ -31,6 +31,11 @@ Result<Cluster> Cluster::begin(Ranks& ranks, const ClusterOptions& options, Make
                             ranks.count()));
   }
   if (options.resume && options.folder.empty()) return fail("cluster: a run goes on from a folder; name it");
+  Result<void> free;
+  if (ranks.first() && !options.resume && !options.folder.empty() && last_snapshot(options.folder))
+    free = fail(
+        fmt::format("{}: holds a run already; go on with that one, or name another folder", options.folder.string()));
+  if (auto done = ranks.agree(free); !done) return tl::unexpected(done.error());
   Cluster cluster(ranks, options, std::move(make));
   const auto done = options.resume ? cluster.restore() : cluster.populate();
   if (!done) return tl::unexpected(done.error());

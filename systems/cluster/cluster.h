@@ -58,7 +58,7 @@ class Cluster {
 
   /// Makes this rank's shards and populates them, or restores them; brings them to the same tick. `ranks` must outlive
   /// the cluster. Errors, the same on all ranks: more ranks than shards, a shard that fails, a folder without a
-  /// snapshot of such a run.
+  /// snapshot of such a run, or for a new run with one.
   static Result<Cluster> begin(Ranks& ranks, const ClusterOptions& options, Make make);
 
   /// One tick of all. `commands`: the first rank's; those of others are ignored, and so are the first rank's where the

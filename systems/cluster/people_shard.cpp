@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/row_hash.h"
 #include "systems/cluster/shard_bytes.h"
 
 namespace mobil {

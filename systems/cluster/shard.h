@@ -9,14 +9,11 @@
 #include <vector>
 
 #include "engine/error.h"
-#include "engine/row_hash.h"
 
 namespace mobil {
 
 /// The shard of a person. Numbers that follow each other lie in shards far from each other.
-constexpr std::uint32_t shard_of(std::uint64_t number, std::uint32_t shards) {
-  return static_cast<std::uint32_t>(mix64(number) % shards);
-}
+std::uint32_t shard_of(std::uint64_t number, std::uint32_t shards);
 
 /// What a host's shard is to do. What it does may depend on its number, its state and the commands alone: not on
 /// clocks, threads or ranks.

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <numbers>
 
+#include "engine/row_hash.h"
 #include "systems/cluster/people_shard.h"
 #include "tests/cluster/local_run.h"
 
@@ -225,6 +226,7 @@ TEST(Cluster, WhatDoesNotFitIsRefusedInOneLine) {
   const Folder folder;
   Asked asked{.ranks = 2, .ticks = 20, .people = 30, .folder = folder.path(), .save_every = 10};
   EXPECT_EQ(run(asked).stopped, "");
+  EXPECT_NE(run(asked).stopped.find("holds a run already; go on with that one"), std::string::npos);
   asked.resume = true;
   asked.shards_of_crowd = 9;
   EXPECT_NE(run(asked).stopped.find("has 8 shards; give as many"), std::string::npos);

@@ -130,7 +130,7 @@ if [ ! -x "$build/mobil" ]; then
 fi
 mkdir "$scratch/bin"
 ln -s "$build/mobil" "$scratch/bin/mobil"
-export PATH="$scratch/bin:$PATH"
+export PATH="$scratch/bin:$PATH" XDG_CACHE_HOME="$scratch/cache"  # nothing is left in the user's
 for document in "$scratch"/sh/*; do
   mkdir "$scratch/run/${document##*/}"
   cd "$scratch/run/${document##*/}"

@@ -84,6 +84,7 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
     live_s = wall_now_s() + city_live_every_s;
   }
   show("");
+  if (run.hashes.empty()) run.hashes.push_back(cluster.state_hash());  // a run that had come to its end before
   run.last_tick = cluster.ticks();
   if (!options.alive && !options.capture.empty())
     take_picture(ranks, cluster, crowd_camera(run.side_m), pictures, options.capture);

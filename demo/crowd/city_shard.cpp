@@ -40,7 +40,7 @@ class CrowdShard : public CityShard {
 
   Result<void> populate() override {
     if (auto done = scene_->resize(humans_); !done) return done;
-    return scene_->settle();
+    return scene_->settle({}, false);
   }
 
   Result<void> apply(std::span<const std::byte> commands) override {

@@ -136,10 +136,10 @@ Result<void> CrowdScene::resize(std::size_t humans, const Progress& progress) {
   return choose_near(decisions);
 }
 
-Result<void> CrowdScene::settle(const Progress& progress) {
+Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
   constexpr int most_updates = 20000, updates_a_tick = 8, quiet_updates = 40;
   const auto tick_once = [&]() -> Result<void> {
-    if (auto done = request_.shards == 1 ? decide() : decide({}); !done) return tl::unexpected(done.error());
+    if (auto done = exchanges ? decide() : decide({}); !done) return tl::unexpected(done.error());
     tick();
     return {};
   };

@@ -113,8 +113,9 @@ class CrowdScene {
 
   /// Another number of people from here on.
   Result<void> resize(std::size_t humans, const Progress& progress = {});
-  /// Runs on until methods have been chosen and what that excited has died away.
-  Result<void> settle(const Progress& progress = {});
+  /// Runs on until methods have been chosen and what that excited has died away. `exchanges`: whether people come and go
+  /// meanwhile, by the scene's own director.
+  Result<void> settle(const Progress& progress = {}, bool exchanges = true);
 
   /// The parts of a tick, in this order: who comes and goes by its own director's orders or by others', who turns;
   /// which methods; the simulation.

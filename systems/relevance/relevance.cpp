@@ -32,14 +32,15 @@ struct Sight {
   float tolerance_m;  // by distance; 0 without a camera
 };
 
-/// `blur_m`: how far somebody may be from `at`.
-Sight sight(const Viewpoint& camera, float tolerance_px, const Vec3<float>& at, View before, float blur_m) {
+/// `cosine`, `sine`: of the camera's half angle; `blur_m`: how far somebody may be from `at`.
+Sight sight(const Viewpoint& camera, float cosine, float sine, float tolerance_px, const Vec3<float>& at, View before,
+            float blur_m) {
   const Vec3<float> v = {at.x - camera.position_m.x, at.y - camera.position_m.y, at.z - camera.position_m.z};
   const Vec3<float>& f = camera.forward;
   const float distance = std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
   const float along = (v.x * f.x + v.y * f.y + v.z * f.z) / std::sqrt(f.x * f.x + f.y * f.y + f.z * f.z);
   const float aside = std::sqrt(std::max(distance * distance - along * along, 0.0F));
-  const float outside_m = aside * exact::cos(camera.half_angle_rad) - along * exact::sin(camera.half_angle_rad);
+  const float outside_m = aside * cosine - along * sine;
   const float grace = (before == View::seen ? leave_m : 0.0F) + blur_m;
   const bool reached = distance <= camera.reach_m + grace, in_cone = outside_m <= person_radius_m + grace;
   const bool near = distance <= camera.near_m + (before == View::near ? leave_m : 0.0F) + blur_m;
@@ -199,6 +200,10 @@ std::size_t Relevance::look_at_the_awake() {
 RelevanceReport Relevance::update() {
   RelevanceReport report;
   find_tables();
+  if (scene_.camera) {
+    cone_cos_ = exact::cos(scene_.camera->half_angle_rad);
+    cone_sin_ = exact::sin(scene_.camera->half_angle_rad);
+  }
   observe_machine();
   wake_sleepers(report);
   report.evaluated = look_at_the_awake();
@@ -229,6 +234,7 @@ void Relevance::evaluate(Table& table, const Columns& at, std::size_t b, Looked&
   const auto* const choice =
       kept == nullptr ? nullptr : static_cast<const LegMuscles*>(simulation_.world().resource(kept->value));
   const std::uint32_t live = table.live(b);
+  const Gap gap(scene_.camera.value_or(Viewpoint{}), cone_cos_, cone_sin_);
   for (std::uint32_t lane = 0; lane < live; ++lane) {
     const Needs<float> needs = row_of(all_needs, lane);
     Tiers<float> tiers = row_of(all_tiers, lane);
@@ -246,13 +252,13 @@ void Relevance::evaluate(Table& table, const Columns& at, std::size_t b, Looked&
     View view = scene_.looked_at ? View::seen : View::near;
     if (scene_.camera) {
       const Vec3<float> pelvis = pelvis_of(table, at, b, lane);
-      const Sight of = sight(*scene_.camera, scene_.tolerance_px, pelvis, static_cast<View>(tiers.view),
-                             compact ? off_the_line_m : 0);
+      const Sight of = sight(*scene_.camera, cone_cos_, cone_sin_, scene_.tolerance_px, pelvis,
+                             static_cast<View>(tiers.view), compact ? off_the_line_m : 0);
       view = of.view;
       tiers.tolerance_m = of.tolerance_m;
       if (scene_.asleep_beyond_m && view > View::near) {
         view = View::near;  // soon, perhaps
-        if (at.plan && Gap(*scene_.camera)(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
+        if (at.plan && gap(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
             may_be_steady(at.gait.at(table, b), at.plan.at(table, b), at.state.at(table, b), lane))
           out.drowsy.push_back(table.entities(b)[lane]);
       }

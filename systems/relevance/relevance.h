@@ -316,6 +316,7 @@ class Relevance {
   std::int64_t switching_ps_ = 0;  // spent in this update
   std::unique_ptr<BasisOrders> orders_;
   float factor_ = 1;
+  float cone_cos_ = 1, cone_sin_ = 0;  // of the camera's half angle
   std::uint32_t turn_ = 0, last_tick_ = 0;
   std::size_t tables_seen_ = 0;
   std::vector<std::pair<Table*, Columns>> tables_;

@@ -63,7 +63,7 @@ void Relevance::look_at_sleepers() {
   };
   near_lanes_.assign(looked, 0);
   const std::uint32_t tick = simulation_.ticks();
-  const Gap gap(camera);
+  const Gap gap(camera, cone_cos_, cone_sin_);
   in_parallel(SimulationWorld::jobs(simulation_), looked, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const auto [table, block] = place(i);

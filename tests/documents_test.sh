@@ -123,7 +123,7 @@ for program in "$scratch"/cpp/*.cpp; do
   timeout 60 "$scratch/cpp/build/$program" || { echo "$program: exit status $?" >&2; exit 1; }
 done
 
-# Commands: those of a document one after the other, in a folder of their own.
+# Commands: those of a document one after the other, in a folder of their own; two documents at a time.
 if [ ! -x "$build/mobil" ]; then
   echo "this build has no program; its commands are left out"
   exit 0
@@ -131,14 +131,20 @@ fi
 mkdir "$scratch/bin"
 ln -s "$build/mobil" "$scratch/bin/mobil"
 export PATH="$scratch/bin:$PATH" XDG_CACHE_HOME="$scratch/cache"  # nothing is left in the user's
-for document in "$scratch"/sh/*; do
-  mkdir "$scratch/run/${document##*/}"
-  cd "$scratch/run/${document##*/}"
+commands_of() {  # commands_of DOCUMENT FOLDER
+  mkdir "$2"
+  cd "$2"
+  local command started
   while IFS= read -r command; do
-    echo "\$ $command"
     started=$EPOCHREALTIME
-    timeout 60 bash -c "$command" <&- >"$scratch/said" 2>&1 ||
-      { echo "${document##*/}: exit status $? of: $command" >&2; tail -20 "$scratch/said" >&2; exit 1; }
-    awk -v a="$started" -v b="$EPOCHREALTIME" 'BEGIN { printf "  %.1f s\n", b - a }'
-  done <"$document"
-done
+    if ! timeout 100 bash -c "$command" </dev/null >said 2>&1; then
+      echo "${1##*/}: does not end with 0: $command" >&2
+      tail -20 said >&2
+      exit 1
+    fi
+    awk -v a="$started" -v b="$EPOCHREALTIME" -v c="$command" 'BEGIN { printf "%5.1f s  %s\n", b - a, c }'
+  done <"$1"
+}
+export -f commands_of
+for document in "$scratch"/sh/*; do echo "$document $scratch/run/${document##*/}"; done |
+  xargs -P 2 -L 1 bash -c 'set -euo pipefail; commands_of "$0" "$1"'

@@ -24,6 +24,7 @@ struct Entity {
 /// time with the next generation; a slot whose generations are used up is retired.
 class EntityRegister {
  public:
+  /// A table's number in the world, and a row of it.
   struct Location {
     std::uint32_t table, row;
   };
@@ -44,6 +45,7 @@ class EntityRegister {
                                                                            : Entity{};
   }
 
+  /// A new living entity, at table 0 and row 0 until its place is set.
   Entity create() {
     std::uint32_t index = first_free_;
     if (index == nobody) {
@@ -66,6 +68,7 @@ class EntityRegister {
   Location* find(Entity entity) { return alive(entity) ? &slots_[entity.index].location : nullptr; }
   const Location* find(Entity entity) const { return alive(entity) ? &slots_[entity.index].location : nullptr; }
 
+  /// False for a stale handle and for the default one.
   bool alive(Entity entity) const {
     return entity.index < slots_.size() && slots_[entity.index].generation == entity.generation &&
            slots_[entity.index].location.table != nobody;

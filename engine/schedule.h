@@ -124,6 +124,7 @@ class Schedule {
   std::shared_ptr<const char> world_;
 };
 
+/// Collects systems, by module, and orders them.
 class ScheduleBuilder {
  public:
   /// Systems added from now on are that module's.

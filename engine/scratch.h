@@ -12,6 +12,7 @@ namespace mobil {
 /// while nobody holds a buffer.
 class ScratchPool {
  public:
+  /// One buffer of the pool's size, in a list of all.
   struct Buffer {
     float* data = nullptr;
     std::atomic<bool> taken = false;

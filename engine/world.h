@@ -81,6 +81,7 @@ class World {
     ~Attempt();
     Attempt(const Attempt&) = delete;
     Attempt& operator=(const Attempt&) = delete;
+    /// What was done stays.
     void keep();
 
    private:
@@ -136,6 +137,7 @@ class World {
     return remove_part(entity, type_id<Tag>());
   }
 
+  /// Whether the entity is alive and has that part.
   template <template <class> class C>
   bool has(Entity entity) const {
     return part_of(entity, type_id<C<float>>()).has_value();

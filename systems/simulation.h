@@ -55,6 +55,8 @@ namespace mobil {
 
 class Simulation;
 
+/// Time, threads, memory and modules of a simulation. Ranges: `tick_s` 1e-5 to 1 s, `max_frame_s` from one tick to 60
+/// s.
 struct SimulationOptions {
   double tick_s = 1.0 / 60;
   double max_frame_s = 0.25;   // of a longer frame the rest is dropped and reported
@@ -126,7 +128,7 @@ class Simulation {
   /// Errors, in one line: tick_s or max_frame_s out of range (engine/clock.h), a module that does not fit the others
   /// (engine/module.h).
   static Result<Simulation> make(const SimulationOptions& options = {});
-  /// The same; throws std::invalid_argument with that line.
+  /// As `make`; throws std::invalid_argument with its line.
   explicit Simulation(const SimulationOptions& options = {});
   ~Simulation();
   /// What was moved from may be destroyed or assigned to. References to the world go along.
@@ -149,14 +151,14 @@ class Simulation {
   /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, unless it
   /// has `jumped`.
   Result<void> set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
-  /// Errors: a stale handle.
+  /// The person goes, with their muscles; the handles are stale from then on. Errors: a stale handle.
   Result<void> despawn(Entity human);
 
   /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
   /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is as it
   /// was; `entities` mean nothing then.
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
-  /// All or none. Errors: one of them is stale, or named twice.
+  /// The same of many, all or none. Errors: one of them is stale, or named twice.
   Result<void> despawn(std::span<const Entity> people);
   /// Makes the templates and bases that typical bodies share for this choice, with the simulation's jobs: then spawning
   /// them and changing their methods does not wait for that. Errors: a choice out of range; nothing has changed.

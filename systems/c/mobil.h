@@ -43,7 +43,7 @@
 extern "C" {
 #endif
 
-/* Of this header. mobil_interface() is the library's: equal or greater serves. */
+/* The version of this header. mobil_interface() is the library's: equal or greater serves. */
 #define MOBIL_INTERFACE 2
 MOBIL_API int mobil_interface(void);
 MOBIL_API const char* mobil_library_version(void); /* "0.1.0" */
@@ -79,6 +79,8 @@ enum { MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH };
 /* Does the work of a tick: calls `work(context, begin, end)` for disjoint ranges that together are 0 to `count`, on any
  * threads, and returns when all have returned. Results do not depend on how it cuts. */
 typedef void (*mobil_work)(void* context, size_t begin, size_t end);
+/* The host's threads: `parallel_for` cuts the range 0 to `count` and calls `work` for each part, as mobil_work says.
+ * `user` is handed back to it. */
 typedef struct mobil_jobs {
   void* user;
   void (*parallel_for)(void* user, size_t count, mobil_work work, void* context);
@@ -92,6 +94,7 @@ typedef struct mobil_memory {
   void (*release)(void* user, void* memory, size_t bytes, size_t alignment);
 } mobil_memory;
 
+/* How a simulation runs; mobil_defaults gives the usual values. */
 typedef struct mobil_options {
   size_t size;
   double tick_s;       /* 1e-5 to 1; usual 1/60 */
@@ -138,6 +141,7 @@ enum { MOBIL_MAN, MOBIL_WOMAN };                                 /* sex */
  * completed as people of that leg would. */
 enum { MOBIL_SPEED = 1, MOBIL_STEP_LENGTH = 2, MOBIL_STEP_FREQUENCY = 4, MOBIL_STYLE = 8, MOBIL_HEADING = 16 };
 
+/* A person as asked for. m, kg, rad; places in the axes and the unit of mobil_options. */
 typedef struct mobil_person {
   size_t size;
   float height_m, mass_kg; /* 1.2 to 2.2; 30 to 200, of what lives at that height */
@@ -145,8 +149,8 @@ typedef struct mobil_person {
   int constitution;
   int given;                                         /* MOBIL_SPEED and so on; without: 5 km/h */
   float speed_m_s, step_length_m, step_frequency_hz; /* a speed of 0 stands */
-  const float* style;                                /* `style_count` values, in the order of mobil_style; */
-  size_t style_count;                                /* those behind are usual */
+  const float* style;                                /* `style_count` values, in the order of mobil_style */
+  size_t style_count;                                /* fewer than mobil_style has: the others are usual */
   float place[3], heading_rad;                       /* on the ground: the height does not count */
   int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; begins at the origin */
   int sex;           /* whose girths the skin has; since interface 2 */
@@ -173,6 +177,7 @@ struct mobil_muscles;
 /* All come or none. `muscles` may be null: then they have none. Posed people begin in the anatomical position. */
 MOBIL_API int mobil_spawn(mobil_sim* sim, const mobil_person* people, size_t stride, size_t count,
                           const struct mobil_muscles* muscles, mobil_id* out);
+/* They go, with their muscles; all or none. Their ids are stale from then on. */
 MOBIL_API int mobil_despawn(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* Everybody, in no particular order. `out` null, or too few: *count alone, and then MOBIL_ROOM. */
 MOBIL_API int mobil_people(mobil_sim* sim, mobil_id* out, size_t room, size_t* count);
@@ -181,7 +186,7 @@ MOBIL_API int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out);
 /* A walker's style, in the order of mobil_style: as it was asked for, or nearer to the usual one, where a foot would go
  * under the ground, or a joint or the pelvis further than people's go. */
 MOBIL_API int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room);
-/* Bits of what a person is. */
+/* Bits of what a person is, as mobil_state gives them. */
 enum {
   MOBIL_POSED = 1,
   MOBIL_ASLEEP = 2,
@@ -191,6 +196,7 @@ enum {
   MOBIL_MANAGED = 32,
   MOBIL_WATCHED = 64
 };
+/* What a person is now: bits of those above. */
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
 
 /* From the next step on. Nobody is changed where one of them cannot walk so. */
@@ -303,6 +309,7 @@ typedef struct mobil_needs {
   int looked_at;        /* below 0: the scene's */
 } mobil_needs;
 
+/* How methods are chosen, and how much may change in one update. */
 typedef struct mobil_choosing {
   size_t size;
   float slack;           /* a cheaper method is taken where it meets this part of the tolerance */
@@ -331,6 +338,7 @@ MOBIL_API int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene);
 MOBIL_API int mobil_prepare_scene(mobil_sim* sim);
 /* From the next update on muscles of these people are chosen; `needs` may be null. */
 MOBIL_API int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs);
+/* Methods stay as they are and are no longer chosen. */
 MOBIL_API int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* Before each tick, or less often. `out` may be null. */
 MOBIL_API int mobil_choose(mobil_sim* sim, mobil_chosen* out);
@@ -351,6 +359,7 @@ MOBIL_API int mobil_way(int way, int muscle, float speed_m_s, float height_m, in
 
 /* ---- Time ------------------------------------------------------------------------------------------------------ */
 
+/* What a frame amounted to. */
 typedef struct mobil_ticks {
   unsigned int count; /* ticks that ran */
   double alpha;       /* how far into the next one the frame is, 0 to 1 */
@@ -358,22 +367,28 @@ typedef struct mobil_ticks {
 } mobil_ticks;
 /* As many ticks as the time fed so far makes; `out` may be null. */
 MOBIL_API int mobil_advance(mobil_sim* sim, double seconds, mobil_ticks* out);
+/* So many ticks, whatever the time. */
 MOBIL_API int mobil_tick(mobil_sim* sim, unsigned int ticks);
+/* Seconds simulated so far, and of one tick. */
 MOBIL_API double mobil_time_s(const mobil_sim* sim);
 MOBIL_API double mobil_tick_s(const mobil_sim* sim);
 
 /* ---- Reading --------------------------------------------------------------------------------------------------- */
 
+/* How many segments a skeleton has. */
 enum { MOBIL_SEGMENTS = 48 };
+/* Names, parents and numbers of segments, 0 to MOBIL_SEGMENTS - 1. */
 MOBIL_API const char* mobil_segment_name(int segment); /* null behind the last */
 MOBIL_API int mobil_segment_parent(int segment);       /* the pelvis is its own */
 MOBIL_API int mobil_find_segment(const char* name);    /* below 0: MOBIL_MISSING */
 
+/* How a segment's pose is written. */
 enum {
   MOBIL_PLACE_AND_QUATERNION, /* x y z, x y z w: 7 floats a segment */
   MOBIL_MATRIX,               /* three rows of four: 12 */
   MOBIL_DUAL_QUATERNION       /* real part x y z w first: 8 */
 };
+/* Which segments of a pose are written, at what instant, and how. */
 typedef struct mobil_pose_layout {
   size_t size;
   int form;
@@ -399,6 +414,7 @@ enum {
   MOBIL_MOMENTS, /* 6, with forces: hip, knee, ankle, each [2]; N m, extensor and plantarflexor positive */
   MOBIL_ROWS
 };
+/* Floats in a row of that kind, and the rows of these people. */
 MOBIL_API int mobil_row_floats(int what);
 MOBIL_API int mobil_read(mobil_sim* sim, int what, const mobil_id* ids, size_t count, float* out, size_t stride);
 
@@ -425,54 +441,11 @@ typedef struct mobil_system {
 } mobil_system;
 MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBIL_MISSING behind the last */
 
-/* ---- Surfaces -------------------------------------------------------------------------------------------------- */
-
-typedef struct mobil_surface_choice {
-  size_t size;
-  int bones;            /* 0 or 1 */
-  int side;             /* MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH */
-  unsigned int muscles; /* those and the cells that people have who are to show them */
-  unsigned int cells[3];
-  double detail; /* part of the triangles, 0.05 to 1 */
-  int textured;  /* 1: texture places, and tangents on request */
-} mobil_surface_choice;
-
-typedef struct mobil_part {
-  const char* name; /* T4, thigh_left, soleus_right; as long as the surfaces */
-  int segment;      /* of a bone */
-  int muscle, side; /* of a muscle: whose mesh it follows; below 0: a bone */
-  unsigned int first_vertex, vertices, first_index, indices;
-} mobil_part;
-
-/* Bound once to one person's body, some tens of milliseconds; good for everybody of like build. Outlives the person. */
-MOBIL_API int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choice* choice,
-                                  mobil_surfaces** out);
-MOBIL_API void mobil_drop_surfaces(mobil_surfaces* surfaces); /* null is allowed */
-MOBIL_API size_t mobil_vertex_count(const mobil_surfaces* surfaces);
-MOBIL_API size_t mobil_index_count(const mobil_surfaces* surfaces);
-/* Three a triangle, wound so that the front is outside in the host's axes; `room` of them at least. */
-MOBIL_API int mobil_indices(const mobil_surfaces* surfaces, unsigned int* out, size_t room);
-/* Two a vertex, 0 to 1: along and around; of textured surfaces. `room`: of floats. */
-MOBIL_API int mobil_texture_places(const mobil_surfaces* surfaces, float* out, size_t room);
-MOBIL_API int mobil_surface_part(const mobil_surfaces* surfaces, int part,
-                                 mobil_part* out); /* MOBIL_MISSING behind the last */
-
-/* One person's vertices: three floats each, of tangents four, `…_stride` bytes apart (0: close together), in memory of
- * so many bytes. What is null is left out. */
-typedef struct mobil_surface_target {
-  size_t size;
-  mobil_id id;
-  const mobil_surfaces* surfaces;
-  void *positions, *normals, *tangents;
-  size_t position_stride, normal_stride, tangent_stride;
-  size_t position_bytes, normal_bytes, tangent_bytes;
-  float origin[3]; /* subtracted before anything is placed */
-} mobil_surface_target;
-/* As they are after the last tick. */
-MOBIL_API int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* targets, size_t stride, size_t count);
+#include "systems/c/mobil_surfaces.h"
 
 /* ---- State ----------------------------------------------------------------------------------------------------- */
 
+/* A snapshot: how many bytes it takes now, and the bytes (MOBIL_ROOM where `room` is less). */
 MOBIL_API size_t mobil_snapshot_bytes(mobil_sim* sim);
 MOBIL_API int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes); /* `bytes` may be null */
 /* What was saved, to the last bit, handles included. Bytes are never trusted. What is managed is state; how choosing is

@@ -44,7 +44,7 @@ typedef struct mobil_skin_target {
   const float* muscles[2];
   size_t muscle_vertices[2];
 } mobil_skin_target;
-/* As they are after the last tick. The first person of a sex takes two seconds, the
+/* Writes the skins as people are after the last tick. The first person of a sex takes two seconds, the
  * first of a build (1.5 kg/m2) a quarter to half a second. */
 MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
 

@@ -29,6 +29,7 @@
 
 namespace mobil {
 
+/// How a crowd is cut into shards, checked and saved.
 struct ClusterOptions {
   std::uint32_t shards = 16;  // at least one a rank; several, where shards are to move
   /// The first rank is ahead of the others by so many ticks at most.
@@ -54,6 +55,7 @@ struct ClusterReport {
 
 class Cluster {
  public:
+  /// Makes the shard of that number.
   using Make = std::function<Result<std::unique_ptr<Shard>>(std::uint32_t shard)>;
 
   /// Makes this rank's shards and populates them, or restores them; brings them to the same tick. `ranks` must outlive
@@ -70,6 +72,7 @@ class Cluster {
   /// A snapshot now. Errors, the same on all ranks: a folder that cannot be written; the last one stays.
   Result<void> save();
 
+  /// As the cluster was made with.
   const ClusterOptions& options() const { return options_; }
   /// Null where another rank has it. Until the next `tick`, if shards may move.
   Shard* shard(std::uint32_t number) { return shards_[number].get(); }

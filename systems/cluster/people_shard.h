@@ -33,6 +33,7 @@ PersonCommand place(std::uint64_t number, float x_m, float z_m, float heading_ra
 /// `asleep_beyond_m`: 0: nobody sleeps.
 PersonCommand look(const Viewpoint& camera, float tolerance_px, float asleep_beyond_m);
 
+/// What all shards of a crowd share.
 struct PeopleShardOptions {
   std::uint32_t shards = 16;  // of the crowd
   /// Of the simulation; give all shards of a rank the first one's library (`library_of`).

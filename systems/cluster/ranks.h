@@ -21,6 +21,7 @@ class Ranks {
   /// `silence_s`: a rank that says nothing for so long stops the work of all, from its first tick on.
   explicit Ranks(Transport& transport, double silence_s = 60);
 
+  /// This rank, from 0 on, and how many there are.
   int rank() const { return transport_.rank(); }
   int count() const { return transport_.ranks(); }
   /// The one that decides and writes what there is one of.

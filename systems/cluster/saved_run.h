@@ -41,6 +41,7 @@ Result<void> write_index(const std::filesystem::path& folder, const SavedRun& ru
 /// The last whole snapshot. Errors: there is none.
 Result<SavedRun> last_snapshot(const std::filesystem::path& folder);
 
+/// The commands of one tick, as they were logged.
 struct LoggedCommands {
   std::uint32_t tick = 0;
   std::vector<std::byte> commands{};

@@ -36,6 +36,7 @@ enum class PoseAxes : std::uint8_t {
   y_up_z_back,       // x to the right, z back (Godot)
 };
 
+/// How a pose is written.
 struct PoseLayout {
   PoseForm form = PoseForm::place_and_quaternion;
   PoseAxes axes = PoseAxes::y_up;

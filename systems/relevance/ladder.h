@@ -22,6 +22,7 @@ struct RungCase {
 /// Pure functions of the table.
 class RungLadder {
  public:
+  /// The ladder has errors at so many speeds, so far apart.
   static constexpr std::uint32_t speed_steps = 26;
   static constexpr float speed_step_m_s = 0.1F;
 
@@ -75,8 +76,10 @@ class RungLadder {
 /// over the factors at which they fall due, sixteen bins an octave. Whole numbers: the same in any order of adding.
 class CostSpectrum {
  public:
+  /// The range of factors that the spectrum covers.
   static constexpr float least_factor = 0x1p-10F, most_factor = 0x1p14F;
 
+  /// Removes all costs.
   void clear() { due_.fill(0); }
   /// `cost_ps` falls due while the factor is below `factor`.
   void add(float factor, std::int64_t cost_ps) { due_[bin(factor)] += cost_ps; }

@@ -66,9 +66,9 @@ struct SceneNeeds {
   /// and whole again when something is, or when another method is due. Handles of their muscles come and go with that.
   bool compact_unseen = false;
   bool looked_at = true;  // control points are placed; with a camera those seen are
-  /// Processor time a tick for everybody's deformation, but for compact people's, s. Where tolerances cost more, all are missed by one factor,
-  /// the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the factor may be below 1: all of
-  /// the budget is spent.
+  /// Processor time a tick for everybody's deformation, but for compact people's, s. Where tolerances cost more, all
+  /// are missed by one factor, the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the
+  /// factor may be below 1: all of the budget is spent.
   std::optional<double> budget_s{};
 };
 
@@ -79,6 +79,7 @@ struct PersonNeeds {
   std::optional<bool> looked_at{};  // of one whom the camera does not see: moves on all the same
 };
 
+/// How methods are chosen, and how much may change in one update.
 struct RelevanceOptions {
   /// A cheaper method is taken only where it meets this part of the tolerance; a dearer one at once. 0–1.
   float slack = 0.7F;
@@ -131,6 +132,7 @@ struct RelevanceReport {
   std::string refusal{};                                 // the last that Simulation gave, in one line
 };
 
+/// Why a muscle has its method.
 enum class Reason : std::uint8_t {
   tolerance,  // the cheapest that meets it (or one dearer, within the hysteresis)
   best,       // none meets it

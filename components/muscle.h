@@ -1,5 +1,5 @@
 #pragma once
-// A muscle of one leg: whose it is, its size against its template, its line of action, its moving nodes.
+// A muscle of one leg: its owner, its size against its template, its line of action, its moving nodes.
 // Mechanics: a linear elastic belly in the frame of its line of action, z from origin to insertion; a left muscle is
 // solved as a right one and reflected when drawn.
 

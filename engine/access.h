@@ -12,7 +12,7 @@
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
 //   Scratch<Tag>             memory to work in, as many floats as the table's tag says
 //   Tick, float              the tick; a plain float is its length in s
-//   Rows                     who the lanes are
+//   Rows                     the entities of the block's lanes
 //   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
 //
 // It runs on every block of every table that has all components, fields and tags named (Maybes and Scratch aside).

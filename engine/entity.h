@@ -1,5 +1,5 @@
 #pragma once
-// Handles. An entity is a number that was given out once; whoever holds it after the entity is gone is told so.
+// Handles: an index and a generation. A handle that outlives its entity is stale, and every call says so.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace mobil {
 
-/// A handle: plain data, may be stored, copied and sent. The default one is nobody and never alive.
+/// A handle: plain data, may be stored, copied and sent. The default one is null: never alive.
 struct Entity {
   std::uint32_t index = 0;
   std::uint32_t generation = 0;

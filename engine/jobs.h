@@ -69,7 +69,7 @@ class Threads {
 };
 
 /// While one lives, this thread's arithmetic takes denormal numbers for zero (on x86 and 64-bit ARM); after it the
-/// thread is as it was.
+/// thread does what it did before.
 class FlushDenormals {
  public:
   FlushDenormals();

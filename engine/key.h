@@ -100,14 +100,15 @@ struct FieldWidth {
   std::uint32_t words = 0;
 };
 
-/// A small number that all rows of a table share, named by a plain struct. Also how a system is told of it.
+/// A small number that all rows of a table share, named by a plain struct. A system receives it as a parameter of this
+/// type.
 template <class Tag>
 struct TagValue {
   std::uint64_t value = 0;
 };
 
-/// An immutable resource that all rows of a table share; `World::share` makes it, the world owns it. Also how a system
-/// is handed it.
+/// An immutable resource that all rows of a table share; `World::share` makes it, the world owns it. A system
+/// receives it as a parameter of this type.
 template <class T>
 struct Shared {
   const T* resource = nullptr;

@@ -41,7 +41,7 @@ class ScratchPool {
 
   std::pmr::memory_resource* memory_;
   std::atomic<Buffer*> first_ = nullptr;
-  std::atomic_flag growing_;  // held for the while, a lock that needs no threads' library
+  std::atomic_flag growing_;  // held meanwhile: a lock that needs no threads' library
   std::size_t floats_ = 0;
   std::size_t count_ = 0;
 };

@@ -58,7 +58,7 @@ class Table {
 
   /// Makes room for one more row. Throws what the memory resource throws; nothing else here takes memory.
   void reserve_row() { reserve(rows_ + 1); }
-  /// Makes room for so many rows in all; where memory runs out, all is as it was.
+  /// Makes room for so many rows in all; where memory runs out, nothing has changed.
   void reserve(std::uint32_t rows);
   /// Gives back memory that no row needs, but for a next block.
   void trim();

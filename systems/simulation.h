@@ -155,8 +155,8 @@ class Simulation {
   Result<void> despawn(Entity human);
 
   /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
-  /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is as it
-  /// was; `entities` mean nothing then.
+  /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is
+  /// unchanged; `entities` mean nothing then.
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
   /// The same of many, all or none. Errors: one of them is stale, or named twice.
   Result<void> despawn(std::span<const Entity> people);
@@ -195,7 +195,7 @@ class Simulation {
 
   /// Walkers whom nobody sees fall asleep: their rows go, and a hundred bytes are left from which they come back where
   /// they would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A
-  /// host's own parts stay. `get` answers of a sleeper's body, walk and pose as of anybody (a pose takes some
+  /// host's own parts stay. `get` reads a sleeper's body, walk and pose as anybody's (a pose takes some
   /// microseconds); change_gait, set_gait, turn_to, place, watch_steps, roots and despawn work on sleepers, at the
   /// price of the strikes that follow; all other calls wake them, and so does what a sleeper cannot follow: another
   /// style, or a second request while the first is being carried out. Systems do not see them, nor does `each`. Who
@@ -242,15 +242,16 @@ class Simulation {
   Result<void> place(std::span<const PlaceRequest> places);
 
   /// The world's origin moves to (x, 0, z): every place becomes so much less, of people, of muscles and of what they
-  /// remember, and everybody goes on as they were; no inertia is felt. For worlds of many kilometres: floats are half a
+  /// remember, and everybody goes on unchanged; no inertia is felt. For worlds of many kilometres: floats are half a
   /// millimetre apart at 8 km. Shifts of whole multiples of 64 m toward where people are lose no bit of their places.
   /// Where the host asked things to go (headings, ways aside) is not touched. Ground reaction follows with the next
   /// tick. Errors: not within 1000 km; nothing has changed then.
   Result<void> shift_origin(float x_m, float z_m);
 
   /// The steps of walkers are watched from the next tick on, or no more: `events` tells what happens in them. Compact
-  /// people are watched as well; who falls asleep is watched again on waking, and nothing is told of what was between.
-  /// All or none. Errors: a stale handle, somebody named twice, a posed person (Status::missing); nothing has changed.
+  /// people are watched as well; who falls asleep is watched again on waking, and what happened meanwhile is not
+  /// reported. All or none. Errors: a stale handle, somebody named twice, a posed person (Status::missing); nothing has
+  /// changed.
   Result<void> watch_steps(std::span<const Entity> people, bool on = true);
   /// Heel strikes, toe-offs, stops and starts of who is watched, in all ticks of the last `advance` or
   /// `tick`: in order of time, at the same instant in the order of handles, whatever the threads. Until the next of

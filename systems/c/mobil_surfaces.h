@@ -24,7 +24,8 @@ typedef struct mobil_part {
   unsigned int first_vertex, vertices, first_index, indices;
 } mobil_part;
 
-/* Bound once to one person's body, some tens of milliseconds; good for everybody of like build. Outlives the person. */
+/* Bound once to one person's body, some tens of milliseconds; good for everybody of similar build. Outlives the
+ * person. */
 MOBIL_API int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choice* choice,
                                   mobil_surfaces** out);
 MOBIL_API void mobil_drop_surfaces(mobil_surfaces* surfaces); /* null is allowed */

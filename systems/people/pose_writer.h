@@ -6,7 +6,7 @@
 //   writer.write(simulation.world(), people, ticks.alpha * simulation.tick_s(), {}, {buffer}, jobs);
 //
 // Walkers are where they will be that long after the last tick, exactly and without lag: a step's curves may be asked
-// for at any time, and a step that begins in between is solved for the while. Nothing in the world changes.
+// for at any time, and a step that begins in between is solved and not kept. Nothing in the world changes.
 
 #include <cstddef>
 #include <cstdint>

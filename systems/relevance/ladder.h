@@ -28,7 +28,7 @@ class RungLadder {
 
   explicit RungLadder(const AccuracyTable& table);
 
-  /// The step of a walk of that speed (m/s) by a body of that height (m); of what is no number the last.
+  /// The step of a walk of that speed (m/s) by a body of that height (m); NaN gives the last step.
   static std::uint32_t speed_step(float speed_m_s, float height_m);
 
   /// Predicted error in a body of the reference's height, m.

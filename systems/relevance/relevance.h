@@ -38,7 +38,7 @@
 
 namespace mobil {
 
-/// Who looks. Who is in the cone and no further than `reach_m` is seen; who is not in it but within `near_m` of the
+/// The camera. Who is in the cone and no further than `reach_m` is seen; who is not in it but within `near_m` of the
 /// camera moves on unseen, without control points; everybody else is out of sight or reach, and their muscles are not
 /// simulated. People count as balls of 1 m round the pelvis.
 struct Viewpoint {
@@ -194,7 +194,8 @@ class Relevance {
   Relevance(const Relevance&) = delete;
   Relevance& operator=(const Relevance&) = delete;
 
-  /// From the next update on. Errors: a tolerance, budget or camera that is not finite and positive; all is as it was.
+  /// From the next update on. Errors: a tolerance, budget or camera that is not finite and positive; nothing has
+  /// changed.
   Result<void> set_scene(const SceneNeeds& needs);
   const SceneNeeds& scene() const { return scene_; }
 

@@ -306,16 +306,20 @@ class Simulation {
   Ticks advance(double seconds);
   /// Runs `count` ticks.
   void tick(std::uint32_t count = 1);
+  /// Ticks run so far.
   std::uint32_t ticks() const { return tick_; }
+  /// Length of a tick, s.
   double tick_s() const { return clock_.tick_s(); }
+  /// Time simulated so far, s.
   double time_s() const { return tick_ * clock_.tick_s(); }
-  /// Of the last tick and of all.
+  /// What the last tick cost, and all of them, system by system.
   StepReport report() const;
   /// The state alone as bytes, in the caller's memory: all rows and handles, the tick and the time fed since. Neither
   /// scene nor meshes nor bases: those are made again where they are missing. `save` says how many bytes it wrote,
   /// `snapshot_bytes` of them, and takes memory only for resources that no snapshot had met before. Errors: too little
   /// room; a shared resource that no module names.
   std::size_t snapshot_bytes() const;
+  /// Writes the snapshot; see `snapshot_bytes`.
   Result<std::size_t> save(std::span<std::byte> out) const;
   /// Restores what was saved to the last bit, handles included, here or in another simulation whose tick is as long and
   /// which has the modules of the rows saved, in the same versions; where rows and people are as many as they were,
@@ -329,7 +333,7 @@ class Simulation {
   /// added up (state_hash_of in engine/state_hash.h).
   std::uint64_t state_sum() const;
 
-  /// An entity's row of a component, or why there is none: get<Pose>(human). Of a tag its value.
+  /// An entity's row of a component, or why there is none: get<Pose>(human).
   template <template <class> class C>
   Result<C<float>> get(Entity entity) const {
     Result<C<float>> row{tl::in_place};
@@ -338,6 +342,7 @@ class Simulation {
     if (status != Status::ok) return fail(status);
     return row;
   }
+  /// The value of an entity's tag.
   template <class Tag>
   Result<std::uint64_t> get(Entity entity) const {
     const auto value = world_->get<Tag>(entity);
@@ -353,14 +358,17 @@ class Simulation {
   Result<void> add(Entity entity, const P& part) {
     return result_of("add", ours(key_part(part).id) ? Status::not_yours : world_->add(entity, part));
   }
+  /// Overwrites a component's row.
   template <template <class> class C>
   Result<void> set(Entity entity, const C<float>& row) {
     return result_of("set", ours(type_id<C<float>>()) ? Status::not_yours : world_->set(entity, row));
   }
+  /// Overwrites a field; `values` is as long as the field is wide.
   template <class Tag>
   Result<void> set_field(Entity entity, std::span<const float> values) {
     return result_of("set_field", ours(type_id<Tag>()) ? Status::not_yours : world_->set_field<Tag>(entity, values));
   }
+  /// Removes a part: a component by its template, a field or tag by its type.
   template <template <class> class C>
   Result<void> remove(Entity entity) {
     return result_of("remove", ours(type_id<C<float>>()) ? Status::not_yours : world_->remove<C>(entity));
@@ -369,11 +377,13 @@ class Simulation {
   Result<void> remove(Entity entity) {
     return result_of("remove", ours(type_id<Tag>()) ? Status::not_yours : world_->remove<Tag>(entity));
   }
+  /// An entity of the host's own, of its own parts.
   template <class... P>
   Result<Entity> create(const P&... parts) {
     if ((ours(key_part(parts).id) || ...)) return fail(Status::not_yours);
     return world_->create(parts...);
   }
+  /// Destroys an entity that `create` made.
   Result<void> destroy(Entity entity);
   /// Takes a share in an immutable resource, for a Shared part.
   template <class T>
@@ -400,6 +410,7 @@ class Simulation {
   std::optional<Human> human(Entity entity) const;
   /// All people, in the order of their rows; until somebody comes or goes.
   std::vector<Entity> people() const;
+  /// False for a stale handle and for entities that are not people.
   bool is_person(Entity entity) const;
   /// A person's muscles in the table's order; empty for a stale handle, without muscles, asleep and compact.
   std::vector<OwnMuscle> muscles(Entity human) const;
@@ -413,6 +424,7 @@ class Simulation {
 
   /// All tables, to be read.
   const World& world() const { return *world_; }
+  /// All systems, in the order in which they run; timings can be reset and read.
   Schedule& schedule() { return *schedule_; }
   const Schedule& schedule() const { return *schedule_; }
   /// The library's, then the host's.

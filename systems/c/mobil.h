@@ -45,7 +45,7 @@ extern "C" {
 
 /* The version of this header. mobil_interface() is the library's: equal or greater serves. */
 #define MOBIL_INTERFACE 2
-MOBIL_API int mobil_interface(void);
+MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.1.0" */
 
 typedef struct mobil_sim mobil_sim;           /* one world */
@@ -214,11 +214,15 @@ MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
  * world. `jumped` 1: muscles feel no inertia of the way there. */
 MOBIL_API int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride,
                               int jumped);
-/* Who is not looked at: asleep (some 100 bytes, no muscles, costs next to nothing) and back, compact (walks and moves
- * muscles at a part of the cost) and back. `changed` (may be null): how many are so now. */
+/* People whom nobody sees fall asleep: some 100 bytes, no muscles, hardly any cost. `changed` (may be null): how many
+ * of these sleep now. */
 MOBIL_API int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
+/* They wake, with their muscles' control points within `within_m` of where they would be; usual 0.005. */
 MOBIL_API int mobil_wake(mobil_sim* sim, const mobil_id* ids, size_t count, float within_m);
+/* People whom nobody looks at become compact: they walk, and their muscles move, at a part of the cost. `changed` (may
+ * be null): how many of these are compact now. */
 MOBIL_API int mobil_compact(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
+/* Compact people are whole again. */
 MOBIL_API int mobil_expand(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* The effect of ground reaction and joint moments, on or off; who has it so already is left alone. */
 MOBIL_API int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
@@ -268,8 +272,9 @@ MOBIL_API const char* mobil_muscle_name(int muscle); /* null behind the last */
 
 /* Makes what these muscles share in bodies of usual build, so that nobody waits for it later. */
 MOBIL_API int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles);
-/* All that was made so far as bytes, and taken in again. `out` null: *bytes alone. */
+/* All meshes and bases that were made so far, as bytes. `out` null: *bytes alone. */
 MOBIL_API int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes);
+/* Takes in what mobil_bake wrote, in milliseconds. */
 MOBIL_API int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes);
 /* Muscles come where there are none, and become these where there are; null: they go. Where memory runs out, those
  * before the one for whom there was none have them. */
@@ -277,6 +282,7 @@ MOBIL_API int mobil_set_muscles(mobil_sim* sim, const mobil_id* ids, size_t coun
 /* Another method of one muscle, both sides, without a jump; memory as above. */
 MOBIL_API int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle,
                                const mobil_method* method);
+/* The method that a muscle has now. */
 MOBIL_API int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_method* out);
 /* How hard a muscle of MOBIL_BY_HOST is to pull, 0.01 to 1, one number a person. */
 MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, int side,
@@ -333,6 +339,7 @@ typedef struct mobil_chosen {
 /* Begins, or begins anew with other options; `muscles` (null: usual ones) are all but muscles and method of those whom
  * managing gives some. People managed before have to be managed again. */
 MOBIL_API int mobil_start_choosing(mobil_sim* sim, const mobil_choosing* options, const mobil_muscles* muscles);
+/* What the scene needs, from the next update on. */
 MOBIL_API int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene);
 /* Makes what the scene may call for: some seconds, and no update waits later. */
 MOBIL_API int mobil_prepare_scene(mobil_sim* sim);
@@ -369,9 +376,8 @@ typedef struct mobil_ticks {
 MOBIL_API int mobil_advance(mobil_sim* sim, double seconds, mobil_ticks* out);
 /* So many ticks, whatever the time. */
 MOBIL_API int mobil_tick(mobil_sim* sim, unsigned int ticks);
-/* Seconds simulated so far, and of one tick. */
-MOBIL_API double mobil_time_s(const mobil_sim* sim);
-MOBIL_API double mobil_tick_s(const mobil_sim* sim);
+MOBIL_API double mobil_time_s(const mobil_sim* sim); /* simulated so far */
+MOBIL_API double mobil_tick_s(const mobil_sim* sim); /* of one tick */
 
 /* ---- Reading --------------------------------------------------------------------------------------------------- */
 
@@ -414,8 +420,8 @@ enum {
   MOBIL_MOMENTS, /* 6, with forces: hip, knee, ankle, each [2]; N m, extensor and plantarflexor positive */
   MOBIL_ROWS
 };
-/* Floats in a row of that kind, and the rows of these people. */
-MOBIL_API int mobil_row_floats(int what);
+MOBIL_API int mobil_row_floats(int what); /* floats in a row of that kind */
+/* The rows of these people, `stride` bytes apart. */
 MOBIL_API int mobil_read(mobil_sim* sim, int what, const mobil_id* ids, size_t count, float* out, size_t stride);
 
 /* The same of one muscle and side. */
@@ -430,6 +436,7 @@ enum {
 };
 /* Of a person's muscle: nodes differ. Below 0 where there is none. */
 MOBIL_API int mobil_muscle_row_floats(mobil_sim* sim, int what, mobil_id id, int muscle, int side);
+/* The rows of one muscle of these people. */
 MOBIL_API int mobil_read_muscles(mobil_sim* sim, int what, const mobil_id* ids, size_t count, int muscle, int side,
                                  float* out, size_t stride);
 

@@ -21,6 +21,7 @@ enum {
 
 /* Zero for another sex or detail. The first call takes two seconds, once in a process for each sex. */
 MOBIL_API size_t mobil_skin_vertex_count(int sex, int detail);
+/* Three a triangle. */
 MOBIL_API size_t mobil_skin_index_count(int sex, int detail);
 /* Three a triangle, part by part, wound so that the front is outside in the host's axes; `room` of them at least.
  * `first`: room for MOBIL_SKIN_PARTS + 1 numbers, of each part where it begins in triangles, and

@@ -28,10 +28,9 @@ typedef struct mobil_part {
  * person. */
 MOBIL_API int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choice* choice,
                                   mobil_surfaces** out);
-MOBIL_API void mobil_drop_surfaces(mobil_surfaces* surfaces); /* null is allowed */
-/* How many vertices the surfaces have, and how many indices: three a triangle. */
-MOBIL_API size_t mobil_vertex_count(const mobil_surfaces* surfaces);
-MOBIL_API size_t mobil_index_count(const mobil_surfaces* surfaces);
+MOBIL_API void mobil_drop_surfaces(mobil_surfaces* surfaces);        /* null is allowed */
+MOBIL_API size_t mobil_vertex_count(const mobil_surfaces* surfaces); /* of all parts */
+MOBIL_API size_t mobil_index_count(const mobil_surfaces* surfaces);  /* three a triangle */
 /* Three a triangle, wound so that the front is outside in the host's axes; `room` of them at least. */
 MOBIL_API int mobil_indices(const mobil_surfaces* surfaces, unsigned int* out, size_t room);
 /* Two a vertex, 0 to 1: along and around; of textured surfaces. `room`: of floats. */

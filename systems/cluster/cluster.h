@@ -66,6 +66,7 @@ class Cluster {
   /// One tick of all. `commands`: the first rank's; those of others are ignored, and so are the first rank's where the
   /// log of a run that goes on has some of that tick.
   void tick(std::span<const std::byte> commands = {});
+  /// Ticks run so far.
   std::uint32_t ticks() const { return ticks_; }
   /// Of everybody: that of one simulation that had them all, at the same tick.
   std::uint64_t state_hash();
@@ -76,9 +77,11 @@ class Cluster {
   const ClusterOptions& options() const { return options_; }
   /// Null where another rank has it. Until the next `tick`, if shards may move.
   Shard* shard(std::uint32_t number) { return shards_[number].get(); }
+  /// The rank that has each shard.
   std::span<const int> owner() const { return owner_; }
   /// What the host kept in the snapshot that the run went on from; at the first rank.
   const std::vector<std::byte>& restored_host() const { return restored_host_; }
+  /// What this rank did since `begin`.
   ClusterReport report() const;
 
  private:

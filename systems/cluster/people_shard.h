@@ -61,7 +61,9 @@ class PeopleShard : public Shard {
 
   /// A stale handle where nobody here has that number.
   Entity find(std::uint64_t number) const;
+  /// The people of this shard by their numbers.
   const std::map<std::uint64_t, Entity>& people() const { return people_; }
+  /// Wishes that could not be fulfilled so far.
   std::uint64_t refused() const { return refused_; }
   const Simulation& simulation() const { return simulation_; }
 

@@ -187,16 +187,17 @@ class Relevance {
  public:
   /// Works on `simulation`, which must outlive it and stay where it is. Errors, in one line: options out of range.
   static Result<Relevance> make(Simulation& simulation, const RelevanceOptions& options = {});
-  /// The same; throws std::invalid_argument with that line.
+  /// As `make`; throws std::invalid_argument with its line.
   explicit Relevance(Simulation& simulation, const RelevanceOptions& options = {});
   ~Relevance();
   Relevance(Relevance&&) noexcept;
   Relevance(const Relevance&) = delete;
   Relevance& operator=(const Relevance&) = delete;
 
-  /// From the next update on. Errors: a tolerance, budget or camera that is not finite and positive; nothing has
-  /// changed.
+  /// What the scene needs, from the next update on. Errors: a tolerance, budget or camera that is not finite and
+  /// positive; nothing has changed.
   Result<void> set_scene(const SceneNeeds& needs);
+  /// What was last set.
   const SceneNeeds& scene() const { return scene_; }
 
   /// Makes what methods share that the scene, and people with these tolerances of their own, may call for in bodies of
@@ -214,27 +215,31 @@ class Relevance {
   /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
   /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles; nothing has changed then.
   Result<std::size_t> manage_asleep(std::span<const Entity> people);
-  /// No more; muscles stay as they are. Errors: a stale handle, somebody who is not managed (Status::missing).
+  /// The person is no longer managed; muscles stay as they are. Errors: a stale handle, somebody who is not managed
+  /// (Status::missing).
   Result<void> release(Entity human);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
   /// refuses.
   Result<void> force(Entity human, Muscle muscle, const MuscleMethod& method);
-  /// Errors: a stale handle; Status::missing where the person, or that muscle, is not managed.
+  /// The method is chosen again. Errors: a stale handle; Status::missing where the person, or that muscle, is not
+  /// managed.
   Result<void> unforce(Entity human, Muscle muscle);
 
   /// Looks at a part of the crowd, and changes methods. Call it before each tick, or less often. Takes memory only as
   /// crowds grow and methods change.
   RelevanceReport update();
 
-  /// As it is; and as it was, with the simulation restored to what it was then: choosing goes on with the same bits,
-  /// scene and machine_factor being the same.
+  /// What choosing remembers, to be kept beside a snapshot of the simulation.
   RelevanceState state() const;
+  /// Puts it back after the simulation was restored to that snapshot: choosing goes on with the same bits, where scene
+  /// and machine_factor are the same.
   void set_state(const RelevanceState& state);
 
   /// How many muscles have each rung of a ladder, both legs'; last, those with a method that was forced or refused.
   std::array<std::size_t, rung_count + 1> muscles_by_rung(bool living = false) const;
-  /// Errors: a stale handle; Status::missing where the person is not managed or has no such muscle.
+  /// Why a muscle has its method. Errors: a stale handle; Status::missing where the person is not managed or has no
+  /// such muscle.
   Result<Choice> why(Entity human, Muscle muscle) const;
 
  private:

@@ -63,7 +63,7 @@ struct CrowdDecisions {
   bool structural() const { return spawned + despawned + near_changed > 0; }
 };
 
-/// One who walks. What there is besides is drawn from the number, and lies in the simulation.
+/// A walker, as the host records it. All else follows from the number or lies in the simulation.
 struct CrowdWalker {
   Entity entity{};
   std::uint64_t number = 0;

@@ -163,6 +163,24 @@ class Site:
             return f'{match[1]}="{there}{"#" + parts.fragment if parts.fragment else ""}"'
 
         body = re.sub(r'\b(href|src)="([^"]*)"', link, body)
+        def code(match):
+            """A file or a header that is named becomes a link to it."""
+            if match[1]:
+                return match[0]
+            name = html.unescape(match[2])
+            header = re.fullmatch(r'<mobil/(?:.*/)?(\w+)\.h>', name)
+            if header:
+                there = f'reference/{"c" if header[1] == "mobil" else "cpp"}/{header[1].replace("_", "__")}_8h.html'
+                if not (self.reference / there.split('/', 1)[1]).exists():
+                    return match[0]
+            else:
+                files = [folder / name for folder in (self.root, source.parent) if '/' in name and (folder / name).is_file()]
+                if not files or SKIPPED & set(pathlib.Path(name).parts):
+                    return match[0]
+                there = self.shown(files[0].resolve())
+            return f'<a href="{urllib.parse.quote(self.relative(there, page))}"><code>{match[2]}</code></a>'
+
+        body = re.sub(r'(<a [^>]*>(?:(?!</a>).)*</a>)|<code>([^<\s]+)</code>', code, body, flags=re.S)
         body = re.sub(r'<table>.*?</table>', lambda m: f'<div class="wide">{m[0]}</div>', body, flags=re.S)
         self.write(page, self.titles[document], body)
 

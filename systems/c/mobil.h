@@ -171,10 +171,12 @@ typedef struct mobil_style_number {
   const char *name, *unit, *meaning; /* unit "1": none */
   float low, high, usual;
 } mobil_style_number;
-MOBIL_API int mobil_style(int number, mobil_style_number* out); /* MOBIL_MISSING behind the last */
+/* The numbers of a style, from 0 on; MOBIL_MISSING behind the last. */
+MOBIL_API int mobil_style(int number, mobil_style_number* out);
 
 struct mobil_muscles;
-/* All come or none. `muscles` may be null: then they have none. Posed people begin in the anatomical position. */
+/* Makes people, all or none. `muscles` may be null: then they have none. Posed people begin in the anatomical position.
+ */
 MOBIL_API int mobil_spawn(mobil_sim* sim, const mobil_person* people, size_t stride, size_t count,
                           const struct mobil_muscles* muscles, mobil_id* out);
 /* They go, with their muscles; all or none. Their ids are stale from then on. */
@@ -199,10 +201,10 @@ enum {
 /* What a person is now: bits of those above. */
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
 
-/* From the next step on. Nobody is changed where one of them cannot walk so. */
+/* Asks people to walk otherwise, from the next step on. Nobody is changed where one of them cannot walk so. */
 MOBIL_API int mobil_change_walks(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walks,
                                  size_t stride);
-/* One walk for all of them. */
+/* The same, one walk for all of them. */
 MOBIL_API int mobil_change_walk(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walk);
 /* Who stands steps aside, m to the left and ahead (negative: to the right and back; up to 0.25 and 0.20). */
 MOBIL_API int mobil_step_aside(mobil_sim* sim, mobil_id id, float left_m, float ahead_m);

@@ -50,7 +50,7 @@ struct Viewpoint {
   float reach_m = 200;
 };
 
-/// What everybody needs who has no need of their own.
+/// What the scene needs of everybody; PersonNeeds overrides it for one person.
 struct SceneNeeds {
   MuscleSet muscles = muscle_groups();
   /// How far a control point may be from where it belongs, m. Of a camera: pixels, from which distance makes metres.
@@ -76,7 +76,7 @@ struct SceneNeeds {
 struct PersonNeeds {
   std::optional<MuscleSet> muscles{};
   std::optional<float> tolerance_m{};
-  std::optional<bool> looked_at{};  // of one whom the camera does not see: moves on all the same
+  std::optional<bool> looked_at{};  // counts as seen, or as near but unseen, whatever the camera sees
 };
 
 /// How methods are chosen, and how much may change in one update.

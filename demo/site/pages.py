@@ -72,6 +72,8 @@ class Site:
                     items += REFERENCE
                 elif name in self.titles:
                     items.append((self.titles[name], self.page_of(name)))
+            if chapter == 'The project' and (self.root / 'LICENSE').is_file():
+                items.append(('Licence', self.shown(self.root / 'LICENSE')))
             if chapter == 'Begin' and (self.root / 'build/page/index.html').exists():
                 items.append(('Try it in the browser', 'page/index.html'))
             if items:

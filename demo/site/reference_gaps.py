@@ -34,7 +34,7 @@ def main():
         for row in pathlib.Path(log).read_text().splitlines():
             found = WARNING.match(row)
             if not found:
-                if row.strip():
+                if row.strip() and 'No output formats selected' not in row:
                     left.add(row)
                 continue
             file, line, text = found[1], int(found[2]), found[3]

@@ -9,6 +9,7 @@
 
 namespace mobil {
 
+/// Build, as a caller says it; what it does to muscle volume: `physique_factor` (assets/body/body_composition.h).
 enum class Constitution : std::uint8_t { thin, average, athletic, heavy };
 /// Whose girths the skin has (assets/skin). Skeleton, masses and muscles are a man's of that height and mass so far.
 enum class Sex : std::uint8_t { man, woman };

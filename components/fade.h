@@ -1,5 +1,5 @@
 #pragma once
-// What a change of method could not hand over, which is shown on top of what the new method computes and fades.
+// What is left of a change of method: shown on top of what the new method computes, and faded out.
 
 #include "components/lanes.h"
 

@@ -64,6 +64,7 @@ struct GaitStyleOf {
   F finger_flexion_deg = in_every_lane<F>(25.0F);
 };
 
+/// One person's style.
 using GaitStyle = GaitStyleOf<float>;
 
 /// One parameter: its name, unit ("1" where it has none), where it lies, its range, and what it does.
@@ -74,6 +75,8 @@ struct GaitParameter {
   std::string_view meaning;
 };
 
+/// All parameters of a style, in the order of its fields. The command line, the C interface and snapshots know them by
+/// these names.
 inline constexpr std::array<GaitParameter, 36> gait_parameters = {{
     {"pelvis_rotation_deg", "deg", &GaitStyle::pelvis_rotation_deg, 0, 15, "pelvis turn to each side (transverse)"},
     {"pelvis_list_deg", "deg", &GaitStyle::pelvis_list_deg, 0, 10, "pelvis list to each side (frontal)"},

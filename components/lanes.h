@@ -9,6 +9,7 @@
 
 namespace mobil {
 
+/// Rows in a block.
 inline constexpr std::size_t lane_count = 16;
 
 /// Sixteen values of one field, one per individual, aligned for the widest register.
@@ -24,6 +25,7 @@ struct alignas(64) Lanes {
 template <class F>
 using Whole = std::conditional_t<std::is_same_v<F, Lanes<float>>, Lanes<std::uint32_t>, std::uint32_t>;
 
+/// A point, direction or other vector; the field that holds it says its unit and frame.
 template <class F>
 struct Vec3 {
   F x, y, z;

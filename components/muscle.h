@@ -1,5 +1,5 @@
 #pragma once
-// A muscle of one leg: whose it is, its size against its template, its line of action, its moving nodes.
+// A muscle of one leg: its owner, its size against its template, its line of action, its moving nodes.
 // Mechanics: a linear elastic belly in the frame of its line of action, z from origin to insertion; a left muscle is
 // solved as a right one and reflected when drawn.
 
@@ -47,6 +47,7 @@ inline constexpr std::array<std::string_view, 3> element_name = {"full", "bbar",
 enum class Method : std::uint8_t { statics, ecd, icd, caa, reduced, none };
 inline constexpr std::array<std::string_view, 6> method_name = {"static", "ecd", "icd", "caa", "reduced", "none"};
 
+/// Mass matrix: lumped at the nodes (diagonal), or consistent with the shape functions.
 enum class Mass : std::uint8_t { lumped, consistent };
 inline constexpr std::array<std::string_view, 2> mass_name = {"lumped", "consistent"};
 

@@ -20,7 +20,7 @@ struct Needs {
 };
 enum OwnNeed : std::uint32_t { own_muscles = 1, own_tolerance = 2, own_look = 4 };
 
-/// How a person stands to who looks: within sight; near by but out of sight; out of sight; out of reach.
+/// Where a person is for the viewer: within sight; near by but out of sight; out of sight; out of reach.
 enum class View : std::uint8_t { seen, near, out_of_sight, out_of_reach };
 inline constexpr std::array<std::string_view, 4> view_name = {"seen", "near", "out of sight", "out of reach"};
 

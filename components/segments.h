@@ -8,6 +8,9 @@
 
 namespace mobil {
 
+/// A rigid segment of the skeleton. Vertebrae and head are numbered upward from the pelvis; legs and arms follow, right
+/// side
+/// first.
 enum class Segment : std::uint8_t {
   pelvis,
   L5,
@@ -59,8 +62,10 @@ enum class Segment : std::uint8_t {
   thumb_left,
 };
 
+/// How many segments there are.
 inline constexpr std::size_t segment_count = 48;
 
+/// The place of a segment in arrays over all segments.
 constexpr std::size_t index(Segment s) {
   return static_cast<std::size_t>(s);
 }
@@ -89,6 +94,7 @@ inline constexpr std::array<Segment, segment_count> segment_parent = [] {
   return parent;
 }();
 
+/// Names, as tables and files have them.
 inline constexpr std::array<std::string_view, segment_count> segment_name = {
     "pelvis",
     "L5",

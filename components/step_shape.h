@@ -35,13 +35,16 @@ inline constexpr ShapePart pressure{"pressure", 60, 8, 0.02,
 inline constexpr ShapePart share{"share", 68, 3, 0.3};   // of the weight that a foot takes over
 inline constexpr ShapePart split{"split", 71, 4, 0.05};  // fore-aft force between the feet: height of the point that
                                                          // they lean toward, and what they push apart
+/// How many numbers there are, and the parts that they fall into, in their order.
 inline constexpr std::size_t size = 75;
 inline constexpr std::array parts = {hips_forward,  hips_up,  trunk,  aside,       strike,   rise,  times, swing_pitch,
                                      swing_forward, swing_up, pad_up, pad_forward, pressure, share, split};
 }  // namespace step_shape
 
+/// The numbers of one step, part by part.
 using StepShape = std::array<double, step_shape::size>;
 
+/// By how much each number is likely to change: what a fit takes its steps and weights from.
 constexpr StepShape shape_scales() {
   StepShape scales{};
   for (const ShapePart& part : step_shape::parts) {

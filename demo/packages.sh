@@ -7,6 +7,9 @@ build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev lib
 test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-setuptools python3-wheel xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"
+# Documents as pages and the reference (demo/site/run); spelling, which its test looks at where it is there.
+site_packages="python3 doxygen cmark-gfm"
+spelling_packages="codespell"
 
 # For browsers (demo/web/run), and to show that other machines compute the same (tests/portable/run).
 web_packages="cmake ninja-build clang-19 lld-19 libc++-19-dev-wasm32 libc++abi-19-dev-wasm32 libclang-rt-19-dev-wasm32

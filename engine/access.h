@@ -12,7 +12,7 @@
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
 //   Scratch<Tag>             memory to work in, as many floats as the table's tag says
 //   Tick, float              the tick; a plain float is its length in s
-//   Rows                     who the lanes are
+//   Rows                     the entities of the block's lanes
 //   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
 //
 // It runs on every block of every table that has all components, fields and tags named (Maybes and Scratch aside).
@@ -27,6 +27,7 @@
 
 namespace mobil {
 
+/// The tick under way: its length, s, and its number from 0 on.
 struct Tick {
   float dt_s = 0;
   std::uint32_t index = 0;
@@ -86,12 +87,14 @@ struct Scratch {
 /// Where a column of any entity's row is.
 class ColumnLookup {
  public:
+  /// Where an entity's row of the column is: word w at column[16·w + lane].
   struct Found {
     const float* column = nullptr;  // null when the entity is stale or has no such column
     std::uint32_t lane = 0;
   };
 
   ColumnLookup(const World& world, std::uint64_t id) : world_(&world), id_(id) {}
+  /// Null for a stale entity and where its table has no such column.
   Found find(Entity entity) const {
     const auto place = world_->find(entity);
     if (!place) return {};
@@ -215,6 +218,7 @@ struct Parameter : AnywhereParameter {
   static P make(const BlockView&, const Bound&);
 };
 
+/// How a component or a field is handed to a system: what it asks of a table, and where a block has it.
 template <Access::Mode mode, class T>
 struct ColumnParameter {
   static constexpr Access access() { return {mode, type_id<T>(), type_name<T>()}; }
@@ -230,6 +234,7 @@ struct ColumnParameter {
   }
 };
 
+/// How a tag or a shared resource is handed to a system.
 template <class T>
 struct TagParameter {
   static constexpr Access access() { return {}; }
@@ -357,6 +362,7 @@ struct Parameter<Scratch<Tag>> : AnywhereParameter {
   }
 };
 
+/// Whether a parameter is memory to work in.
 template <class P>
 inline constexpr bool is_scratch = false;
 template <class Tag>
@@ -364,6 +370,7 @@ inline constexpr bool is_scratch<Scratch<Tag>> = true;
 template <class Tag>
 inline constexpr bool is_scratch<const Scratch<Tag>&> = true;
 
+/// Whether a parameter means something only within a tick.
 template <class P>
 inline constexpr bool is_timed = is_scratch<P>;
 template <>

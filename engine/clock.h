@@ -38,6 +38,8 @@ class Clock {
     return clock;
   }
 
+  /// Feeds the time of a frame, s: the ticks to run now, and what is left over. A negative or non-finite time is
+  /// dropped.
   Ticks advance(double seconds) {
     Ticks ticks;
     if (!(seconds >= 0) || !std::isfinite(seconds)) {
@@ -55,6 +57,7 @@ class Clock {
     return ticks;
   }
 
+  /// Length of a tick, s.
   double tick_s() const { return to_seconds(tick_); }
   /// The most ticks that a frame amounts to.
   std::uint32_t most_ticks() const { return static_cast<std::uint32_t>((max_frame_ + tick_ - 1) / tick_); }

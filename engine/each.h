@@ -31,6 +31,7 @@ class TableColumn {
   std::uint32_t first_word_;
 };
 
+/// The loop behind `each`.
 template <class F, class... P>
 void each_with(World& world, F& f, Parameters<P...>) {
   static_assert(!(is_timed<P> || ...), "between ticks there is neither a tick nor scratch memory: leave that out");
@@ -47,6 +48,7 @@ void each_with(World& world, F& f, Parameters<P...>) {
   }
 }
 
+/// Whether parameters only read.
 template <class... P>
 constexpr bool writes_nothing(Parameters<P...>) {
   return ((Parameter<P>::access().mode != Access::Mode::write) && ...);

@@ -1,5 +1,5 @@
 #pragma once
-// Handles. An entity is a number that was given out once; whoever holds it after the entity is gone is told so.
+// Handles: an index and a generation. A handle that outlives its entity is stale, and every call says so.
 
 #include <algorithm>
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace mobil {
 
-/// A handle: plain data, may be stored, copied and sent. The default one is nobody and never alive.
+/// A handle: plain data, may be stored, copied and sent. The default one is null: never alive.
 struct Entity {
   std::uint32_t index = 0;
   std::uint32_t generation = 0;
@@ -24,6 +24,7 @@ struct Entity {
 /// time with the next generation; a slot whose generations are used up is retired.
 class EntityRegister {
  public:
+  /// A table's number in the world, and a row of it.
   struct Location {
     std::uint32_t table, row;
   };
@@ -44,6 +45,7 @@ class EntityRegister {
                                                                            : Entity{};
   }
 
+  /// A new living entity, at table 0 and row 0 until its place is set.
   Entity create() {
     std::uint32_t index = first_free_;
     if (index == nobody) {
@@ -66,6 +68,7 @@ class EntityRegister {
   Location* find(Entity entity) { return alive(entity) ? &slots_[entity.index].location : nullptr; }
   const Location* find(Entity entity) const { return alive(entity) ? &slots_[entity.index].location : nullptr; }
 
+  /// False for a stale handle and for the default one.
   bool alive(Entity entity) const {
     return entity.index < slots_.size() && slots_[entity.index].generation == entity.generation &&
            slots_[entity.index].location.table != nobody;

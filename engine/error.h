@@ -9,6 +9,7 @@
 
 namespace mobil {
 
+/// Why a call failed: one line for people, a code for the program.
 struct Error {
   std::string message;
   Status status = Status::not_valid;  // never ok
@@ -17,6 +18,7 @@ inline bool operator==(const Error& error, Status status) {
   return error.status == status;
 }
 
+/// What was asked for, or an Error.
 template <class T>
 using Result = tl::expected<T, Error>;
 

@@ -10,8 +10,10 @@
 
 namespace mobil::geometry {
 
+/// A vector in double precision.
 using Vec = Vec3<double>;
 
+/// Sum, difference and multiple of vectors.
 template <class F>
 constexpr Vec3<F> operator+(const Vec3<F>& a, const Vec3<F>& b) {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -24,6 +26,7 @@ template <class F>
 constexpr Vec3<F> operator*(std::type_identity_t<F> s, const Vec3<F>& a) {
   return {s * a.x, s * a.y, s * a.z};
 }
+/// Scalar product, vector product and length.
 template <class F>
 constexpr F dot(const Vec3<F>& a, const Vec3<F>& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
@@ -103,6 +106,7 @@ constexpr Quat<F> mirrored(const Quat<F>& q) {
   return {q.x, -q.y, -q.z, q.w};
 }
 
+/// The same in the other precision.
 constexpr Vec to_double(const Vec3<float>& v) {
   return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
 }

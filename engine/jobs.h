@@ -52,11 +52,13 @@ void in_parallel(const Jobs& jobs, std::size_t count, Work work) {
 /// the machine has are allowed and not used.
 class Threads {
  public:
+  /// A pool of `count` threads, the caller among them.
   explicit Threads(int count = 0);
   ~Threads();
   Threads(Threads&&) noexcept;
   Threads& operator=(Threads&&) noexcept;
 
+  /// How many threads work at once, the caller among them.
   int count() const;
   /// Valid as long as this pool lives, also after it has been moved.
   Jobs jobs() const;
@@ -67,7 +69,7 @@ class Threads {
 };
 
 /// While one lives, this thread's arithmetic takes denormal numbers for zero (on x86 and 64-bit ARM); after it the
-/// thread is as it was.
+/// thread does what it did before.
 class FlushDenormals {
  public:
   FlushDenormals();

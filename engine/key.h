@@ -78,6 +78,7 @@ struct KeyPart {
 /// Parts sorted by id, each id once. Two entities share a table when their keys are equal.
 using TableKey = std::pmr::vector<KeyPart>;
 
+/// The first part whose id is not below `id`.
 inline TableKey::const_iterator lower_bound(const TableKey& key, std::uint64_t id) {
   return std::lower_bound(key.begin(), key.end(), id, [](const KeyPart& part, std::uint64_t i) { return part.id < i; });
 }
@@ -88,6 +89,7 @@ inline const KeyPart* find_part(const TableKey& key, std::uint64_t id) {
   return at != key.end() && at->id == id ? &*at : nullptr;
 }
 
+/// Puts a part where its id belongs.
 inline void insert_part(TableKey& key, const KeyPart& part) {
   key.insert(lower_bound(key, part.id), part);
 }
@@ -98,14 +100,15 @@ struct FieldWidth {
   std::uint32_t words = 0;
 };
 
-/// A small number that all rows of a table share, named by a plain struct. Also how a system is told of it.
+/// A small number that all rows of a table share, named by a plain struct. A system receives it as a parameter of this
+/// type.
 template <class Tag>
 struct TagValue {
   std::uint64_t value = 0;
 };
 
-/// An immutable resource that all rows of a table share; `World::share` makes it, the world owns it. Also how a system
-/// is handed it.
+/// An immutable resource that all rows of a table share; `World::share` makes it, the world owns it. A system
+/// receives it as a parameter of this type.
 template <class T>
 struct Shared {
   const T* resource = nullptr;
@@ -150,6 +153,7 @@ struct ComponentLayout {
   }();
 };
 
+/// The key part of a component.
 template <template <class> class C>
 constexpr KeyPart component_part() {
   return {type_id<C<float>>(), PartKind::component, ComponentLayout<C>::words, type_name<C<float>>(),
@@ -187,12 +191,14 @@ constexpr KeyPart key_part(const Shared<T>& shared) {
   return {type_id<T>(), PartKind::shared, shared.index, type_name<T>()};
 }
 
+/// The same for what rows publish; T fills whole lines of 64 bytes.
 template <class T>
 constexpr KeyPart key_part(const Publishes<T>&) {
   static_assert(std::is_trivially_copyable_v<T> && sizeof(T) % 64 == 0 && alignof(T) <= 64, "whole lines of memory");
   return {type_id<T>(), PartKind::published, sizeof(T) / 4, type_name<T>()};
 }
 
+/// A part's id.
 template <class P>
 inline constexpr std::uint64_t part_id = key_part(P{}).id;
 
@@ -203,6 +209,7 @@ struct PartValue {
   const void* row = nullptr;
 };
 
+/// A part with its value; `row` must outlive what is returned.
 template <template <class> class C>
 constexpr PartValue part_value(const C<float>& row) {
   return {component_part<C>(), &row};
@@ -222,6 +229,7 @@ inline std::uint64_t key_hash(const TableKey& key) {
   return hash;
 }
 
+/// Whether no id is there twice.
 constexpr bool distinct(std::initializer_list<std::uint64_t> ids) {
   for (auto a = ids.begin(); a != ids.end(); ++a) {
     if (std::find(a + 1, ids.end(), *a) != ids.end()) return false;

@@ -14,6 +14,7 @@ namespace mobil {
 /// By entity index. Nothing here takes memory but `reserve`.
 class Members {
  public:
+  /// The index that no entity has.
   static constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
   explicit Members(std::pmr::memory_resource* memory) : links_(memory) {}
@@ -28,10 +29,12 @@ class Members {
   }
   void clear() { links_.clear(); }
 
+  /// The first member of an owner, the member behind another, and the owner of a member; `nobody` where there is none.
   std::uint32_t first(std::uint32_t owner) const { return owner < links_.size() ? links_[owner].first : nobody; }
   std::uint32_t next(std::uint32_t member) const { return links_[member].next; }
   std::uint32_t owner(std::uint32_t member) const { return member < links_.size() ? links_[member].owner : nobody; }
 
+  /// Makes `member` one of `owner`; it leaves the owner that it had.
   void link(std::uint32_t owner, std::uint32_t member) {
     if (links_[member].owner == owner) return;
     unlink(member);
@@ -41,6 +44,7 @@ class Members {
     links_[member].next = *at;
     *at = member;
   }
+  /// Takes a member from its owner; does nothing where it has none.
   void unlink(std::uint32_t member) {
     if (member >= links_.size() || links_[member].owner == nobody) return;
     std::uint32_t* at = &links_[links_[member].owner].first;

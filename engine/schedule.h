@@ -36,7 +36,7 @@ namespace mobil {
 /// A system with its type taken off.
 struct System {
   std::string name;
-  std::string module{};          // whose it is (engine/module.h); empty where nobody said
+  std::string module{};          // that it belongs to (engine/module.h); may be empty
   std::vector<Access> accesses;  // of its parameters
   std::size_t parameters = 0;
   std::vector<std::string> after;  // names of systems that must have run
@@ -124,6 +124,7 @@ class Schedule {
   std::shared_ptr<const char> world_;
 };
 
+/// Collects systems, by module, and orders them.
 class ScheduleBuilder {
  public:
   /// Systems added from now on are that module's.
@@ -151,8 +152,8 @@ class ScheduleBuilder {
     return *this;
   }
 
-  /// Fails on two systems of one name, on an `after` that names nobody, on a system that takes a component twice and
-  /// writes it, on writers that nobody ordered and on circles. `memory` serves the systems' scratch memory and the
+  /// Fails on two systems of one name, on an `after` that names no system, on a system that takes a component twice and
+  /// writes it, on two writers without an order and on cycles. `memory` serves the systems' scratch memory and the
   /// lists of chosen rows; it is asked by one thread at a time, perhaps during a run, and must outlive the schedule.
   Result<Schedule> build(std::pmr::memory_resource* memory = std::pmr::get_default_resource()) const;
 

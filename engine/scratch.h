@@ -12,6 +12,7 @@ namespace mobil {
 /// while nobody holds a buffer.
 class ScratchPool {
  public:
+  /// One buffer of the pool's size, in a list of all.
   struct Buffer {
     float* data = nullptr;
     std::atomic<bool> taken = false;
@@ -40,7 +41,7 @@ class ScratchPool {
 
   std::pmr::memory_resource* memory_;
   std::atomic<Buffer*> first_ = nullptr;
-  std::atomic_flag growing_;  // held for the while, a lock that needs no threads' library
+  std::atomic_flag growing_;  // held meanwhile: a lock that needs no threads' library
   std::size_t floats_ = 0;
   std::size_t count_ = 0;
 };

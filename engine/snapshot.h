@@ -63,7 +63,7 @@ class WorldSnapshot {
   /// Checks that everything agrees: sizes, keys, the register with the rows and its list of free slots.
   static Result<SavedWorld> read(const OpenSnapshot& snapshot);
 
-  /// Finds or makes a table for each one saved, and makes room. Until `commit` the world is as it was, but for tables
+  /// Finds or makes a table for each one saved, and makes room. Until `commit` the world is unchanged, but for tables
   /// and blocks without rows; nothing here keeps pointers into the snapshot. `known`: parts that tables may have beside
   /// those that the world's have. `shared`: of every resource named. `check` says whether a key that the world has no
   /// table of yet makes sense. Takes memory only where more is needed than the last time. Throws what the memory

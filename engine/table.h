@@ -25,6 +25,7 @@ struct RowMove {
 /// hold copies of its lane 0, so that a kernel may always run all sixteen. What a kernel computes there, nobody reads.
 class Table {
  public:
+  /// What `column` answers where the table has no such part.
   static constexpr std::uint32_t no_column = std::numeric_limits<std::uint32_t>::max();
 
   Table(const TableKey& key, std::pmr::memory_resource* memory);
@@ -32,6 +33,7 @@ class Table {
   Table(const Table&) = delete;
   Table& operator=(const Table&) = delete;
 
+  /// Parts, rows, and blocks of sixteen rows (the last may be partly filled).
   const TableKey& key() const { return key_; }
   std::uint32_t row_count() const { return rows_; }
   std::size_t block_count() const { return (rows_ + lane_count - 1) / lane_count; }
@@ -56,7 +58,7 @@ class Table {
 
   /// Makes room for one more row. Throws what the memory resource throws; nothing else here takes memory.
   void reserve_row() { reserve(rows_ + 1); }
-  /// Makes room for so many rows in all; where memory runs out, all is as it was.
+  /// Makes room for so many rows in all; where memory runs out, nothing has changed.
   void reserve(std::uint32_t rows);
   /// Gives back memory that no row needs, but for a next block.
   void trim();

@@ -41,7 +41,7 @@ struct Wide {
   hn::Vec<FloatTag> part[vector_count];
 };
 
-/// Sixteen truth values.
+/// Sixteen booleans.
 struct WideMask {
   hn::Mask<FloatTag> part[vector_count];
 };

@@ -242,7 +242,7 @@ void World::Attempt::keep() {
 }
 
 bool World::alive_once(std::span<const Entity> entities) {
-  constexpr std::uint32_t named = 0x80000000;  // in a row's number, for the while
+  constexpr std::uint32_t named = 0x80000000;  // in a row's number, until the end of this function
   std::size_t count = 0;
   for (; count < entities.size(); ++count) {
     auto* const location = entities_.find(entities[count]);

@@ -65,14 +65,14 @@ class World {
   Status remake_from(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned);
   /// Many entities of the same parts. A row's values come in blocks of sixteen lanes: that of word w of the entity that
   /// is number i at [(i / 16 · words + w) · 16 + i % 16]; null is zeros. The same entities as one by one, in
-  /// `entities`. Where memory runs out, the world is as it was.
+  /// `entities`. Where memory runs out, the world is unchanged.
   void create_many(std::span<const PartValue> parts, std::span<Entity> entities, const Jobs& jobs = {});
-  /// As the last remake_from, of many entities of one table, alive, each named once, who come to be in another one: the
+  /// As the last remake_from, of many entities of one table, alive, each named once, which move to another table: the
   /// values of `parts` are as in create_many, but parts that they have already keep their own.
   void remake_many(std::span<const Entity> entities, std::span<const PartValue> parts,
                    std::span<const std::uint64_t> owned, const Jobs& jobs = {});
   /// While one lives, what create_many and remake_many do, and what becomes of entities remade, can be undone,
-  /// and is at its end unless it was kept: rows and handles are as they were, those given out afterwards too. Undoing
+  /// and is at its end unless it was kept: rows and handles are those of before, also handles given out later. Undoing
   /// and keeping take no memory. Until then the old rows of who was remade stay in their tables: nobody goes over
   /// tables, nobody is destroyed, and nobody comes into a table that others left. One at a time.
   class Attempt {
@@ -81,6 +81,7 @@ class World {
     ~Attempt();
     Attempt(const Attempt&) = delete;
     Attempt& operator=(const Attempt&) = delete;
+    /// What was done stays.
     void keep();
 
    private:
@@ -88,7 +89,7 @@ class World {
     Jobs jobs_;
   };
   /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
-  /// most; in which order rows then lie is not that of one by one. Takes memory for the while; where there is none,
+  /// most; in which order rows then lie is not that of one by one. Takes memory until it returns; where there is none,
   /// they go one by one.
   Status destroy_many(std::span<const Entity> entities, const Jobs& jobs = {});
   /// Whether all of them are alive, each named once. Takes no memory.
@@ -136,6 +137,7 @@ class World {
     return remove_part(entity, type_id<Tag>());
   }
 
+  /// Whether the entity is alive and has that part.
   template <template <class> class C>
   bool has(Entity entity) const {
     return part_of(entity, type_id<C<float>>()).has_value();

@@ -55,6 +55,8 @@ namespace mobil {
 
 class Simulation;
 
+/// Time, threads, memory and modules of a simulation. Ranges: `tick_s` 1e-5 to 1 s, `max_frame_s` from one tick to 60
+/// s.
 struct SimulationOptions {
   double tick_s = 1.0 / 60;
   double max_frame_s = 0.25;   // of a longer frame the rest is dropped and reported
@@ -126,7 +128,7 @@ class Simulation {
   /// Errors, in one line: tick_s or max_frame_s out of range (engine/clock.h), a module that does not fit the others
   /// (engine/module.h).
   static Result<Simulation> make(const SimulationOptions& options = {});
-  /// The same; throws std::invalid_argument with that line.
+  /// As `make`; throws std::invalid_argument with its line.
   explicit Simulation(const SimulationOptions& options = {});
   ~Simulation();
   /// What was moved from may be destroyed or assigned to. References to the world go along.
@@ -149,14 +151,14 @@ class Simulation {
   /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, unless it
   /// has `jumped`.
   Result<void> set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
-  /// Errors: a stale handle.
+  /// The person goes, with their muscles; the handles are stale from then on. Errors: a stale handle.
   Result<void> despawn(Entity human);
 
   /// Many at once, with the simulation's jobs: the same bits as one by one, in a fraction of the time. `entities` is as
-  /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is as it
-  /// was; `entities` mean nothing then.
+  /// long as `people`. All or none: an error names the number of the person, in one line, and the simulation is
+  /// unchanged; `entities` mean nothing then.
   Result<void> spawn(std::span<const SpawnRequest> people, std::span<Entity> entities);
-  /// All or none. Errors: one of them is stale, or named twice.
+  /// The same of many, all or none. Errors: one of them is stale, or named twice.
   Result<void> despawn(std::span<const Entity> people);
   /// Makes the templates and bases that typical bodies share for this choice, with the simulation's jobs: then spawning
   /// them and changing their methods does not wait for that. Errors: a choice out of range; nothing has changed.
@@ -193,7 +195,7 @@ class Simulation {
 
   /// Walkers whom nobody sees fall asleep: their rows go, and a hundred bytes are left from which they come back where
   /// they would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A
-  /// host's own parts stay. `get` answers of a sleeper's body, walk and pose as of anybody (a pose takes some
+  /// host's own parts stay. `get` reads a sleeper's body, walk and pose as anybody's (a pose takes some
   /// microseconds); change_gait, set_gait, turn_to, place, watch_steps, roots and despawn work on sleepers, at the
   /// price of the strikes that follow; all other calls wake them, and so does what a sleeper cannot follow: another
   /// style, or a second request while the first is being carried out. Systems do not see them, nor does `each`. Who
@@ -240,15 +242,16 @@ class Simulation {
   Result<void> place(std::span<const PlaceRequest> places);
 
   /// The world's origin moves to (x, 0, z): every place becomes so much less, of people, of muscles and of what they
-  /// remember, and everybody goes on as they were; no inertia is felt. For worlds of many kilometres: floats are half a
+  /// remember, and everybody goes on unchanged; no inertia is felt. For worlds of many kilometres: floats are half a
   /// millimetre apart at 8 km. Shifts of whole multiples of 64 m toward where people are lose no bit of their places.
   /// Where the host asked things to go (headings, ways aside) is not touched. Ground reaction follows with the next
   /// tick. Errors: not within 1000 km; nothing has changed then.
   Result<void> shift_origin(float x_m, float z_m);
 
   /// The steps of walkers are watched from the next tick on, or no more: `events` tells what happens in them. Compact
-  /// people are watched as well; who falls asleep is watched again on waking, and nothing is told of what was between.
-  /// All or none. Errors: a stale handle, somebody named twice, a posed person (Status::missing); nothing has changed.
+  /// people are watched as well; who falls asleep is watched again on waking, and what happened meanwhile is not
+  /// reported. All or none. Errors: a stale handle, somebody named twice, a posed person (Status::missing); nothing has
+  /// changed.
   Result<void> watch_steps(std::span<const Entity> people, bool on = true);
   /// Heel strikes, toe-offs, stops and starts of who is watched, in all ticks of the last `advance` or
   /// `tick`: in order of time, at the same instant in the order of handles, whatever the threads. Until the next of
@@ -303,16 +306,20 @@ class Simulation {
   Ticks advance(double seconds);
   /// Runs `count` ticks.
   void tick(std::uint32_t count = 1);
+  /// Ticks run so far.
   std::uint32_t ticks() const { return tick_; }
+  /// Length of a tick, s.
   double tick_s() const { return clock_.tick_s(); }
+  /// Time simulated so far, s.
   double time_s() const { return tick_ * clock_.tick_s(); }
-  /// Of the last tick and of all.
+  /// What the last tick cost, and all of them, system by system.
   StepReport report() const;
   /// The state alone as bytes, in the caller's memory: all rows and handles, the tick and the time fed since. Neither
   /// scene nor meshes nor bases: those are made again where they are missing. `save` says how many bytes it wrote,
   /// `snapshot_bytes` of them, and takes memory only for resources that no snapshot had met before. Errors: too little
   /// room; a shared resource that no module names.
   std::size_t snapshot_bytes() const;
+  /// Writes the snapshot; see `snapshot_bytes`.
   Result<std::size_t> save(std::span<std::byte> out) const;
   /// Restores what was saved to the last bit, handles included, here or in another simulation whose tick is as long and
   /// which has the modules of the rows saved, in the same versions; where rows and people are as many as they were,
@@ -326,7 +333,7 @@ class Simulation {
   /// added up (state_hash_of in engine/state_hash.h).
   std::uint64_t state_sum() const;
 
-  /// An entity's row of a component, or why there is none: get<Pose>(human). Of a tag its value.
+  /// An entity's row of a component, or why there is none: get<Pose>(human).
   template <template <class> class C>
   Result<C<float>> get(Entity entity) const {
     Result<C<float>> row{tl::in_place};
@@ -335,6 +342,7 @@ class Simulation {
     if (status != Status::ok) return fail(status);
     return row;
   }
+  /// The value of an entity's tag.
   template <class Tag>
   Result<std::uint64_t> get(Entity entity) const {
     const auto value = world_->get<Tag>(entity);
@@ -350,14 +358,17 @@ class Simulation {
   Result<void> add(Entity entity, const P& part) {
     return result_of("add", ours(key_part(part).id) ? Status::not_yours : world_->add(entity, part));
   }
+  /// Overwrites a component's row.
   template <template <class> class C>
   Result<void> set(Entity entity, const C<float>& row) {
     return result_of("set", ours(type_id<C<float>>()) ? Status::not_yours : world_->set(entity, row));
   }
+  /// Overwrites a field; `values` is as long as the field is wide.
   template <class Tag>
   Result<void> set_field(Entity entity, std::span<const float> values) {
     return result_of("set_field", ours(type_id<Tag>()) ? Status::not_yours : world_->set_field<Tag>(entity, values));
   }
+  /// Removes a part: a component by its template, a field or tag by its type.
   template <template <class> class C>
   Result<void> remove(Entity entity) {
     return result_of("remove", ours(type_id<C<float>>()) ? Status::not_yours : world_->remove<C>(entity));
@@ -366,11 +377,13 @@ class Simulation {
   Result<void> remove(Entity entity) {
     return result_of("remove", ours(type_id<Tag>()) ? Status::not_yours : world_->remove<Tag>(entity));
   }
+  /// An entity of the host's own, of its own parts.
   template <class... P>
   Result<Entity> create(const P&... parts) {
     if ((ours(key_part(parts).id) || ...)) return fail(Status::not_yours);
     return world_->create(parts...);
   }
+  /// Destroys an entity that `create` made.
   Result<void> destroy(Entity entity);
   /// Takes a share in an immutable resource, for a Shared part.
   template <class T>
@@ -397,6 +410,7 @@ class Simulation {
   std::optional<Human> human(Entity entity) const;
   /// All people, in the order of their rows; until somebody comes or goes.
   std::vector<Entity> people() const;
+  /// False for a stale handle and for entities that are not people.
   bool is_person(Entity entity) const;
   /// A person's muscles in the table's order; empty for a stale handle, without muscles, asleep and compact.
   std::vector<OwnMuscle> muscles(Entity human) const;
@@ -410,6 +424,7 @@ class Simulation {
 
   /// All tables, to be read.
   const World& world() const { return *world_; }
+  /// All systems, in the order in which they run; timings can be reset and read.
   Schedule& schedule() { return *schedule_; }
   const Schedule& schedule() const { return *schedule_; }
   /// The library's, then the host's.

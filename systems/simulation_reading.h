@@ -1,5 +1,5 @@
 #pragma once
-// What the front door tells of a simulation as a whole, put together when it is asked for.
+// What the facade reports of a simulation as a whole, put together when it is asked for.
 
 #include <optional>
 #include <vector>

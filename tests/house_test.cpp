@@ -1,9 +1,11 @@
-// The house rules that a machine can hold: which room may include which, no long file, no stray folder.
+// The house rules that a machine can hold: which room may include which, no long file, no stray folder, plain words.
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <regex>
 #include <set>
@@ -15,7 +17,7 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path root = MOBIL_SOURCE_DIR;
-const std::string no_folder = ".";  // of files in a room itself: systems/ has its front door there
+const std::string no_folder = ".";  // of files in a room itself: systems/ has its facade there
 
 const std::map<std::string, std::set<std::string>> may_include = {
     {"components", {"components"}},
@@ -70,14 +72,14 @@ TEST(House, IncludesPointDownTheListOfRooms) {
 const std::map<std::string, std::vector<std::string>> order = {
     {"assets",
      {"fem", "reduction", "body", "gait", "muscles", "surfaces", "skin", "finite", "files", "import", "export"}},
-    // modules, then front doors
+    // modules, then facades
     {"systems", {"people", "muscles", "relevance", "surfaces", "snapshot", no_folder, "cluster", "c"}},
     {"demo",
      {"examples", "rivals", "program", "measure", "pictures", "muscle", "walk", "body", "anatomy", "compare",
       "gait_fit", "paper", "bake", "crowd", "view", "bench", "effects", "frontier", "stress"}},
 };
 
-/// Folders of systems/ whose systems know nothing of each other; modules and the front door may use them all.
+/// Folders of systems/ whose systems know nothing of each other; modules and the facade may use them all.
 const std::set<std::string> kernels = {"gait",       "kinematics",  "forces",   "lines",
                                        "activation", "deformation", "skinning", "capture"};
 
@@ -126,7 +128,7 @@ TEST(House, FoldersIncludeOnlyThoseBeforeThem) {
   }
 }
 
-/// Only the front door lies in systems/ itself, hello.cpp in demo/, this file in tests/, and nothing in assets/.
+/// Only the facade lies in systems/ itself, hello.cpp in demo/, this file in tests/, and nothing in assets/.
 TEST(House, EveryFileLiesInAKnownFolder) {
   for (const auto* room : {"assets", "systems", "demo", "tests"}) {
     for (const auto& file : sources(room)) {
@@ -171,7 +173,7 @@ const std::map<std::string, std::string> no_header_yet = {
     {"systems/c/c_reading.cpp", "mobil.h"},
     {"systems/c/c_simulation.cpp", "mobil.h"},
     {"systems/c/c_skin.cpp", "mobil_skin.h"},
-    {"systems/c/c_surfaces.cpp", "mobil.h"},
+    {"systems/c/c_surfaces.cpp", "mobil_surfaces.h"},
     {"systems/deformation/explicit.cpp", "deformation.h"},
     {"systems/deformation/implicit.cpp", "deformation.h"},
     {"systems/deformation/reduced_report.cpp", "reduced.h"},
@@ -233,6 +235,63 @@ TEST(House, ComponentsDependOnTheStandardLibraryAlone) {
   static const std::regex foreign("#include <(hwy|Eigen|fmt|tbb|tl|nlohmann|assimp)");
   for (const auto& file : sources("components")) {
     for (const auto& line : lines(file)) EXPECT_FALSE(std::regex_search(line, foreign)) << file << ": " << line;
+  }
+}
+
+/// Phrases that a newcomer stumbles on, in comments, messages and documents, and what to say instead.
+const std::vector<std::pair<std::string, std::string>> banned = {
+    {"all is as it was", "nothing has changed"},
+    {"all as it was", "nothing has changed"},
+    {"is as it was", "is unchanged"},
+    {"stays as it was", "is unchanged"},
+    {"are as they were", "are unchanged"},
+    {"is no number", "is NaN, or: is not a number"},
+    {"number that is none", "NaN"},
+    {"numbers that are none", "NaN"},
+    {"a camera that is none", "an invalid camera"},
+    {"that gives up", "that fails"},
+    {"who looks", "the viewer, or: the camera"},
+    {"nobody is nearer and cheaper", "Pareto frontier"},
+    {"comers and goers", "people who come and go"},
+    {"who is told", "who is notified, or: what receives it"},
+    {"is told of", "receives, or: reports"},
+    {"are told of", "are reported"},
+    {"told beside", "given as well"},
+    {"front door", "facade"},
+    {"for the while", "meanwhile, or: until it returns"},
+    {"of like build", "of similar build"},
+    {"comes to be", "is now, or: becomes"},
+    {"whose it is", "its owner"},
+    {"gets well again", "recovers"},
+    {"so to speak", "leave it out"},
+};
+
+/// A file's text in lower case as one line, without the marks of comments and of strings that go on.
+std::string prose(const fs::path& file) {
+  static const std::regex joint(R"re("?\n\s*(///?<?|\*|#|")?\s*)re");
+  std::ifstream in(file);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  text = std::regex_replace(text, joint, " ");
+  for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return text;
+}
+
+TEST(House, WordsArePlain) {
+  static const std::set<std::string> spoken = {".h", ".cpp", ".inl", ".md", ".py", ".js", ".mjs", ".sh", ".txt", ""};
+  const auto look = [](const fs::path& file) {
+    if (file.filename() == "house_test.cpp" || !spoken.contains(file.extension().string())) return;
+    const std::string text = prose(file);
+    for (const auto& [phrase, better] : banned) {
+      EXPECT_EQ(text.find(phrase), std::string::npos) << file << " says \"" << phrase << "\"; say: " << better;
+    }
+  };
+  for (const auto& [room, allowed] : may_include) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / room)) {
+      if (entry.is_regular_file()) look(entry.path());
+    }
+  }
+  for (const auto& entry : fs::directory_iterator(root)) {
+    if (entry.is_regular_file()) look(entry.path());
   }
 }
 

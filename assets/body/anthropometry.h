@@ -22,6 +22,8 @@ struct UnitBody {
 };
 
 namespace fraction {
+/// Segment lengths, heights over the sole and distances from the middle, in fractions of height (frames:
+/// components/body.h).
 inline constexpr double thigh = 0.245, shank = 0.246, ankle_height = 0.039;
 inline constexpr double hip_height = thigh + shank + ankle_height;
 inline constexpr double hip_half_spacing = 0.046;
@@ -157,6 +159,7 @@ constexpr UnitBody make_unit_body() {
   return b;
 }
 
+/// The table of proportions that every body is scaled from.
 inline constexpr UnitBody unit_body = make_unit_body();
 
 }  // namespace mobil

@@ -23,6 +23,7 @@
 
 namespace mobil {
 
+/// A range of body masses, kg.
 struct MassRange {
   double low_kg, high_kg;
 };

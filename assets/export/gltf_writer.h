@@ -11,6 +11,7 @@
 
 namespace mobil {
 
+/// How muscles are written.
 struct ExportOptions {
   int morph_targets = 4;              // at most this many a muscle, 0–8; viewers need to support only 8 morphed
                                       // attributes, which is 4 with normals
@@ -25,6 +26,7 @@ struct MuscleFidelity {
   double max_error_m = 0, rms_error_m = 0;
 };
 
+/// What was written: the size of the file, and how near each muscle is to the recording.
 struct ExportReport {
   std::size_t bytes = 0;
   std::vector<MuscleFidelity> muscles;  // in the recording's order

@@ -7,6 +7,7 @@
 
 namespace mobil {
 
+/// The two notations: VRML97 (ISO/IEC 14772-1) and X3D as XML (ISO/IEC 19776-1).
 enum class SceneNotation { vrml, x3d };
 
 /// A scene under way. Nodes are opened and closed in turn; a node's fields are given before what is inside it.

@@ -29,21 +29,26 @@ struct CageStation {
   float shear_x_m = 0, shear_y_m = 0;
 };
 
+/// Node numbers of a face's four corners, and of an element's eight.
 using Quad = std::array<std::uint32_t, 4>;
 using Hexahedron = std::array<std::uint32_t, 8>;
 
 /// Largest block that is accepted; the couplings of a node take some 3 kB.
 inline constexpr std::uint32_t largest_mesh_nodes = 40000;
 
+/// Nodes of one cross-section, (nx+1)(ny+1).
 constexpr std::uint32_t plane_nodes(const Cells& cells) {
   return (cells[0] + 1) * (cells[1] + 1);
 }
+/// Nodes of the block.
 constexpr std::uint32_t node_count(const Cells& cells) {
   return plane_nodes(cells) * (cells[2] + 1);
 }
+/// Elements of the block.
 constexpr std::uint32_t element_count(const Cells& cells) {
   return cells[0] * cells[1] * cells[2];
 }
+/// The number of the node at the grid place (i, j, k), each from 0 to the cells in that direction.
 constexpr std::uint32_t node_index(const Cells& cells, std::uint32_t i, std::uint32_t j, std::uint32_t k) {
   return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i;
 }

@@ -41,6 +41,7 @@ struct AnatomyLandmarks {
   float middle_x = 0;
 };
 
+/// A folder's meshes and landmarks, in m and mobil's axes.
 struct Anatomy {
   double metres_per_unit = 0.001;
   AnatomyLandmarks landmarks;
@@ -63,6 +64,7 @@ struct AnatomySurvey {
   std::vector<SurveyedMesh> mesh;   // of the rows that can be read, in their order
 };
 
+/// Which meshes are read, and how they are simplified.
 struct AnatomyOptions {
   bool other_muscles = false;  // muscles of no group
   bool skin = false;

@@ -16,6 +16,7 @@ struct MeshEdge {
   std::uint32_t edge;
 };
 
+/// The corner that follows `e` in its triangle; corners 3t to 3t + 2 are those of triangle t.
 inline std::uint32_t next_corner(std::uint32_t e) {
   return e % 3 == 2 ? e - 2 : e + 1;
 }

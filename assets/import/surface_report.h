@@ -8,6 +8,7 @@
 
 namespace mobil {
 
+/// What tissue a mesh shows.
 enum class AnatomyKind : std::uint8_t { bone, muscle, tendon, skin };
 
 /// Whose surface must be that of a body: closed, with a volume.

@@ -23,6 +23,7 @@ struct LegSection {
   float level, lateral, anterior, semi_1, semi_2, angle_deg;
 };
 
+/// Sections of the three long bones, by ascending level; the source is named at the file's head.
 std::span<const LegSection> femur_sections();
 std::span<const LegSection> tibia_sections();
 std::span<const LegSection> fibula_sections();

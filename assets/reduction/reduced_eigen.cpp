@@ -73,7 +73,7 @@ bool diagonalise(double* d, double* e, std::size_t n, double (*rows)[most]) {
   for (std::size_t l = 0; l < n; ++l) {
     for (int sweep = 0;; ++sweep) {
       std::size_t m = l;
-      // (what is no number never ends)
+      // (NaN never ends it)
       while (m + 1 < n && !(std::abs(e[m]) <= 1e-16 * (std::abs(d[m]) + std::abs(d[m + 1])))) ++m;
       if (m == l) break;
       if (sweep == 50) return false;

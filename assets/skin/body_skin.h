@@ -46,6 +46,7 @@ struct BodySkin {
   Pose<float> standing;  // the pose in which it is so
 };
 
+/// What the skin wears.
 struct SkinDress {
   bool dressed = true;  // shirt, shorts, shoes and hair stand off the skin
 };

@@ -15,6 +15,7 @@ namespace mobil::form {
 
 using namespace geometry;  // Vec and its operators
 
+/// A full turn, rad.
 inline constexpr double tau = 2 * std::numbers::pi;
 
 /// The lesser of two distances, rounded over where they differ by less than `k` (quadratic, C¹).

@@ -11,6 +11,7 @@ namespace mobil {
 /// `turn`: 0 in front, π/2 on the inner side, rad.
 class LegProfile {
  public:
+  /// Where the profile begins and ends along the leg; `s` as above.
   static constexpr double first_s = 0.10, last_s = 1.90;
 
   explicit LegProfile(const BodyMeasures& measures);

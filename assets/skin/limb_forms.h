@@ -9,6 +9,7 @@
 
 namespace mobil::form {
 
+/// One body's right leg and foot, in m; origin and axes are those of the standing body (components/body.h).
 class LegForm {
  public:
   /// `shod`: a shoe's tip in place of toes.
@@ -32,6 +33,7 @@ class LegForm {
   bool shod_;
 };
 
+/// One body's right arm and hand, in the same frame.
 class ArmForm {
  public:
   ArmForm(const Body& body, const BodyMeasures& measures);

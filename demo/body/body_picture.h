@@ -8,7 +8,7 @@
 namespace mobil {
 
 /// From the front and from the body's right beside each other, to the same scale. Error: no graphics driver (with the
-/// packages to install), or one that gives up.
+/// packages to install), or one that fails.
 Result<Image> body_picture(const Body& body);
 
 }  // namespace mobil

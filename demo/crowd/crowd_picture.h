@@ -31,7 +31,7 @@ void arrange(std::vector<PicturedPerson>& seen);
 /// Of how many at most, the first of who is near, legs are drawn.
 inline constexpr std::size_t most_legs = 64;
 
-/// From behind and above who looks, over a crowd on a square of that side.
+/// Behind and above the viewer (CrowdScene::viewer_m), over a crowd on a square of that side.
 Camera crowd_camera(double side_m);
 
 class CrowdCamera {
@@ -44,7 +44,7 @@ class CrowdCamera {
 
   static constexpr int usual_width = 1920, usual_height = 1080;
 
-  /// The crowd as it is, from behind and above who looks. Errors: a driver that gives up.
+  /// The crowd as it is, seen from behind and above the viewer. Errors: a driver that fails.
   Result<void> take(const CrowdScene& scene, Image& image);
   /// These people from anywhere; of the nearest who are `near` the legs' bones and muscles are seen through the skin.
   struct Drawn {

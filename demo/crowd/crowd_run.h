@@ -46,7 +46,7 @@ std::vector<CrowdSystem> mean_systems(const Schedule& schedule, std::size_t tick
 
 using CrowdLive = std::function<void(const CrowdRun&, std::size_t of)>;
 
-/// Runs a settled crowd for so many ticks; `live` is told now and then, outside of what is measured. A tick is missed
+/// Runs a settled crowd for so many ticks; `live` is called now and then, outside of what is measured. A tick is missed
 /// when the wall's clock says that it took longer than it simulates. Errors: what the simulation refuses.
 Result<CrowdRun> run_crowd(CrowdScene& scene, std::size_t ticks, bool hashes, const CrowdLive& live = {});
 

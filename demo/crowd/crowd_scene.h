@@ -63,7 +63,7 @@ struct CrowdDecisions {
   bool structural() const { return spawned + despawned + near_changed > 0; }
 };
 
-/// One who walks. What there is besides is drawn from the number, and lies in the simulation.
+/// A walker, as the host records it. All else follows from the number or lies in the simulation.
 struct CrowdWalker {
   Entity entity{};
   std::uint64_t number = 0;
@@ -129,7 +129,7 @@ class CrowdScene {
   const Simulation& simulation() const { return *simulation_; }
   const std::vector<CrowdWalker>& walkers() const { return walkers_; }
   double side_m() const { return side_m_; }
-  /// Where who looks stands: in the middle of the square's edge at −z.
+  /// Where the viewer stands: in the middle of the square's edge at −z.
   Vec3<float> viewer_m() const { return viewer_m(side_m_); }
   static Vec3<float> viewer_m(double side_m) { return {0, 0, static_cast<float>(-0.5 * side_m)}; }
 

@@ -98,7 +98,7 @@ Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
   return {};
 }
 
-/// Those nearest to who looks, the present ones a little preferred.
+/// Those nearest to the viewer, the present ones a little preferred.
 Result<void> CrowdScene::choose_near(CrowdDecisions& decisions) {
   if (!relevance_) return {};
   const std::size_t part =

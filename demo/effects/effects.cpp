@@ -148,7 +148,7 @@ Result<EffectAccount> measure_effects(std::size_t humans, const std::function<vo
       return {};
     });
   };
-  constexpr std::size_t shown_rung = 5;  // whose control points and inertia are told of
+  constexpr std::size_t shown_rung = 5;  // whose control points and inertia are reported
   constexpr int fading_ticks = 30;
   const auto settle = [&] {
     for (int i = 0; i < fading_ticks; ++i) simulation.tick();

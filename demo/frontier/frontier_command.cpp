@@ -77,7 +77,7 @@ Subcommand frontier_command() {
       "times that is marked uncertain. Costs are processor time of one thread with thousands of muscles, all ways in\n"
       "turn; ratios are to the paper's choice, 81 nodes stepped explicitly by 2 ms.\n"
       "On the frontier is what nothing else beats in both: nearer and cheaper. A reduced muscle that nobody looks at\n"
-      "has a state but no control points; its cost with them is told beside.\n"
+      "has a state but no control points; its cost with them is given as well.\n"
       "Methods (mobil muscle --help says what they are): static, ecd, icd, caa; reduced: so many vectors of a finer\n"
       "mesh, its error extrapolated away (reduced-plain: left in; reduced-static: without motion of its own).\n"
       "Examples: mobil frontier\n"

@@ -24,7 +24,7 @@ constexpr std::array series = {
     Series{"reduced", "reduced, state alone", "#2ca02c"},
 };
 constexpr std::string_view placed_label = "reduced, control points placed", placed_colour = "#ff7f0e",
-                           frontier_label = "nobody is nearer and cheaper", paper_label = "the paper's choices",
+                           frontier_label = "Pareto frontier", paper_label = "the paper's choices",
                            paper_colour = "#d62728";
 
 std::vector<const FrontierRow*> sorted_by(const Frontier& frontier, bool loads, bool FrontierRow::*on,

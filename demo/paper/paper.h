@@ -33,7 +33,7 @@ class PaperRun {
   std::string entry;          // the one that is being made
   std::filesystem::path out;  // where its files are written until it is done
   std::optional<std::filesystem::path> anatomy;
-  std::string text;  // what is to be told of it when it is done
+  std::string text;  // what to report when it is done
   std::vector<std::string> written;
 
  private:

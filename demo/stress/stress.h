@@ -2,8 +2,8 @@
 // What every entry of `mobil stress` is made of: hard cases, each a promise with its bound, and what came of it.
 //
 // An entry is one function, `Result<void> stress_x(StressRun&)`, and one line in the list of stress_command.cpp. It
-// adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is no
-// number.
+// adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is
+// NaN.
 
 #include <cmath>
 #include <string>
@@ -31,7 +31,7 @@ struct StressRow {
   bool held() const { return promise == Promise::at_most ? value <= bound : value >= bound; }
 };
 
-/// Keeps the larger of both; what is no number stays.
+/// Keeps the larger of both; NaN stays.
 inline void keep_worst(double& worst, double value) {
   if (!(value <= worst) && !std::isnan(worst)) worst = value;
 }

@@ -28,7 +28,7 @@ LegMuscles hosted(Method method) {
   return choice;
 }
 
-/// What a person's muscles come to at worst since it was made; a number that is none stays.
+/// What a person's muscles come to at worst since it was made; NaN stays.
 struct Worst {
   double moved_m = 0, volume_off = 0, fibre_off = 0, end_off_m = 0;
 

@@ -28,7 +28,7 @@ struct LimitProbe {
 Result<LimitProbe> probe_limit(const HexahedralMesh& mesh, const StiffnessTerms& terms, ReferenceOptions options,
                                std::uint32_t steps);
 
-/// The worst of several probes; a limit that is no number counts as the worst.
+/// The worst of several probes; a limit that is NaN counts as the worst.
 struct WorstProbe {
   double drift_below = 0, growth_above = 1e300;
   std::size_t tried = 0;

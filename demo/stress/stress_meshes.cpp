@@ -367,7 +367,7 @@ Result<void> stress_inverted(StressRun& run) {
     stations[1].semi_x_m = width;
     bend(stations, 0.1);
   }
-  run.add({.tried = "cages with a station that is no number, infinite, of no or negative width",
+  run.add({.tried = "cages with a station that is NaN, infinite, of no or negative width",
            .quantity = "not refused",
            .bound = 0,
            .reason = "no mesh can be bent to them",

@@ -1,4 +1,4 @@
-// Numbers that are none, too large or too small in one lane of a block, and its fifteen neighbours.
+// NaN, too large and too small numbers in one lane of a block, and its fifteen neighbours.
 
 #include <fmt/format.h>
 

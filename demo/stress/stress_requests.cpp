@@ -1,4 +1,4 @@
-// What people are asked to be and to do, and what files and options say, where it is no number.
+// Requests of bodies and walks, files and options whose values are not numbers.
 
 #include <fmt/format.h>
 
@@ -98,7 +98,7 @@ void tell(StressRun& run, const std::string& tried, const Refusals& refusals) {
   run.add({.tried = tried,
            .quantity = "words of the world that changed",
            .bound = 0,
-           .reason = "what is refused leaves all as it was",
+           .reason = "what is refused changes nothing",
            .value = static_cast<double>(refusals.changed)});
 }
 
@@ -253,7 +253,7 @@ Result<void> stress_tables(StressRun& run) {
   run.add({.tried = "loads up to 3e38 N, which no displacement in single precision answers, by the four methods",
            .quantity = "runs that did not report when the displacement ceased to be a number",
            .bound = 0,
-           .reason = "a table of what is no number is never written as if it were",
+           .reason = "a table of NaN is never written as if it were numbers",
            .value = static_cast<double>(ran - lost)});
   return {};
 }

@@ -115,7 +115,7 @@ Result<void> stress_many(StressRun& run) {
     const char* name;
     void (*make)(Simulation&, Entity);
   };
-  constexpr std::array all = {Bad{"a step whose length is no number",
+  constexpr std::array all = {Bad{"a step whose length is NaN",
                                   [](Simulation& simulation, Entity human) {
                                     auto plan = *simulation.get<StepPlan>(human);
                                     plan.step_length_m = std::numeric_limits<float>::quiet_NaN();
@@ -127,7 +127,7 @@ Result<void> stress_many(StressRun& run) {
                                     state.heading_rad = std::numeric_limits<float>::infinity();
                                     world_of(simulation).set(human, state);
                                   }},
-                              Bad{"a height that is no number", [](Simulation& simulation, Entity human) {
+                              Bad{"a height that is NaN", [](Simulation& simulation, Entity human) {
                                     auto size = *simulation.get<BodySize>(human);
                                     size.height_m = std::numeric_limits<float>::quiet_NaN();
                                     world_of(simulation).set(human, size);

@@ -1,4 +1,4 @@
-// Whole simulations: a hitch, and one person who is no number among sixteen who walk.
+// Whole simulations: a hitch, and one person whose state is NaN among sixteen who walk.
 
 #include "demo/stress/stress_world.h"
 

@@ -56,7 +56,7 @@ class ViewScene {
   /// Errors: a choice that cannot be.
   static Result<ViewScene> make(const ViewChoice& choice);
 
-  /// Errors, in one line: what cannot be; the scene stays as it was.
+  /// Errors, in one line: what cannot be; the scene is unchanged.
   Result<void> set(const ViewChoice& choice);
   const ViewChoice& choice() const { return choice_; }
 

@@ -22,8 +22,8 @@ const GaitParameter* find_gait_parameter(std::string_view name);
 /// the range.
 Result<float> read_gait_parameter(const GaitParameter& parameter, const std::string& text);
 
-/// Reads NAME=VALUE into a style. Errors: no '=', an unknown name (the nearest known one is named), a value that is no
-/// number or out of range.
+/// Reads NAME=VALUE into a style. Errors: no '=', an unknown name (the nearest known one is named), a value that is not
+/// a number or out of range.
 Result<void> set_gait_parameter(const std::string& assignment, GaitStyle& style);
 
 }  // namespace mobil

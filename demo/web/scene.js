@@ -6,7 +6,7 @@ export const usual = {
 };
 export const methodNames = ['ecd', 'icd', 'caa', 'static', 'reduced', 'none'];
 
-/** From `?height=1.7&methods=ecd,ecd,caa,none&style.arm_swing=1.2`; what is no number, or unknown, is left as usual. */
+/** From `?height=1.7&methods=ecd,ecd,caa,none&style.arm_swing=1.2`; what is not a number, or unknown, stays as usual. */
 export function fromAddress(query) {
   const scene = structuredClone(usual);
   for (const [name, text] of new URLSearchParams(query)) {

@@ -12,7 +12,7 @@ namespace mobil::HWY_NAMESPACE {
 
 void excite_all(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member) {
   const Wide asked = load(clock.speed), zero = wide(0.0F);
-  const Wide moving = select(asked > zero, asked, zero);  // not where it is no number
+  const Wide moving = select(asked > zero, asked, zero);  // not where it is NaN
   const Wide speed = clamp(moving, least_excitation_speed, most_excitation_speed);
   const Wide walks = min(moving * (1 / least_excitation_speed), 1.0F);
   Wide wave[excitation_terms];

@@ -22,7 +22,7 @@ struct RowExcitation {
 RowExcitation row_excitation(Muscle muscle);
 
 /// Excitations of sixteen muscles' members, 0.01 to 1, as assets/muscles/excitation_curves.h has them. A
-/// speed that is no number counts as standing; where the phase is none, the least.
+/// speed that is NaN counts as standing; where the phase is none, the least.
 void excite(const RowExcitation& row, const LegClock<Lanes<float>>& clock, Lanes<float>* member);
 
 /// Both legs' clocks of sixteen walkers.

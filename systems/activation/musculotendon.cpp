@@ -79,7 +79,7 @@ HWY_INLINE Wide risen(const Wide& activation, const Wide& excitation, float tick
   return fma(part, excitation - activation, activation);
 }
 
-/// What is no number is the least: so a lane gets well again.
+/// NaN becomes the least: so a lane recovers.
 HWY_INLINE Wide within_range(const Wide& x) {
   return select(x > wide(least_activation), min(x, most_activation), wide(least_activation));
 }

@@ -40,7 +40,7 @@ void settle(const MemberBlock& of, Activation<Lanes<float>>& activation, Musculo
 
 /// What activations must be for tendons to pull with `of_most` of the isometric force at the tick's end; no dynamics:
 /// `state` has them at once, and so has `excitation`, for `contract` to go on with. Where fibres cannot, 1; where a
-/// force is no number, the least.
+/// force is NaN, the least.
 void ask_forces(const MemberBlock& of, const Lanes<float>* of_most, float tick_s, Lanes<float>* excitation);
 
 /// The designs' `rest_belly_m` from their other numbers and the path's length in who stands relaxed: at the least

@@ -43,9 +43,9 @@
 extern "C" {
 #endif
 
-/* Of this header. mobil_interface() is the library's: equal or greater serves. */
+/* The version of this header. mobil_interface() is the library's: equal or greater serves. */
 #define MOBIL_INTERFACE 2
-MOBIL_API int mobil_interface(void);
+MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.1.0" */
 
 typedef struct mobil_sim mobil_sim;           /* one world */
@@ -79,6 +79,8 @@ enum { MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH };
 /* Does the work of a tick: calls `work(context, begin, end)` for disjoint ranges that together are 0 to `count`, on any
  * threads, and returns when all have returned. Results do not depend on how it cuts. */
 typedef void (*mobil_work)(void* context, size_t begin, size_t end);
+/* The host's threads: `parallel_for` cuts the range 0 to `count` and calls `work` for each part, as mobil_work says.
+ * `user` is handed back to it. */
 typedef struct mobil_jobs {
   void* user;
   void (*parallel_for)(void* user, size_t count, mobil_work work, void* context);
@@ -92,6 +94,7 @@ typedef struct mobil_memory {
   void (*release)(void* user, void* memory, size_t bytes, size_t alignment);
 } mobil_memory;
 
+/* How a simulation runs; mobil_defaults gives the usual values. */
 typedef struct mobil_options {
   size_t size;
   double tick_s;       /* 1e-5 to 1; usual 1/60 */
@@ -138,6 +141,7 @@ enum { MOBIL_MAN, MOBIL_WOMAN };                                 /* sex */
  * completed as people of that leg would. */
 enum { MOBIL_SPEED = 1, MOBIL_STEP_LENGTH = 2, MOBIL_STEP_FREQUENCY = 4, MOBIL_STYLE = 8, MOBIL_HEADING = 16 };
 
+/* A person as asked for. m, kg, rad; places in the axes and the unit of mobil_options. */
 typedef struct mobil_person {
   size_t size;
   float height_m, mass_kg; /* 1.2 to 2.2; 30 to 200, of what lives at that height */
@@ -145,8 +149,8 @@ typedef struct mobil_person {
   int constitution;
   int given;                                         /* MOBIL_SPEED and so on; without: 5 km/h */
   float speed_m_s, step_length_m, step_frequency_hz; /* a speed of 0 stands */
-  const float* style;                                /* `style_count` values, in the order of mobil_style; */
-  size_t style_count;                                /* those behind are usual */
+  const float* style;                                /* `style_count` values, in the order of mobil_style */
+  size_t style_count;                                /* fewer than mobil_style has: the others are usual */
   float place[3], heading_rad;                       /* on the ground: the height does not count */
   int posed, unused; /* posed 1: the host animates the skeleton by mobil_set_poses; begins at the origin */
   int sex;           /* whose girths the skin has; since interface 2 */
@@ -167,12 +171,15 @@ typedef struct mobil_style_number {
   const char *name, *unit, *meaning; /* unit "1": none */
   float low, high, usual;
 } mobil_style_number;
-MOBIL_API int mobil_style(int number, mobil_style_number* out); /* MOBIL_MISSING behind the last */
+/* The numbers of a style, from 0 on; MOBIL_MISSING behind the last. */
+MOBIL_API int mobil_style(int number, mobil_style_number* out);
 
 struct mobil_muscles;
-/* All come or none. `muscles` may be null: then they have none. Posed people begin in the anatomical position. */
+/* Makes people, all or none. `muscles` may be null: then they have none. Posed people begin in the anatomical position.
+ */
 MOBIL_API int mobil_spawn(mobil_sim* sim, const mobil_person* people, size_t stride, size_t count,
                           const struct mobil_muscles* muscles, mobil_id* out);
+/* They go, with their muscles; all or none. Their ids are stale from then on. */
 MOBIL_API int mobil_despawn(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* Everybody, in no particular order. `out` null, or too few: *count alone, and then MOBIL_ROOM. */
 MOBIL_API int mobil_people(mobil_sim* sim, mobil_id* out, size_t room, size_t* count);
@@ -181,7 +188,7 @@ MOBIL_API int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out);
 /* A walker's style, in the order of mobil_style: as it was asked for, or nearer to the usual one, where a foot would go
  * under the ground, or a joint or the pelvis further than people's go. */
 MOBIL_API int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room);
-/* Bits of what a person is. */
+/* Bits of what a person is, as mobil_state gives them. */
 enum {
   MOBIL_POSED = 1,
   MOBIL_ASLEEP = 2,
@@ -191,12 +198,13 @@ enum {
   MOBIL_MANAGED = 32,
   MOBIL_WATCHED = 64
 };
+/* What a person is now: bits of those above. */
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
 
-/* From the next step on. Nobody is changed where one of them cannot walk so. */
+/* Asks people to walk otherwise, from the next step on. Nobody is changed where one of them cannot walk so. */
 MOBIL_API int mobil_change_walks(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walks,
                                  size_t stride);
-/* One walk for all of them. */
+/* The same, one walk for all of them. */
 MOBIL_API int mobil_change_walk(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_walk* walk);
 /* Who stands steps aside, m to the left and ahead (negative: to the right and back; up to 0.25 and 0.20). */
 MOBIL_API int mobil_step_aside(mobil_sim* sim, mobil_id id, float left_m, float ahead_m);
@@ -208,11 +216,15 @@ MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
  * world. `jumped` 1: muscles feel no inertia of the way there. */
 MOBIL_API int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride,
                               int jumped);
-/* Who is not looked at: asleep (some 100 bytes, no muscles, costs next to nothing) and back, compact (walks and moves
- * muscles at a part of the cost) and back. `changed` (may be null): how many are so now. */
+/* People whom nobody sees fall asleep: some 100 bytes, no muscles, hardly any cost. `changed` (may be null): how many
+ * of these sleep now. */
 MOBIL_API int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
+/* They wake, with their muscles' control points within `within_m` of where they would be; usual 0.005. */
 MOBIL_API int mobil_wake(mobil_sim* sim, const mobil_id* ids, size_t count, float within_m);
+/* People whom nobody looks at become compact: they walk, and their muscles move, at a part of the cost. `changed` (may
+ * be null): how many of these are compact now. */
 MOBIL_API int mobil_compact(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
+/* Compact people are whole again. */
 MOBIL_API int mobil_expand(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* The effect of ground reaction and joint moments, on or off; who has it so already is left alone. */
 MOBIL_API int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
@@ -262,8 +274,9 @@ MOBIL_API const char* mobil_muscle_name(int muscle); /* null behind the last */
 
 /* Makes what these muscles share in bodies of usual build, so that nobody waits for it later. */
 MOBIL_API int mobil_prepare(mobil_sim* sim, const mobil_muscles* muscles);
-/* All that was made so far as bytes, and taken in again. `out` null: *bytes alone. */
+/* All meshes and bases that were made so far, as bytes. `out` null: *bytes alone. */
 MOBIL_API int mobil_bake(mobil_sim* sim, void* out, size_t room, size_t* bytes);
+/* Takes in what mobil_bake wrote, in milliseconds. */
 MOBIL_API int mobil_load_baked(mobil_sim* sim, const void* baked, size_t bytes);
 /* Muscles come where there are none, and become these where there are; null: they go. Where memory runs out, those
  * before the one for whom there was none have them. */
@@ -271,6 +284,7 @@ MOBIL_API int mobil_set_muscles(mobil_sim* sim, const mobil_id* ids, size_t coun
 /* Another method of one muscle, both sides, without a jump; memory as above. */
 MOBIL_API int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle,
                                const mobil_method* method);
+/* The method that a muscle has now. */
 MOBIL_API int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_method* out);
 /* How hard a muscle of MOBIL_BY_HOST is to pull, 0.01 to 1, one number a person. */
 MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, int side,
@@ -303,6 +317,7 @@ typedef struct mobil_needs {
   int looked_at;        /* below 0: the scene's */
 } mobil_needs;
 
+/* How methods are chosen, and how much may change in one update. */
 typedef struct mobil_choosing {
   size_t size;
   float slack;           /* a cheaper method is taken where it meets this part of the tolerance */
@@ -326,11 +341,13 @@ typedef struct mobil_chosen {
 /* Begins, or begins anew with other options; `muscles` (null: usual ones) are all but muscles and method of those whom
  * managing gives some. People managed before have to be managed again. */
 MOBIL_API int mobil_start_choosing(mobil_sim* sim, const mobil_choosing* options, const mobil_muscles* muscles);
+/* What the scene needs, from the next update on. */
 MOBIL_API int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene);
 /* Makes what the scene may call for: some seconds, and no update waits later. */
 MOBIL_API int mobil_prepare_scene(mobil_sim* sim);
 /* From the next update on muscles of these people are chosen; `needs` may be null. */
 MOBIL_API int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs);
+/* Methods stay as they are and are no longer chosen. */
 MOBIL_API int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* Before each tick, or less often. `out` may be null. */
 MOBIL_API int mobil_choose(mobil_sim* sim, mobil_chosen* out);
@@ -351,6 +368,7 @@ MOBIL_API int mobil_way(int way, int muscle, float speed_m_s, float height_m, in
 
 /* ---- Time ------------------------------------------------------------------------------------------------------ */
 
+/* What a frame amounted to. */
 typedef struct mobil_ticks {
   unsigned int count; /* ticks that ran */
   double alpha;       /* how far into the next one the frame is, 0 to 1 */
@@ -358,22 +376,27 @@ typedef struct mobil_ticks {
 } mobil_ticks;
 /* As many ticks as the time fed so far makes; `out` may be null. */
 MOBIL_API int mobil_advance(mobil_sim* sim, double seconds, mobil_ticks* out);
+/* So many ticks, whatever the time. */
 MOBIL_API int mobil_tick(mobil_sim* sim, unsigned int ticks);
-MOBIL_API double mobil_time_s(const mobil_sim* sim);
-MOBIL_API double mobil_tick_s(const mobil_sim* sim);
+MOBIL_API double mobil_time_s(const mobil_sim* sim); /* simulated so far */
+MOBIL_API double mobil_tick_s(const mobil_sim* sim); /* of one tick */
 
 /* ---- Reading --------------------------------------------------------------------------------------------------- */
 
+/* How many segments a skeleton has. */
 enum { MOBIL_SEGMENTS = 48 };
+/* Names, parents and numbers of segments, 0 to MOBIL_SEGMENTS - 1. */
 MOBIL_API const char* mobil_segment_name(int segment); /* null behind the last */
 MOBIL_API int mobil_segment_parent(int segment);       /* the pelvis is its own */
 MOBIL_API int mobil_find_segment(const char* name);    /* below 0: MOBIL_MISSING */
 
+/* How a segment's pose is written. */
 enum {
   MOBIL_PLACE_AND_QUATERNION, /* x y z, x y z w: 7 floats a segment */
   MOBIL_MATRIX,               /* three rows of four: 12 */
   MOBIL_DUAL_QUATERNION       /* real part x y z w first: 8 */
 };
+/* Which segments of a pose are written, at what instant, and how. */
 typedef struct mobil_pose_layout {
   size_t size;
   int form;
@@ -399,7 +422,8 @@ enum {
   MOBIL_MOMENTS, /* 6, with forces: hip, knee, ankle, each [2]; N m, extensor and plantarflexor positive */
   MOBIL_ROWS
 };
-MOBIL_API int mobil_row_floats(int what);
+MOBIL_API int mobil_row_floats(int what); /* floats in a row of that kind */
+/* The rows of these people, `stride` bytes apart. */
 MOBIL_API int mobil_read(mobil_sim* sim, int what, const mobil_id* ids, size_t count, float* out, size_t stride);
 
 /* The same of one muscle and side. */
@@ -414,6 +438,7 @@ enum {
 };
 /* Of a person's muscle: nodes differ. Below 0 where there is none. */
 MOBIL_API int mobil_muscle_row_floats(mobil_sim* sim, int what, mobil_id id, int muscle, int side);
+/* The rows of one muscle of these people. */
 MOBIL_API int mobil_read_muscles(mobil_sim* sim, int what, const mobil_id* ids, size_t count, int muscle, int side,
                                  float* out, size_t stride);
 
@@ -425,54 +450,11 @@ typedef struct mobil_system {
 } mobil_system;
 MOBIL_API int mobil_cost(mobil_sim* sim, int system, mobil_system* out); /* MOBIL_MISSING behind the last */
 
-/* ---- Surfaces -------------------------------------------------------------------------------------------------- */
-
-typedef struct mobil_surface_choice {
-  size_t size;
-  int bones;            /* 0 or 1 */
-  int side;             /* MOBIL_RIGHT, MOBIL_LEFT, MOBIL_BOTH */
-  unsigned int muscles; /* those and the cells that people have who are to show them */
-  unsigned int cells[3];
-  double detail; /* part of the triangles, 0.05 to 1 */
-  int textured;  /* 1: texture places, and tangents on request */
-} mobil_surface_choice;
-
-typedef struct mobil_part {
-  const char* name; /* T4, thigh_left, soleus_right; as long as the surfaces */
-  int segment;      /* of a bone */
-  int muscle, side; /* of a muscle: whose mesh it follows; below 0: a bone */
-  unsigned int first_vertex, vertices, first_index, indices;
-} mobil_part;
-
-/* Bound once to one person's body, some tens of milliseconds; good for everybody of like build. Outlives the person. */
-MOBIL_API int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choice* choice,
-                                  mobil_surfaces** out);
-MOBIL_API void mobil_drop_surfaces(mobil_surfaces* surfaces); /* null is allowed */
-MOBIL_API size_t mobil_vertex_count(const mobil_surfaces* surfaces);
-MOBIL_API size_t mobil_index_count(const mobil_surfaces* surfaces);
-/* Three a triangle, wound so that the front is outside in the host's axes; `room` of them at least. */
-MOBIL_API int mobil_indices(const mobil_surfaces* surfaces, unsigned int* out, size_t room);
-/* Two a vertex, 0 to 1: along and around; of textured surfaces. `room`: of floats. */
-MOBIL_API int mobil_texture_places(const mobil_surfaces* surfaces, float* out, size_t room);
-MOBIL_API int mobil_surface_part(const mobil_surfaces* surfaces, int part,
-                                 mobil_part* out); /* MOBIL_MISSING behind the last */
-
-/* One person's vertices: three floats each, of tangents four, `…_stride` bytes apart (0: close together), in memory of
- * so many bytes. What is null is left out. */
-typedef struct mobil_surface_target {
-  size_t size;
-  mobil_id id;
-  const mobil_surfaces* surfaces;
-  void *positions, *normals, *tangents;
-  size_t position_stride, normal_stride, tangent_stride;
-  size_t position_bytes, normal_bytes, tangent_bytes;
-  float origin[3]; /* subtracted before anything is placed */
-} mobil_surface_target;
-/* As they are after the last tick. */
-MOBIL_API int mobil_write_surfaces(mobil_sim* sim, const mobil_surface_target* targets, size_t stride, size_t count);
+#include "systems/c/mobil_surfaces.h"
 
 /* ---- State ----------------------------------------------------------------------------------------------------- */
 
+/* A snapshot: how many bytes it takes now, and the bytes (MOBIL_ROOM where `room` is less). */
 MOBIL_API size_t mobil_snapshot_bytes(mobil_sim* sim);
 MOBIL_API int mobil_save(mobil_sim* sim, void* out, size_t room, size_t* bytes); /* `bytes` may be null */
 /* What was saved, to the last bit, handles included. Bytes are never trusted. What is managed is state; how choosing is

@@ -14,12 +14,14 @@ MOBIL_API int mobil_get_walk(mobil_sim* sim, mobil_id id, mobil_walk* out, float
 /* Puts walkers elsewhere at once, all or none: rows of four floats, a place and a heading in rad. */
 MOBIL_API int mobil_place_many(mobil_sim* sim, const mobil_id* ids, size_t count, const float* places, size_t stride);
 
+/* What can happen in a walker's steps. */
 enum {
   MOBIL_HEEL_STRIKE, /* a foot comes to the ground */
   MOBIL_TOE_OFF,     /* a foot leaves it */
   MOBIL_STOPPED,     /* who walked, or stepped on the spot or aside, stands */
   MOBIL_STARTED      /* who stood begins to step */
 };
+/* One thing that happened in a step. */
 typedef struct mobil_event {
   mobil_id id;
   int kind, side;    /* MOBIL_HEEL_STRIKE and so on; MOBIL_RIGHT or MOBIL_LEFT */

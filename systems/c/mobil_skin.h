@@ -21,6 +21,7 @@ enum {
 
 /* Zero for another sex or detail. The first call takes two seconds, once in a process for each sex. */
 MOBIL_API size_t mobil_skin_vertex_count(int sex, int detail);
+/* Three a triangle. */
 MOBIL_API size_t mobil_skin_index_count(int sex, int detail);
 /* Three a triangle, part by part, wound so that the front is outside in the host's axes; `room` of them at least.
  * `first`: room for MOBIL_SKIN_PARTS + 1 numbers, of each part where it begins in triangles, and
@@ -44,7 +45,7 @@ typedef struct mobil_skin_target {
   const float* muscles[2];
   size_t muscle_vertices[2];
 } mobil_skin_target;
-/* As they are after the last tick. The first person of a sex takes two seconds, the
+/* Writes the skins as people are after the last tick. The first person of a sex takes two seconds, the
  * first of a build (1.5 kg/m2) a quarter to half a second. */
 MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
 

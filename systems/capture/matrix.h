@@ -13,6 +13,7 @@ namespace mobil::capture_math {
 
 using geometry::dot;
 
+/// Degrees in radians.
 inline float radians(float degrees) {
   return degrees * (std::numbers::pi_v<float> / 180);
 }

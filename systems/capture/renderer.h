@@ -18,8 +18,8 @@ class Renderer {
   /// Width and height in pixels, 1–8192. Errors: size out of range, no driver (with the packages to install).
   static Result<Renderer> create(int width, int height);
 
-  /// Into the caller's picture, whose memory is kept. Errors: a mesh that is not one (see MeshStore::place), a camera
-  /// that is none, a driver that gives up.
+  /// Into the caller's picture, whose memory is kept. Errors: an invalid mesh (see MeshStore::place) or camera, a
+  /// driver that fails.
   Result<void> render(const Scene& scene, Image& image);
   Result<Image> render(const Scene& scene);
 

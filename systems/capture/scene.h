@@ -14,6 +14,7 @@ struct Colour {
   float red, green, blue;
 };
 
+/// Colours of the built-in pictures.
 inline constexpr Colour bone_ivory{0.91F, 0.86F, 0.74F};
 inline constexpr Colour muscle_red{0.53F, 0.17F, 0.14F};
 inline constexpr Colour joint_steel{0.30F, 0.38F, 0.48F};
@@ -40,6 +41,7 @@ struct DrawMesh {
                           // triangles are not read again until Renderer::forget(key)
 };
 
+/// What a line's width is measured in.
 enum class LineUnit { metre, pixel };
 
 /// Line segments with round ends that face the camera, shaded as tubes.

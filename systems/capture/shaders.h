@@ -33,6 +33,7 @@ enum Attribute : unsigned {
 inline constexpr int line_vertices = 12;   // of the strip that draws one segment
 inline constexpr int point_vertices = 20;  // of the fan that draws one ball
 
+/// The sources, in GLSL ES 3.00.
 std::string mesh_vertex_source();
 std::string mesh_fragment_source();
 std::string wireframe_fragment_source();

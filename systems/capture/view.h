@@ -15,7 +15,7 @@ struct FrameBlocks {
 };
 
 /// `casters`: what throws shadows, in the world; the shadow map just covers it. Error: a camera that sees nothing
-/// (field of view outside 1–170 degrees, eye in the target, numbers that are none) or a light from below.
+/// (field of view outside 1–170 degrees, eye in the target, NaN) or a light from below.
 Result<FrameBlocks> frame_blocks(const Scene& scene, int width, int height, const capture_math::Box& casters);
 
 }  // namespace mobil

@@ -30,6 +30,7 @@
 
 namespace mobil {
 
+/// How a crowd is cut into shards, checked and saved.
 struct ClusterOptions {
   std::uint32_t shards = 16;  // at least one a rank; several, where shards are to move
   /// The first rank is ahead of the others by so many ticks at most.
@@ -55,6 +56,7 @@ struct ClusterReport {
 
 class Cluster {
  public:
+  /// Makes the shard of that number.
   using Make = std::function<Result<std::unique_ptr<Shard>>(std::uint32_t shard)>;
 
   /// Makes this rank's shards and populates them, or restores them; brings them to the same tick. `ranks` must outlive
@@ -65,6 +67,7 @@ class Cluster {
   /// One tick of all. `commands`: the first rank's; those of others are ignored, and so are the first rank's where the
   /// log of a run that goes on has some of that tick. What was carried out, until the next call.
   std::span<const std::byte> tick(std::span<const std::byte> commands = {});
+  /// Ticks run so far.
   std::uint32_t ticks() const { return ticks_; }
   /// Of everybody. Where shards hand over Simulation::state_sum alone: that of one simulation that had them all, at the
   /// same tick.
@@ -73,12 +76,15 @@ class Cluster {
   /// cannot be written; the last one stays.
   Result<void> save();
 
+  /// As the cluster was made with.
   const ClusterOptions& options() const { return options_; }
   /// `number`: below the options' shards. Null where another rank has it. Until the next `tick`, if shards may move.
   Shard* shard(std::uint32_t number) { return shards_[number].get(); }
+  /// The rank that has each shard.
   std::span<const int> owner() const { return owner_; }
   /// What the host kept in the snapshot that the run went on from; at the first rank.
   const std::vector<std::byte>& restored_host() const { return restored_host_; }
+  /// What this rank did since `begin`.
   ClusterReport report() const;
 
  private:

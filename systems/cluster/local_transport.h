@@ -15,6 +15,7 @@ struct RanksStopped : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The ranks of one process, each with its end of the transport.
 class LocalRanks {
  public:
   /// With a `delay_seed` other than 0 messages arrive late, by numbers of looks that are drawn from it.

@@ -11,6 +11,7 @@
 
 namespace mobil {
 
+/// What a message carries: a tick's commands, numbers to add up, a sign of life, bytes, a shard, a snapshot's index.
 enum class MessageKind : std::uint32_t { commands = 1, numbers, beat, bytes, shard, index };
 
 /// Good as long as the bytes it was read from.

@@ -33,6 +33,7 @@ PersonCommand place(std::uint64_t number, float x_m, float z_m, float heading_ra
 /// `asleep_beyond_m`: as SceneNeeds has it; 0: nobody is put to sleep from then on.
 PersonCommand look(const Viewpoint& camera, float tolerance_px, float asleep_beyond_m);
 
+/// What all shards of a crowd share.
 struct PeopleShardOptions {
   std::uint32_t shards = 16;  // of the crowd
   /// Of the simulation; give all shards of a rank one library (`library_of`), of a simulation that outlives them.
@@ -63,7 +64,9 @@ class PeopleShard : public Shard {
 
   /// A stale handle where nobody here has that number.
   Entity find(std::uint64_t number) const;
+  /// The people of this shard by their numbers.
   const std::map<std::uint64_t, Entity>& people() const { return people_; }
+  /// Wishes that could not be fulfilled so far.
   std::uint64_t refused() const { return refused_; }
   const Simulation& simulation() const { return simulation_; }
 

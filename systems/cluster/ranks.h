@@ -23,6 +23,7 @@ class Ranks {
   /// must not name too soon.
   explicit Ranks(Transport& transport, double silence_s = 60);
 
+  /// This rank, from 0 on, and how many there are.
   int rank() const { return transport_.rank(); }
   int count() const { return transport_.ranks(); }
   /// The one that decides and writes what there is one of.

@@ -57,6 +57,7 @@ class FolderLock {
   int file_;
 };
 
+/// The commands of one tick, as they were logged.
 struct LoggedCommands {
   std::uint32_t tick = 0;
   std::vector<std::byte> commands{};

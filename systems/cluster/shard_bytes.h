@@ -16,10 +16,12 @@ namespace mobil {
 /// Plain values one after the other.
 class PlainBytes {
  public:
+  /// Appends a value, or all of a list, as they lie in memory.
   template <class T>
   void put(const T& value) {
     put_all(std::span(&value, 1));
   }
+  /// The same of a list; its length is not written.
   template <class T>
   void put_all(std::span<const T> values) {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -27,6 +29,7 @@ class PlainBytes {
     bytes_.resize(at + values.size_bytes());
     if (!values.empty()) std::memcpy(&bytes_[at], values.data(), values.size_bytes());
   }
+  /// All that was put so far.
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
@@ -37,10 +40,12 @@ class PlainBytes {
 class PlainReader {
  public:
   explicit PlainReader(std::span<const std::byte> bytes) : left_(bytes) {}
+  /// The next value; it stays as it is where the bytes do not suffice.
   template <class T>
   void take(T& value) {
     take_all(std::span(&value, 1));
   }
+  /// The same of a list, whose length the caller knows.
   template <class T>
   void take_all(std::span<T> values) {
     static_assert(std::is_trivially_copyable_v<T>);

@@ -17,6 +17,7 @@ class Transport {
  public:
   virtual ~Transport() = default;
 
+  /// This rank, from 0 on, and how many there are.
   virtual int rank() const = 0;
   virtual int ranks() const = 0;
   /// Copies bytes and does not wait until they have arrived. What one rank sends another in one channel arrives in that

@@ -1,4 +1,4 @@
-// Bones and muscles of one body as triangles: bound once, written for anybody of like build.
+// Bones and muscles of one body as triangles: bound once, written for anybody of similar build.
 import { structs } from './interface.js';
 
 export class Surfaces {

@@ -56,7 +56,7 @@ class BellyLibrary {
   };
   /// Made with most_vectors; the others are the first ones of those.
   struct BasisKey {
-    double ratio, product;  // in the middle of the bodies that it is for
+    double ratio, product;  // the centre of the range of bodies that it serves
     bool operator==(const BasisKey&) const = default;
   };
   struct Basis {

@@ -15,7 +15,7 @@ using ChoiceWords = std::array<std::uint64_t, choice_word_count>;
 
 /// All fields, in a fixed order; doubles bit by bit.
 ChoiceWords choice_words(const LegMuscles& choice);
-/// The choice that has those words; nothing where an enumeration, a truth value or a count is none.
+/// The choice that has those words; nothing where an enumeration, a bool or a count is out of range.
 std::optional<LegMuscles> choice_of(const ChoiceWords& words);
 /// Equal for equal choices.
 std::uint64_t hash_of(const LegMuscles& choice);

@@ -14,7 +14,7 @@ namespace mobil {
 
 /// Places beyond are refused, m.
 inline constexpr float farthest_m = 1e6F;
-/// Whether a quaternion's length is 1 within 1 %; not of what is no number.
+/// Whether a quaternion's length is 1 within 1 %; not of NaN.
 bool is_rotation(const Quat<float>& q);
 
 /// Awake or asleep; false for a stale handle.

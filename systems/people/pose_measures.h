@@ -1,5 +1,5 @@
 #pragma once
-// What can be told of a pose alone: joint angles and points of the soles, of people whose host animates them.
+// What follows from a pose alone: joint angles and points of the soles, of people whose host animates them.
 
 #include "components/body.h"
 #include "components/lanes.h"

@@ -6,7 +6,7 @@
 //   writer.write(simulation.world(), people, ticks.alpha * simulation.tick_s(), {}, {buffer}, jobs);
 //
 // Walkers are where they will be that long after the last tick, exactly and without lag: a step's curves may be asked
-// for at any time, and a step that begins in between is solved for the while. Nothing in the world changes.
+// for at any time, and a step that begins in between is solved and not kept. Nothing in the world changes.
 
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +36,7 @@ enum class PoseAxes : std::uint8_t {
   y_up_z_back,       // x to the right, z back (Godot)
 };
 
+/// How a pose is written.
 struct PoseLayout {
   PoseForm form = PoseForm::place_and_quaternion;
   PoseAxes axes = PoseAxes::y_up;

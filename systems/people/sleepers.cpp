@@ -36,7 +36,7 @@ bool read_times(const World& world, Entity person, StepPlan<float>& plan) {
   return true;
 }
 
-/// A walk's anchor comes to be where it is at that tick, less (x, 0, z).
+/// Moves a walk's anchor to where it is at that tick, less (x, 0, z).
 void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s, float x_m, float z_m) {
   GaitState<Lanes<float>> state;
   steady_state(walk, tick, tick_s, state);

@@ -37,6 +37,7 @@ struct StepEvent {
 /// Publishes<StepEvents> of who is awake, SleepsWatched of who sleeps.
 Module step_watch_module();
 
+/// Whether a person's steps are watched; false for a stale handle.
 bool is_watched(const World& world, Entity person);
 /// People, named once each, are watched from the next tick on, or no more; who is so already is left alone. All or
 /// none: Status::missing where one is posed.
@@ -47,6 +48,7 @@ class StepLog {
  public:
   explicit StepLog(std::pmr::memory_resource* memory) : events_(memory), tables_(memory) {}
 
+  /// Forgets all events.
   void clear() { events_.clear(); }
   /// Before a tick: takes memory where more people are watched than ever before, for an `advance` of `ticks` ticks, and
   /// where a longer `tick(n)` has had more events.

@@ -16,6 +16,7 @@
 
 namespace mobil {
 
+/// Whether all numbers of two styles are equal.
 bool same_style(const GaitStyle& a, const GaitStyle& b);
 
 /// One number of a style that was moved, and why: as asked it would bring `bound` to `would_be` (m, rad or m/s²).

@@ -15,7 +15,7 @@ struct Background {
 /// A basis that was called for, and from which tick on it may be taken. `choice`: a hash of the tissue and effects.
 struct OrderedBasis {
   std::uint64_t choice;
-  float ratio, product;  // in the middle of the bodies that it is for
+  float ratio, product;  // the centre of the range of bodies that it serves
   std::uint16_t muscle, cells;
   std::uint32_t ready_tick;
 

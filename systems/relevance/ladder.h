@@ -22,12 +22,13 @@ struct RungCase {
 /// Pure functions of the table.
 class RungLadder {
  public:
+  /// The ladder has errors at so many speeds, so far apart.
   static constexpr std::uint32_t speed_steps = 26;
   static constexpr float speed_step_m_s = 0.1F;
 
   explicit RungLadder(const AccuracyTable& table);
 
-  /// The step of a walk of that speed (m/s) by a body of that height (m); of what is no number the last.
+  /// The step of a walk of that speed (m/s) by a body of that height (m); NaN gives the last step.
   static std::uint32_t speed_step(float speed_m_s, float height_m);
 
   /// Predicted error in a body of the reference's height, m.
@@ -75,8 +76,10 @@ class RungLadder {
 /// over the factors at which they fall due, sixteen bins an octave. Whole numbers: the same in any order of adding.
 class CostSpectrum {
  public:
+  /// The range of factors that the spectrum covers.
   static constexpr float least_factor = 0x1p-10F, most_factor = 0x1p14F;
 
+  /// Removes all costs.
   void clear() { due_.fill(0); }
   /// `cost_ps` falls due while the factor is below `factor`.
   void add(float factor, std::int64_t cost_ps) { due_[bin(factor)] += cost_ps; }

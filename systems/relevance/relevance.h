@@ -38,7 +38,7 @@
 
 namespace mobil {
 
-/// Who looks. Who is in the cone and no further than `reach_m` is seen; who is not in it but within `near_m` of the
+/// The camera. Who is in the cone and no further than `reach_m` is seen; who is not in it but within `near_m` of the
 /// camera moves on unseen, without control points; everybody else is out of sight or reach, and their muscles are not
 /// simulated. People count as balls of 1 m round the pelvis.
 struct Viewpoint {
@@ -50,7 +50,7 @@ struct Viewpoint {
   float reach_m = 200;
 };
 
-/// What everybody needs who has no need of their own.
+/// What the scene needs of everybody; PersonNeeds overrides it for one person.
 struct SceneNeeds {
   MuscleSet muscles = muscle_groups();
   /// How far a control point may be from where it belongs, m. Of a camera: pixels, from which distance makes metres.
@@ -66,9 +66,9 @@ struct SceneNeeds {
   /// and whole again when something is, or when another method is due. Handles of their muscles come and go with that.
   bool compact_unseen = false;
   bool looked_at = true;  // control points are placed; with a camera those seen are
-  /// Processor time a tick for everybody's deformation, but for compact people's, s. Where tolerances cost more, all are missed by one factor,
-  /// the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the factor may be below 1: all of
-  /// the budget is spent.
+  /// Processor time a tick for everybody's deformation, but for compact people's, s. Where tolerances cost more, all
+  /// are missed by one factor, the least that fits. With neither tolerance nor camera everybody's is 1 mm, and the
+  /// factor may be below 1: all of the budget is spent.
   std::optional<double> budget_s{};
 };
 
@@ -76,9 +76,10 @@ struct SceneNeeds {
 struct PersonNeeds {
   std::optional<MuscleSet> muscles{};
   std::optional<float> tolerance_m{};
-  std::optional<bool> looked_at{};  // of one whom the camera does not see: moves on all the same
+  std::optional<bool> looked_at{};  // counts as seen, or as near but unseen, whatever the camera sees
 };
 
+/// How methods are chosen, and how much may change in one update.
 struct RelevanceOptions {
   /// A cheaper method is taken only where it meets this part of the tolerance; a dearer one at once. 0–1.
   float slack = 0.7F;
@@ -131,6 +132,7 @@ struct RelevanceReport {
   std::string refusal{};                                 // the last that Simulation gave, in one line
 };
 
+/// Why a muscle has its method.
 enum class Reason : std::uint8_t {
   tolerance,  // the cheapest that meets it (or one dearer, within the hysteresis)
   best,       // none meets it
@@ -185,15 +187,17 @@ class Relevance {
  public:
   /// Works on `simulation`, which must outlive it and stay where it is. Errors, in one line: options out of range.
   static Result<Relevance> make(Simulation& simulation, const RelevanceOptions& options = {});
-  /// The same; throws std::invalid_argument with that line.
+  /// As `make`; throws std::invalid_argument with its line.
   explicit Relevance(Simulation& simulation, const RelevanceOptions& options = {});
   ~Relevance();
   Relevance(Relevance&&) noexcept;
   Relevance(const Relevance&) = delete;
   Relevance& operator=(const Relevance&) = delete;
 
-  /// From the next update on. Errors: a tolerance, budget or camera that is not finite and positive; all is as it was.
+  /// What the scene needs, from the next update on. Errors: a tolerance, budget or camera that is not finite and
+  /// positive; nothing has changed.
   Result<void> set_scene(const SceneNeeds& needs);
+  /// What was last set.
   const SceneNeeds& scene() const { return scene_; }
 
   /// Makes what methods share that the scene, and people with these tolerances of their own, may call for in bodies of
@@ -211,27 +215,31 @@ class Relevance {
   /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
   /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles; nothing has changed then.
   Result<std::size_t> manage_asleep(std::span<const Entity> people);
-  /// No more; muscles stay as they are. Errors: a stale handle, somebody who is not managed (Status::missing).
+  /// The person is no longer managed; muscles stay as they are. Errors: a stale handle, somebody who is not managed
+  /// (Status::missing).
   Result<void> release(Entity human);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
   /// refuses.
   Result<void> force(Entity human, Muscle muscle, const MuscleMethod& method);
-  /// Errors: a stale handle; Status::missing where the person, or that muscle, is not managed.
+  /// The method is chosen again. Errors: a stale handle; Status::missing where the person, or that muscle, is not
+  /// managed.
   Result<void> unforce(Entity human, Muscle muscle);
 
   /// Looks at a part of the crowd, and changes methods. Call it before each tick, or less often. Takes memory only as
   /// crowds grow and methods change.
   RelevanceReport update();
 
-  /// As it is; and as it was, with the simulation restored to what it was then: choosing goes on with the same bits,
-  /// scene and machine_factor being the same.
+  /// What choosing remembers, to be kept beside a snapshot of the simulation.
   RelevanceState state() const;
+  /// Puts it back after the simulation was restored to that snapshot: choosing goes on with the same bits, where scene
+  /// and machine_factor are the same.
   void set_state(const RelevanceState& state);
 
   /// How many muscles have each rung of a ladder, both legs'; last, those with a method that was forced or refused.
   std::array<std::size_t, rung_count + 1> muscles_by_rung(bool living = false) const;
-  /// Errors: a stale handle; Status::missing where the person is not managed or has no such muscle.
+  /// Why a muscle has its method. Errors: a stale handle; Status::missing where the person is not managed or has no
+  /// such muscle.
   Result<Choice> why(Entity human, Muscle muscle) const;
 
  private:

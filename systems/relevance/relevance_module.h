@@ -7,6 +7,7 @@
 
 namespace mobil {
 
+/// The module; Simulation has it among its own.
 Module relevance_module();
 /// What a person has who is managed, for SpawnRequest::parts.
 std::span<const KeyPart> relevance_parts();

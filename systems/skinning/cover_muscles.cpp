@@ -145,7 +145,7 @@ void cover_muscles(const BodySkin& skin, const Pose<float>& pose, float lengths,
   std::array<float, leg_grid_points> reach{};
   for (const Vec3<float>& p : muscles) {
     const LegRings::Place at = rings.place(p);
-    if (!(at.along >= 0 && at.along <= leg_stations - 1)) continue;  // nor what is no number
+    if (!(at.along >= 0 && at.along <= leg_stations - 1)) continue;  // nor NaN
     const auto i = static_cast<std::size_t>(at.along);
     const auto j = static_cast<std::size_t>(at.round);
     for (std::size_t a = i; a <= std::min(i + 1, leg_stations - 1); ++a) {

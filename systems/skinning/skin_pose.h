@@ -7,6 +7,7 @@
 
 namespace mobil {
 
+/// Where a frame is in the world: its origin, m, and its rotation.
 struct RigidPose {
   Vec3<float> position_m;
   Quat<float> rotation;
@@ -17,6 +18,7 @@ struct AffineMap {
   alignas(16) float column[4][4];
 };
 
+/// The same motion as an affine map.
 AffineMap affine_map(const RigidPose& pose);
 
 /// One end of a surface: its bone (right side, left side), where that lies in the standing body (m, world), where the

@@ -33,7 +33,7 @@ class Rollback {
   Result<void> keep(const Simulation& simulation);
   /// How many can be gone back.
   std::size_t depth() const { return depth_; }
-  /// As it was when it was kept for the `times`-th last time (1: the last). That one and those after it are forgotten:
+  /// Restores the `times`-th most recent snapshot (1: the latest). That one and those after it are forgotten:
   /// running on, they are kept anew. Errors: not so many kept, what `restore` refuses; the simulation is unchanged.
   Result<void> back(Simulation& simulation, std::size_t times);
 

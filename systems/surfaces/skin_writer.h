@@ -26,7 +26,7 @@
 
 namespace mobil {
 
-/// A skin, and by how much a person is taller than whose it is.
+/// A skin, and by how much a person is taller than the body that it was made for.
 struct SkinShape {
   const BodySkin* skin = nullptr;
   float lengths = 1;

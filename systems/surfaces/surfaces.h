@@ -47,6 +47,8 @@ struct SurfaceRequest {
   VertexStream tangents{{}, 4 * sizeof(float)};
 };
 
+/// Writes the vertices of bones and muscles for many people at once. It keeps what it works in; one thread uses it at a
+/// time.
 class SurfaceWriter {
  public:
   explicit SurfaceWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());

@@ -47,7 +47,7 @@ Vector vector(const float* at) {
   return {at[0], at[1], at[2]};
 }
 
-/// A walker at 3 m to the left and 5 ahead of the origin, who looks 0.7 rad to the left.
+/// A walker at 3 m to the left and 5 ahead of the origin, heading 0.7 rad to the left.
 mobil_id walker(const Sim& sim, const Host& host) {
   auto person = filled<mobil_person>(MOBIL_PERSON);
   const Vector place = host.units_per_m * (3 * host.left + 5 * host.ahead);

@@ -55,7 +55,7 @@ TEST(EngineJobs, SystemsRunWithoutDenormalsOnEveryThreadAndCallersKeepTheirs) {
   const Threads threads(2);
   schedule->run(world, {}, threads.jobs());
   for (const Entity e : all) EXPECT_EQ(world.get<Faint>(e)->x, 0.0F);
-  std::atomic<int> lost = 0;  // the pool's threads are as they were
+  std::atomic<int> lost = 0;  // the pool's threads flush none any more
   const Jobs jobs = threads.jobs();
   jobs.parallel_for(
       jobs.user, 1000,

@@ -1,6 +1,6 @@
 #pragma once
 // Walkers who are asked for one thing after another at random times, and an observer of each that keeps the worst of
-// what it does. Everything goes through the front door; a crowd is told by its seed alone.
+// what it does. Everything goes through the facade; a crowd follows from its seed alone.
 
 #include <algorithm>
 #include <array>

@@ -67,7 +67,7 @@ struct Walkers {
     const auto extra_fat = static_cast<float>(extra_fat_of(body[lane].composition));
     put(BodySize<float>{request.height_m, request.mass_kg, extra_fat}, size, lane);
   }
-  /// False where the gait is out of range; it then stays as it was.
+  /// False where the gait is out of range; it is unchanged then.
   bool ask(std::size_t lane, const GaitRequest& request) {
     auto wanted = resolve_gait(body[lane], request);
     if (!wanted) return false;

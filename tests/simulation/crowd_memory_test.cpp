@@ -90,7 +90,7 @@ TEST(CrowdMemory, AllComesFromTheCallerAndGoesBack) {
   EXPECT_EQ(memory.lent(), 0U);
 }
 
-/// What there is: handles and state of everybody, and what the front door says of them.
+/// What there is: handles and state of everybody, and what the facade says of them.
 std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& people) {
   std::uint64_t hash = hash_world(simulation);
   for (const Entity human : people) hash = fnv(hash_human(simulation, human), static_cast<std::uint32_t>(hash));
@@ -100,7 +100,7 @@ std::uint64_t all_of(const Simulation& simulation, const std::vector<Entity>& pe
 using Change = std::function<void(Simulation&, std::vector<Entity>&)>;
 enum class Refuses { resource, heap };
 
-/// Does `change` with memory for ever more requests until it succeeds; each refusal must leave all as it was, and what
+/// Does `change` with memory for ever more requests until it succeeds; no refusal may change anything, and what
 /// comes of it at last must be what comes of it with memory enough.
 void refuse_at_every_request(const Change& change, Refuses who) {
   const auto make = [&](CountingMemory& memory, std::vector<Entity>& people) {

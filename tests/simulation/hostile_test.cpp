@@ -1,4 +1,4 @@
-// Snapshots that ask for too much or hold what is no number, and hosts that err: refused, or harmless to others.
+// Snapshots that ask for too much or hold NaN, and hosts that err: refused, or harmless to others.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

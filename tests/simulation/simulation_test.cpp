@@ -1,4 +1,4 @@
-// The front door: same bits however the work is cut and whoever else is there, bodies and gaits of all kinds, effects
+// The facade: same bits however the work is cut and whoever else is there, bodies and gaits of all kinds, effects
 // that come and go without a trace, time, memory.
 #include "systems/simulation.h"
 

@@ -161,7 +161,7 @@ TEST(Snapshot, WithTheSamePeopleRestoringTakesNoMemoryOfTheCallers) {
   EXPECT_EQ(memory.requests, before);
 }
 
-/// Refused in one line, and all is as it was.
+/// Refused in one line, and nothing has changed.
 void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, const std::string& about = "") {
   const std::uint64_t world = hash_world(simulation), state = simulation.state_hash();
   const auto done = simulation.restore(bytes);

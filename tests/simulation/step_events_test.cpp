@@ -189,7 +189,7 @@ std::vector<Line> lines(std::span<const StepEvent> events) {
   return all;
 }
 
-/// A crowd that is asked for something now and then; what is told of it.
+/// A crowd that is asked for something now and then; what its events report.
 struct Watched {
   explicit Watched(const SimulationOptions& options, int count = 70, bool watched = true) : simulation(options) {
     std::vector<SpawnRequest> requests(static_cast<std::size_t>(count));

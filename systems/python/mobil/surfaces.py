@@ -43,7 +43,7 @@ class Part(NamedTuple):
 
 
 class Surfaces:
-    """Bound once to the body of one person, good for everybody of like build.
+    """Bound once to the body of one person, good for everybody of similar build.
 
     choice: fields of mobil_surface_choice: bones, side ("right", "left" or 2 for both), muscles, cells, detail,
     textured.

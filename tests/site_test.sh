@@ -1,0 +1,44 @@
+#!/usr/bin/env bash
+# The site: Doxygen takes every public comment without a warning, nothing public is without one, every link leads
+# somewhere. Also the spelling of all that is committed, where codespell is there.
+# Usage: site_test.sh BUILD_DIR SOURCE_DIR. Exit status 77: skipped.
+set -euo pipefail
+missing=()
+command -v doxygen >/dev/null || missing+=(doxygen)
+command -v cmark-gfm >/dev/null || missing+=(cmark-gfm)
+if [ ${#missing[@]} -gt 0 ]; then
+  echo "${missing[*]} not there (apt-get install ${missing[*]})"
+  exit 77
+fi
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+# The packages are there, under whatever name: nothing is installed by a test.
+if ! "$2/demo/site/run" --headers "$1/include/mobil" --out "$scratch/site" --no-install >"$scratch/said" 2>&1; then
+  tail -n 40 "$scratch/said"
+  exit 1
+fi
+cat "$scratch/said"
+for page in index.html ARCHITECTURE.html reference/cpp/classmobil_1_1Simulation.html reference/c/mobil_8h.html; do
+  [ -s "$scratch/site/$page" ] || { echo "$page was not made"; exit 1; }
+done
+# A link that leads nowhere is found.
+sed -i 's|</main>|<a href="nowhere.html#at-all">x</a></main>|' "$scratch/site/index.html"
+if "${PYTHON:-/usr/bin/python3}" "$2/demo/site/links.py" "$scratch/site" >"$scratch/said"; then
+  echo "a broken link was not found"
+  exit 1
+fi
+grep -q '^index.html: nowhere.html#at-all leads nowhere$' "$scratch/said" || { cat "$scratch/said"; exit 1; }
+# So is a public function without a comment.
+mkdir -p "$scratch/bare/mobil"
+printf '#pragma once\n// A header.\n\nnamespace mobil {\n\nint bare(int x);\n\n}  // namespace mobil\n' >"$scratch/bare/mobil/bare.h"
+cp "$1/include/mobil/mobil.h" "$scratch/bare/mobil/"
+if "$2/demo/site/run" --headers "$scratch/bare/mobil" --out "$scratch/bare/site" --no-install >"$scratch/said" 2>&1; then
+  echo "a function without a comment was not found"
+  exit 1
+fi
+grep -q 'bare.h:.*bare(int x).*not documented' "$scratch/said" || { cat "$scratch/said"; exit 1; }
+if command -v codespell >/dev/null; then
+  (cd "$2" && codespell) || { echo "mend these, or name them in .codespellrc"; exit 1; }
+else
+  echo "codespell is not there: spelling was not looked at"
+fi

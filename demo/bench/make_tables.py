@@ -34,7 +34,6 @@ TABLES = {
         ("a person's pose for a tick, so too", "kinematics.small_crowd.us_per_human_tick", US),
         ("a step solved anew, when a walk changes", "gait.us_per_resolve", US),
         ("a muscle's line of action", "lines.us_per_muscle_tick", US),
-        ("a person with eight muscles along 12 vectors, nobody looking", "crowd.10000.us_per_human_tick", US),
         ("a vertex of muscle or bone, by its control points", "skinning.ns_per_vertex", NS),
         ("a vertex of skin, of somebody near", "skin.near.ns_per_vertex", NS),
     ],

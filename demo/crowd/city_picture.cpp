@@ -15,7 +15,7 @@ namespace mobil {
 
 void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::optional<CrowdCamera>& pictures,
                   const std::filesystem::path& file) {
-  std::vector<SeenPerson> seen;
+  std::vector<DrawnPerson> seen;
   std::map<std::uint64_t, std::pair<const Simulation*, Entity>> where;
   each_shard(cluster, [&](CityShard& shard) {
     const auto people = shard.people();
@@ -26,7 +26,7 @@ void take_picture(Ranks& ranks, Cluster& cluster, const Camera& camera, std::opt
   const auto all_seen = ranks.gather(std::as_bytes(std::span(seen)));
   seen.clear();
   for (const auto& bytes : all_seen) {
-    const auto some = PlainReader(bytes).take_many<SeenPerson>(bytes.size() / sizeof(SeenPerson));
+    const auto some = PlainReader(bytes).take_many<DrawnPerson>(bytes.size() / sizeof(DrawnPerson));
     seen.insert(seen.end(), some.begin(), some.end());
   }
   arrange(seen);

@@ -38,8 +38,8 @@ Camera crowd_camera(double side_m) {
   return camera;
 }
 
-void arrange(std::vector<SeenPerson>& seen) {
-  std::ranges::sort(seen, [](const SeenPerson& a, const SeenPerson& b) {
+void arrange(std::vector<DrawnPerson>& seen) {
+  std::ranges::sort(seen, [](const DrawnPerson& a, const DrawnPerson& b) {
     return std::tuple(b.near, a.distance_m, a.number) < std::tuple(a.near, b.distance_m, b.number);
   });
 }
@@ -55,7 +55,7 @@ struct CrowdCamera::Parts {
   CrowdLegs legs;
   std::vector<DrawMesh> meshes;
 
-  Result<void> add_skin(const SeenPerson& person, const WalkRecording* legs);
+  Result<void> add_skin(const DrawnPerson& person, const WalkRecording* legs);
 };
 
 CrowdCamera::CrowdCamera(std::unique_ptr<Parts> parts) : parts_(std::move(parts)) {}
@@ -69,7 +69,7 @@ Result<CrowdCamera> CrowdCamera::create(int width, int height) {
   return CrowdCamera(std::make_unique<Parts>(std::move(*renderer), width, height));
 }
 
-Result<void> CrowdCamera::Parts::add_skin(const SeenPerson& person, const WalkRecording* of_legs) {
+Result<void> CrowdCamera::Parts::add_skin(const DrawnPerson& person, const WalkRecording* of_legs) {
   const SkinDetail detail = person.distance_m < near_m  ? SkinDetail::near
                             : person.distance_m < far_m ? SkinDetail::far
                                                         : SkinDetail::distant;
@@ -99,9 +99,9 @@ Result<void> CrowdCamera::take(const CrowdScene& scene, Image& image) {
   return take(scene.simulation(), crowd_camera(scene.side_m()), people, image);
 }
 
-std::vector<SeenPerson> CrowdCamera::see(const Simulation& simulation, const Camera& camera,
-                                         std::span<const Drawn> people, int width, int height) {
-  std::vector<SeenPerson> seen;
+std::vector<DrawnPerson> CrowdCamera::see(const Simulation& simulation, const Camera& camera,
+                                          std::span<const Drawn> people, int width, int height) {
+  std::vector<DrawnPerson> seen;
   for (const Drawn& person : people) {
     const auto pose = simulation.get<Pose>(person.entity);
     if (!pose || !in_picture(camera, width, height, pose->position_m[0])) continue;
@@ -131,12 +131,13 @@ Result<void> CrowdCamera::take(const Simulation& simulation, const Camera& camer
   return draw(camera, seen, legs, image);
 }
 
-Result<void> CrowdCamera::draw(const Camera& camera, std::span<const SeenPerson> seen, const Legs& legs, Image& image) {
+Result<void> CrowdCamera::draw(const Camera& camera, std::span<const DrawnPerson> seen, const Legs& legs,
+                               Image& image) {
   Parts& parts = *parts_;
   parts.drawn.clear();
   parts.meshes.clear();
   parts.legs_drawn = {};
-  for (const SeenPerson& person : seen) {
+  for (const DrawnPerson& person : seen) {
     const auto found = legs.find(person.number);
     const WalkRecording* const own = found == legs.end() ? nullptr : found->second;
     if (own != nullptr) {

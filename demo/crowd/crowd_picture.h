@@ -18,7 +18,7 @@
 namespace mobil {
 
 /// One who is in a picture: plain data, which may come from another process.
-struct SeenPerson {
+struct DrawnPerson {
   std::uint64_t number = 0;
   float distance_m = 0;
   std::uint32_t near = 0;  // of the nearest of these the legs' bones and muscles are seen
@@ -27,7 +27,7 @@ struct SeenPerson {
   Pose<float> pose{};
 };
 /// Who is drawn first, whatever order they were found in: those who are near, then the nearest.
-void arrange(std::vector<SeenPerson>& seen);
+void arrange(std::vector<DrawnPerson>& seen);
 /// Of how many at most, the first of who is near, legs are drawn.
 inline constexpr std::size_t most_legs = 64;
 
@@ -54,11 +54,11 @@ class CrowdCamera {
   };
   Result<void> take(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people, Image& image);
   /// Those of them who are in a picture of that size, in no order.
-  static std::vector<SeenPerson> see(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people,
-                                     int width = usual_width, int height = usual_height);
+  static std::vector<DrawnPerson> see(const Simulation& simulation, const Camera& camera, std::span<const Drawn> people,
+                                      int width = usual_width, int height = usual_height);
   /// A picture of them in that order. `legs`: by number, of those whose legs are drawn.
   using Legs = std::map<std::uint64_t, const WalkRecording*>;
-  Result<void> draw(const Camera& camera, std::span<const SeenPerson> seen, const Legs& legs, Image& image);
+  Result<void> draw(const Camera& camera, std::span<const DrawnPerson> seen, const Legs& legs, Image& image);
   /// Lets go of the surfaces of who had this number.
   void forget(std::uint64_t number);
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assets/files/output_file.h"
@@ -53,8 +54,9 @@ Result<void> run_man(const ManText& text) {
 
 }  // namespace
 
-Subcommand man_command(const std::vector<std::string>& others) {
+Subcommand man_command(std::vector<std::string> others) {
   auto text = std::make_shared<ManText>();
+  others.emplace_back("man");
   Subcommand command{.name = "man", .about = "Pages of the manual, for man to read"};
   command.footer =
       "Installed with the program, they are read by man mobil, man mobil-walk and the like.\n"
@@ -63,7 +65,7 @@ Subcommand man_command(const std::vector<std::string>& others) {
   command.options = {{.name = "subcommand",
                       .target = &text->pages,
                       .help = "Whose page; that of the whole program by default",
-                      .words = others},
+                      .words = std::move(others)},
                      {"--out", &text->out, "Folder for the pages as files, of all subcommands where none is named"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("man", run_man(*text)); };

@@ -43,6 +43,5 @@ Subcommand effects_command();
 Subcommand crowd_command();
 Subcommand view_command();
 Subcommand completion_command();
-Subcommand man_command(const std::vector<std::string>& others);  // the other subcommands, which have pages too
 
 }  // namespace mobil

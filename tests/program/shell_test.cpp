@@ -51,10 +51,10 @@ std::vector<std::string> bash_offers(const std::vector<std::string>& words) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "mobil.bash") << bash_completion(mobil_program());
   std::string line;
-  for (const std::string& word : words) line += fmt::format(" '{}'", word);
+  for (const std::string& word : words) line += fmt::format("\"{}\" ", word);
   const Ran ran = run_shell(fmt::format("bash -c 'set -u; source mobil.bash; COMP_WORDS=({}); COMP_CWORD={}; _mobil; "
                                         "printf \"%s\\n\" \"${{COMPREPLY[@]}}\"'",
-                                        fmt::format("{}", fmt::join(words, " ")), words.size() - 1),
+                                        line, words.size() - 1),
                             folder.path);
   EXPECT_EQ(ran.status, 0) << ran.err;
   EXPECT_EQ(ran.err, "");
@@ -136,14 +136,17 @@ TEST(Completion, TheProgramPrintsItsScripts) {
   expect_refused("completion", {{"", {"bash, zsh or fish"}}, {"bahs", {"did you mean bash?"}}}, folder.path);
 }
 
-std::string without_backslashes(std::string text) {
+/// Text of troff without changes of font and what else begins with a backslash.
+std::string without_escapes(std::string text) {
+  for (const char* font : {"\\fB", "\\fI", "\\fR"})
+    for (std::size_t at; (at = text.find(font)) != std::string::npos;) text.replace(at, 3, " ");
   std::erase(text, '\\');
   return text;
 }
 
 TEST(Manual, HasEveryOptionOfEverySubcommand) {
   const Program program = mobil_program();
-  const std::string whole = without_backslashes(manual(program));
+  const std::string whole = without_escapes(manual(program));
   for (std::size_t c = 0; c < program.commands.size(); ++c) {
     const Subcommand& command = program.commands[c];
     const auto names = option_names(program, command);
@@ -151,7 +154,7 @@ TEST(Manual, HasEveryOptionOfEverySubcommand) {
     ASSERT_NE(begin, std::string::npos) << command.name;
     const std::size_t end = whole.find(c + 1 < program.commands.size() ? "\n.SS " : "\n.SH ", begin);
     expect_all(whole.substr(begin, end - begin), names, "mobil(1), " + command.name);
-    expect_all(without_backslashes(manual(program, command)), names, "mobil-" + command.name + "(1)");
+    expect_all(without_escapes(manual(program, command)), names, "mobil-" + command.name + "(1)");
   }
   const TemporaryFolder folder;
   EXPECT_EQ(run_mobil("man", folder.path).out, manual(program));
@@ -171,7 +174,7 @@ TEST(Manual, TroffHasNothingToWarnOf) {
     const Ran ran = run_shell(fmt::format("groff -ww -b -man -Tutf8 -rLL=80n '{}'", page.path().string()), folder.path);
     EXPECT_EQ(ran.status, 0);
     EXPECT_EQ(ran.err, "") << page.path();
-    EXPECT_NE(ran.out.find("EXIT STATUS"), std::string::npos);
+    EXPECT_NE(ran.out.find("bad usage or input"), std::string::npos);
     ++pages;
   }
   EXPECT_EQ(pages, mobil_program().commands.size() + 1);
@@ -187,7 +190,7 @@ TEST(Quiet, NothingIsSaidOfWhatWasWritten) {
     const auto says_where = [](const Ran& ran) {
       return ran.out.find("written ") != std::string::npos || ran.out.find("look at ") != std::string::npos;
     };
-    EXPECT_TRUE(says_where(told)) << told.out;
+    EXPECT_TRUE(says_where(told)) << arguments << ": " << told.out << told.err;
     EXPECT_FALSE(says_where(quiet)) << quiet.out;
     EXPECT_FALSE(quiet.out.starts_with("\n")) << arguments;
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the build tree to a fresh prefix; builds and runs hosts against it with find_package(mobil): hello, one that
 # adds a system of its own, a game with an Eigen and an engine/world.h of its own, and one that writes pictures alone.
-# Internal headers are not installed.
+# Internal headers are not installed; completions and pages of the manual are.
 # Usage: install_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
@@ -20,6 +20,16 @@ if grep -q '^flags.* avx2' /proc/cpuinfo; then
   "$scratch/build/game_host"
 else
   echo "game_host not run: this processor has no AVX2"
+fi
+# Where the program was built, shells and man find what it can do.
+if [ -x "$scratch/prefix/bin/mobil" ]; then
+  share="$scratch/prefix/share"
+  for file in bash-completion/completions/mobil zsh/site-functions/_mobil fish/vendor_completions.d/mobil.fish \
+    man/man1/mobil.1 man/man1/mobil-walk.1; do
+    [ -s "$share/$file" ] || { echo "share/$file is not installed" >&2; exit 1; }
+  done
+  diff <("$scratch/prefix/bin/mobil" completion bash) "$share/bash-completion/completions/mobil"
+  diff <("$scratch/prefix/bin/mobil" man walk) "$share/man/man1/mobil-walk.1"
 fi
 # Every header is for hosts of any flags.
 for header in "$scratch"/prefix/include/mobil/*.h; do echo "#include <mobil/${header##*/}>"; done >"$scratch/all.cpp"

@@ -56,10 +56,10 @@ Result<void> bake(const BakeText& text) {
   if (!person) return tl::unexpected(person.error());
   const double spawned_s = wall_now_s();
   if (auto added = fresh.add_leg_muscles(*person, options.leg_muscles); !added) return added;
-  fmt::print(
-      "written {}: {:.1f} MB, made in {:.1f} s, loaded in {:.1f} ms; a person's first muscles then take {:.2f} ms\n",
+  say_where(fmt::format(
+      "written {}: {:.1f} MB, made in {:.1f} s, loaded in {:.1f} ms; a person's first muscles then take {:.2f} ms",
       text.out, 1e-6 * static_cast<double>(bytes.size()), made_s, 1e3 * (loaded_s - before_s),
-      1e3 * (wall_now_s() - spawned_s));
+      1e3 * (wall_now_s() - spawned_s)));
   return {};
 }
 

@@ -35,7 +35,8 @@ Result<void> write_body(const Body& body, const std::filesystem::path& out) {
   if (auto done = results->put(); !done) return done;
   std::error_code ignored;
   if (!picture) std::filesystem::remove(out / "body.png", ignored);  // another body's
-  fmt::print("{}\nlook at {}: body.json{}\n", body_table(body), out.string(), picture ? " body.png" : "");
+  fmt::print("{}", body_table(body));
+  say_where(fmt::format("\nlook at {}: body.json{}", out.string(), picture ? " body.png" : ""));
   if (!picture) fmt::print(stderr, "mobil body: no picture: {}\n", picture.error().message);
   return {};
 }

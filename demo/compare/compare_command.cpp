@@ -124,8 +124,8 @@ Result<bool> run_compare(const CompareText& text) {
   const auto verdicts = judge(comparison);
   if (auto done = write_all(text.out, comparison, verdicts); !done) return tl::unexpected(done.error());
   fmt::print("{}", comparison_text(comparison, verdicts));
-  fmt::print("look at {}: compare.json angles.svg ground_reaction.svg moments.svg steps.svg centre_of_mass.svg\n",
-             text.out);
+  say_where(fmt::format(
+      "look at {}: compare.json angles.svg ground_reaction.svg moments.svg steps.svg centre_of_mass.svg", text.out));
   return std::ranges::all_of(verdicts, [](const Verdict& verdict) { return verdict.held.value_or(false); });
 }
 

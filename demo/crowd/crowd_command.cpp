@@ -98,7 +98,7 @@ Result<void> run(const CrowdOptions& options) {
   if (auto done = scene.settle(show_progress); !done) return done;
   const CrowdMemory memory = crowd_memory(scene);
   const CrowdLive live = [](const CrowdRun& so_far, std::size_t of) { show(crowd_live_line(so_far, of)); };
-  const auto measured = run_crowd(scene, ticks, true, on_terminal() ? live : CrowdLive{});
+  const auto measured = run_crowd(scene, ticks, true, quiet ? CrowdLive{} : live);
   show("");
   if (!measured) return tl::unexpected(measured.error());
   fmt::print("{}", crowd_text(*measured, memory, scene));

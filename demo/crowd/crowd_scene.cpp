@@ -143,10 +143,10 @@ Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
     tick();
     return {};
   };
-  int quiet = 0;
-  for (int i = 0; relevance_ && i < most_updates && quiet < quiet_updates; ++i) {
+  int settled = 0;
+  for (int i = 0; relevance_ && i < most_updates && settled < quiet_updates; ++i) {
     const RelevanceReport report = choose_methods();
-    quiet = report.switched + report.waiting == 0 ? quiet + 1 : 0;
+    settled = report.switched + report.waiting == 0 ? settled + 1 : 0;
     if (i % updates_a_tick != 0) continue;
     if (auto done = tick_once(); !done) return done;
   }

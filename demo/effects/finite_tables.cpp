@@ -11,6 +11,7 @@
 #include "assets/finite/packed_shapes.h"
 #include "assets/finite/shape_tables.h"
 #include "assets/muscles/muscle_table.h"
+#include "demo/program/commands.h"
 #include "demo/program/progress.h"
 
 namespace mobil {
@@ -59,7 +60,7 @@ Result<void> write_finite_tables(const std::string& folder) {
     show_part(std::string(muscles()[m].name), static_cast<double>(m) / static_cast<double>(muscles().size()));
     if (auto done = write_table(static_cast<Muscle>(m), folder); !done) return done;
   }
-  fmt::print("look at {}\n", folder);
+  say_where(fmt::format("look at {}", folder));
   return {};
 }
 

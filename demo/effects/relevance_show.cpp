@@ -78,10 +78,10 @@ struct Told {
 
 /// Until nothing waits and nothing fades.
 void settle(Crowd& crowd, Relevance& relevance) {
-  std::size_t quiet = 0;
-  for (int i = 0; i < 20000 && quiet < 40; ++i) {
+  std::size_t settled = 0;
+  for (int i = 0; i < 20000 && settled < 40; ++i) {
     const auto report = relevance.update();
-    quiet = report.switched + report.waiting == 0 ? quiet + 1 : 0;
+    settled = report.switched + report.waiting == 0 ? settled + 1 : 0;
     if (i % 8 == 0) crowd.tick();
   }
 }

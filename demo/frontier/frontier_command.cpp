@@ -39,7 +39,8 @@ Result<void> run_finite(const std::string& out) {
   if (auto done = write_file(folder / "living.csv", living_csv(*living)); !done) return done;
   if (auto done = write_file(folder / "living.svg", svg(living_figure(*living))); !done) return done;
   if (auto done = results->put(); !done) return done;
-  fmt::print("{}\n{}\nwritten {}: finite.csv living.csv living.svg\n", finite_text(*shapes), living_text(*living), out);
+  fmt::print("{}\n{}", finite_text(*shapes), living_text(*living));
+  say_where(fmt::format("\nwritten {}: finite.csv living.csv living.svg", out));
   return {};
 }
 
@@ -60,7 +61,8 @@ Result<void> run_frontier(const FrontierText& text) {
   if (auto done = write_file(out / "frontier.svg", svg(frontier_figure(*frontier))); !done) return done;
   if (auto done = write_file(out / "frontier.json", frontier_json(*frontier)); !done) return done;
   if (auto done = results->put(); !done) return done;
-  fmt::print("{}\nwritten {}: frontier.csv frontier.svg frontier.json\n", frontier_text(*frontier), text.out);
+  fmt::print("{}", frontier_text(*frontier));
+  say_where(fmt::format("\nwritten {}: frontier.csv frontier.svg frontier.json", text.out));
   return {};
 }
 

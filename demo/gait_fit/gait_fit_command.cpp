@@ -14,6 +14,7 @@
 #include "demo/gait_fit/step_quality.h"
 #include "demo/gait_fit/step_styles.h"
 #include "demo/program/commands.h"
+#include "demo/program/progress.h"
 
 namespace mobil {
 namespace {
@@ -69,7 +70,7 @@ std::string styles_source(const GaitReference& reference, const Jobs& jobs) {
       StepNode node = step_node({&reference}, s, usual);
       node.shape = fitted(step_shapes[s][usual]);
       changes[s] = style_changes(node);
-      fmt::print(stderr, "speed {:g}\n", speed[s]);
+      show(fmt::format("speed {:g}", speed[s]));
     }
   });
   std::string text =
@@ -118,7 +119,8 @@ Result<void> run_fit(const FitText& text) {
     const auto fit = fit_excitation();
     if (!fit) return tl::unexpected(fit.error());
     if (auto done = write_file(text.out, fit->source); !done) return done;
-    fmt::print("correlation with what was measured\n{}look at {}\n", fit->quality, text.out);
+    fmt::print("correlation with what was measured\n{}", fit->quality);
+    say_where(fmt::format("look at {}", text.out));
     return {};
   }
   const auto reference = read_gait_reference({});
@@ -132,15 +134,20 @@ Result<void> run_fit(const FitText& text) {
     data.without = static_cast<std::size_t>(named - compared_class_name.begin());
   }
   const Threads threads(static_cast<int>(text.threads));
-  if (text.styles) return write_file(text.out, styles_source(*reference, threads.jobs()));
+  if (text.styles) {
+    const std::string styles = styles_source(*reference, threads.jobs());
+    show("");
+    return write_file(text.out, styles);
+  }
   auto nodes = fit_grid(data, threads.jobs(), [](const char* stage, double cost) {
-    fmt::print(stderr, "{}: sum of squares {:.2f}\n", stage, cost);
+    show(fmt::format("{}: sum of squares {:.2f}", stage, cost));
   });
+  show("");
   if (auto done = write_file(text.out, source(nodes)); !done) return done;
   for (StepNode& node : nodes)  // judged by all speeds
     node.targets = step_targets(*reference, data.set, node.targets.speed, node.task.body.leg);
   print(nodes);
-  fmt::print("look at {}\n", text.out);
+  say_where(fmt::format("look at {}", text.out));
   return {};
 }
 

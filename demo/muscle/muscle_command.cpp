@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -47,11 +46,10 @@ std::string summary(const MuscleRequest& request, const MuscleRun& result, doubl
       "method         {}\n"
       "critical step  {}\n"
       "step           {:.4g} s, {} steps ({:.3g} s simulated in {:.2g} s)\n"
-      "peak           {:.4g} m at {:.4g} s\n"
-      "written        {}\n",
+      "peak           {:.4g} m at {:.4g} s\n",
       element_count(m.mesh.cells), node_count(m.mesh.cells), m.material.density_kg_m3 * volume(m.mesh),
       describe_method(request), limit, request.dt_s, request.steps, static_cast<double>(request.steps) * request.dt_s,
-      wall_s, result.peak_m, result.peak_time_s, request.out.string());
+      wall_s, result.peak_m, result.peak_time_s);
 }
 
 int contraction(const MuscleText& text) {
@@ -61,7 +59,8 @@ int contraction(const MuscleText& text) {
   if (!made) return complain("muscle", made.error().message);
   if (auto ok = write_file(request->out, made->csv); !ok)
     return complain("muscle", fmt::format("--out {}", ok.error().message));
-  fmt::print("{}written        {}\n", made->summary, request->out.string());
+  fmt::print("{}", made->summary);
+  say_where(fmt::format("written        {}", request->out.string()));
   return 0;
 }
 
@@ -87,7 +86,8 @@ int muscle(const MuscleText& text) {
     }
   }
   if (!request->warning.empty()) complain("muscle", request->warning);
-  std::fputs(summary(*request, *result, wall_s).c_str(), stdout);
+  fmt::print("{}", summary(*request, *result, wall_s));
+  say_where(fmt::format("written        {}", request->out.string()));
   return 0;
 }
 

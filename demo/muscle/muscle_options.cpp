@@ -13,6 +13,7 @@
 
 #include "assets/fem/element_size.h"
 #include "assets/fem/muscle_template.h"
+#include "assets/muscles/muscle_table.h"
 #include "assets/reduction/reduced_basis.h"
 #include "demo/program/units.h"
 
@@ -20,6 +21,15 @@ namespace mobil {
 namespace {
 
 constexpr double longest_run_steps = 2e6;
+
+constexpr std::array<std::string_view, 2> precisions = {"single", "double"};
+const auto moving_methods = std::span(method_name).first(static_cast<std::size_t>(Method::none));
+
+std::vector<std::string> muscle_words() {
+  std::vector<std::string> names;
+  for (const MuscleRow& row : muscles()) names.emplace_back(row.name);
+  return names;
+}
 
 /// Without --dt: static writes a row for every picture of a display; CAA steps eight times as often, so that the beat
 /// of the default block's first stretch (12 Hz) is a fifth of a per cent long.
@@ -93,14 +103,12 @@ struct Choices {
 };
 
 Result<Choices> read_choices(const MuscleText& text) {
-  const auto moving = std::span(method_name).first(static_cast<std::size_t>(Method::none));
-  const auto method = choose<Method>("--method", text.method, moving);
+  const auto method = choose<Method>("--method", text.method, moving_methods);
   if (!method) return tl::unexpected(method.error());
   const auto mass = choose_mass(*method, text.mass);
   if (!mass) return tl::unexpected(mass.error());
   const auto element = choose<Element>("--element", text.element, element_name);
   if (!element) return tl::unexpected(element.error());
-  static constexpr std::array<std::string_view, 2> precisions = {"single", "double"};
   const auto precision = choose<std::size_t>("--precision", text.precision, precisions);
   if (!precision) return tl::unexpected(precision.error());
   if (*method == Method::reduced && *precision == 1) {
@@ -215,9 +223,13 @@ std::vector<Option> muscle_options(MuscleText& text) {
   return {
       {"--cells", &text.cells, "Elements along x, y, z, 1 to 256 each", block},
       {"--cell-size", &text.cell_size, "Edge of a cubic element, 0.0001 to 1 m", block},
-      {"--element", &text.element,
+      {"--element",
+       &text.element,
        "full (2x2x2 points), bbar (mean dilatation: for Poisson's ratios near 0.5) or one-point (hourglass control)",
-       block},
+       block,
+       {},
+       {},
+       words_of(element_name)},
       {"--young", &text.young, "Young's modulus, Pa", block},
       {"--poisson", &text.poisson, "Poisson's ratio, above -1 and below 0.5", block},
       {"--density", &text.density, "Density, kg/m3", block},
@@ -226,10 +238,15 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--grading", &text.grading,
        "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each",
        block},
-      {"--method", &text.method, "static, ecd, icd, caa or reduced, see below", time},
+      {"--method", &text.method, "static, ecd, icd, caa or reduced, see below", time, {}, {}, words_of(moving_methods)},
       {"--vectors", &text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32", time},
-      {"--mass", &text.mass, "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)",
-       time},
+      {"--mass",
+       &text.mass,
+       "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)",
+       time,
+       {},
+       {},
+       words_of(mass_name)},
       {"--dt", &text.dt,
        "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa and reduced "
        "1/480, static 1/60)",
@@ -238,8 +255,13 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--damping", &text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most", time},
       {"--stiffness-damping", &text.stiffness_damping,
        "beta, 0 to 1 s: damps fast motion most, and shortens the critical step", time},
-      {"--precision", &text.precision,
-       "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time", time},
+      {"--precision",
+       &text.precision,
+       "single: the kernels of the walk, sixteen lanes; double: the plain reference, one belly at a time",
+       time,
+       {},
+       {},
+       words_of(precisions)},
       {"--load", &text.load,
        "CSV time_s,force_x_n,force_y_n,force_z_n: total force, linear between rows, zero before the "
        "first, held after the last (default: 1 N along +z from 0.1 s, let go at 0.5 s)",
@@ -254,7 +276,7 @@ std::vector<Option> muscle_options(MuscleText& text) {
        "In place of a block: excite a muscle of somebody who stands, 0 to 1, from a tenth to six tenths of --seconds; "
        "--out gets fibre, tendon, force and section",
        contraction},
-      {"--of", &text.of, "Which muscle, by its name in mobil body", contraction}};
+      {"--of", &text.of, "Which muscle, by its name in mobil body", contraction, {}, {}, muscle_words()}};
 }
 
 /// Vectors of the block itself, so that 32 of them come close to its full model.

@@ -90,7 +90,7 @@ Result<void> make(const Entry& entry, const std::string& folder, PaperRun& run) 
   show("");
   if (!done) return fail(fmt::format("{}: {}", entry.name, done.error().message));
   fmt::print("{}: {}\n\n{}", entry.name, entry.about.substr(0, entry.about.rfind(" (")), run.text);
-  if (!run.written.empty()) fmt::print("written: {}\n", fmt::join(run.written, " "));
+  if (!run.written.empty()) say_where(fmt::format("written: {}", fmt::join(run.written, " ")));
   fmt::print("\n");
   return {};
 }
@@ -109,7 +109,7 @@ Result<void> run_paper(const PaperText& text) {
   for (const Entry& entry : *chosen) {
     if (auto done = make(entry, text.out, run); !done) return done;
   }
-  fmt::print("look at {}\n", text.out);
+  say_where(fmt::format("look at {}", text.out));
   return {};
 }
 

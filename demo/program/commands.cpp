@@ -6,6 +6,7 @@
 #include <string>
 
 #include "assets/files/output_file.h"
+#include "demo/program/progress.h"
 
 namespace mobil {
 
@@ -25,7 +26,11 @@ Result<void> check_result_place(std::string_view option, const std::filesystem::
 }
 
 void say_written(const std::filesystem::path& file) {
-  fmt::print("written {}\n", one_line(file.string()));
+  say_where(fmt::format("written {}", one_line(file.string())));
+}
+
+void say_where(std::string_view line) {
+  if (!quiet) fmt::print("{}\n", line);
 }
 
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text) {

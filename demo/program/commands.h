@@ -19,8 +19,11 @@ int complain(std::string_view command, std::string_view message, int status = 2)
 /// for results that then cannot be.
 Result<void> check_result_place(std::string_view option, const std::filesystem::path& file);
 
-/// "written FILE" on stdout.
+/// "written FILE" on stdout, unless the program is to be quiet.
 void say_written(const std::filesystem::path& file);
+
+/// The same in words of one's own: "look at FOLDER: …".
+void say_where(std::string_view line);
 
 /// Writes a file of results that `option` names, and says so on stdout. Errors begin with the option.
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
@@ -39,5 +42,6 @@ Subcommand frontier_command();
 Subcommand effects_command();
 Subcommand crowd_command();
 Subcommand view_command();
+Subcommand completion_command();
 
 }  // namespace mobil

@@ -7,8 +7,8 @@
 
 #include <cstdio>
 
-#include "demo/program/commands.h"
 #include "demo/program/interruption.h"
+#include "demo/program/program.h"
 
 namespace {
 
@@ -30,18 +30,5 @@ int finish(int status) {
 
 int main(int argc, char** argv) {
   mobil::handle_interruption();
-  const mobil::Program program = {
-      .name = "mobil",
-      .about =
-          "mobil: crowds of virtual humans who walk, and whose muscles deform as they do.\n"
-          "Body and gait parameters go in; a walking skeleton, its lines of action, finite-element muscles and "
-          "anatomical\n"
-          "surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
-      .version = MOBIL_VERSION,
-      .footer = "Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out",
-      .commands = {mobil::walk_command(), mobil::muscle_command(), mobil::body_command(), mobil::anatomy_command(),
-                   mobil::bench_command(), mobil::compare_command(), mobil::stress_command(), mobil::paper_command(),
-                   mobil::frontier_command(), mobil::effects_command(), mobil::crowd_command(), mobil::view_command(),
-                   mobil::bake_command(), mobil::gait_fit_command()}};
-  return finish(mobil::run_program(program, argc, argv));
+  return finish(mobil::run_program(mobil::mobil_program(), argc, argv));
 }

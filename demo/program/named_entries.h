@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "demo/program/nearest_name.h"
@@ -47,7 +48,11 @@ Result<std::vector<typename Entries::value_type>> choose_named(const Entries& en
 /// The arguments that name entries. `what` is done with them: "measure".
 template <class Entries>
 Option named_option(const Entries& entries, std::vector<std::string>& names, std::string_view what) {
-  return {"name", &names, fmt::format("What to {}, of {}; all by default", what, fmt::join(names_of(entries), ", "))};
+  auto known = names_of(entries);
+  return {.name = "name",
+          .target = &names,
+          .help = fmt::format("What to {}, of {}; all by default", what, fmt::join(known, ", ")),
+          .words = std::move(known)};
 }
 
 }  // namespace mobil

@@ -25,12 +25,12 @@ CLI::Option* add_option(CLI::App& command, const Option& option) {
   } else if (auto* const* text = std::get_if<std::string*>(&option.target)) {
     added = command.add_option(option.name, **text, option.help);
     if (!option.choices.empty()) added->check(CLI::IsMember(option.choices));
-    if (!(*text)->empty()) added->capture_default_str();
+    if (!default_value(option).empty()) added->capture_default_str();
   } else if (auto* const* given = std::get_if<std::optional<std::string>*>(&option.target)) {
     added = command.add_option(option.name, **given, option.help);
   } else if (auto* const* count = std::get_if<std::size_t*>(&option.target)) {
     added = command.add_option(option.name, **count, option.help);
-    if (**count != 0) added->capture_default_str();
+    if (!default_value(option).empty()) added->capture_default_str();
   } else {
     added = command.add_option(option.name, *std::get<std::vector<std::string>*>(option.target), option.help);
     added->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
@@ -41,11 +41,13 @@ CLI::Option* add_option(CLI::App& command, const Option& option) {
   return added;
 }
 
-void add_subcommand(CLI::App& app, const Subcommand& from, int& exit_status) {
+void add_subcommand(CLI::App& app, const Program& program, const Subcommand& from, int& exit_status) {
   CLI::App* command = app.add_subcommand(from.name, from.about);
   command->footer(from.footer);
   if (from.last_stands) command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  for (const Option& option : from.options) {
+  std::vector<Option> options = from.options;
+  options.insert(options.end(), program.options.begin(), program.options.end());
+  for (const Option& option : options) {
     CLI::Option* added = add_option(*command, option);
     if (!from.empty_refused || added->get_items_expected() == 0) continue;
     added->check([](const std::string& value) {
@@ -108,17 +110,31 @@ void say(const std::string& line) {
 
 }  // namespace
 
+const Option help_option = {"-h,--help", static_cast<bool*>(nullptr), "Print this help message and exit"};
+
+bool takes_value(const Option& option) {
+  return !std::holds_alternative<bool*>(option.target);
+}
+
+std::string default_value(const Option& option) {
+  if (auto* const* text = std::get_if<std::string*>(&option.target)) return **text;
+  if (auto* const* count = std::get_if<std::size_t*>(&option.target); count != nullptr && **count != 0)
+    return fmt::format("{}", **count);
+  return {};
+}
+
 void add_options(Subcommand& command, const std::vector<Option>& options) {
   command.options.insert(command.options.end(), options.begin(), options.end());
 }
 
 int run_program(const Program& program, int argc, const char* const* argv) {
   CLI::App app{program.about, program.name};
+  app.set_help_flag(help_option.name, help_option.help);
   app.set_version_flag("--version", program.name + " " + program.version);
   app.require_subcommand(1);
   app.footer(program.footer);
   int exit_status = 0;
-  for (const Subcommand& command : program.commands) add_subcommand(app, command, exit_status);
+  for (const Subcommand& command : program.commands) add_subcommand(app, program, command, exit_status);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

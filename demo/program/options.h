@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <variant>
@@ -23,7 +24,17 @@ struct Option {
   std::string group{};                 // the heading in --help; empty: "Options"
   std::vector<std::string> choices{};  // of a text: the only values; empty: any
   std::string excludes{};              // the name of an option above that cannot be given with this one
+  std::vector<std::string> words{};    // values that a shell offers where `choices` are empty: no check
 };
+
+/// Names of an array, for a shell to offer.
+template <class Names>
+std::vector<std::string> words_of(const Names& names) {
+  return {std::begin(names), std::end(names)};
+}
+
+/// What --help is, at every level.
+extern const Option help_option;
 
 struct Subcommand {
   std::string name, about;
@@ -36,10 +47,17 @@ struct Subcommand {
 
 struct Program {
   std::string name, about, version, footer;
+  std::vector<Option> options{};  // that every subcommand has after its own
   std::vector<Subcommand> commands;
 };
 
 void add_options(Subcommand& command, const std::vector<Option>& options);
+
+/// Whether a value follows it.
+bool takes_value(const Option& option);
+
+/// What --help shows as the value where none is given: empty, 0 and false are not shown.
+std::string default_value(const Option& option);
 
 /// Reads the command line and runs the subcommand that it names. Exit status: that of `run`; 0 for --help and
 /// --version; 2 for bad usage, with one line on stderr that says what, the nearest known name and where to read on; 1

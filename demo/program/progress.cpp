@@ -5,48 +5,64 @@
 
 #include <chrono>
 #include <cstdio>
+#include <mutex>
 #include <string>
 
 namespace mobil {
 namespace {
 
 constexpr std::size_t bar_width = 40;
-constexpr double first_s = 1, between_s = 0.1;
+constexpr double first_s = 1, between_s = 0.1, plain_between_s = 10;
 
 double now_s() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-}  // namespace
-
 bool on_terminal() {
   return isatty(STDERR_FILENO) != 0;
 }
 
+}  // namespace
+
+bool LinePace::due(double now_s) {
+  if (next_s_ && now_s < *next_s_) return false;
+  const bool first = !next_s_;
+  next_s_ = now_s + plain_between_s;
+  return !first;
+}
+
 void show(std::string_view line) {
-  if (!on_terminal()) return;
-  fmt::print(stderr, "\r\033[K{}", line);
-  std::fflush(stderr);
+  static std::mutex one_at_a_time;
+  static LinePace pace;
+  if (quiet) return;
+  const std::lock_guard lock(one_at_a_time);
+  if (on_terminal()) {
+    fmt::print(stderr, "\r\033[K{}", line);
+    std::fflush(stderr);
+  } else if (!line.empty() && pace.due(now_s())) {
+    fmt::print(stderr, "{}\n", line);
+  }
 }
 
 void show_part(std::string_view what, double part) {
-  if (on_terminal()) show(fmt::format("{} {:.0f} %", what, 100 * part));
+  if (!quiet) show(fmt::format("{} {:.0f} %", what, 100 * part));
 }
 
 void show_progress(std::string_view what, std::size_t done, std::size_t of) {
-  if (!on_terminal()) return;
-  show(fmt::format("{} [{:<{}}] {}/{}", what, std::string(bar_width * done / of, '='), bar_width, done, of));
+  if (quiet) return;
+  const std::string bar =
+      on_terminal() ? fmt::format("[{:<{}}] ", std::string(bar_width * done / of, '='), bar_width) : std::string();
+  show(fmt::format("{} {}{}/{}", what, bar, done, of));
 }
 
-ProgressBar::ProgressBar(std::string_view what, std::size_t of)
-    : what_(what), of_(of), next_s_(now_s() + first_s), terminal_(on_terminal()) {}
+ProgressBar::ProgressBar(std::string_view what, std::size_t of) : what_(what), of_(of), next_s_(now_s() + first_s) {}
 
 ProgressBar::~ProgressBar() {
   if (shown_) show("");
 }
 
 void ProgressBar::at(std::size_t done) {
-  if (!terminal_) return;
+  if (quiet) return;
   const double now = now_s();
   if (now < next_s_) return;
   next_s_ = now + between_s;

@@ -230,8 +230,9 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
              outcome.gait.speed_m_s, outcome.gait.step_length_m, outcome.gait.step_frequency_hz);
   fmt::print("simulation: {:.1f} us a tick, {:.0f} times faster than real time; everything: {:.1f} s\n",
              1e6 * outcome.simulation_s / outcome.ticks, outcome.simulated_s / outcome.simulation_s, outcome.wall_s);
-  fmt::print("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}{}\n", one_line(options.out.string()), others,
-             options.frames ? " frame_*.png" : "", options.video ? " walk.mp4" : "");
+  say_where(fmt::format("look at {}: motion.csv muscles.csv summary.json walk.glb{}{}{}",
+                        one_line(options.out.string()), others, options.frames ? " frame_*.png" : "",
+                        options.video ? " walk.mp4" : ""));
   return {};
 }
 

@@ -24,7 +24,7 @@ struct Figure {
 /// Runs the named benches over 64 people. By name; every name once.
 struct Bench {
   explicit Bench(const std::string& names) {
-    ran = run_mobil("bench " + names + " --humans 64 --json bench.json", folder.path);
+    ran = run_mobil("bench " + names + " --humans 64 --quiet --json bench.json", folder.path);
     if (ran.status != 0) return;
     json = nlohmann::json::parse(read_bytes(folder.path / "bench.json"));
     for (const auto& result : json.at("results")) {

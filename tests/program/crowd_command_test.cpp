@@ -23,7 +23,7 @@ using Json = nlohmann::json;
 /// The report of a crowd that is asked for so.
 Json report_of(const std::string& arguments) {
   const TemporaryFolder folder;
-  const Ran ran = run_mobil("crowd --report crowd.json " + arguments, folder.path);
+  const Ran ran = run_mobil("crowd --quiet --report crowd.json " + arguments, folder.path);
   EXPECT_EQ(ran.status, 0) << arguments << ": " << ran.err;
   EXPECT_EQ(ran.err, "") << arguments;
   return Json::parse(read_bytes(folder.path / "crowd.json"), nullptr, false);

@@ -31,7 +31,7 @@ std::vector<std::string> listed() {
 
 TEST(Stress, EveryRowHoldsAndSaysSo) {
   const TemporaryFolder folder;
-  const Ran ran = run_mobil("stress --quick --json stress.json", folder.path);
+  const Ran ran = run_mobil("stress --quick --quiet --json stress.json", folder.path);
   EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
   EXPECT_EQ(ran.err, "");
   const auto json = nlohmann::json::parse(read_bytes(folder.path / "stress.json"));

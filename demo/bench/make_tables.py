@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+"""Writes the tables of speed in our documents from files that `mobil bench --json` wrote.
+
+    demo/bench/make_tables.py            rewrites them
+    demo/bench/make_tables.py --check    says where a document differs, status 1
+
+A document has the place of a table as two lines, and what stands between them is the script's:
+
+    <!-- figures: muscles -->
+    <!-- end -->
+
+Columns are the machines of demo/bench/figures, each a file or several. A row is a line of the tables below.
+"""
+
+import argparse
+import difflib
+import json
+import math
+import pathlib
+import re
+import sys
+
+US, NS, MS = ("µs", 1), ("ns", 1), ("ms", 1e-3)  # unit shown, and its number in one of the file's
+PERCENT, TIMES = ("%", 100), ("times", 1)
+
+# name: rows of what is told, the figure's name in the file, and how it is shown
+TABLES = {
+    "machine": [
+        ("multiply-adds, one core", "machine.fma_peak_gflops", ("Gflop/s", 1)),
+        ("memory, one core", "machine.bandwidth_gbps", ("GB/s", 1)),
+    ],
+    "people": [
+        ("a person's gait for a tick, in a crowd that fits in the caches", "gait.small_crowd.us_per_human_tick", US),
+        ("a person's pose for a tick, so too", "kinematics.small_crowd.us_per_human_tick", US),
+        ("a step solved anew, when a walk changes", "gait.us_per_resolve", US),
+        ("a muscle's line of action", "lines.us_per_muscle_tick", US),
+        ("a vertex of muscle or bone, by its control points", "skinning.ns_per_vertex", NS),
+        ("a vertex of skin, of somebody near", "skin.near.ns_per_vertex", NS),
+    ],
+    "muscles": [
+        ("a step of 81 nodes, explicit, one stiffness for all", "fem.ecd81.shared.us_per_step", US),
+        ("its share of the core's multiply-adds", "fem.ecd81.shared.peak_fraction", PERCENT),
+        ("the same, a stiffness for each", "fem.ecd81.individual.us_per_step", US),
+        ("Eigen's sparse product needs", "fem.ecd81.ratio_to_eigen", TIMES),
+        ("Eigen's, of sixteen muscles at once", "fem.ecd81.ratio_to_eigen_batched", TIMES),
+        ("Bullet's deformable body needs", "fem.ecd81.ratio_to_bullet", TIMES),
+        ("12 vectors of a finer mesh, a tick", "reduced.us_per_tick", US),
+        ("and their control points", "reduced.us_per_tick_with_control_points", US),
+        ("two threads against one", "fem.threads2_speedup", TIMES),
+    ],
+}
+
+MARKED = re.compile(r"(<!-- figures: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
+
+
+def shown(value, unit):
+    """Two digits, for figures of speed have no more."""
+    value *= unit[1]
+    digits = max(0, 1 - math.floor(math.log10(abs(value)))) if value else 0
+    if value >= 100:
+        scale = 10 ** (math.floor(math.log10(value)) - 1)
+        value = round(value / scale) * scale
+    return f"{value:.{digits}f} {unit[0]}"
+
+
+def machines(folder):
+    """What each machine is, and its figures by name. A machine may have several files."""
+    found = {}
+    for file in sorted(folder.glob("*.json")):
+        told = json.loads(file.read_text())
+        machine = told["machine"]
+        cores = f"{machine['cores']} core" + ("s" if machine["cores"] != 1 else "")
+        heading = f"{machine['cpu']}, {cores}, {machine['target']}"
+        found.setdefault(heading, {}).update({row["name"]: row["value"] for row in told["results"]})
+    return list(found.items())
+
+
+def table(name, columns):
+    lines = ["| | " + " | ".join(heading for heading, _ in columns) + " |", "|---|" + "---|" * len(columns)]
+    for text, figure, unit in TABLES[name]:
+        values = [shown(figures[figure], unit) if figure in figures else "–" for _, figures in columns]
+        lines.append(f"| {text} | " + " | ".join(values) + " |")
+    return "\n".join(lines) + "\n"
+
+
+def remade(text, columns, where):
+    def fill(marked):
+        if marked[2] not in TABLES:
+            sys.exit(f"{where}: there is no table '{marked[2]}'; there are: {', '.join(TABLES)}")
+        return marked[1] + table(marked[2], columns) + marked[4]
+
+    return MARKED.sub(fill, text)
+
+
+def documents(root):
+    for file in sorted(root.rglob("*.md")):
+        inside = file.relative_to(root).parts
+        if inside[0] not in ("build", "out") and not inside[0].startswith("."):
+            yield file
+
+
+def main():
+    here = pathlib.Path(__file__).resolve().parents[2]
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--check", action="store_true", help="change nothing; status 1 where a document differs")
+    parser.add_argument("--root", type=pathlib.Path, default=here, help="the project's folder")
+    asked = parser.parse_args()
+    columns = machines(asked.root / "demo/bench/figures")
+    if not columns:
+        sys.exit("demo/bench/figures has no file; mobil bench --json demo/bench/figures/MACHINE.json writes one")
+    differ = False
+    for file in documents(asked.root):
+        text = file.read_text()
+        new = remade(text, columns, file.relative_to(asked.root))
+        if new == text:
+            continue
+        differ = True
+        if asked.check:
+            name = str(file.relative_to(asked.root))
+            sys.stdout.writelines(difflib.unified_diff(
+                text.splitlines(True), new.splitlines(True), name, name + " as figures have it", n=0))
+        else:
+            file.write_text(new)
+            print(f"written {file.relative_to(asked.root)}")
+    if differ and asked.check:
+        sys.exit("figures differ from demo/bench/figures; demo/bench/make_tables.py writes them")
+
+
+if __name__ == "__main__":
+    main()

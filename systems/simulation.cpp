@@ -427,7 +427,7 @@ void Simulation::run_tick() {
   step_log_->take(*world_, tick_, dt_s);
   end_fades(*world_, dt_s, *work_);
   sleep_work_->restless.clear();
-  end_unsettled(*world_, jobs_, {tick_, dt_s}, sleep_work_->rows, sleep_work_->restless);
+  end_unsettled(*world_, jobs_, {tick_, dt_s}, sleep_work_->unsettled, sleep_work_->rows, sleep_work_->restless);
   if (!sleep_work_->restless.empty()) wake(std::vector(sleep_work_->restless));
 }
 

@@ -53,6 +53,7 @@ struct SleepWork {
   };
   std::vector<Sleeping> waking_people;
   std::vector<Entity> rows, restless, asleep, managed, watched;
+  UnsettledTables unsettled;
   std::vector<KeyPart> parts;                 // of who wakes
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;

@@ -7,6 +7,7 @@
 
 #include "engine/each.h"
 #include "engine/rows.h"
+#include "engine/state_hash.h"
 #include "systems/gait/asleep.h"
 #include "systems/people/person.h"
 
@@ -207,15 +208,21 @@ void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> 
   }
 }
 
-void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, std::vector<Entity>& work,
-                   std::vector<Entity>& restless) {
+void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, UnsettledTables& tables,
+                   std::vector<Entity>& work, std::vector<Entity>& restless) {
   constexpr std::uint32_t rounds = 16;  // ticks in which everybody is looked at once
   constexpr std::array part = {type_id<Unsettled<float>>()};
-  for (std::size_t t = 0; t < world.tables().size(); ++t) {
-    const Table& table = world.tables()[t];
+  for (; tables.seen < world.tables().size(); ++tables.seen) {
+    const Table& table = world.tables()[tables.seen];
+    if (!TableColumn<Unsettled>(table)) continue;
+    tables.by_hash.emplace_back(key_hash(world, table.key()), static_cast<std::uint32_t>(tables.seen));
+    std::ranges::sort(tables.by_hash);
+  }
+  for (const auto& [hash, number] : tables.by_hash) {
+    const Table& table = world.tables()[number];
     const TableColumn<Unsettled> column(table);
     work.clear();
-    for (std::size_t b = time.tick % rounds; column && b < table.block_count(); b += rounds) {
+    for (std::size_t b = time.tick % rounds; b < table.block_count(); b += rounds) {
       const Lanes<std::uint32_t>& until = column.at(table, b).until_tick;
       for (std::uint32_t l = 0; l < table.live(b); ++l) {
         if (until[l] == never_settles) restless.push_back(table.entities(b)[l]);

@@ -2,10 +2,12 @@
 // Walkers who fall asleep and wake: a row of some hundred bytes instead of one of four thousand, of which the same
 // walker comes back to the bit. What a sleeper is asked meanwhile is kept to the step.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "components/body.h"
@@ -67,10 +69,16 @@ struct AskedSleeper {
   Gait<float> gait;
 };
 void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> asked, const SleepTime& time);
+/// Tables of sleepers who are not settled, by what they are and not by which came first: rows that leave them come to
+/// lie in the same order in a world that was restored.
+struct UnsettledTables {
+  std::size_t seen = 0;                                          // tables of the world
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> by_hash;  // of the key; the table's number
+};
 /// After a tick: who is steady again has nothing but that on the row. Looks at a part of the sleepers each tick.
 /// Appends to `restless` who does not come to walk steadily: they are to be woken. `work`: memory to work in.
-void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, std::vector<Entity>& work,
-                   std::vector<Entity>& restless);
+void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, UnsettledTables& tables,
+                   std::vector<Entity>& work, std::vector<Entity>& restless);
 /// All sleepers' places, less (x, 0, z).
 void shift_sleepers(World& world, const SleepTime& time, float x_m, float z_m);
 

@@ -33,12 +33,13 @@ Result<GLuint> compile(const char* name, GLenum stage, const std::string& source
 
 }  // namespace
 
-Result<Program> make_program(const char* name, const std::string& vertex_source, const std::string& fragment_source) {
+Result<GpuProgram> make_program(const char* name, const std::string& vertex_source,
+                                const std::string& fragment_source) {
   const auto vertex = compile(name, GL_VERTEX_SHADER, vertex_source);
   if (!vertex) return tl::unexpected(vertex.error());
   const auto fragment = compile(name, GL_FRAGMENT_SHADER, fragment_source);
   if (!fragment) return tl::unexpected(fragment.error());
-  Program program;
+  GpuProgram program;
   program.id = glCreateProgram();
   glAttachShader(program.id, *vertex);
   glAttachShader(program.id, *fragment);

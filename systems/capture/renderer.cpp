@@ -53,7 +53,7 @@ void attribute(unsigned location, int size, std::size_t stride, std::size_t at, 
   glVertexAttribDivisor(location, divisor);
 }
 
-void set_albedo(const Program& program, Colour colour, float wetness) {
+void set_albedo(const GpuProgram& program, Colour colour, float wetness) {
   glUniform4f(program.albedo, linear(colour.red), linear(colour.green), linear(colour.blue),
               std::clamp(wetness, 0.0F, 1.0F));
 }
@@ -64,7 +64,7 @@ struct Renderer::Device {
   int width = 0, height = 0;
   std::string driver;
   GlContext context;
-  Program mesh, mesh_depth, wireframe, line, line_depth, point, point_depth, ground, background;
+  GpuProgram mesh, mesh_depth, wireframe, line, line_depth, point, point_depth, ground, background;
   RenderTargets targets;
   MeshStore store;
   GLuint vertex_array = 0, placement_buffer = 0, mark_buffer = 0;
@@ -76,7 +76,7 @@ struct Renderer::Device {
 
   Result<void> prepare();
   Result<void> collect(const Scene& scene);
-  void draw_mesh(const MeshDraw& draw, const Program& program) const;
+  void draw_mesh(const MeshDraw& draw, const GpuProgram& program) const;
   void draw_meshes(bool depth_only) const;
   void draw_marks(const Scene& scene, bool depth_only) const;
   void draw_shadows(const Scene& scene) const;
@@ -86,7 +86,7 @@ struct Renderer::Device {
 
 Result<void> Renderer::Device::prepare() {
   const struct {
-    Program& program;
+    GpuProgram& program;
     const char* name;
     std::string vertex, fragment;
   } programs[] = {
@@ -165,7 +165,7 @@ Result<void> Renderer::Device::collect(const Scene& scene) {
   return {};
 }
 
-void Renderer::Device::draw_mesh(const MeshDraw& draw, const Program& program) const {
+void Renderer::Device::draw_mesh(const MeshDraw& draw, const GpuProgram& program) const {
   glBindBuffer(GL_ARRAY_BUFFER, draw.mesh.vertex_buffer);
   attribute(at_position, 3, sizeof(Vec3<float>), draw.mesh.position_at, 0);
   attribute(at_normal, 3, sizeof(Vec3<float>), draw.mesh.normal_at, 0);
@@ -194,7 +194,7 @@ void Renderer::Device::draw_mesh(const MeshDraw& draw, const Program& program) c
 }
 
 void Renderer::Device::draw_meshes(bool depth_only) const {
-  const Program& solid = depth_only ? mesh_depth : mesh;
+  const GpuProgram& solid = depth_only ? mesh_depth : mesh;
   glUseProgram(solid.id);
   glEnable(GL_CULL_FACE);
   for (const MeshDraw& draw : draws) {
@@ -220,7 +220,7 @@ void Renderer::Device::draw_meshes(bool depth_only) const {
 void Renderer::Device::draw_marks(const Scene& scene, bool depth_only) const {
   glBindBuffer(GL_ARRAY_BUFFER, mark_buffer);
   std::size_t at = 0;
-  const Program& tube = depth_only ? line_depth : line;
+  const GpuProgram& tube = depth_only ? line_depth : line;
   glUseProgram(tube.id);
   for (const DrawLines& lines : scene.lines) {
     attribute(at_line_from, 3, 2 * sizeof(Vec3<float>), at, 1);
@@ -233,7 +233,7 @@ void Renderer::Device::draw_marks(const Scene& scene, bool depth_only) const {
   }
   glDisableVertexAttribArray(at_line_from);
   glDisableVertexAttribArray(at_line_to);
-  const Program& ball = depth_only ? point_depth : point;
+  const GpuProgram& ball = depth_only ? point_depth : point;
   glUseProgram(ball.id);
   for (const DrawPoints& points : scene.points) {
     attribute(at_centre, 3, sizeof(Vec3<float>), at, 1);

@@ -46,7 +46,7 @@ extern "C" {
 /* Of this header. mobil_interface() is the library's: equal or greater serves. */
 #define MOBIL_INTERFACE 2
 MOBIL_API int mobil_interface(void);
-MOBIL_API const char* mobil_library_version(void); /* "0.1.0" */
+MOBIL_API const char* mobil_library_version(void); /* "0.2.0" */
 
 typedef struct mobil_sim mobil_sim;           /* one world */
 typedef struct mobil_surfaces mobil_surfaces; /* bones and muscles of one body as triangles */

@@ -21,6 +21,11 @@ if grep -q '^flags.* avx2' /proc/cpuinfo; then
 else
   echo "game_host not run: this processor has no AVX2"
 fi
+# The version is in few places, and the same in all.
+version=$(sed -n 's/^#define MOBIL_VERSION "\(.*\)"/\1/p' "$scratch/prefix/include/mobil/version.h")
+grep -q "\"version\": \"$version\"" "$2/systems/javascript/package.json"
+grep -q "mobil_library_version(void); /\* \"$version\" \*/" "$2/systems/c/mobil.h"
+grep -q "^## \[$version\]" "$2/CHANGELOG.md"
 # Where the program was built, shells and man find what it can do.
 if [ -x "$scratch/prefix/bin/mobil" ]; then
   share="$scratch/prefix/share"

@@ -11,13 +11,14 @@ cd "$scratch"
 # Two jobs that begin at once would fight for one folder; ranks here outnumber processors and may be root's.
 export TMPDIR=$scratch OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_hwloc_base_binding_policy=none
+mpirun -n 2 true >out 2>&1 || { cat out; echo "mpirun cannot start processes here"; exit 77; }
 mpirun -n 1 "$mobil" crowd --humans 20 --effects none --seconds 0.1 >out 2>&1 || {
   grep -q 'built without MPI' out && { echo "this mobil was built without MPI"; exit 77; }
   cat out
   exit 1
 }
 
-crowd=(crowd --humans 600 --shards 12 --effects none --churn 60 --seed 3)
+crowd=(crowd --humans 1000 --shards 12 --effects none --churn 60 --seed 3)
 # hash_of: the last one that was printed
 hash_of() { grep '^state hash' | tail -n 1; }
 same() {  # same WHAT ONE OTHER
@@ -26,9 +27,9 @@ same() {  # same WHAT ONE OTHER
   exit 1
 }
 
-alone=$("$mobil" "${crowd[@]}" --seconds 20 | hash_of)
+alone=$("$mobil" "${crowd[@]}" --seconds 60 | hash_of)
 for ranks in 2 3; do
-  same "$ranks ranks" "$alone" "$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 20 --balance-every 1s | hash_of)"
+  same "$ranks ranks" "$alone" "$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 60 --balance-every 1s | hash_of)"
 done
 
 picture=(crowd --humans 40 --shards 4 --effects none --seconds 0.5 --capture)
@@ -36,40 +37,49 @@ picture=(crowd --humans 40 --shards 4 --effects none --seconds 0.5 --capture)
 mpirun -n 2 "$mobil" "${picture[@]}" two.png >/dev/null
 cmp one.png two.png
 
-# Disturbed once the second snapshot is there; `rank`: the first, or the last.
-begin() {  # begin FOLDER
-  rm -rf "$1"
-  mpirun -n 3 "$mobil" "${crowd[@]}" --seconds 3600 --save "$1" --save-every 2s --silence 2s >"$1.out" 2>&1 &
-  running=$!
-  for _ in $(seq 600); do
-    [ "$(find "$1" -name index 2>/dev/null | wc -l)" -lt 2 ] || return 0
-    sleep 0.02
+# Disturbed as soon as the second snapshot is there.
+rank() {  # rank N: its process
+  local status
+  for status in /proc/[0-9]*/status; do
+    if grep -q "^PPid:[[:space:]]*$running$" "$status" 2>/dev/null &&
+      tr '\0' '\n' <"${status%status}environ" 2>/dev/null | grep -q "^OMPI_COMM_WORLD_RANK=$1$"; then
+      status=${status#/proc/}
+      echo "${status%/status}"
+    fi
+  done
+}
+snapshots() {  # snapshots FOLDER COUNT: waits until so many are there
+  local _
+  for _ in $(seq 1500); do
+    [ "$(find "$1" -name index 2>/dev/null | wc -l)" -lt "$2" ] || return 0
+    sleep 0.01
   done
   cat "$1.out"
   echo "no snapshots appear" >&2
   exit 1
 }
-rank() {  # rank N: its process
-  local process
-  for process in $(pgrep -P "$running" -x mobil); do
-    if tr '\0' '\n' <"/proc/$process/environ" | grep -q "^OMPI_COMM_WORLD_RANK=$1$"; then echo "$process"; fi
-  done
+begin() {  # begin FOLDER RANK: the process of that rank is then in `process`
+  rm -rf "$1"
+  mpirun -n 3 "$mobil" "${crowd[@]}" --seconds 3600 --save "$1" --save-every 2s --silence 2s >"$1.out" 2>&1 &
+  running=$!
+  snapshots "$1" 1
+  process=$(rank "$2")
+  snapshots "$1" 2
 }
 for victim in 0 2; do
-  begin killed
+  begin killed $victim
   [ $victim = 0 ] || sleep 0.0$((RANDOM % 90 + 10))  # at any moment, in a snapshot perhaps
-  kill -9 "$(rank $victim)"
+  kill -9 "$process"
   started=$SECONDS
   ! wait "$running" || { echo "a run without rank $victim ends well" >&2; exit 1; }
   [ $((SECONDS - started)) -le 10 ] || { echo "a run without rank $victim goes on" >&2; exit 1; }
   grep -q "process rank $victim " killed.out
   ranks=$((victim / 2 + 1))
-  went_on=$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 20 --resume killed | hash_of)
+  went_on=$(mpirun -n $ranks "$mobil" "${crowd[@]}" --seconds 60 --resume killed | hash_of)
   same "after rank $victim was killed, on $ranks ranks" "$alone" "$went_on"
 done
 
-begin hung
-process=$(rank 1)
+begin hung 1
 kill -STOP "$process"
 ! wait "$running" || { echo "a run with a rank that hangs ends well" >&2; exit 1; }
 kill -9 "$process" 2>/dev/null || true

@@ -19,7 +19,7 @@ struct City {
 };
 
 City city(const std::string& arguments, const std::filesystem::path& in) {
-  const Ran ran = run_mobil("crowd --report city.json " + arguments, in);
+  const Ran ran = run_mobil("crowd --quiet --report city.json " + arguments, in);
   EXPECT_EQ(ran.status, 0) << arguments << ": " << ran.err;
   EXPECT_EQ(ran.err, "") << arguments;
   return {Json::parse(read_bytes(in / "city.json"), nullptr, false), ran.out};

@@ -118,9 +118,7 @@ std::string text_of(const AliveRun& run, const AliveScene& scene, int threads) {
   text += fmt::format("{:.0f} awake, {:.0f} of them seen (mean); asleep {:.1f} bytes each, and {} of the host's\n",
                       run.awake / std::max(run.counted, 1.0), run.seen / std::max(run.counted, 1.0),
                       scene.bytes_asleep(), scene.host_bytes());
-  text += fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms\n",
-                      run.ticks.size(), 1e3 * scene.simulation().tick_s(), run.missed, percentile_ms(run.ticks, 0.5),
-                      percentile_ms(run.ticks, 0.99), percentile_ms(run.ticks, 1));
+  text += ticks_line(run.ticks, scene.simulation().tick_s(), run.missed);
   text += fmt::format(
       "a tick, mean: {:.0f} people asked for something, {:.1f} woke ({} at most), {:.1f} fell asleep, {:.1f} got "
       "muscles\n",

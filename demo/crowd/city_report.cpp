@@ -71,12 +71,7 @@ void put_together(CityRun& run) {
     }
     for (std::size_t s = 0; s < std::min(run.systems.size(), part.system_ms.size()); ++s)
       run.systems[s].mean_ms += part.system_ms[s];
-    run.state.people += part.state.people;
-    run.state.bytes += part.state.bytes;
-    run.state.awake += part.state.awake;
-    run.state.seen += part.state.seen;
-    for (std::size_t r = 0; r < run.state.muscles_by_rung.size(); ++r)
-      run.state.muscles_by_rung[r] += part.state.muscles_by_rung[r];
+    add(run.state, part.state);
     run.counts.spawned += part.counts.spawned;
     run.counts.despawned += part.counts.despawned;
     run.counts.turned += part.counts.turned;
@@ -101,14 +96,8 @@ std::string city_text(const CityRun& run, const CrowdOptions& options) {
                                  run.state.people, options.alive ? "people alive" : "humans", run.side_m, run.side_m,
                                  ranks, ranks == 1 ? "" : "s", threads, threads == 1 ? "" : "s", options.cluster.shards,
                                  options.alive ? options.alive->seed : options.crowd.seed);
-  text += fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms{}\n",
-                      run.ticks.size(), 1e3 * run.tick_s, run.missed, percentile_ms(run.ticks, 0.5),
-                      percentile_ms(run.ticks, 0.99), percentile_ms(run.ticks, 1),
-                      ranks == 1 ? "" : ", of the slowest rank");
-  text +=
-      fmt::format("processor time of all ranks: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms a tick\n",
-                  percentile_ms(run.ticks, 0.5, &CrowdTick::cpu_ms), percentile_ms(run.ticks, 0.99, &CrowdTick::cpu_ms),
-                  percentile_ms(run.ticks, 1, &CrowdTick::cpu_ms));
+  text += ticks_line(run.ticks, run.tick_s, run.missed, ranks == 1 ? "" : ", of the slowest rank");
+  text += processor_line(run.ticks, "ranks");
   text += fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
                       mean_ms(run.ticks, &CrowdTick::host_ms), mean_ms(run.ticks, &CrowdTick::relevance_ms));
   for (const CrowdSystem& system : run.systems) {

@@ -95,13 +95,7 @@ void measure(const CrowdOptions& options, Ranks& ranks, Cluster& cluster, const 
 void add_state(Cluster& cluster, CityRun& run, CityPart& own) {
   const auto ticks = static_cast<double>(std::max<std::size_t>(own.ticks.size(), 1));
   each_shard(cluster, [&](CityShard& shard) {
-    const CityState state = shard.state();
-    own.state.people += state.people;
-    own.state.bytes += state.bytes;
-    own.state.awake += state.awake;
-    own.state.seen += state.seen;
-    for (std::size_t r = 0; r < state.muscles_by_rung.size(); ++r)
-      own.state.muscles_by_rung[r] += state.muscles_by_rung[r];
+    add(own.state, shard.state());
     const Schedule& schedule = std::as_const(shard.simulation()).schedule();
     own.system_ms.resize(schedule.systems().size());
     if (run.systems.empty())

@@ -123,6 +123,14 @@ class AliveShard : public CityShard {
 
 }  // namespace
 
+void add(CityState& to, const CityState& more) {
+  to.people += more.people;
+  to.bytes += more.bytes;
+  to.awake += more.awake;
+  to.seen += more.seen;
+  for (std::size_t r = 0; r < to.muscles_by_rung.size(); ++r) to.muscles_by_rung[r] += more.muscles_by_rung[r];
+}
+
 Cluster::Make city_shards(const CrowdOptions& options, const Simulation& library, CityCounts& counts) {
   return [&](std::uint32_t shard) -> Result<std::unique_ptr<Shard>> {
     if (options.alive) {

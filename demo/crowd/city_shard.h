@@ -27,6 +27,9 @@ struct CityState {
   std::array<std::uint64_t, rung_count + 1> muscles_by_rung{};
 };
 
+/// The sums of both.
+void add(CityState& to, const CityState& more);
+
 class CityShard : public Shard {
  public:
   virtual Simulation& simulation() = 0;

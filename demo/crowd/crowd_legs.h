@@ -1,6 +1,5 @@
 #pragma once
-// Bones and muscles of the legs of people who are seen from near, and the same as bytes: whoever draws may be
-// elsewhere.
+// Bones and muscles of the legs of people near the camera; as bytes too, because another rank may draw them.
 
 #include <cstddef>
 #include <cstdint>

@@ -74,13 +74,7 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
   std::string text =
       fmt::format("{} humans on {:.0f} m x {:.0f} m, {} thread{}, seed {}\n", scene.walkers().size(), scene.side_m(),
                   scene.side_m(), threads_of(crowd), threads_of(crowd) == 1 ? "" : "s", crowd.seed);
-  text += fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms\n",
-                      run.ticks.size(), 1e3 * run.tick_s, run.missed, percentile_ms(run.ticks, 0.5),
-                      percentile_ms(run.ticks, 0.99), percentile_ms(run.ticks, 1));
-  text +=
-      fmt::format("processor time of all threads: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms a tick\n",
-                  percentile_ms(run.ticks, 0.5, &CrowdTick::cpu_ms), percentile_ms(run.ticks, 0.99, &CrowdTick::cpu_ms),
-                  percentile_ms(run.ticks, 1, &CrowdTick::cpu_ms));
+  text += ticks_line(run.ticks, run.tick_s, run.missed) + processor_line(run.ticks, "threads");
   text += fmt::format("a tick, mean: host's decisions {:.3f} ms, choosing of methods {:.3f} ms",
                       mean_ms(run.ticks, &CrowdTick::host_ms), mean_ms(run.ticks, &CrowdTick::relevance_ms));
   for (const CrowdSystem& system : run.systems) {
@@ -99,6 +93,18 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
                         run.steady_allocations, run.steady_ticks);
   }
   return text;
+}
+
+std::string ticks_line(const std::vector<CrowdTick>& ticks, double tick_s, std::size_t missed, std::string_view of) {
+  return fmt::format("{} ticks of {:.2f} ms: {} missed; p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms{}\n",
+                     ticks.size(), 1e3 * tick_s, missed, percentile_ms(ticks, 0.5), percentile_ms(ticks, 0.99),
+                     percentile_ms(ticks, 1), of);
+}
+
+std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view of) {
+  return fmt::format("processor time of all {}: p50 {:.2f} ms, p99 {:.2f} ms, longest {:.2f} ms a tick\n", of,
+                     percentile_ms(ticks, 0.5, &CrowdTick::cpu_ms), percentile_ms(ticks, 0.99, &CrowdTick::cpu_ms),
+                     percentile_ms(ticks, 1, &CrowdTick::cpu_ms));
 }
 
 void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json) {

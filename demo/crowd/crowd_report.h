@@ -2,6 +2,7 @@
 // A crowd's figures: on the terminal and as JSON.
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "demo/crowd/crowd_options.h"
@@ -28,6 +29,11 @@ std::string crowd_text(const CrowdRun& run, const CrowdMemory& memory, const Cro
 std::string crowd_json(const CrowdRun& run, const CrowdMemory& memory, const CrowdScene& scene,
                        const CrowdOptions& options);
 
+/// A line of how many ticks there were, how many were missed and how long they took; `of`: of whom, in words.
+std::string ticks_line(const std::vector<CrowdTick>& ticks, double tick_s, std::size_t missed,
+                       std::string_view of = "");
+/// A line of what they took of the processor.
+std::string processor_line(const std::vector<CrowdTick>& ticks, std::string_view of);
 /// Ticks, those missed, and what they took.
 void add_ticks(const std::vector<CrowdTick>& ticks, std::size_t missed, Json& json);
 /// What systems took, by name.

@@ -8,7 +8,7 @@
 
 namespace mobil {
 
-/// Whether the program was told to be quiet (--quiet): then nothing below writes anything.
+/// Set by --quiet: no function below writes anything then.
 inline bool quiet = false;
 
 /// When a plain line is due: ten seconds after the first that was asked for, and after each that was written.

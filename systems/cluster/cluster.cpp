@@ -209,8 +209,8 @@ Result<void> Cluster::save() {
   return {};
 }
 
-/// What comes from here on begins a log of its own, with what is still to be repeated in it, before the index is there:
-/// whoever finds the one finds the other. Until then the old log goes on.
+/// The commands from here on go to a new log, which begins with those still to be repeated. It is complete before the
+/// index is written, so every snapshot has its log. The old log is used until then.
 void Cluster::write_snapshot(std::uint64_t hash, Result<void>& own) {
   auto log = CommandLog::begin(options_.folder, ticks_, std::span(replay_).subspan(report_.replayed));
   if (!log) {

@@ -4,7 +4,7 @@
 //
 //   Ranks ranks(**transport);
 //   auto cluster = Cluster::begin(ranks, {.shards = 64, .folder = "run"}, [](std::uint32_t shard) {
-//     return std::make_unique<PeopleShard>(shard, 64);
+//     return std::make_unique<PeopleShard>(shard, PeopleShardOptions{.shards = 64});
 //   });
 //   for (…) cluster->tick(commands);              // the first rank's count
 //   cluster->state_hash();                        // the same on any number of ranks

@@ -14,7 +14,8 @@
 namespace mobil {
 
 /// `come`: a person of that body begins to walk there; `go` leaves; `walk`: another speed, 0 to stop; `turn` to a
-/// heading; `place` elsewhere at once; `look`: from where the scene is seen, whoever the number names.
+/// heading; `place` elsewhere at once; `look` moves the camera of all shards, and its number means
+/// nothing.
 enum class Wish : std::uint32_t { come, go, walk, turn, place, look };
 
 /// One wish, as it travels. Made by the functions below, which say what the values are.

@@ -54,7 +54,7 @@ class PlainReader {
     std::memcpy(values.data(), left_.data(), values.size_bytes());
     left_ = left_.subspan(values.size_bytes());
   }
-  /// A list of which the reader is told the length; 0 where there are not so many left.
+  /// A list of that length; an empty one where fewer values are left.
   template <class T>
   std::vector<T> take_many(std::size_t count) {
     good_ = good_ && count <= left_.size() / sizeof(T);

@@ -131,6 +131,12 @@ HWY_INLINE WideMask operator>=(const Wide& a, float b) {
   return a >= wide(b);
 }
 
+HWY_INLINE bool any(const WideMask& mask) {
+  bool found = false;
+  for (std::size_t i = 0; i < vector_count; ++i) found |= !hn::AllFalse(FloatTag{}, mask.part[i]);
+  return found;
+}
+
 HWY_INLINE Wide operator-(const Wide& a) {
   Wide r;
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::Neg(a.part[i]);

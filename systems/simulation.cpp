@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "assets/body/anthropometry.h"
+#include "components/avoidance.h"
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
 #include "engine/state_hash.h"
@@ -60,6 +61,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
   for (const Module& module : modules_)
     for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
   std::ranges::sort(our_parts_);
+  awake_parts_ = our_parts_;
+  std::erase(awake_parts_, type_id<Course<float>>());
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
     for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);
@@ -257,7 +260,7 @@ Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
 Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
   if (auto done = expand(people); !done) return tl::unexpected(done.error());
-  return sleep_people(muscle_scene(), people, false, {}, our_parts_, *sleep_work_);
+  return sleep_people(muscle_scene(), people, false, {}, awake_parts_, *sleep_work_);
 }
 
 Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
@@ -274,7 +277,7 @@ Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   const auto warm = [&](std::span<const Entity> some, const LegMuscles& choice) {
     warm_muscles(some, choice, within_m);
   };
-  auto done = wake_people(muscle_scene(), asleep, {}, {}, our_parts_, *sleep_work_, warm);
+  auto done = wake_people(muscle_scene(), asleep, {}, {}, awake_parts_, *sleep_work_, warm);
   if (done) attempt.keep();
   return named("wake", std::move(done));
 }

@@ -453,7 +453,8 @@ class Simulation {
   std::optional<Threads> threads_;
   Jobs jobs_;
   std::vector<Module> modules_;
-  std::vector<std::uint64_t> our_parts_;  // of the library's modules, ascending
+  std::vector<std::uint64_t> our_parts_;    // of the library's modules, ascending
+  std::vector<std::uint64_t> awake_parts_;  // of these all that who sleeps has not
   std::unique_ptr<Schedule> schedule_;
   std::shared_ptr<BellyLibrary> library_;
   std::unique_ptr<MuscleWork> work_;

@@ -10,12 +10,12 @@ namespace mobil {
 
 std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entity> people,
                                    std::span<const KeyPart> keeps) {
-  return sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.our_parts_, *simulation.sleep_work_);
+  return sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.awake_parts_, *simulation.sleep_work_);
 }
 
 Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people, Woken as) {
   auto done = wake_people(simulation.muscle_scene(), people, {WakingMuscles::later, as}, relevance_parts(),
-                          simulation.our_parts_, *simulation.sleep_work_);
+                          simulation.awake_parts_, *simulation.sleep_work_);
   Tiers<float> unseen{};
   unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
   for (const Entity human : people) simulation.world_->set(human, unseen);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "systems/avoidance/avoidance_module.h"
 #include "systems/muscles/compact_module.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
@@ -18,6 +19,7 @@ std::vector<Module> standard_modules() {
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
   all.push_back(compact_module());
   all.push_back(relevance_module());
+  all.push_back(avoidance_module());
   return all;
 }
 

@@ -202,10 +202,12 @@ HWY_NOINLINE inline void store_quintic(const Moving& a, const Moving& b, Quintic
 }
 
 /// Phase of the step at a part of its time: at the pace of the strikes at either end, and no change of pace there.
-HWY_NOINLINE inline Wide step_phase(const StepPlan<Lanes<float>>& plan, const Wide& u) {
-  const Wide from = load(plan.phase_rate_from), to = load(plan.phase_rate_to);
+HWY_INLINE Wide step_phase(const Wide& from, const Wide& to, const Wide& u) {
   const Wide r = 1.0F - from, s = to - from;
   return u * fma(u * u, fma(u, fma(u, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), from);
+}
+HWY_NOINLINE inline Wide step_phase(const StepPlan<Lanes<float>>& plan, const Wide& u) {
+  return step_phase(load(plan.phase_rate_from), load(plan.phase_rate_to), u);
 }
 
 /// The part of a step's time at which it has a phase.

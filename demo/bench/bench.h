@@ -62,6 +62,7 @@ Result<void> bench_lines(BenchRun& run);
 Result<void> bench_activation(BenchRun& run);
 Result<void> bench_skinning(BenchRun& run);
 Result<void> bench_skin(BenchRun& run);
+Result<void> bench_avoidance(BenchRun& run);
 Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);
 Result<void> bench_reduced(BenchRun& run);

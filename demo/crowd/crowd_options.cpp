@@ -32,11 +32,10 @@ struct NamedEffect {
   std::string_view name;
   bool CrowdEffects::*on;
 };
-constexpr NamedEffect effects[] = {{"muscles", &CrowdEffects::muscles},
-                                   {"forces", &CrowdEffects::forces},
-                                   {"inertia", &CrowdEffects::inertia},
-                                   {"line-motion", &CrowdEffects::line_motion},
-                                   {"activation", &CrowdEffects::activation}};
+constexpr NamedEffect effects[] = {
+    {"muscles", &CrowdEffects::muscles},       {"forces", &CrowdEffects::forces},
+    {"inertia", &CrowdEffects::inertia},       {"line-motion", &CrowdEffects::line_motion},
+    {"activation", &CrowdEffects::activation}, {"avoidance", &CrowdEffects::avoidance}};
 
 Result<CrowdEffects> read_effects(const std::string& text) {
   CrowdEffects chosen{.muscles = false};
@@ -44,9 +43,10 @@ Result<CrowdEffects> read_effects(const std::string& text) {
   for (const std::string& name : split(text, ',')) {
     const auto found = std::ranges::find(effects, name, &NamedEffect::name);
     if (found == std::end(effects)) {
-      return fail(fmt::format(
-          "--effects '{}': '{}' is none of muscles, forces, inertia, line-motion, activation; or give none alone", text,
-          name));
+      return fail(
+          fmt::format("--effects '{}': '{}' is none of muscles, forces, inertia, line-motion, activation, avoidance; "
+                      "or give none alone",
+                      text, name));
     }
     chosen.*found->on = true;
   }
@@ -155,6 +155,8 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
       return fail(fmt::format("{}: is of several shards or ranks; give --shards, or run under mpirun", name));
   }
   if (!options.city) return {};
+  if (options.crowd.effects.avoidance)
+    return fail("--effects avoidance: is of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
   if (options.raise) return fail("--raise: tries crowds in one piece; leave --shards, --save, --resume and mpirun out");
   if (!options.exports.empty())
     return fail("--export: is of a crowd in one piece; leave --shards, --save, --resume and mpirun out");
@@ -194,8 +196,8 @@ std::vector<Option> crowd_options(CrowdText& text) {
       {"--seed", &text.seed, "Who they are and what they do", crowd},
       {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", crowd},
       {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", crowd},
-      {"--effects", &text.effects, "LIST of muscles, forces, inertia, line-motion, activation; or none: they only walk",
-       muscles},
+      {"--effects", &text.effects,
+       "LIST of muscles, forces, inertia, line-motion, activation, avoidance; or none: they only walk", muscles},
       {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", muscles},
       {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", muscles},
       {"--near-tolerance", &text.near_tolerance, "The same of those", muscles},

@@ -27,7 +27,7 @@ Json options_json(const CrowdOptions& options) {
   for (const auto& [name, on] :
        {std::pair("muscles", crowd.effects.muscles), std::pair("forces", crowd.effects.forces),
         std::pair("inertia", crowd.effects.inertia), std::pair("line-motion", crowd.effects.line_motion),
-        std::pair("activation", crowd.effects.activation)}) {
+        std::pair("activation", crowd.effects.activation), std::pair("avoidance", crowd.effects.avoidance)}) {
     if (on) json["effects"].push_back(name);
   }
   json["churn_per_s"] = crowd.churn_per_s;

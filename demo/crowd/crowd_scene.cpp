@@ -33,6 +33,7 @@ CrowdScene::CrowdScene(const CrowdRequest& request) : request_(request) {
   simulation_ = std::make_unique<Simulation>(
       SimulationOptions{.threads = request.threads, .memory = &memory_, .library_of = request.library});
   muscles_ = first_muscles();
+  if (request.effects.avoidance) avoidance_ = std::make_unique<Avoidance>(*simulation_);
 }
 
 /// What most of those far away need, so that nobody begins with another.
@@ -205,6 +206,9 @@ Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
       if (auto done = relevance_->manage(walker.entity); !done) return done;
     }
     if (request_.effects.forces) simulation_->add_forces(walker.entity);
+    if (avoidance_) {
+      if (auto done = avoidance_->manage(walker.entity); !done) return done;
+    }
   }
   return {};
 }
@@ -320,6 +324,7 @@ RelevanceReport CrowdScene::choose_methods() {
 }
 
 void CrowdScene::tick() {
+  if (avoidance_) avoidance_->update();
   simulation_->tick();
 }
 

@@ -15,13 +15,14 @@
 
 #include "demo/crowd/crowd_people.h"
 #include "engine/error.h"
+#include "systems/avoidance/avoidance.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 
 namespace mobil {
 
 struct CrowdEffects {
-  bool muscles = true, forces = false, inertia = false, line_motion = false, activation = false;
+  bool muscles = true, forces = false, inertia = false, line_motion = false, activation = false, avoidance = false;
 };
 
 /// Lengths in m, times in s.
@@ -152,6 +153,7 @@ class CrowdScene {
   bool is_own(std::uint32_t place) const;
   std::size_t first_slot_from(std::uint32_t place) const;
   void keep_slot(std::size_t slot);
+  Result<void> head_for(const CrowdWalker& walker, float heading_rad);
   Result<void> carry_out(CrowdWalker& walker, CrowdDecisions& decisions);
   void plan(std::size_t slot);
   void forget_plan(std::size_t slot);
@@ -168,6 +170,7 @@ class CrowdScene {
   MeteredMemory memory_;
   std::unique_ptr<Simulation> simulation_;
   std::unique_ptr<Relevance> relevance_;
+  std::unique_ptr<Avoidance> avoidance_;
   LegMuscles muscles_;
   std::vector<CrowdWalker> walkers_;    // by place
   std::vector<SpawnRequest> requests_;  // kept for their memory

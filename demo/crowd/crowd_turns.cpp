@@ -35,6 +35,15 @@ void CrowdScene::forget_plan(std::size_t slot) {
   if (walker.next >= 0) walkers_[static_cast<std::size_t>(walker.next)].before = walker.before;
 }
 
+/// Who avoids others is asked through Avoidance, which asks for the steps.
+Result<void> CrowdScene::head_for(const CrowdWalker& walker, float heading_rad) {
+  if (!avoidance_) return simulation_->turn_to(walker.entity, heading_rad);
+  const auto course = simulation_->get<Course>(walker.entity);
+  if (!course) return fail(course.error().status);
+  const WalkWish wish = {walker.entity, course->speed_m_s, heading_rad};
+  return avoidance_->want({&wish, 1});
+}
+
 /// A speed that the body cannot walk at in its own style is left alone.
 Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decisions) {
   const CrowdChange change = crowd_change(request_.seed, walker.number, walker.changes++, walker.stopped);
@@ -46,12 +55,16 @@ Result<void> CrowdScene::carry_out(CrowdWalker& walker, CrowdDecisions& decision
       gait.speed_m_s = usual_m_s;
       if (auto done = simulation_->set_gait(walker.entity, gait); !done) return done;
     }
+    if (avoidance_) {
+      const WalkWish wish = {walker.entity, *gait.speed_m_s, walker.heading_rad};
+      if (auto done = avoidance_->want({&wish, 1}); !done) return done;
+    }
     walker.stopped = change.speed_m_s == 0;
     ++decisions.changed_speed;
   }
   if (change.turn_rad != 0 && !walker.returning) {
     walker.heading_rad = std::remainder(walker.heading_rad + change.turn_rad, whole_turn);
-    if (auto done = simulation_->turn_to(walker.entity, walker.heading_rad); !done) return done;
+    if (auto done = head_for(walker, walker.heading_rad); !done) return done;
     ++decisions.turned;
   }
   return {};
@@ -93,7 +106,7 @@ Result<void> CrowdScene::turn_back(CrowdDecisions& decisions) {
     decisions.turned += walker.returning ? 0 : 1;
     walker.returning = true;
     walker.heading_rad = heading_rad;
-    if (auto done = simulation_->turn_to(walker.entity, heading_rad); !done) return done;
+    if (auto done = head_for(walker, heading_rad); !done) return done;
   }
   return {};
 }

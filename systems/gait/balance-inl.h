@@ -197,12 +197,6 @@ HWY_NOINLINE inline void look_at_feet(const StepPlan<Lanes<float>>& plan, const 
   }
 }
 
-HWY_INLINE bool any(const WideMask& mask) {
-  Lanes<float> ones;
-  store(select(mask, wide(1.0F), wide(0.0F)), ones);
-  return std::any_of(std::begin(ones.lane), std::end(ones.lane), [](float one) { return one > 0.0F; });
-}
-
 /// Chooses plan.ahead_m and aside_m; returns how far the centre of pressure then lies outside the soles.
 HWY_NOINLINE inline Wide balance_step(const Wide& height, const Wide& right_one, const WideMask& alike,
                                       const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {

@@ -10,52 +10,10 @@
 #include "engine/wide-inl.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/heading-inl.h"
+#include "systems/gait/next_foot-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
-
-constexpr float most_turn = 30.0F * pi_f / 180.0F;  // a step
-constexpr float most_sideways = 1.1F;               // m/s²
-/// How far beside the place where its turn asks for it a foot may press the ground, of the height.
-constexpr float within_sole = 0.012F;
-constexpr float centre_over_gravity = 0.56F / 9.81F;  // height of the centre of mass, of the height; s²/m
-/// How near a foot may come to the other's line when it is put to the inside, of the distance in a straight walk; how
-/// far it may go to the outside, of the height.
-constexpr float nearest = 0.4F, farthest = 0.08F;
-
-/// A foot that comes to the ground: where, to the left of its place on the line, and the curvature that the line has
-/// while it bears.
-struct NextFoot {
-  Wide shift, bend;
-};
-
-/// As much of the way to the wanted heading as is left after the bend of this stance, as far as the foot can be put
-/// outward for it.
-HWY_INLINE NextFoot next_foot(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                              const GaitState<Lanes<float>>& state, const Wide& way) {
-  const Wide height = load(size.height_m), length = load(plan.step_length_m), speed = load(plan.to.speed_m_s);
-  const WideMask walks = (length > 0.0F) & (speed > 0.0F);
-  const Wide far = max(length, 0.05F), squared = max(speed * speed, 0.01F);
-  const Wide most = min(most_sideways / squared, most_turn / far);
-  const Wide bends = length * load(state.bend_per_m);
-  const WideMask there = max(abs(way), abs(bends)) < as_asked;
-  const Wide after = select(there, wide(0.0F), (way - (1.0F - slope_at_end) * bends) / far);
-  const Wide shift_per_bend = -centre_over_gravity * height * squared;
-  const Wide apart = load(plan.from.half_width_m) + load(plan.to.half_width_m), shift = load(state.shift_m);
-  const Wide lands_left = select(equal(state.stance_side, Side::right), wide(1.0F), wide(-1.0F));
-  // The foot after one on the inside can come back inward only so far: no more than that foot can undo.
-  const Wide undone = ((1.0F - nearest) * apart + within_sole * height) / -shift_per_bend, turned = abs(after);
-  const WideMask inside = (after * lands_left > 0.0F) & (turned > undone);
-  const Wide wish = copy_sign(min(select(inside, 0.5F * (turned + undone), turned), most), after);
-  const Wide wished = select(walks, wish, wide(0.0F));
-  // Seen outward from the stance foot to the one that lands.
-  const Wide outward = lands_left * (shift_per_bend * wished - shift);
-  const Wide kept = fma(lands_left, min(max(outward, (nearest - 1.0F) * apart), farthest * height), shift);
-  const Wide possible = kept / shift_per_bend, slack = abs(within_sole * height / shift_per_bend);
-  // Who has become slow would turn on the spot for a foot that still stands far out.
-  const Wide bend = min(max(min(max(wished, possible - slack), possible + slack), -most), most);
-  return {select(walks, kept, shift), select(walks, bend, wide(0.0F))};
-}
 
 /// Who has come to stand does so beside the line, as far as the feet are: the line goes there.
 HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask& done, GaitState<Lanes<float>>& state) {
@@ -172,12 +130,16 @@ void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const WideMask begun = load(state.time_s) < tick_s;
   const WideMask steps = load(plan.landing) > 0.0F;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
-  const NextFoot next = next_foot(size, plan, state, way);
+  const NextFoot next =
+      next_foot({load(size.height_m), load(plan.step_length_m), load(plan.to.speed_m_s),
+                 load(plan.from.half_width_m) + load(plan.to.half_width_m), load(state.bend_per_m), load(state.shift_m),
+                 select(equal(state.stance_side, Side::right), wide(1.0F), wide(-1.0F))},
+                way);
   const Wide length = load(plan.step_length_m), bend = load(state.bend_per_m);
   const Chord chord = {length, bend * length, (next.bend - bend) * length};
   const Wide moves = length + load(plan.length_before_m), slant = load(plan.slant_rad);
   const WideMask on_spot = steps_on_spot(plan) & (abs(way) > off_heading) & (moves <= 0.0F);
-  const Wide on_the_spot = select(on_spot, min(max(way, -most_turn), most_turn), wide(0.0F));
+  const Wide on_the_spot = select(on_spot, min(max(way, -step_limits::most_turn), step_limits::most_turn), wide(0.0F));
   auto begin = [&](const Wide& value, Lanes<float>& to) { store(select(begun, value + 0.0F, load(to)), to); };  // no −0
   begin(select(length > 0.0F, chord_turn(chord), on_the_spot), state.turn_rad);
   begin(chord_heading(chord) + slant, state.chord_rad);

@@ -12,20 +12,17 @@
 #include "systems/gait/forward_swing-inl.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/heading-inl.h"
+#include "systems/gait/step_limits.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
-/// How far speed may change from step to step, and what a walk starts with and stops from, m/s at a leg of 0.90 m.
-constexpr float most_faster = 0.30F, most_slower = 0.60F, first_speed = 0.60F, last_speed = 1.35F;
-/// A first and a last step, of the pace that they lead to or come from; phases until its foot leaves the ground, and at
-/// which it comes to it.
-constexpr float first_step = 0.9F, last_step = 1.3F, first_double_support = 0.45F, last_landing = 0.85F;
-/// A step on the spot, of somebody who stands and turns: how long it takes, s; the same phases.
-constexpr float spot_step_s = 0.4F, spot_double_support = 0.05F, spot_landing = 0.95F;
-/// A step aside, of somebody who stands, is two: one foot goes there and the other one follows. Each takes so long, s
-/// and s per m: in less the ground could not push the body there.
-constexpr float displacing_s = 0.3F, displacing_s_per_m = 0.8F;
+using namespace step_limits;
+
+/// Of a first and a last step: phases until its foot leaves the ground, and at which it comes to it; of one on the
+/// spot.
+constexpr float first_double_support = 0.45F, last_landing = 0.85F;
+constexpr float spot_double_support = 0.05F, spot_landing = 0.95F;
 /// How much further than straight legs need the hips sink between two such steps.
 constexpr float sinks_apart = 2.0F;
 /// How far outside the soles the centre of pressure may lie before a step is marked, of the height.
@@ -57,7 +54,7 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
                               const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
                               Solve solve, Strike<Lanes<float>>& to) {
   const Wide leg = ratio(fraction::thigh + fraction::shank, height);
-  const Wide scale = sqrt(leg / 0.90F);
+  const Wide scale = sqrt(leg / leg_m);
   const Wide now = load(from.speed_m_s), aim = select(half_aside(from), wide(0.0F), load(wanted.speed_m_s));
   const WideMask standing = now <= 0.0F, to_stand = aim <= 0.0F;
   const Wide slower = now - most_slower * scale, faster = now + most_faster * scale;
@@ -161,7 +158,7 @@ HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& ri
   const Wide even = select(from_stands, first_step / max(pace_to, 0.1F),
                            select(to_stands, last_step / max(pace_from, 0.1F), 2.0F / max(pace_from + pace_to, 0.1F)));
   const Wide at_rest =
-      select(spot, select(displaced, 1.0F / max(pace_from + pace_to, 0.1F), wide(spot_step_s)), wide(0.25F));
+      select(spot, select(displaced, 1.0F / max(pace_from + pace_to, 0.1F), wide(spot_step_s)), wide(stand_s));
   const Wide duration = select(still, at_rest, even * (1.0F + select(right_lands, uneven, -uneven)));
   store(duration, plan.duration_s);
   store(pace_from * duration, plan.phase_rate_from);

@@ -11,6 +11,7 @@
 #include "engine/each.h"
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
+#include "systems/gait/step_limits.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/pose_measures.h"
 #include "systems/people/sleepers.h"
@@ -135,9 +136,9 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
   Gait<float> gait = *world.get<Gait>(person);
   if (gait.speed_m_s > 0.0F) return fail("step_aside: this person is to walk; change the gait to a speed of 0 first");
   const auto body = make_body(body_request(world, person));
-  const float scale = (body->thigh_length_m + body->shank_length_m) / 0.85F;
+  const float scale = (body->thigh_length_m + body->shank_length_m) / step_limits::aside_leg_m;
   for (const auto& [name, way, most] :
-       {std::tuple{"to the left", left_m, 0.25F * scale}, std::tuple{"ahead", ahead_m, 0.20F * scale}}) {
+       {std::tuple{"to the left", left_m, step_limits::aside_m * scale}, std::tuple{"ahead", ahead_m, step_limits::ahead_m * scale}}) {
     if (!(std::fabs(way) <= most))
       return fail(fmt::format("step_aside: {:.3g} m {} is outside {:.2f}–{:.2f} m for this leg; take more steps", way,
                               name, -most, most));

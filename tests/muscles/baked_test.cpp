@@ -90,7 +90,7 @@ TEST(Baked, ASnapshotFindsWhatWasLoaded) {
   ASSERT_TRUE(loaded.load_baked(made.bake()));
   std::vector<std::byte> snapshot(made.snapshot_bytes());
   ASSERT_TRUE(made.save(snapshot));
-  const auto done = loaded.restore(snapshot);
+  const auto done = loaded.restore(snapshot, RestoreLimits::none());
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_EQ(loaded.state_hash(), made.state_hash());
 }

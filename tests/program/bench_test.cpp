@@ -164,7 +164,8 @@ TEST(Bench, BadInputIsOneLineAndNothingIsWritten) {
   const std::map<std::string, std::vector<std::string>> refused = {
       {"gaiit --json bench.json",
        {"'gaiit'", "did you mean gait?",
-        "machine, gait, kinematics, lines, activation, skinning, skin, table1, fem, reduced, paper_figures"}},
+        "machine, gait, kinematics, lines, activation, skinning, skin, avoidance, table1, fem, reduced, "
+        "paper_figures"}},
       {"gait somersault", {"'somersault'", "machine, gait"}},
       {"gait --humans 0", {"--humans '0'", "1 to 200000"}},
       {"gait --humans -5", {"--humans '-5'", "1 to 200000"}},

@@ -117,7 +117,7 @@ TEST(BasisOrders, GoOnInAnotherProgram) {
   }
   std::vector<std::byte> bytes(scene.simulation.snapshot_bytes());
   ASSERT_TRUE(scene.simulation.save(bytes));
-  ASSERT_TRUE(other.simulation.restore(bytes));
+  ASSERT_TRUE(other.simulation.restore(bytes, RestoreLimits::none()));
   other.relevance.set_state(scene.relevance.state());
   for (int tick = 0; tick < 12; ++tick) {
     for (Scene* const one : {&scene, &other}) {

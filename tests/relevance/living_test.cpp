@@ -171,7 +171,7 @@ TEST(LivingRelevance, ASnapshotKeepsWhoIsShownLinearly) {
   std::vector<std::byte> bytes(scene.simulation.snapshot_bytes());
   ASSERT_TRUE(scene.simulation.save(bytes));
   Simulation other;
-  ASSERT_TRUE(other.restore(bytes));
+  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
   EXPECT_EQ(other.state_hash(), scene.simulation.state_hash());
   EXPECT_TRUE(same_method(other.method(scene.people[0], Muscle::triceps_surae), rung_method(2, true, true)));
   for (int t = 0; t < 30; ++t) other.tick(), scene.simulation.tick();

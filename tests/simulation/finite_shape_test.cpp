@@ -258,7 +258,7 @@ TEST(FiniteShape, SurvivesSnapshots) {
   ASSERT_TRUE(simulation.save(bytes));
   run(simulation, 10);
   Simulation other;
-  ASSERT_TRUE(other.restore(bytes));
+  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
   run(other, 10);
   EXPECT_EQ(other.state_hash(), simulation.state_hash());
   for (const Entity one : {human, reduced}) {

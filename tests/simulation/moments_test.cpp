@@ -116,7 +116,7 @@ TEST(Moments, GoOnFromASnapshot) {
   for (int tick = 0; tick < 40; ++tick) simulation.tick();
   std::vector<std::byte> saved(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(saved));
-  const auto restored = other.restore(saved);
+  const auto restored = other.restore(saved, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   for (int tick = 0; tick < 40; ++tick) simulation.tick(), other.tick();
   EXPECT_EQ(simulation.state_hash(), other.state_hash());

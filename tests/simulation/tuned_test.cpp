@@ -189,7 +189,7 @@ TEST(TunedPeople, SurviveSnapshots) {
   ASSERT_TRUE(simulation.save(bytes));
   run(simulation, 10);
   Simulation other;
-  const auto restored = other.restore(bytes);
+  const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   run(other, 10);
   EXPECT_EQ(other.state_hash(), simulation.state_hash());

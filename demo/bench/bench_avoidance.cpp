@@ -1,0 +1,224 @@
+// Crowds who keep out of each other's way: how fast they get on in a corridor, across each other and through a door,
+// how near they come, and what choosing steps costs.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "demo/bench/bench.h"
+#include "engine/row_hash.h"
+#include "systems/avoidance/avoidance.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+constexpr float wide_m = 5, long_m = 50, square_m = 22, door_m = 1.2F, post_m = 0.2F;
+constexpr float radius_m = 0.22F;
+
+enum class Flow : std::uint8_t { one_way, both_ways, crossing, door };
+
+float drawn(std::uint64_t number, std::uint64_t what) {
+  return static_cast<float>(mix64(mix64(number + 78) ^ what) >> 40) * 0x1p-24F;
+}
+
+/// Who walks on a stretch of ground, at whose end they come in again at the other as soon as there is room.
+class FlowScene {
+ public:
+  FlowScene(Flow flow, float people_a_m2) : flow_(flow), avoidance_(simulation_) {
+    across_m_ = flow == Flow::crossing ? square_m : wide_m;
+    along_m_ = flow == Flow::crossing ? square_m : flow == Flow::door ? 30 : long_m;
+    const auto count = static_cast<int>(people_a_m2 * along_m_ * across_m_);
+    const float room_m = flow == Flow::crossing ? across_m_ : across_m_ - 2 * radius_m;
+    const int rows =
+        std::max(1, static_cast<int>(std::lround(room_m / std::sqrt(along_m_ * room_m / static_cast<float>(count)))));
+    const int columns = (count + rows - 1) / rows;
+    for (int i = 0; i < columns * rows && static_cast<int>(people_.size()) < count; ++i) {
+      const auto number = static_cast<std::uint64_t>(i);
+      Person one;
+      one.back = drawn(number, 3) < 0.5F;
+      one.speed_m_s = 1.34F + 0.35F * (drawn(number, 4) + drawn(number, 5) - 1);
+      const float height = 1.72F + 0.15F * (drawn(number, 6) + drawn(number, 7) - 1);
+      const auto spread = [&](float cell, std::uint64_t what) {
+        return (2 * drawn(number, what) - 1) * std::max(0.0F, 0.5F * (cell - 0.46F));
+      };
+      const float along = along_m_ / static_cast<float>(columns), across = room_m / static_cast<float>(rows);
+      one.x_m = (static_cast<float>(i / rows) + 0.5F) * along - 0.5F * along_m_ + spread(along, 1);
+      one.z_m = (static_cast<float>(i % rows) + 0.5F) * across - 0.5F * room_m + spread(across, 2);
+      if (flow == Flow::door && std::fabs(one.x_m) < 0.7F) continue;
+      one.entity =
+          simulation_.spawn({.height_m = height, .mass_kg = 24 * height * height}, {.speed_m_s = 0.0F}).value();
+      simulation_.place(one.entity, one.x_m, one.z_m, heading(one));
+      avoidance_.manage(one.entity);
+      people_.push_back(one);
+    }
+    put_walls();
+    for (const Person& one : people_) entities_.push_back(one.entity);
+    roots_.resize(people_.size());
+    wishes_.resize(people_.size());
+  }
+
+  std::size_t people() const { return people_.size(); }
+  double choosing_s = 0, way_m = 0, person_s = 0, stood_s = 0, nearest_m = 0, near = 0, looks = 0;
+  std::size_t passed = 0;
+
+  void tick(bool counts) {
+    const std::uint32_t now = simulation_.ticks();
+    if (now % 6 == 0) {
+      for (std::size_t i = 0; i < people_.size(); ++i)
+        wishes_[i] = {people_[i].entity, people_[i].speed_m_s, heading(people_[i])};
+      avoidance_.want(wishes_);
+    }
+    const auto start = std::chrono::steady_clock::now();
+    avoidance_.update();
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
+    simulation_.tick();
+    simulation_.roots(entities_, roots_);
+    for (std::size_t i = 0; i < people_.size(); ++i) move(people_[i], roots_[i], counts);
+    come_in_again();
+    if (!counts) return;
+    choosing_s += spent.count();
+    person_s += simulation_.tick_s() * static_cast<double>(people_.size());
+    if (now % 6 == 0) look_who_is_near();
+  }
+
+ private:
+  struct Person {
+    Entity entity{};
+    float x_m = 0, z_m = 0, speed_m_s = 0;
+    bool back = false;
+    double stands_s = 0;
+    std::uint32_t came_in = 0;
+  };
+
+  float heading(const Person& one) const {
+    if (flow_ == Flow::crossing) return one.back ? 0 : 0.5F * pi;
+    if (flow_ == Flow::both_ways && one.back) return -0.5F * pi;
+    if (flow_ != Flow::door || one.x_m > 0.3F) return 0.5F * pi;
+    const float free_m = 0.5F * door_m - radius_m - 0.03F, ahead = one.x_m < -post_m ? 0.0F : 1.0F;
+    return std::atan2(ahead - one.x_m, std::clamp(one.z_m, -free_m, free_m) - one.z_m);
+  }
+
+  void put_walls() {
+    if (flow_ == Flow::crossing) return;
+    constexpr float beyond = 30, half = 0.5F * wide_m, gap = 0.5F * door_m;
+    const float end = 0.5F * along_m_ + beyond;
+    std::vector<Wall> walls = {{{-end, -half}, {end, -half}}, {{-end, half}, {end, half}}};
+    for (const float side : {-1.0F, 1.0F}) {
+      if (flow_ != Flow::door) break;
+      for (const float x : {-post_m, post_m}) walls.push_back({{x, side * half}, {x, side * gap}});
+      walls.push_back({{-post_m, side * gap}, {post_m, side * gap}});
+    }
+    avoidance_.set_walls(walls);
+  }
+
+  void move(Person& one, const Root& root, bool counts) {
+    const auto x = static_cast<float>(root.x_m), z = static_cast<float>(root.z_m);
+    const bool sideways = flow_ == Flow::crossing && one.back;
+    const float on = sideways ? z - one.z_m : flow_ == Flow::both_ways && one.back ? one.x_m - x : x - one.x_m;
+    if (counts) {
+      way_m += static_cast<double>(on);
+      passed += flow_ == Flow::door && one.x_m < 0 && x >= 0;
+      constexpr double long_s = 5;
+      one.stands_s = on > 1e-4F ? 0 : one.stands_s + simulation_.tick_s();
+      if (one.stands_s > long_s) stood_s += simulation_.tick_s();
+    }
+    one.x_m = x;
+    one.z_m = z;
+  }
+
+  void come_in_again() {
+    const float end = 0.5F * along_m_;
+    for (Person& one : people_) {
+      const float x = one.x_m > end ? -along_m_ : one.x_m < -end ? along_m_ : 0;
+      const float z = flow_ != Flow::crossing ? 0 : one.z_m > end ? -along_m_ : one.z_m < -end ? along_m_ : 0;
+      if (x == 0 && z == 0) continue;
+      const auto state = *simulation_.get<GaitState>(one.entity);
+      const float ahead_x = std::sin(state.heading_rad), ahead_z = std::cos(state.heading_rad);
+      constexpr float room_m = 2.2F, middle_m = 0.7F;
+      const bool free = std::none_of(people_.begin(), people_.end(), [&](const Person& other) {
+        return &other != &one && std::hypot(other.x_m - one.x_m - x - middle_m * ahead_x,
+                                            other.z_m - one.z_m - z - middle_m * ahead_z) < 0.5F * room_m;
+      });
+      if (!free) continue;
+      simulation_.place(one.entity, state.line_x_m + x, state.line_z_m + z, state.heading_rad);
+      one.x_m += x;
+      one.z_m += z;
+      one.came_in = simulation_.ticks();
+    }
+  }
+
+  /// Not those who have just come in: they may be put where somebody is about to be.
+  void look_who_is_near() {
+    constexpr std::uint32_t settled = 300;
+    constexpr double counts_m = 0.05;
+    for (const Person& one : people_) {
+      double overlap = 0;
+      for (const Person& other : people_) {
+        if (&other == &one || std::max(one.came_in, other.came_in) + settled > simulation_.ticks()) continue;
+        const double apart = std::hypot(double{other.x_m} - double{one.x_m}, double{other.z_m} - double{one.z_m});
+        overlap = std::max(overlap, 2 * double{radius_m} - apart);
+      }
+      nearest_m = std::max(nearest_m, overlap);
+      near += overlap > counts_m ? 1 : 0;
+      ++looks;
+    }
+  }
+
+  Flow flow_;
+  float across_m_, along_m_;
+  Simulation simulation_;
+  Avoidance avoidance_;
+  std::vector<Person> people_;
+  std::vector<Entity> entities_;
+  std::vector<Root> roots_;
+  std::vector<WalkWish> wishes_;
+};
+
+void add(BenchRun& run, const std::string& name, double value, const char* unit, std::string what) {
+  BenchResult result;
+  result.name = name;
+  result.value = value;
+  result.unit = unit;
+  result.bound = std::move(what);
+  run.results.push_back(std::move(result));
+}
+
+void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2) {
+  const int seconds = run.quick ? 6 : 90;
+  FlowScene scene(flow, people_a_m2);
+  for (int tick = 0; tick < seconds * 60; ++tick) scene.tick(tick >= seconds * 20);
+  const std::string of = fmt::format("{} people, {} s", scene.people(), seconds);
+  if (flow == Flow::door) {
+    add(run, name + ".people_per_s", static_cast<double>(scene.passed) / (seconds * 2 / 3.0), "/s", of);
+  } else {
+    add(run, name + ".m_per_s", scene.way_m / scene.person_s, "m/s",
+        of + fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
+  }
+  add(run, name + ".overlap_cm", 100 * scene.nearest_m, "cm",
+      fmt::format("the most; {:.2f} % of people by more than 5 cm", 100 * scene.near / std::max(scene.looks, 1.0)));
+  add(run, name + ".us_per_human_tick", 1e6 * scene.choosing_s / (60 * scene.person_s), "us", "choosing steps");
+}
+
+}  // namespace
+
+Result<void> bench_avoidance(BenchRun& run) {
+  time_flow(run, "avoidance.one_way_0.5", Flow::one_way, 0.5F);
+  time_flow(run, "avoidance.one_way_1", Flow::one_way, 1);
+  time_flow(run, "avoidance.one_way_2", Flow::one_way, 2);
+  time_flow(run, "avoidance.both_ways_0.2", Flow::both_ways, 0.2F);
+  time_flow(run, "avoidance.both_ways_0.5", Flow::both_ways, 0.5F);
+  time_flow(run, "avoidance.both_ways_1", Flow::both_ways, 1);
+  time_flow(run, "avoidance.crossing_0.5", Flow::crossing, 0.5F);
+  time_flow(run, "avoidance.crossing_1", Flow::crossing, 1);
+  time_flow(run, "avoidance.door", Flow::door, 0.7F);
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,173 @@
+#include "systems/avoidance/avoidance.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "engine/access.h"
+#include "engine/each.h"
+#include "engine/row_hash.h"
+#include "engine/rows.h"
+#include "systems/avoidance/choice.h"
+#include "systems/gait/gait.h"
+#include "systems/simulation_world.h"
+
+namespace mobil {
+
+struct Avoidance::Work {
+  ClaimBook book;
+  std::vector<Chosen> chosen;             // by striker
+  std::vector<std::uint32_t> striker_of;  // by claim, of who goes off it
+  std::vector<char> gives_way;            // by striker
+
+  static constexpr std::uint32_t nobody = 0xFFFFFFFFU;
+
+  void give_way(const Jobs& jobs, std::uint32_t tick, float overlap_m);
+};
+
+Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
+    : simulation_(simulation), options_(options), work_(std::make_unique<Work>()) {}
+Avoidance::~Avoidance() = default;
+Avoidance::Avoidance(Avoidance&&) noexcept = default;
+
+Result<void> Avoidance::manage(Entity human) {
+  World& world = world_of(simulation_);
+  if (!is_person(world, human))
+    return fail("Avoidance: that person is not there (a stale handle)", Status::stale_entity);
+  if (simulation_.is_asleep(human)) {
+    if (auto done = simulation_.wake({&human, 1}); !done) return done;
+  }
+  const auto gait = world.get<Gait>(human);
+  if (!gait)
+    return fail("Avoidance: this person's host animates the skeleton; hand them over as discs", Status::missing);
+  const float height = world.get<BodySize>(human)->height_m;
+  Course<float> course{};
+  course.speed_m_s = gait->speed_m_s;
+  course.heading_rad = gait->heading_rad;
+  course.usual = 1;
+  course.radius_m = options_.radius_h * height;
+  if (gait->speed_m_s > 0) {
+    const auto usual = resolve_gait(height, {.speed_m_s = gait->speed_m_s});
+    if (usual) course.usual = gait->step_length_m / usual->step_length_m;
+  }
+  if (world.has<Course>(human)) return result_of("Avoidance", world.set(human, course));
+  return result_of("Avoidance", world.add(human, course));
+}
+
+Result<void> Avoidance::release(Entity human) {
+  return result_of("Avoidance", world_of(simulation_).remove<Course>(human));
+}
+
+Result<void> Avoidance::want(std::span<const WalkWish> wishes) {
+  World& world = world_of(simulation_);
+  for (const auto& [human, speed, heading] : wishes) {
+    if (!world.alive(human)) return fail("Avoidance: a person is not there (a stale handle)", Status::stale_entity);
+    if (!world.has<Course>(human))
+      return fail("Avoidance: a person is not managed; call manage first", Status::missing);
+    if (!(std::fabs(heading) < 1e4F))
+      return fail(fmt::format("Avoidance: a heading of {} rad is not within ±10000; give an angle about +Y", heading));
+    if (speed == 0) continue;
+    if (auto gait = resolve_gait(world.get<BodySize>(human)->height_m, {.speed_m_s = speed}); !gait)
+      return tl::unexpected(gait.error());
+  }
+  for (const auto& [human, speed, heading] : wishes) {
+    Course<float> course = *world.get<Course>(human);
+    course.speed_m_s = speed;
+    course.heading_rad = heading;
+    world.set(human, course);
+  }
+  return {};
+}
+
+Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
+  for (const Wall& wall : walls) {
+    for (const GroundPoint& at : {wall.from, wall.to}) {
+      if (!(std::fabs(at.x_m) < 1e6F && std::fabs(at.z_m) < 1e6F))
+        return fail(fmt::format("Avoidance: a wall's end at ({}, {}) m is not within 1000 km", at.x_m, at.z_m));
+    }
+  }
+  walls_.assign(walls.begin(), walls.end());
+  return {};
+}
+
+Result<void> Avoidance::set_discs(std::span<const Disc> discs) {
+  for (const Disc& disc : discs) {
+    if (!(std::fabs(disc.at.x_m) < 1e6F && std::fabs(disc.at.z_m) < 1e6F && disc.radius_m >= 0 &&
+          disc.radius_m < 1e6F && std::fabs(disc.x_m_s) < 1e3F && std::fabs(disc.z_m_s) < 1e3F))
+      return fail(
+          fmt::format("Avoidance: a disc at ({}, {}) m, radius {} m, is not finite, positive and within 1000 km",
+                      disc.at.x_m, disc.at.z_m, disc.radius_m));
+  }
+  discs_.assign(discs.begin(), discs.end());
+  return {};
+}
+
+/// Of two who strike in one tick and whose new ways meet, the one with the lower draw goes; the other keeps to the
+/// claim, which the first has kept clear of.
+void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overlap_m) {
+  const std::vector<Striker>& strikers = book.strikers();
+  striker_of.assign(book.claims(), nobody);
+  for (std::size_t i = 0; i < strikers.size(); ++i)
+    if (chosen[i].trial != claimed) striker_of[strikers[i].claim] = static_cast<std::uint32_t>(i);
+  gives_way.assign(strikers.size(), 0);
+  const auto goes_first = [&](std::uint32_t a, std::uint32_t b) {
+    const auto draw = [&](std::uint32_t claim) { return mix64(mix64(book.claim(claim).who.index) ^ tick); };
+    return draw(a) < draw(b);
+  };
+  constexpr float furthest_m = 2.5F;  // of a step and the stop after it
+  in_parallel(jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const std::uint32_t claim = strikers[i].claim;
+      if (striker_of[claim] == nobody) continue;
+      book.near(chosen[i].x_m[0], chosen[i].z_m[0], furthest_m, [&](std::uint32_t other) {
+        const std::uint32_t rival = striker_of[other];
+        if (rival == nobody || other == claim || !goes_first(other, claim)) return;
+        const float apart = book.claim(claim).radius_m + book.claim(other).radius_m - overlap_m;
+        if (meet(chosen[i], chosen[rival], apart)) gives_way[i] = 1;
+      });
+    }
+  });
+}
+
+AvoidanceReport Avoidance::update() {
+  World& world = world_of(simulation_);
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  Work& work = *work_;
+  const std::uint32_t tick = simulation_.ticks();
+  work.book.refresh(world, jobs, tick, static_cast<float>(simulation_.tick_s()), options_.radius_h);
+  const std::vector<Striker>& strikers = work.book.strikers();
+  const Surroundings around = {work.book, walls_, discs_, options_.overlap_m};
+  work.chosen.resize(strikers.size());
+  in_parallel(jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
+    const FlushDenormals flush;  // as in a tick
+    for (std::size_t i = begin; i < end; ++i) choose_step(around, strikers[i], work.chosen[i]);
+  });
+  work.give_way(jobs, tick, options_.overlap_m);
+
+  AvoidanceReport report{.people = work.book.people()};
+  for (std::size_t i = 0; i < strikers.size(); ++i) {
+    const Chosen& own = work.chosen[i];
+    if (own.under_way) continue;
+    auto& [table, block, lane, claim] = strikers[i];
+    Gait<Lanes<float>>& gaits = TableColumn<Gait>(*table).at(*table, block);
+    Course<Lanes<float>>& courses = TableColumn<Course>(*table).at(*table, block);
+    const bool yields = work.gives_way[i] != 0, aside = !yields && own.kind == TrialKind::aside;
+    const bool wants = courses.speed_m_s[lane] > 0;
+    const Gait<float> before = row_of(gaits, lane);
+    Gait<float> asked = yields ? own.as_claimed : own.gait;
+    const bool other = asked.speed_m_s != before.speed_m_s || asked.step_length_m != before.step_length_m || aside;
+    asked.displacement = (before.displacement + (aside ? 1U : 0U)) & 0xFFFFU;
+    asked.revision = (before.revision + (other ? 1U : 0U)) & 0xFFFFU;
+    put_row(asked, gaits, lane);
+    const bool stands = TableColumn<StepPlan>(*table).at(*table, block).to.speed_m_s[lane] <= 0;
+    const bool waits = wants && stands && asked.speed_m_s <= 0;
+    courses.waits_s[lane] = waits ? courses.waits_s[lane] + own.duration_s : 0;
+    ++report.chose;
+    report.gave_way += yields;
+    report.kept_claim += wants && own.trial == claimed;
+    report.waiting += waits;
+  }
+  return report;
+}
+
+}  // namespace mobil

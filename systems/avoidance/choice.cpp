@@ -1,0 +1,344 @@
+#include "systems/avoidance/choice.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "components/avoidance.h"
+#include "engine/each.h"
+#include "engine/exact_math.h"
+#include "engine/rows.h"
+#include "systems/avoidance/preference.h"
+#include "systems/gait/gait.h"
+
+namespace mobil {
+namespace {
+
+/// How many people are foreseen, the nearest ones, and within what distance.
+constexpr std::size_t most_passers = 12;
+constexpr float sees_m = 6;
+/// How much narrower gaps may be that somebody who stands starts into, m.
+constexpr float squeezes_m = 0.06F;
+/// How much wider a berth those get who make no room themselves, m.
+constexpr float all_of_the_way_m = 0.15F;
+/// Who has stood so long presses on as far as people may overlap, s.
+constexpr float presses_after_s = 2;
+/// What turning costs; what speaks for passing on the right of who comes.
+constexpr float of_turning = 0.15F, keeps_right = 0.05F;
+/// How much nearer to a wall than now somebody may come who is too near already, m: else nobody gets along it.
+constexpr float brushes_m = 0.01F;
+/// How far ways are from the rectangle between their ends, m: they bend.
+constexpr float off_straight_m = 0.1F;
+
+float square(float x) {
+  return x * x;
+}
+float sine(float angle) {
+  return static_cast<float>(exact::sin(angle));
+}
+float cosine(float angle) {
+  return static_cast<float>(exact::cos(angle));
+}
+float wrapped(float angle) {
+  constexpr float round = 2 * std::numbers::pi_v<float>;
+  return angle - round * std::floor(angle * (1 / round) + 0.5F);
+}
+
+struct Near {
+  float distance2;
+  std::uint32_t index, claim;
+  bool operator<(const Near& other) const {
+    return distance2 != other.distance2 ? distance2 < other.distance2 : index < other.index;
+  }
+};
+
+GroundBox box_of(GroundPoint a, GroundPoint b, float more_m) {
+  return {std::min(a.x_m, b.x_m) - more_m, std::max(a.x_m, b.x_m) + more_m, std::min(a.z_m, b.z_m) - more_m,
+          std::max(a.z_m, b.z_m) + more_m};
+}
+
+GroundPoint nearest_of(const Wall& wall, GroundPoint to) {
+  const float x = wall.to.x_m - wall.from.x_m, z = wall.to.z_m - wall.from.z_m, squared = square(x) + square(z);
+  const float along = (to.x_m - wall.from.x_m) * x + (to.z_m - wall.from.z_m) * z;
+  const float part = squared > 0 ? std::clamp(along / squared, 0.0F, 1.0F) : 0;
+  return {wall.from.x_m + part * x, wall.from.z_m + part * z};
+}
+
+/// One choice: what the walker may do, and what each costs.
+class Choice {
+ public:
+  Choice(const Surroundings& around, const Striker& striker, const Footing<float>& from, const Course<float>& course)
+      : around_(around),
+        mine_(around.book.claim(striker.claim)),
+        me_(striker.claim),
+        from_(from),
+        course_(course),
+        trials_(make_trials(from, course)),
+        overlap_m_(around.overlap_m * std::min(course.waits_s * (1 / presses_after_s), 1.0F)) {
+    tried_ways(broadcast(from), trials_.trial, around.book.instants(), ways_, end_);
+    const std::size_t now = mine_.at(around.book.instant());
+    for (std::size_t s = 0; s < way_samples; ++s) {  // to the bit what others keep clear of
+      ways_.x_m[s][claimed] = mine_.x_m[now + s];
+      ways_.z_m[s][claimed] = mine_.z_m[now + s];
+    }
+    at_ = {mine_.x_m[now], mine_.z_m[now]};
+    for (float& open : open_.lane) open = 1;
+  }
+
+  std::size_t best() {
+    look_at_people();
+    look_at_walls();
+    look_at_discs();
+    from_.speed_m_s > 0 ? prefer_walking() : prefer_standing();
+    std::size_t best = claimed;
+    for (std::size_t l = 1; l < lane_count; ++l)
+      if (open_[l] > 0 && cost_[l] < cost_[best]) best = l;
+    return best;
+  }
+
+  /// What to ask of the gait for a trial.
+  Gait<float> gait(std::size_t l, const GaitStyle& style) const {
+    const Trial<Lanes<float>>& trial = trials_.trial;
+    Gait<float> gait = complete_gait(from_.height_m, trials_.kind[l] == TrialKind::go ? trial.speed_m_s[l] : 0,
+                                     end_.step_length_m[l], style);
+    gait.heading_rad =
+        trial.turn_rad[l] == trials_.wish_rad ? course_.heading_rad : from_.heading_rad + trial.turn_rad[l];
+    if (trials_.kind[l] == TrialKind::aside) {
+      gait.left_m = trial.aside_m[l] * sine(trial.slant_rad[l]);
+      gait.ahead_m = trial.aside_m[l] * cosine(trial.slant_rad[l]);
+    }
+    return gait;
+  }
+
+  void tell(std::size_t l, Chosen& out) const {
+    out.trial = l;
+    out.kind = trials_.kind[l];
+    out.duration_s = end_.duration_s[l];
+    for (std::size_t s = 0; s < way_samples; ++s) {
+      out.x_m[s] = ways_.x_m[s][l];
+      out.z_m[s] = ways_.z_m[s][l];
+    }
+    out.box = box_of(at_, {out.x_m.back(), out.z_m.back()}, off_straight_m);
+  }
+
+ private:
+  /// Trials may come as near to somebody as `apart_m`; or, where the claim comes nearer, as near as that.
+  void keep_clear(const Lanes<float>& least_m2, float apart_m) {
+    const float least = std::min(square(apart_m), least_m2[claimed]);
+    for (std::size_t l = 1; l < lane_count; ++l) open_[l] = least_m2[l] >= least ? open_[l] : 0;
+  }
+
+  GroundBox reached() const {
+    GroundBox box = box_of(at_, at_, 0);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const float x = ways_.x_m[way_samples - 1][l], z = ways_.z_m[way_samples - 1][l];
+      box = {std::min(box.low_x_m, x), std::max(box.high_x_m, x), std::min(box.low_z_m, z), std::max(box.high_z_m, z)};
+    }
+    return box_of({box.low_x_m, box.low_z_m}, {box.high_x_m, box.high_z_m}, off_straight_m);
+  }
+
+  void look_at_people() {
+    box_ = reached();
+    const float reach =
+        std::max({at_.x_m - box_.low_x_m, box_.high_x_m - at_.x_m, at_.z_m - box_.low_z_m, box_.high_z_m - at_.z_m});
+    std::array<Near, most_passers> near;
+    const std::uint32_t instant = around_.book.instant();
+    around_.book.near(at_.x_m, at_.z_m, std::max(reach + 2 * mine_.radius_m, sees_m), [&](std::uint32_t other) {
+      if (other == me_) return;
+      const Claim& claim = around_.book.claim(other);
+      const std::size_t now = claim.at(instant);
+      const float apart = mine_.radius_m + claim.radius_m - overlap_m_;
+      if (claim.box.meets(box_, apart)) {
+        nearest_approach(ways_, &claim.x_m[now], &claim.z_m[now], least_m2_);
+        keep_clear(least_m2_, apart);
+      }
+      const Near one = {square(claim.x_m[now] - at_.x_m) + square(claim.z_m[now] - at_.z_m), claim.who.index, other};
+      if (one.distance2 > square(sees_m) || (passing_ == most_passers && !(one < near[passing_ - 1]))) return;
+      if (passing_ < most_passers) ++passing_;
+      std::size_t i = passing_ - 1;
+      for (; i > 0 && one < near[i - 1]; --i) near[i] = near[i - 1];
+      near[i] = one;
+    });
+    for (std::size_t i = 0; i < passing_; ++i) {
+      const Claim& claim = around_.book.claim(near[i].claim);
+      const std::size_t now = claim.at(instant);
+      const bool stands = now >= way_samples;
+      passer_[i] = {claim.x_m[now], claim.z_m[now], stands ? 0 : claim.x_m_s, stands ? 0 : claim.z_m_s,
+                    mine_.radius_m + claim.radius_m + (claim.yields ? 0 : all_of_the_way_m)};
+    }
+  }
+
+  void look_at_walls() {
+    for (const Wall& wall : around_.walls) {
+      if (!box_of(wall.from, wall.to, 0).meets(box_, mine_.radius_m)) continue;
+      nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, least_m2_);
+      least_m2_[claimed] = square(std::max(std::sqrt(least_m2_[claimed]) - brushes_m, 0.0F));
+      keep_clear(least_m2_, mine_.radius_m - brushes_m);
+    }
+  }
+
+  void look_at_discs() {
+    const WayInstants instants = around_.book.instants();
+    std::array<float, way_samples> x, z;
+    for (const Disc& disc : around_.discs) {
+      for (std::size_t s = 0; s < way_samples; ++s) {
+        const float then = instants.first_s + static_cast<float>(s) * instants.every_s;
+        x[s] = disc.at.x_m + then * disc.x_m_s;
+        z[s] = disc.at.z_m + then * disc.z_m_s;
+      }
+      const float apart = disc.radius_m + mine_.radius_m;
+      if (box_of({x.front(), z.front()}, {x.back(), z.back()}, 0).meets(box_, apart)) {
+        nearest_approach(ways_, x.data(), z.data(), least_m2_);
+        keep_clear(least_m2_, apart);
+      }
+    }
+  }
+
+  /// What meeting people, discs and walls costs on ways from here.
+  void foresee(const Onward<Lanes<float>>& ways, float narrower_m, bool walls, Lanes<float>& cost) const {
+    for (std::size_t i = 0; i < passing_; ++i) {
+      Passer one = passer_[i];
+      one.apart_m -= narrower_m;
+      add_foresight(ways, one, cost);
+    }
+    for (const Disc& disc : around_.discs)
+      if (square(disc.at.x_m - at_.x_m) + square(disc.at.z_m - at_.z_m) < square(sees_m + disc.radius_m))
+        add_foresight(ways,
+                      {disc.at.x_m, disc.at.z_m, disc.x_m_s, disc.z_m_s,
+                       disc.radius_m + mine_.radius_m + all_of_the_way_m - narrower_m},
+                      cost);
+    constexpr float wall_within_m = 2;
+    for (std::size_t i = 0; walls && i < around_.walls.size(); ++i) {
+      const GroundPoint at = nearest_of(around_.walls[i], at_);
+      if (square(at.x_m - at_.x_m) + square(at.z_m - at_.z_m) < square(wall_within_m))
+        add_foresight(ways, {at.x_m, at.z_m, 0, 0, mine_.radius_m - narrower_m}, cost);
+    }
+  }
+
+  /// Whether somebody comes from where the walker wants to go.
+  bool meets_anybody() const {
+    const float x = sine(course_.heading_rad), z = cosine(course_.heading_rad);
+    constexpr float comes_m_s = 0.3F;
+    return std::any_of(
+        passer_.begin(), passer_.begin() + static_cast<std::ptrdiff_t>(passing_), [&](const Passer& one) {
+          return one.x_m_s * x + one.z_m_s * z < -comes_m_s && (one.x_m - at_.x_m) * x + (one.z_m - at_.z_m) * z > 0;
+        });
+  }
+
+  void prefer_walking() {
+    const Onward<Lanes<float>> ways = {end_.duration_s, end_.x_m, end_.z_m, end_.speed_m_s, end_.heading_rad};
+    cost_of_ways(ways, course_.speed_m_s, course_.heading_rad, cost_);
+    foresee(ways, 0, false, cost_);
+    const bool meets = meets_anybody();
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      cost_[l] += of_turning * std::fabs(end_.bend_rad[l]);
+      if (meets && trials_.trial.turn_rad[l] < trials_.wish_rad) cost_[l] -= keeps_right;
+    }
+  }
+
+  /// The velocity at which who stands would go, of sixteen directions; none: to stay costs less.
+  GroundPoint wished_start(float pace_m_s) {
+    Onward<Lanes<float>> ways;
+    constexpr float apart = 2 * std::numbers::pi_v<float> / lane_count;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      ways.x_m[l] = at_.x_m;
+      ways.z_m[l] = at_.z_m;
+      ways.duration_s[l] = 0;
+      ways.speed_m_s[l] = pace_m_s;
+      ways.heading_rad[l] = course_.heading_rad + static_cast<float>(l) * apart;
+    }
+    cost_of_ways(ways, course_.speed_m_s, course_.heading_rad, cost_);
+    foresee(ways, squeezes_m, true, cost_);
+    const bool meets = meets_anybody();
+    constexpr float most_patience = 2, impatience = 0.5F;  // who has waited would rather go anywhere
+    float least = square(course_.speed_m_s) + std::min(most_patience, impatience * course_.waits_s);
+    std::size_t best = lane_count;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const float cost = cost_[l] - (meets && l > lane_count / 2 ? keeps_right : 0);
+      if (cost >= least) continue;
+      least = cost;
+      best = l;
+    }
+    if (best == lane_count) return {0, 0};
+    return {pace_m_s * sine(ways.heading_rad[best]), pace_m_s * cosine(ways.heading_rad[best])};
+  }
+
+  /// Who stands does what comes nearest to the way that they would go.
+  void prefer_standing() {
+    const Trial<Lanes<float>>& trial = trials_.trial;
+    const float pace = trial.speed_m_s[1];
+    const GroundPoint go = wished_start(pace);
+    const float off =
+        go.x_m == 0 && go.z_m == 0 ? 0 : wrapped(static_cast<float>(exact::atan2(go.x_m, go.z_m)) - from_.heading_rad);
+    const bool as_wished = go.x_m * sine(course_.heading_rad) + go.z_m * cosine(course_.heading_rad) > 0.85F * pace;
+    constexpr float of_turning_there = 0.05F, of_turning_away = 0.2F, of_turning_on_spot = 0.1F, of_slower = 0.3F;
+    constexpr float turns_from = 0.5F;  // rad
+    Lanes<float> speed, heading = end_.heading_rad, more{};
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const TrialKind kind = trials_.kind[l];
+      speed[l] = kind == TrialKind::stay ? 0 : pace;
+      if (kind == TrialKind::aside) heading[l] = from_.heading_rad + trial.slant_rad[l];
+      if (kind == TrialKind::go) more[l] = of_slower * square(trial.speed_m_s[l] - pace);
+      if (kind != TrialKind::turn) continue;
+      const bool there = std::fabs(off) > turns_from && off * trial.turn_rad[l] > 0;  // to walk there from then on
+      if (there) heading[l] = from_.heading_rad + off;
+      more[l] = !there ? of_turning_on_spot : as_wished ? of_turning_there : of_turning_away * std::fabs(off);
+    }
+    off_velocity(speed, heading, go.x_m, go.z_m, cost_);
+    for (std::size_t l = 0; l < lane_count; ++l) cost_[l] += more[l];
+  }
+
+  const Surroundings& around_;
+  const Claim& mine_;
+  std::uint32_t me_;
+  const Footing<float>& from_;
+  const Course<float>& course_;
+  Trials trials_;
+  WaySamples<Lanes<float>> ways_;
+  StepEnd<Lanes<float>> end_;
+  float overlap_m_;
+  GroundPoint at_;  // at the book's next instant
+  GroundBox box_;
+  Lanes<float> open_, cost_, least_m2_;  // open: 1 where a trial may be taken
+  std::array<Passer, most_passers> passer_;
+  std::size_t passing_ = 0;
+};
+
+}  // namespace
+
+bool meet(const Chosen& a, const Chosen& b, float apart_m) {
+  if (!a.box.meets(b.box, apart_m)) return false;
+  for (std::size_t s = 0; s < way_samples; ++s)
+    if (square(a.x_m[s] - b.x_m[s]) + square(a.z_m[s] - b.z_m[s]) < square(apart_m)) return true;
+  return false;
+}
+
+void choose_step(const Surroundings& around, const Striker& striker, Chosen& out) {
+  const Table& table = *striker.table;
+  const auto block_of = [&](const auto& column) -> const auto& {
+    return column.at(table, striker.block);
+  };
+  Footing<Lanes<float>> footing;
+  next_footing(block_of(TableColumn<BodySize>(table)), block_of(TableColumn<StepPlan>(table)),
+               block_of(TableColumn<GaitState>(table)), footing);
+  const Course<float> course = row_of(block_of(TableColumn<Course>(table)), striker.lane);
+  const Gait<float> before = row_of(block_of(TableColumn<Gait>(table)), striker.lane);
+  Footing<float> from = row_of(footing, striker.lane);
+  from.usual = course.usual;
+  out = {};
+  out.gait = out.as_claimed = before;
+  out.under_way = from.speed_m_s <= 0 && from.length_before_m > 0;
+  if (out.under_way) return;
+  if (from.speed_m_s <= 0 && course.speed_m_s <= 0) {  // stays, and turns
+    out.gait = complete_gait(from.height_m, 0, 0, before.style);
+    out.gait.heading_rad = course.heading_rad;
+    return;
+  }
+  Choice choice(around, striker, from, course);
+  const std::size_t best = choice.best();
+  choice.tell(best, out);
+  out.gait = choice.gait(best, before.style);
+  out.as_claimed = choice.gait(claimed, before.style);
+}
+
+}  // namespace mobil

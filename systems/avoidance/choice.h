@@ -1,0 +1,41 @@
+#pragma once
+// Which step a walker takes at a heel strike: of those that are clear of everybody's claims, the one that costs least.
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "components/gait.h"
+#include "systems/avoidance/claims.h"
+#include "systems/avoidance/obstacles.h"
+#include "systems/avoidance/trials.h"
+
+namespace mobil {
+
+/// What a choice looks at. Two may overlap by `overlap_m`: that much claims may come nearer than both radii.
+struct Surroundings {
+  const ClaimBook& book;
+  std::span<const Wall> walls;
+  std::span<const Disc> discs;
+  float overlap_m;
+};
+
+/// What somebody chose: the trial and what to ask of the gait for it, or, if someone else goes first, `as_claimed`;
+/// where that leads, at the book's instants.
+struct Chosen {
+  std::size_t trial = claimed;
+  TrialKind kind = TrialKind::stay;
+  bool under_way = false;  // of a step aside: nothing is asked
+  Gait<float> gait{}, as_claimed{};
+  float duration_s = 0;
+  std::array<float, way_samples> x_m{}, z_m{};
+  GroundBox box{};
+};
+
+/// From any thread.
+void choose_step(const Surroundings& around, const Striker& striker, Chosen& out);
+
+/// Whether two ways come nearer than that.
+bool meet(const Chosen& a, const Chosen& b, float apart_m);
+
+}  // namespace mobil

@@ -1,0 +1,140 @@
+#include "systems/avoidance/claims.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "components/avoidance.h"
+#include "engine/access.h"
+#include "engine/each.h"
+#include "engine/exact_math.h"
+#include "systems/gait/gait.h"
+
+namespace mobil {
+namespace {
+
+/// Where somebody goes who avoids nobody: on as the step that is under way leads.
+void go_on(const WayInstants& at, Claim& claim) {
+  const float x = claim.x_m[0], z = claim.z_m[0];
+  for (std::size_t s = 1; s < way_samples; ++s) {
+    claim.x_m[s] = x + static_cast<float>(s) * at.every_s * claim.x_m_s;
+    claim.z_m[s] = z + static_cast<float>(s) * at.every_s * claim.z_m_s;
+  }
+}
+
+void finish(Claim& claim) {
+  std::fill(claim.x_m.begin() + way_samples, claim.x_m.end(), claim.x_m[way_samples - 1]);
+  std::fill(claim.z_m.begin() + way_samples, claim.z_m.end(), claim.z_m[way_samples - 1]);
+  const auto [low_x, high_x] = std::minmax_element(claim.x_m.begin(), claim.x_m.begin() + way_samples);
+  const auto [low_z, high_z] = std::minmax_element(claim.z_m.begin(), claim.z_m.begin() + way_samples);
+  claim.box = {*low_x, *high_x, *low_z, *high_z};
+}
+
+}  // namespace
+
+void ClaimBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float radius_h) {
+  const std::uint32_t every = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(0.1F / tick_s + 0.5F));
+  instant_ = (tick + every) / every;  // the first after the tick to come
+  every_s_ = static_cast<float>(every) * tick_s;
+  first_s_ = static_cast<float>(instant_ * every - tick) * tick_s;
+  list(world);
+  in_parallel(jobs, blocks_.size(), [&](std::size_t begin, std::size_t end) {
+    const FlushDenormals flush;  // as in a tick
+    for (std::size_t b = begin; b < end; ++b) remake(blocks_[b], tick_s, radius_h);
+  });
+  strikers_.clear();
+  for (const BlockOf& at : blocks_) {
+    for (std::uint32_t lanes = at.striking; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
+      strikers_.push_back({at.table, at.block, lane, seen_[at.first + lane]});
+    }
+  }
+  sort();
+}
+
+/// All walkers' rows, each with a claim of its own.
+void ClaimBook::list(World& world) {
+  if (claims_.size() > 2 * seen_.size() + 4096) {  // most are of people who have gone
+    claims_.clear();
+    std::ranges::fill(claim_of_, none);
+  }
+  blocks_.clear();
+  seen_.clear();
+  for (Table& table : world.tables()) {
+    if (!TableColumn<GaitState>(table) || !TableColumn<StepPlan>(table) || !TableColumn<BodySize>(table)) continue;
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      blocks_.push_back({&table, static_cast<std::uint32_t>(b), static_cast<std::uint32_t>(seen_.size()), 0});
+      const Entity* const entities = table.entities(b);
+      for (std::size_t lane = 0; lane < table.live(b); ++lane) {
+        const Entity who = entities[lane];
+        if (who.index >= claim_of_.size()) claim_of_.resize(std::max<std::size_t>(who.index + 1, 64), none);
+        std::uint32_t& number = claim_of_[who.index];
+        if (number == none) {
+          number = static_cast<std::uint32_t>(claims_.size());
+          claims_.push_back({});
+        }
+        seen_.push_back(number);
+      }
+    }
+  }
+}
+
+void ClaimBook::remake(BlockOf& at, float tick_s, float radius_h) {
+  Table& table = *at.table;
+  const auto& size = TableColumn<BodySize>(table).at(table, at.block);
+  const auto& plan = TableColumn<StepPlan>(table).at(table, at.block);
+  const auto& state = TableColumn<GaitState>(table).at(table, at.block);
+  const TableColumn<Course> courses(table);
+  const ClockUnits units = clock_units(tick_s);
+  const Entity* const entities = table.entities(at.block);
+  std::uint32_t changed = 0;
+  at.striking = 0;
+  for (std::uint32_t l = 0; l < table.live(at.block); ++l) {
+    const Claim::Source source = {entities[l].generation, state.steps[l],          state.line_x_m[l],
+                                  state.line_z_m[l],      state.heading_rad[l],    plan.duration_s[l],
+                                  plan.to.speed_m_s[l],   state.bend_next_per_m[l]};
+    Claim& claim = claims_[seen_[at.first + l]];
+    claim.radius_m = courses ? courses.at(table, at.block).radius_m[l] : radius_h * size.height_m[l];
+    claim.yields = static_cast<bool>(courses);
+    if (courses && units.of(state.time_s[l]) + units.per_tick >= units.step(plan.duration_s[l])) at.striking |= 1U << l;
+    if (claim.source == source && claim.who == entities[l]) continue;
+    claim.source = source;
+    claim.who = entities[l];
+    claim.first = instant_;
+    changed |= 1U << l;
+  }
+  if (changed == 0) return;
+  WaySamples<Lanes<float>> ways;
+  claim_ways(size, plan, state, instants(), ways);
+  for (; changed != 0; changed &= changed - 1) {
+    const auto l = static_cast<std::uint32_t>(std::countr_zero(changed));
+    Claim& claim = claims_[seen_[at.first + l]];
+    for (std::size_t s = 0; s < way_samples; ++s) {
+      claim.x_m[s] = ways.x_m[s][l];
+      claim.z_m[s] = ways.z_m[s][l];
+    }
+    const double heading = double{state.heading_rad[l]} + double{state.turn_rad[l]};
+    claim.x_m_s = plan.to.speed_m_s[l] * static_cast<float>(exact::sin(heading));
+    claim.z_m_s = plan.to.speed_m_s[l] * static_cast<float>(exact::cos(heading));
+    if (!courses) go_on(instants(), claim);
+    finish(claim);
+  }
+}
+
+/// By cells of the ground: a counting sort.
+void ClaimBook::sort() {
+  buckets_ = std::bit_ceil(2 * seen_.size() + 1);
+  starts_.assign(buckets_ + 2, 0);
+  unsorted_.clear();
+  longest_m_ = 0;
+  for (const std::uint32_t number : seen_) {
+    const GroundBox& box = claims_[number].box;
+    longest_m_ = std::max({longest_m_, 0.5F * (box.high_x_m - box.low_x_m), 0.5F * (box.high_z_m - box.low_z_m)});
+    unsorted_.push_back({cell(0.5F * (box.low_x_m + box.high_x_m)), cell(0.5F * (box.low_z_m + box.high_z_m)), number});
+    ++starts_[bucket(unsorted_.back().x, unsorted_.back().z) + 2];
+  }
+  for (std::size_t b = 2; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
+  sorted_.resize(seen_.size());
+  for (const Sorted& one : unsorted_) sorted_[starts_[bucket(one.x, one.z) + 1]++] = one;
+}
+
+}  // namespace mobil

@@ -1,0 +1,125 @@
+#pragma once
+// Everybody's claim, and who is near whom.
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "engine/entity.h"
+#include "engine/jobs.h"
+#include "engine/row_hash.h"
+#include "engine/world.h"
+#include "systems/avoidance/ways.h"
+
+namespace mobil {
+
+/// A rectangle of the ground, m.
+struct GroundBox {
+  float low_x_m, high_x_m, low_z_m, high_z_m;
+
+  bool meets(const GroundBox& other, float within_m) const {
+    return low_x_m <= other.high_x_m + within_m && other.low_x_m <= high_x_m + within_m &&
+           low_z_m <= other.high_z_m + within_m && other.low_z_m <= high_z_m + within_m;
+  }
+};
+
+/// Where somebody is at the instants from `first` on, and then stays; how fast they go as their step ends.
+struct Claim {
+  /// Of claims that were made up to that many instants ago a whole row of way_samples is still there.
+  static constexpr std::size_t kept = 2 * way_samples;
+  /// What it was made from.
+  struct Source {
+    std::uint32_t generation, steps;
+    float line_x_m, line_z_m, heading_rad, duration_s, speed_m_s, bend_next_per_m;
+    bool operator==(const Source&) const = default;
+  };
+
+  Entity who;
+  std::uint32_t first;
+  Source source;
+  GroundBox box;
+  float x_m_s, z_m_s, radius_m;
+  bool yields;  // avoids others too
+  std::array<float, kept> x_m, z_m;
+
+  std::size_t at(std::uint32_t instant) const {
+    const std::uint32_t since = instant - first;
+    return since < way_samples ? since : way_samples;
+  }
+};
+
+/// A walker whose next step begins in the tick to come.
+struct Striker {
+  Table* table;
+  std::uint32_t block, lane, claim;
+};
+
+/// The claims of all walkers.
+class ClaimBook {
+ public:
+  /// Goes over all walkers: makes claims anew where steps have begun since or anything else has changed.
+  void refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float radius_h);
+
+  /// The next instant of claims, all after the tick to come.
+  std::uint32_t instant() const { return instant_; }
+  WayInstants instants() const { return {first_s_, every_s_}; }
+  /// Those who avoid others and are about to begin a step, in the order of their rows.
+  const std::vector<Striker>& strikers() const { return strikers_; }
+  std::size_t people() const { return seen_.size(); }
+  std::size_t claims() const { return claims_.size(); }
+  const Claim& claim(std::uint32_t number) const { return claims_[number]; }
+
+  /// `f(number)` for all whose claims come within `reach_m` of a place, and some more. From any thread.
+  template <class F>
+  void near(float x_m, float z_m, float reach_m, const F& f) const {
+    if (seen_.empty()) return;
+    const float reach = reach_m + longest_m_;
+    const std::int32_t low_x = cell(x_m - reach), high_x = cell(x_m + reach);
+    const std::int32_t low_z = cell(z_m - reach), high_z = cell(z_m + reach);
+    for (std::int32_t x = low_x; x <= high_x; ++x) {
+      for (std::int32_t z = low_z; z <= high_z; ++z) {
+        const std::size_t b = bucket(x, z);
+        for (std::uint32_t i = starts_[b]; i < starts_[b + 1]; ++i)
+          if (sorted_[i].x == x && sorted_[i].z == z) f(sorted_[i].claim);
+      }
+    }
+  }
+
+ private:
+  struct BlockOf {
+    Table* table;
+    std::uint32_t block, first;  // in seen_
+    std::uint32_t striking;      // lanes
+  };
+  struct Sorted {
+    std::int32_t x, z;
+    std::uint32_t claim;
+  };
+  static constexpr float cell_m = 1.5F;
+  static constexpr std::uint32_t none = 0xFFFFFFFFU;
+
+  static std::int32_t cell(float m) { return static_cast<std::int32_t>(std::floor(m * (1 / cell_m))); }
+  std::size_t bucket(std::int32_t x, std::int32_t z) const {
+    const std::uint64_t both = std::uint64_t{static_cast<std::uint32_t>(x)} << 32U | static_cast<std::uint32_t>(z);
+    return mix64(both) & (buckets_ - 1);
+  }
+  void list(World& world);
+  void remake(BlockOf& at, float tick_s, float radius_h);
+  void sort();
+
+  std::uint32_t instant_ = 0;
+  float first_s_ = 0, every_s_ = 0;
+  std::vector<Claim> claims_;
+  std::vector<std::uint32_t> claim_of_;  // by entity index
+  std::vector<std::uint32_t> seen_;      // claims of all rows, block by block
+  std::vector<BlockOf> blocks_;
+  std::vector<Striker> strikers_;
+  float longest_m_ = 0;  // half of the longest side of any box
+  std::size_t buckets_ = 1;
+  std::vector<std::uint32_t> starts_;
+  std::vector<Sorted> sorted_, unsorted_;
+};
+
+}  // namespace mobil

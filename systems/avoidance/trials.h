@@ -1,0 +1,25 @@
+#pragma once
+// The sixteen steps that a walker may choose from at a heel strike. The first is what the walker's claim has: to stop
+// as soon as may be, or to stay.
+
+#include "components/avoidance.h"
+#include "systems/avoidance/ways.h"
+
+namespace mobil {
+
+inline constexpr std::size_t claimed = 0;
+
+/// How a trial is asked for.
+enum class TrialKind : std::uint8_t { go, stay, turn, aside };
+
+struct Trials {
+  Trial<Lanes<float>> trial;
+  TrialKind kind[lane_count];
+  float wish_rad;  // the turn to where the walker wants to go
+};
+
+/// Of who walks: three speeds, five turns each. Of who stands: starts at two speeds and five turns, turns on the spot
+/// either way, steps aside to either side and back.
+Trials make_trials(const Footing<float>& at, const Course<float>& course);
+
+}  // namespace mobil

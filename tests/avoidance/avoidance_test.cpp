@@ -1,0 +1,363 @@
+// Walkers who keep out of each other's way: what is promised of claims, and what crowds do.
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "components/avoidance.h"
+#include "engine/row_hash.h"
+#include "engine/rows.h"
+#include "systems/avoidance/avoidance.h"
+#include "systems/avoidance/claims.h"
+#include "systems/avoidance/trials.h"
+#include "systems/simulation.h"
+#include "systems/simulation_world.h"
+#include "tests/engine/counting_heap.h"
+
+namespace mobil {
+namespace {
+
+constexpr float pi = std::numbers::pi_v<float>;
+constexpr float tick_s = 1.0F / 60;
+
+float drawn(std::uint64_t a, std::uint64_t b) {
+  return static_cast<float>(mix64(mix64(a + 1) ^ b) >> 40) * 0x1p-24F;
+}
+
+Entity walker(Simulation& simulation, float speed_m_s, float x_m = 0, float z_m = 0, float heading_rad = 0,
+              float height_m = 1.72F) {
+  const Entity one =
+      simulation.spawn({.height_m = height_m, .mass_kg = 24 * height_m * height_m}, {.speed_m_s = speed_m_s}).value();
+  EXPECT_TRUE(simulation.place(one, x_m, z_m, heading_rad));
+  return one;
+}
+
+Root root_of(const Simulation& simulation, Entity one) {
+  Root root;
+  EXPECT_TRUE(simulation.roots({&one, 1}, {&root, 1}));
+  return root;
+}
+
+void tick_to_strike(Simulation& simulation, Entity one) {
+  const std::uint32_t steps = simulation.get<GaitState>(one)->steps;
+  while (simulation.get<GaitState>(one)->steps == steps) simulation.tick();
+}
+
+const Claim& claim_of(ClaimBook& book, Simulation& simulation) {
+  book.refresh(world_of(simulation), {}, simulation.ticks(), tick_s, 0.128F);
+  return book.claim(0);
+}
+
+/// How far roots are from a way at its instants.
+double astray_m(Simulation& simulation, Entity one, std::uint32_t first, const float* x_m, const float* z_m) {
+  double most = 0;
+  for (int k = 0; k < 150; ++k) {
+    simulation.tick();
+    const std::uint32_t every = 6, instant = simulation.ticks() / every;
+    if (simulation.ticks() % every != 0 || instant < first || instant >= first + way_samples) continue;
+    const Root at = root_of(simulation, one);
+    most = std::max(most, std::hypot(at.x_m - double{x_m[instant - first]}, at.z_m - double{z_m[instant - first]}));
+  }
+  return most;
+}
+
+/// A claim is where the walker will be who is asked to stop at the next strike and to go straight on until then.
+RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
+  const float speed = static_cast<float>(*rc::gen::inRange(30, 220)) * 0.01F;
+  const float turn = static_cast<float>(*rc::gen::inRange(-180, 180)) * pi / 180;
+  Simulation simulation;
+  const Entity one = walker(simulation, speed, 3, -2, 0.4F);
+  Avoidance avoidance(simulation);
+  RC_ASSERT(avoidance.manage(one).has_value());
+  simulation.tick(60);
+  RC_ASSERT(simulation.turn_to(one, turn).has_value());
+  simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(0, 200)));
+  tick_to_strike(simulation, one);
+  ClaimBook book;
+  const Claim claim = claim_of(book, simulation);
+  const auto state = *simulation.get<GaitState>(one);
+  RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
+  RC_ASSERT(simulation.turn_to(one, state.heading_rad + state.turn_rad).has_value());
+  // Who needs several steps to stop is asked for a heading in between, which nobody knows beforehand to the bit.
+  const double most = speed <= 1.3F ? 0.002 : 0.12;
+  RC_ASSERT(astray_m(simulation, one, claim.first, claim.x_m.data(), claim.z_m.data()) < most);
+}
+
+/// Every step that may be chosen leads where it was said to: the claim made of it then has the same places.
+RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
+  const bool stands = *rc::gen::inRange(0, 3) == 0;
+  const float speed = stands ? 0.0F : static_cast<float>(*rc::gen::inRange(40, 150)) * 0.01F;
+  Simulation simulation;
+  const Entity one = walker(simulation, stands ? 1.2F : speed, 1, 2, -0.7F);
+  Avoidance avoidance(simulation);
+  RC_ASSERT(avoidance.manage(one).has_value());
+  simulation.tick(90);
+  RC_ASSERT(simulation.turn_to(one, static_cast<float>(*rc::gen::inRange(-150, 150)) * pi / 180).has_value());
+  if (stands) RC_ASSERT(simulation.change_gait(one, {.speed_m_s = 0.0F}).has_value());
+  simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(stands ? 500 : 0, stands ? 560 : 160)));
+  ClaimBook book;
+  while (claim_of(book, simulation), book.strikers().empty()) simulation.tick();
+  Footing<Lanes<float>> footing;
+  next_footing(broadcast(*simulation.get<BodySize>(one)), broadcast(*simulation.get<StepPlan>(one)),
+               broadcast(*simulation.get<GaitState>(one)), footing);
+  RC_PRE(row_of(footing, 0).speed_m_s > 0 || row_of(footing, 0).length_before_m == 0);
+  Course<float> course = *simulation.get<Course>(one);
+  course.heading_rad += 0.3F;
+  course.speed_m_s = 1.3F;
+  const Trials trials = make_trials(row_of(footing, 0), course);
+  WaySamples<Lanes<float>> ways;
+  StepEnd<Lanes<float>> end;
+  tried_ways(footing, trials.trial, book.instants(), ways, end);
+  const auto l = static_cast<std::size_t>(*rc::gen::inRange(1, 16));
+  const bool go = trials.kind[l] == TrialKind::go;
+  RC_ASSERT(simulation.change_gait(one, {.speed_m_s = go ? trials.trial.speed_m_s[l] : 0.0F}).has_value());
+  RC_ASSERT(simulation.turn_to(one, footing.heading_rad[0] + trials.trial.turn_rad[l]).has_value());
+  if (trials.kind[l] == TrialKind::aside) {
+    RC_ASSERT(simulation
+                  .step_aside(one, trials.trial.aside_m[l] * std::sin(trials.trial.slant_rad[l]),
+                              trials.trial.aside_m[l] * std::cos(trials.trial.slant_rad[l]))
+                  .has_value());
+  }
+  const std::uint32_t first = book.instant();
+  simulation.tick();
+  const Claim& claim = claim_of(book, simulation);
+  RC_ASSERT(claim.first >= first && claim.first <= first + 1);
+  for (std::size_t s = claim.first - first; s < way_samples; ++s) {
+    const double off = std::hypot(double{ways.x_m[s][l]} - double{claim.x_m[s + first - claim.first]},
+                                  double{ways.z_m[s][l]} - double{claim.z_m[s + first - claim.first]});
+    // On the way where hips are at the strike is known to three centimetres, at the end all is.
+    RC_ASSERT(off < (s + 1 == way_samples ? 0.006 : 0.03));
+  }
+}
+
+TEST(Avoidance, TwoWhoMeetPassWithoutStopping) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Entity a = walker(simulation, 1.3F, 0, -8, 0), b = walker(simulation, 1.3F, 0, 8, pi);
+  ASSERT_TRUE(avoidance.manage(a));
+  ASSERT_TRUE(avoidance.manage(b));
+  const WalkWish wishes[] = {{a, 1.3F, 0}, {b, 1.3F, pi}};
+  ASSERT_TRUE(avoidance.want(wishes));
+  double least = 10;
+  for (int k = 0; k < 900; ++k) {
+    avoidance.update();
+    simulation.tick();
+    const Root at = root_of(simulation, a), other = root_of(simulation, b);
+    least = std::min(least, std::hypot(at.x_m - other.x_m, at.z_m - other.z_m));
+    EXPECT_GT(simulation.get<StepPlan>(a)->to.speed_m_s, 0.25F);
+  }
+  EXPECT_GT(least, 0.42);
+  EXPECT_LT(least, 2);
+  EXPECT_GT(root_of(simulation, a).z_m, 8);
+  EXPECT_LT(root_of(simulation, b).z_m, -8);
+}
+
+/// People in a closed room, each with places to go to one after the other.
+struct Room {
+  static constexpr std::size_t people = 40;
+  static constexpr float side_m = 8;
+
+  explicit Room(int threads) : simulation({.threads = threads}), avoidance(simulation) {
+    for (std::size_t i = 0; i < people; ++i) {
+      const float x = side_m * ((static_cast<float>(i % 7) + 0.5F) / 7 - 0.5F);
+      const float z = side_m * ((static_cast<float>(i / 7) + 0.5F) / 6 - 0.5F);
+      who.push_back(walker(simulation, 0, x, z, 6 * drawn(i, 1), 1.6F + 0.25F * drawn(i, 2)));
+      EXPECT_TRUE(avoidance.manage(who.back()));
+    }
+    constexpr float h = side_m / 2;
+    const Wall walls[] = {{{-h, -h}, {h, -h}}, {{h, -h}, {h, h}}, {{h, h}, {-h, h}}, {{-h, h}, {-h, -h}}};
+    EXPECT_TRUE(avoidance.set_walls(walls));
+    roots.resize(people);
+  }
+
+  void tick() {
+    const std::uint32_t now = simulation.ticks();
+    if (now % 15 == 0) {
+      EXPECT_TRUE(simulation.roots(who, roots));
+      wishes.clear();
+      for (std::size_t i = 0; i < people; ++i) {
+        const std::uint64_t goal = i * 1000 + (now + 31 * i) / 600;
+        const auto x = static_cast<double>((side_m - 1) * (drawn(goal, 3) - 0.5F));
+        const auto z = static_cast<double>((side_m - 1) * (drawn(goal, 4) - 0.5F));
+        const float heading = static_cast<float>(std::atan2(x - roots[i].x_m, z - roots[i].z_m));
+        const bool there = std::hypot(x - roots[i].x_m, z - roots[i].z_m) < 0.7;
+        wishes.push_back({who[i], there ? 0 : 1.1F + 0.4F * drawn(i, 5), heading});
+      }
+      EXPECT_TRUE(avoidance.want(wishes));
+    }
+    report = avoidance.update();
+    simulation.tick();
+  }
+
+  Simulation simulation;
+  Avoidance avoidance;
+  std::vector<Entity> who;
+  std::vector<Root> roots;
+  std::vector<WalkWish> wishes;
+  AvoidanceReport report;
+};
+
+TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
+  Room room(1);
+  double walked = 0;
+  for (int k = 0; k < 60 * 60; ++k) {
+    const auto before = room.roots;
+    room.tick();
+    ASSERT_TRUE(room.simulation.roots(room.who, room.roots));
+    for (std::size_t i = 0; i < Room::people; ++i) {
+      const auto radius = [&](std::size_t p) { return double{room.simulation.get<Course>(room.who[p])->radius_m}; };
+      if (k > 0) walked += std::hypot(room.roots[i].x_m - before[i].x_m, room.roots[i].z_m - before[i].z_m);
+      const double wall = Room::side_m / 2 - std::max(std::abs(room.roots[i].x_m), std::abs(room.roots[i].z_m));
+      if (k % 5 != 0) continue;
+      ASSERT_GT(wall, radius(i) - 0.05);
+      for (std::size_t j = 0; j < i; ++j) {
+        const double apart = std::hypot(room.roots[i].x_m - room.roots[j].x_m, room.roots[i].z_m - room.roots[j].z_m);
+        ASSERT_GT(apart, radius(i) + radius(j) - 0.065) << i << " and " << j << " after " << k << " ticks";
+      }
+    }
+  }
+  EXPECT_GT(walked / Room::people, 6) << "they do get about";
+}
+
+TEST(Avoidance, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
+  Room one(1), three(3);
+  std::vector<std::byte> saved;
+  for (int k = 0; k < 900; ++k) {
+    one.tick();
+    three.tick();
+    if (k != 400) continue;
+    ASSERT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
+    saved.resize(one.simulation.snapshot_bytes());
+    ASSERT_TRUE(one.simulation.save(saved));
+  }
+  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
+  ASSERT_TRUE(three.simulation.restore(saved));
+  for (int k = 401; k < 900; ++k) three.tick();
+  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
+}
+
+TEST(Avoidance, ASteadyCrowdTakesNoMemory) {
+  Room room(1);
+  for (int k = 0; k < 300; ++k) room.tick();
+  std::size_t requests = 0;
+  for (int k = 0; k < 120; ++k) {
+    const std::size_t before = heap_requests;
+    room.avoidance.update();
+    requests += heap_requests - before;
+    room.simulation.tick();
+  }
+  EXPECT_EQ(requests, 0U);
+}
+
+TEST(Avoidance, WhoAvoidsNobodyIsAvoidedAndSoAreDiscs) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Entity a = walker(simulation, 1.2F, 0, -6, 0), b = walker(simulation, 1.2F, 0.1F, 6, pi);
+  ASSERT_TRUE(avoidance.manage(a));
+  double least = 10, least_disc = 10;
+  for (int k = 0; k < 900; ++k) {
+    const Disc pillar = {{-0.1F, 4}, 0.3F};
+    ASSERT_TRUE(avoidance.set_discs({&pillar, 1}));
+    avoidance.update();
+    simulation.tick();
+    const Root at = root_of(simulation, a), other = root_of(simulation, b);
+    least = std::min(least, std::hypot(at.x_m - other.x_m, at.z_m - other.z_m));
+    least_disc = std::min(least_disc, std::hypot(at.x_m + 0.1, at.z_m - 4));
+  }
+  EXPECT_GT(least, 0.40);
+  EXPECT_GT(least_disc, 0.51);
+  EXPECT_GT(root_of(simulation, a).z_m, 5);
+}
+
+TEST(Avoidance, WhoIsPutIntoACrowdGetsOutOfIt) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  std::vector<Entity> all;
+  for (int i = 0; i < 5; ++i) {
+    all.push_back(walker(simulation, 0, 0.2F * static_cast<float>(i), 0.15F * static_cast<float>(i % 2)));
+    ASSERT_TRUE(avoidance.manage(all.back()));
+  }
+  std::vector<WalkWish> wishes;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    wishes.push_back({all[i], 1, 2 * pi * static_cast<float>(i) / static_cast<float>(all.size())});
+  ASSERT_TRUE(avoidance.want(wishes));
+  for (int k = 0; k < 1200; ++k) {
+    avoidance.update();
+    simulation.tick();
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Root a = root_of(simulation, all[i]), b = root_of(simulation, all[j]);
+      EXPECT_GT(std::hypot(a.x_m - b.x_m, a.z_m - b.z_m), 1) << i << " and " << j;
+    }
+  }
+}
+
+TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Entity one = walker(simulation, 1.2F);
+  ASSERT_TRUE(avoidance.manage(one));
+  for (int k = 0; k < 300; ++k) {
+    avoidance.update();
+    simulation.tick();
+  }
+  ASSERT_EQ(simulation.sleep({&one, 1}).value(), 1U);
+  for (int k = 0; k < 120; ++k) {
+    avoidance.update();
+    simulation.tick();
+  }
+  const Entity entity = one;
+  ASSERT_TRUE(simulation.wake({&entity, 1}));
+  EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.2F, 1e-6F);
+  ASSERT_TRUE(avoidance.release(one));
+  EXPECT_FALSE(simulation.get<Course>(one));
+  const double before = root_of(simulation, one).z_m;
+  avoidance.update();
+  simulation.tick(60);
+  EXPECT_NEAR(root_of(simulation, one).z_m - before, 1.2, 0.1);
+}
+
+TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
+  Simulation with, without;
+  Avoidance avoidance(with);
+  const Entity a = walker(with, 1.25F), b = walker(without, 1.25F);
+  ASSERT_TRUE(avoidance.manage(a));
+  for (int k = 0; k < 600; ++k) {
+    avoidance.update();
+    with.tick();
+    without.tick();
+  }
+  const Root one = root_of(with, a), other = root_of(without, b);
+  EXPECT_EQ(one.x_m, other.x_m);
+  EXPECT_NEAR(one.z_m, other.z_m, 1e-3);
+}
+
+TEST(Avoidance, SaysWhatIsWrong) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Entity one = walker(simulation, 1), posed = simulation.spawn_posed({}).value();
+  const auto line = [](const Result<void>& result) { return result ? std::string() : result.error().message; };
+  EXPECT_NE(line(avoidance.manage(posed)).find("discs"), std::string::npos);
+  EXPECT_EQ(avoidance.manage(Entity{}).error().status, Status::stale_entity);
+  const WalkWish early = {one, 1, 0};
+  EXPECT_EQ(avoidance.want({&early, 1}).error().status, Status::missing);
+  EXPECT_FALSE(avoidance.release(one));
+  ASSERT_TRUE(avoidance.manage(one));
+  const WalkWish fast[] = {{one, 1.2F, 1}, {one, 9, 0}};
+  EXPECT_NE(line(avoidance.want(fast)).find("speed"), std::string::npos);
+  EXPECT_EQ(simulation.get<Course>(one)->speed_m_s, 1.0F) << "all or none";
+  const WalkWish nowhere = {one, 1, std::nanf("")};
+  EXPECT_NE(line(avoidance.want({&nowhere, 1})).find("heading"), std::string::npos);
+  const Wall wall = {{0, 0}, {std::nanf(""), 0}};
+  EXPECT_NE(line(avoidance.set_walls({&wall, 1})).find("wall"), std::string::npos);
+  const Disc disc = {{0, 0}, -1};
+  EXPECT_NE(line(avoidance.set_discs({&disc, 1})).find("radius"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -21,6 +21,7 @@ import re
 import sys
 
 US, NS, MS = ("µs", 1), ("ns", 1), ("ms", 1e-3)  # unit shown, and its number in one of the file's
+SPEED, CM = ("m/s", 1), ("cm", 1)
 PERCENT, TIMES = ("%", 100), ("times", 1)
 
 # name: rows of what is told, the figure's name in the file, and how it is shown
@@ -36,6 +37,22 @@ TABLES = {
         ("a muscle's line of action", "lines.us_per_muscle_tick", US),
         ("a vertex of muscle or bone, by its control points", "skinning.ns_per_vertex", NS),
         ("a vertex of skin, of somebody near", "skin.near.ns_per_vertex", NS),
+    ],
+    "avoidance": [
+        ("one way, 0.5 people a m²", "avoidance.one_way_0.5.m_per_s", SPEED),
+        ("one way, 1", "avoidance.one_way_1.m_per_s", SPEED),
+        ("one way, 2", "avoidance.one_way_2.m_per_s", SPEED),
+        ("both ways, 0.2", "avoidance.both_ways_0.2.m_per_s", SPEED),
+        ("both ways, 0.5", "avoidance.both_ways_0.5.m_per_s", SPEED),
+        ("both ways, 1", "avoidance.both_ways_1.m_per_s", SPEED),
+        ("crossing, 0.5", "avoidance.crossing_0.5.m_per_s", SPEED),
+        ("crossing, 1", "avoidance.crossing_1.m_per_s", SPEED),
+        ("through a door of 1.2 m", "avoidance.door.people_per_s", ("people/s", 1)),
+        ("worst overlap one way, 2 people a m²", "avoidance.one_way_2.overlap_cm", CM),
+        ("both ways, 1", "avoidance.both_ways_1.overlap_cm", CM),
+        ("crossing, 1", "avoidance.crossing_1.overlap_cm", CM),
+        ("at the door", "avoidance.door.overlap_cm", CM),
+        ("choosing, a person and tick, crossing, 1", "avoidance.crossing_1.us_per_human_tick", US),
     ],
     "muscles": [
         ("a step of 81 nodes, explicit, one stiffness for all", "fem.ecd81.shared.us_per_step", US),

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/access.h"
@@ -26,7 +27,9 @@ struct Avoidance::Work {
 };
 
 Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
-    : simulation_(simulation), options_(options), work_(std::make_unique<Work>()) {}
+    : simulation_(simulation),
+      options_{std::clamp(options.radius_h, 0.02F, 0.5F), std::clamp(options.overlap_m, 0.0F, 0.2F)},
+      work_(std::make_unique<Work>()) {}
 Avoidance::~Avoidance() = default;
 Avoidance::Avoidance(Avoidance&&) noexcept = default;
 

@@ -37,10 +37,11 @@ struct WalkWish {
   float speed_m_s, heading_rad;
 };
 
+/// How much room people keep. What is out of range is taken as the end that is nearer.
 struct AvoidanceOptions {
-  /// Half the breadth kept clear, of the height: 0.22 m at 1.72 m.
+  /// Half the breadth kept clear, of the height: 0.22 m at 1.72 m. 0.02 to 0.5.
   float radius_h = 0.128F;
-  /// How far two may overlap, m: clothes and arms give way.
+  /// How far two may overlap who have waited, m: clothes and arms give way. 0 to 0.2.
   float overlap_m = 0.03F;
 };
 
@@ -50,6 +51,7 @@ struct AvoidanceReport {
   std::size_t people = 0, chose = 0, kept_claim = 0, gave_way = 0, waiting = 0;
 };
 
+/// Chooses the steps of those it manages, before each tick.
 class Avoidance {
  public:
   /// Works on `simulation`, which must outlive it and stay where it is.

@@ -78,6 +78,12 @@ class ClaimBook {
     const float reach = reach_m + longest_m_;
     const std::int32_t low_x = cell(x_m - reach), high_x = cell(x_m + reach);
     const std::int32_t low_z = cell(z_m - reach), high_z = cell(z_m + reach);
+    constexpr double most_cells = 4096;  // more of them take longer than everybody one after the other
+    const double wide = 1.0 + high_x - low_x, deep = 1.0 + high_z - low_z;
+    if (wide * deep > most_cells) {
+      for (const Sorted& one : sorted_) f(one.claim);
+      return;
+    }
     for (std::int32_t x = low_x; x <= high_x; ++x) {
       for (std::int32_t z = low_z; z <= high_z; ++z) {
         const std::size_t b = bucket(x, z);
@@ -100,7 +106,11 @@ class ClaimBook {
   static constexpr float cell_m = 1.5F;
   static constexpr std::uint32_t none = 0xFFFFFFFFU;
 
-  static std::int32_t cell(float m) { return static_cast<std::int32_t>(std::floor(m * (1 / cell_m))); }
+  /// Of any number, also of NaN: a snapshot may have put anybody anywhere.
+  static std::int32_t cell(float m) {
+    constexpr float most = 1e8F;
+    return static_cast<std::int32_t>(std::floor(std::fmin(std::fmax(m * (1 / cell_m), -most), most)));
+  }
   std::size_t bucket(std::int32_t x, std::int32_t z) const {
     const std::uint64_t both = std::uint64_t{static_cast<std::uint32_t>(x)} << 32U | static_cast<std::uint32_t>(z);
     return mix64(both) & (buckets_ - 1);

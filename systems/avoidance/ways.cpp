@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "assets/body/anthropometry.h"
 #include "assets/gait/step_lookup.h"
@@ -294,7 +295,8 @@ float usual_hips(float speed) {
     }
     return parts;
   }();
-  const float at = std::clamp(speed * (1 / every), 0.0F, static_cast<float>(table.size() - 2));
+  // Of any number, also of NaN.
+  const float at = std::fmin(std::fmax(speed * (1 / every), 0.0F), static_cast<float>(table.size() - 2));
   const auto k = static_cast<std::size_t>(at);
   const float part = at - static_cast<float>(k);
   return table[k] + part * (table[k + 1] - table[k]);

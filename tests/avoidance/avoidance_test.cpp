@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "systems/simulation.h"
 #include "systems/simulation_world.h"
 #include "tests/engine/counting_heap.h"
+#include "tests/simulation/reseal.h"
 
 namespace mobil {
 namespace {
@@ -335,6 +337,31 @@ TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
   const Root one = root_of(with, a), other = root_of(without, b);
   EXPECT_EQ(one.x_m, other.x_m);
   EXPECT_NEAR(one.z_m, other.z_m, 1e-3);
+}
+
+TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
+  Room room(1);
+  for (int k = 0; k < 100; ++k) room.tick();
+  std::vector<std::byte> good(room.simulation.snapshot_bytes());
+  ASSERT_TRUE(room.simulation.save(good));
+  std::size_t taken = 0;
+  for (std::uint64_t k = 0; k < 300; ++k) {
+    std::vector<std::byte> bytes = good;
+    for (std::uint64_t w = 0; w < 1 + k % 9; ++w) {
+      const std::uint64_t draw = mix64(mix64(k) ^ w), at = 4 * (draw % (bytes.size() / 4));
+      const auto word =
+          static_cast<std::uint32_t>(w % 2 == 0 ? mix64(draw) : 0x7F000000U | (mix64(draw) & 0x80FFFFFFU));
+      std::memcpy(&bytes[at], &word, 4);
+    }
+    if (!reseal_snapshot(bytes) || !room.simulation.restore(bytes)) continue;
+    ++taken;
+    for (int t = 0; t < 4; ++t) {
+      room.avoidance.update();
+      room.simulation.tick();
+    }
+  }
+  EXPECT_GT(taken, 20U);
+  ASSERT_TRUE(room.simulation.restore(good));
 }
 
 TEST(Avoidance, SaysWhatIsWrong) {

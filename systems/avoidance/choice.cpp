@@ -39,11 +39,6 @@ float sine(float angle) {
 float cosine(float angle) {
   return static_cast<float>(exact::cos(angle));
 }
-float wrapped(float angle) {
-  constexpr float round = 2 * std::numbers::pi_v<float>;
-  return angle - round * std::floor(angle * (1 / round) + 0.5F);
-}
-
 struct Near {
   float distance2;
   std::uint32_t index, claim;

@@ -96,7 +96,10 @@ void ClaimBook::remake(BlockOf& at, float tick_s, float radius_h) {
     claim.radius_m = courses ? courses.at(table, at.block).radius_m[l] : radius_h * size.height_m[l];
     claim.yields = static_cast<bool>(courses);
     if (courses && units.of(state.time_s[l]) + units.per_tick >= units.step(plan.duration_s[l])) at.striking |= 1U << l;
-    if (claim.source == source && claim.who == entities[l]) continue;
+    // Of who avoids nobody the claim leads straight on from its first instant: it is made anew at each, so that it
+    // follows from the world and not from when somebody looked.
+    const bool lasts = courses || claim.first == instant_;
+    if (claim.source == source && claim.who == entities[l] && lasts) continue;
     claim.source = source;
     claim.who = entities[l];
     claim.first = instant_;

@@ -21,11 +21,6 @@ constexpr float slowest = 0.3F;
 /// Nobody turns on the spot for less, rad.
 constexpr float least_turn = 0.1F;
 
-float turn_to(float from, float to) {
-  const float off = to - from;
-  return off - 2 * pi * std::floor(off / (2 * pi) + 0.5F);
-}
-
 void put(Trials& trials, std::size_t lane, TrialKind kind, const Trial<float>& trial) {
   trials.kind[lane] = kind;
   trials.trial.speed_m_s[lane] = trial.speed_m_s;
@@ -36,11 +31,15 @@ void put(Trials& trials, std::size_t lane, TrialKind kind, const Trial<float>& t
 
 }  // namespace
 
+float wrapped(float angle_rad) {
+  return angle_rad - 2 * pi * std::floor(angle_rad / (2 * pi) + 0.5F);
+}
+
 Trials make_trials(const Footing<float>& at, const Course<float>& course) {
   Trials trials;
   const float leg = static_cast<float>(fraction::thigh + fraction::shank) * at.height_m;
   const float scale = std::sqrt(leg / leg_m), least = slowest * scale, now = at.speed_m_s;
-  const float wish = trials.wish_rad = turn_to(at.heading_rad, course.heading_rad);
+  const float wish = trials.wish_rad = wrapped(course.heading_rad - at.heading_rad);
   const float toward = std::clamp(wish, -most_turn, most_turn);
   if (now > 0) {
     const float slower = std::max(now - most_slower * scale, least);

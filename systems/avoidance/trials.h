@@ -18,6 +18,9 @@ struct Trials {
   float wish_rad;  // the turn to where the walker wants to go
 };
 
+/// An angle within half a turn of 0, rad.
+float wrapped(float angle_rad);
+
 /// Of who walks: three speeds, five turns each. Of who stands: starts at two speeds and five turns, turns on the spot
 /// either way, steps aside to either side and back.
 Trials make_trials(const Footing<float>& at, const Course<float>& course);

@@ -10,6 +10,7 @@
 #include "assets/gait/step_lookup.h"
 #include "engine/wide-inl.h"
 #include "systems/avoidance/ways.h"
+#include "systems/gait/gait.h"
 #include "systems/gait/next_foot-inl.h"
 #include "systems/kinematics/on_line-inl.h"
 
@@ -166,47 +167,6 @@ HWY_NOINLINE void stop(Footing<Lanes<float>>& at, const WayInstants& instants, W
   }
 }
 
-/// At the heel strike that ends the step of a plan; systems/gait/gait_advance.cpp has the same.
-HWY_NOINLINE void ahead(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                        const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& next) {
-  const Wide heading = load(state.heading_rad), chord = load(state.chord_rad), turn = load(state.turn_rad);
-  const Wide length = load(plan.step_length_m), one = wide(1.0F);
-  const WideMask lands = load(plan.landing) > 0.0F;
-  Wide s, c;
-  sin_cos(heading + chord, s, c);
-  next.height_m = size.height_m;
-  next.speed_m_s = plan.to.speed_m_s;
-  next.pace_hz = plan.to.pace_hz;
-  next.advance_m = plan.to.advance_m;
-  next.hips_m = plan.to.shape[step_shape::hips_forward.first];
-  next.length_before_m = plan.step_length_m;
-  next.half_width_m = plan.to.half_width_m;
-  store(one, next.usual);
-  store(fma(length, s, load(state.line_x_m)), next.x_m);
-  store(fma(length, c, load(state.line_z_m)), next.z_m);
-  store(heading + turn, next.heading_rad);
-  store(chord - turn, next.chord_before_rad);
-  store(load(state.bend_per_m), next.bend_before_per_m);
-  store(load(state.bend_next_per_m), next.bend_per_m);
-  // Who has come to stand does so beside the line, where the feet are: the line goes there.
-  const Wide shift = load(state.shift_m), shift_before = select(lands, shift, load(state.shift_before_m));
-  const Wide shift_now = select(lands, load(state.shift_next_m), shift), zero = wide(0.0F);
-  const WideMask rests = (load(plan.to.speed_m_s) <= 0.0F) & (length <= 0.0F) & (abs(shift_now - shift_before) <= 0.0F);
-  const Wide by = when(rests, shift_now);
-  sin_cos(heading + turn, s, c);
-  store(fma(by, c, load(next.x_m)), next.x_m);
-  store(fnma(by, s, load(next.z_m)), next.z_m);
-  store(select(rests, zero, shift_before), next.shift_before_m);
-  store(select(rests, zero, shift_now), next.shift_m);
-  const Wide left = select(equal(state.stance_side, Side::right), one, -one);
-  store(select(lands, -left, left), next.lands_left);
-}
-
-void footing_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                   const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& next) {
-  ahead(size, plan, state, next);
-}
-
 void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                  const GaitState<Lanes<float>>& state, const WayInstants& instants, WaySamples<Lanes<float>>& out) {
   Way way;
@@ -225,7 +185,7 @@ void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   out = {};
   sample(way, instants, start, start <= 0.0F, out);
   Footing<Lanes<float>> next;
-  ahead(size, plan, state, next);
+  next_footing(size, plan, state, next);
   stop(next, instants, start + way.duration, out);
 }
 
@@ -302,7 +262,6 @@ float usual_hips(float speed) {
   return table[k] + part * (table[k + 1] - table[k]);
 }
 
-HWY_EXPORT(footing_block);
 HWY_EXPORT(claim_block);
 HWY_EXPORT(tried_block);
 HWY_EXPORT(approach_block);
@@ -310,7 +269,28 @@ HWY_EXPORT(wall_block);
 
 void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                   const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& next) {
-  HWY_DYNAMIC_DISPATCH(footing_block)(size, plan, state, next);
+  GaitState<Lanes<float>> then = state;
+  then.time_s = plan.duration_s;
+  advance_gait(plan, then, 0);  // a tick of no length: to the strike
+  next.height_m = size.height_m;
+  next.speed_m_s = plan.to.speed_m_s;
+  next.pace_hz = plan.to.pace_hz;
+  next.advance_m = plan.to.advance_m;
+  next.hips_m = plan.to.shape[step_shape::hips_forward.first];
+  next.length_before_m = plan.step_length_m;
+  next.half_width_m = plan.to.half_width_m;
+  next.x_m = then.line_x_m;
+  next.z_m = then.line_z_m;
+  next.heading_rad = then.heading_rad;
+  next.chord_before_rad = then.chord_before_rad;
+  next.bend_per_m = then.bend_per_m;
+  next.bend_before_per_m = then.bend_before_per_m;
+  next.shift_m = then.shift_m;
+  next.shift_before_m = then.shift_before_m;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    next.usual[l] = 1;
+    next.lands_left[l] = then.stance_side[l] == Side::right ? 1.0F : -1.0F;
+  }
 }
 
 void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,

@@ -32,14 +32,14 @@ void finish(Claim& claim) {
 }  // namespace
 
 void ClaimBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float radius_h) {
-  const std::uint32_t every = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(0.1F / tick_s + 0.5F));
-  instant_ = (tick + every) / every;  // the first after the tick to come
-  every_s_ = static_cast<float>(every) * tick_s;
-  first_s_ = static_cast<float>(instant_ * every - tick) * tick_s;
+  every_ticks_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(0.1F / tick_s + 0.5F));
+  instant_ = (tick + every_ticks_) / every_ticks_;  // the first after the tick to come
+  first_tick_ = instant_ * every_ticks_ - tick;
+  tick_s_ = tick_s;
   list(world);
   in_parallel(jobs, blocks_.size(), [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;  // as in a tick
-    for (std::size_t b = begin; b < end; ++b) remake(blocks_[b], tick_s, radius_h);
+    for (std::size_t b = begin; b < end; ++b) remake(blocks_[b], radius_h);
   });
   strikers_.clear();
   for (const BlockOf& at : blocks_) {
@@ -78,13 +78,13 @@ void ClaimBook::list(World& world) {
   }
 }
 
-void ClaimBook::remake(BlockOf& at, float tick_s, float radius_h) {
+void ClaimBook::remake(BlockOf& at, float radius_h) {
   Table& table = *at.table;
   const auto& size = TableColumn<BodySize>(table).at(table, at.block);
   const auto& plan = TableColumn<StepPlan>(table).at(table, at.block);
   const auto& state = TableColumn<GaitState>(table).at(table, at.block);
   const TableColumn<Course> courses(table);
-  const ClockUnits units = clock_units(tick_s);
+  const ClockUnits units = clock_units(tick_s_);
   const Entity* const entities = table.entities(at.block);
   std::uint32_t changed = 0;
   at.striking = 0;
@@ -107,7 +107,7 @@ void ClaimBook::remake(BlockOf& at, float tick_s, float radius_h) {
   }
   if (changed == 0) return;
   WaySamples<Lanes<float>> ways;
-  claim_ways(size, plan, state, instants(), ways);
+  claim_ways(size, plan, state, first_tick_, every_ticks_, tick_s_, ways);
   for (; changed != 0; changed &= changed - 1) {
     const auto l = static_cast<std::uint32_t>(std::countr_zero(changed));
     Claim& claim = claims_[seen_[at.first + l]];

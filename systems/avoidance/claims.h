@@ -64,7 +64,9 @@ class ClaimBook {
 
   /// The next instant of claims, all after the tick to come.
   std::uint32_t instant() const { return instant_; }
-  WayInstants instants() const { return {first_s_, every_s_}; }
+  WayInstants instants() const {
+    return {static_cast<float>(first_tick_) * tick_s_, static_cast<float>(every_ticks_) * tick_s_};
+  }
   /// Those who avoid others and are about to begin a step, in the order of their rows.
   const std::vector<Striker>& strikers() const { return strikers_; }
   std::size_t people() const { return seen_.size(); }
@@ -116,11 +118,11 @@ class ClaimBook {
     return mix64(both) & (buckets_ - 1);
   }
   void list(World& world);
-  void remake(BlockOf& at, float tick_s, float radius_h);
+  void remake(BlockOf& at, float radius_h);
   void sort();
 
-  std::uint32_t instant_ = 0;
-  float first_s_ = 0, every_s_ = 0;
+  std::uint32_t instant_ = 0, first_tick_ = 0, every_ticks_ = 1;  // first_tick_: how many ahead the instant is
+  float tick_s_ = 0;
   std::vector<Claim> claims_;
   std::vector<std::uint32_t> claim_of_;  // by entity index
   std::vector<std::uint32_t> seen_;      // claims of all rows, block by block

@@ -42,12 +42,19 @@ HWY_INLINE Wide when(const WideMask& mask, const Wide& value) {
   return select(mask, value, wide(0.0F));
 }
 
+/// Instants since a heel strike, in whole units of a clock: those of claims are then the same whenever they are asked
+/// for.
+struct Instants {
+  Wide first;
+  float every, unit_s;
+};
+
 /// The samples from `start` on, of who takes the step; after its end they stay there.
-HWY_NOINLINE void sample(const Way& way, const WayInstants& instants, const Wide& start, const WideMask& takes,
+HWY_NOINLINE void sample(const Way& way, const Instants& instants, const Wide& start, const WideMask& takes,
                          WaySamples<Lanes<float>>& out) {
   const Wide begins = select(takes, start, wide(1e9F)), per_s = 1.0F / way.duration;
   for (std::size_t s = 0; s < way_samples; ++s) {
-    const Wide since = (instants.first_s + static_cast<float>(s) * instants.every_s) - begins;
+    const Wide since = (instants.first + static_cast<float>(s) * instants.every) * instants.unit_s - begins;
     const WideMask begun = since >= 0.0F;
     if (!any(begun)) continue;
     const Ground at = place_on(way, clamp(since * per_s, 0.0F, 1.0F));
@@ -148,8 +155,7 @@ HWY_NOINLINE Way take_step(Footing<Lanes<float>>& at, const StrikeAhead& to, con
 }
 
 /// From there on, the quickest stop.
-HWY_NOINLINE void stop(Footing<Lanes<float>>& at, const WayInstants& instants, Wide start,
-                       WaySamples<Lanes<float>>& out) {
+HWY_NOINLINE void stop(Footing<Lanes<float>>& at, const Instants& instants, Wide start, WaySamples<Lanes<float>>& out) {
   const Wide zero = wide(0.0F);
   store(wide(1.0F), at.usual);
   const Wide leg = static_cast<float>(fraction::thigh + fraction::shank) * load(at.height_m);
@@ -168,7 +174,9 @@ HWY_NOINLINE void stop(Footing<Lanes<float>>& at, const WayInstants& instants, W
 }
 
 void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                 const GaitState<Lanes<float>>& state, const WayInstants& instants, WaySamples<Lanes<float>>& out) {
+                 const GaitState<Lanes<float>>& state, const Lanes<float>& first, float every, float unit_s,
+                 WaySamples<Lanes<float>>& out) {
+  const Instants instants = {load(first), every, unit_s};
   Way way;
   way.line = line_of(plan, state);
   way.duration = load(plan.duration_s);
@@ -181,16 +189,17 @@ void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   way.x = load(state.line_x_m);
   way.z = load(state.line_z_m);
   sin_cos(load(state.heading_rad), way.sine, way.cosine);
-  const Wide start = -load(state.time_s);
+  const Wide start = wide(0.0F);
   out = {};
   sample(way, instants, start, start <= 0.0F, out);
   Footing<Lanes<float>> next;
   next_footing(size, plan, state, next);
-  stop(next, instants, start + way.duration, out);
+  stop(next, instants, way.duration, out);
 }
 
-void tried_block(const Footing<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& instants,
+void tried_block(const Footing<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& ahead,
                  WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end) {
+  const Instants instants = {wide(ahead.first_s), ahead.every_s, 1};
   Footing<Lanes<float>> at = from;
   const Wide zero = wide(0.0F), aside = load(tried.aside_m);
   StrikeAhead to = strike_at(at, load(tried.speed_m_s));
@@ -294,8 +303,15 @@ void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
 }
 
 void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, const WayInstants& at, WaySamples<Lanes<float>>& out) {
-  HWY_DYNAMIC_DISPATCH(claim_block)(size, plan, state, at, out);
+                const GaitState<Lanes<float>>& state, std::uint32_t first_tick, std::uint32_t every_ticks, float tick_s,
+                WaySamples<Lanes<float>>& out) {
+  const ClockUnits units = clock_units(tick_s);
+  const auto per_tick = static_cast<float>(units.per_tick);
+  Lanes<float> first;
+  for (std::size_t l = 0; l < lane_count; ++l)
+    first[l] = static_cast<float>(units.of(state.time_s[l])) + static_cast<float>(first_tick) * per_tick;
+  HWY_DYNAMIC_DISPATCH(claim_block)
+  (size, plan, state, first, static_cast<float>(every_ticks) * per_tick, units.unit_s, out);
 }
 
 void tried_ways(const Footing<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,

@@ -4,6 +4,7 @@
 // the walking line, without their sway (25 mm at most). m, s, rad; headings about +Y, 0 toward +Z.
 
 #include <cstddef>
+#include <cstdint>
 
 #include "components/body.h"
 #include "components/gait.h"
@@ -58,9 +59,11 @@ float usual_hips(float speed);
 void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                   const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& next);
 
-/// The rest of the step and the quickest stop after it, from now on.
+/// The rest of the step and the quickest stop after it: in so many ticks for the first time, and every so many ticks.
+/// The place at an instant is the same to the bit whenever within the step it is asked for.
 void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, const WayInstants& at, WaySamples<Lanes<float>>& out);
+                const GaitState<Lanes<float>>& state, std::uint32_t first_tick, std::uint32_t every_ticks, float tick_s,
+                WaySamples<Lanes<float>>& out);
 
 /// A step from a footing to a speed that one step reaches, then the quickest stop, from the strike on; and how that
 /// step ends.

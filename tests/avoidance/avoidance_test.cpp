@@ -89,6 +89,25 @@ RC_GTEST_PROP(Claim, IsWhereWhoStopsWillBe, ()) {
   RC_ASSERT(astray_m(simulation, one, claim.first, claim.x_m.data(), claim.z_m.data()) < most);
 }
 
+/// So a world that was restored, which makes its claims anew under way, goes on as one that was not.
+RC_GTEST_PROP(Claim, IsTheSameWheneverItIsMade, ()) {
+  Simulation simulation;
+  const Entity one = walker(simulation, static_cast<float>(*rc::gen::inRange(40, 130)) * 0.01F, 3, -2, 0.4F);
+  Avoidance avoidance(simulation);
+  RC_ASSERT(avoidance.manage(one).has_value());
+  simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(30, 150)));
+  tick_to_strike(simulation, one);
+  ClaimBook at_strike, later;
+  const Claim first = claim_of(at_strike, simulation);
+  simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(1, 24)));
+  const Claim& second = claim_of(later, simulation);
+  const std::size_t since = second.first - first.first;
+  for (std::size_t s = 0; s + since < way_samples; ++s) {
+    RC_ASSERT(second.x_m[s] == first.x_m[s + since]);
+    RC_ASSERT(second.z_m[s] == first.z_m[s + since]);
+  }
+}
+
 /// Every step that may be chosen leads where it was said to: the claim made of it then has the same places.
 RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   const bool stands = *rc::gen::inRange(0, 3) == 0;

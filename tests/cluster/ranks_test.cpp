@@ -23,7 +23,7 @@ class RanksOf : public testing::TestWithParam<int> {};
 
 TEST_P(RanksOf, ShareWhatTheySay) {
   const int count = GetParam();
-  for (const std::uint64_t seed : {0, 1, 2, 3}) {
+  for (const std::uint64_t seed : {0U, 1U, 2U, 3U}) {
     const std::string stopped = on_ranks(
         count,
         [&](Ranks& ranks) {

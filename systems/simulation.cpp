@@ -10,6 +10,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/avoidance.h"
+#include "components/footing.h"
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
 #include "engine/state_hash.h"
@@ -62,7 +63,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
     for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
   std::ranges::sort(our_parts_);
   awake_parts_ = our_parts_;
-  std::erase(awake_parts_, type_id<Course<float>>());
+  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()})
+    std::erase(awake_parts_, kept);
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
     for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);

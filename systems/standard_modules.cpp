@@ -10,6 +10,7 @@
 #include "systems/people/sleep_module.h"
 #include "systems/people/step_watch.h"
 #include "systems/relevance/relevance_module.h"
+#include "systems/terrain/terrain_module.h"
 
 namespace mobil {
 
@@ -20,6 +21,7 @@ std::vector<Module> standard_modules() {
   all.push_back(compact_module());
   all.push_back(relevance_module());
   all.push_back(avoidance_module());
+  all.push_back(terrain_module());
   return all;
 }
 

@@ -131,7 +131,7 @@ void record_tick(const Simulation& simulation, Entity entity, WalkRecording& tic
 }
 
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
-                    const std::vector<ScriptedChange>& changes) {
+                    const std::vector<ScriptedChange>& changes, Terrain* terrain) {
   Walked walked{MotionTable(options.muscles.activation == ExcitationSource::moments),
                 MuscleTable(has_activation(options.muscles)),
                 {},
@@ -164,6 +164,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
       if (!done) return tl::unexpected(done.error());
     }
     const auto start = SteadyClock::now();
+    if (terrain != nullptr) terrain->update();
     simulation.tick();
     outcome.simulation_s += seconds_since(start);
     const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
@@ -236,8 +237,9 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   return {};
 }
 
-Result<void> run_walk(const WalkOptions& options) {
+Result<void> run_walk(const WalkOptions& asked) {
   const auto start = SteadyClock::now();
+  WalkOptions options = asked;
   Simulation simulation;
   const auto entity = simulation.spawn(options.body, options.gait);
   if (!entity) return tl::unexpected(entity.error());
@@ -251,12 +253,20 @@ Result<void> run_walk(const WalkOptions& options) {
   auto added = simulation.add_leg_muscles(*entity, options.muscles);
   if (!added) return added;
   const Human human = *simulation.human(*entity);
+  set_edges(options.ground, human.body.request.height_m, human.gait.step_length_m);
   const auto figure = make_figure(simulation, human, options.anatomy);
   if (!figure) return tl::unexpected(figure.error());
   auto results = OutputFolder::make(options.out);
   if (!results) return tl::unexpected(results.error());
 
-  const auto walked = walk(simulation, human, *figure, options, changes);
+  std::optional<Terrain> terrain;
+  if (options.ground.kind != GroundKind::level) {
+    terrain.emplace(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+      for (std::size_t i = 0; i < at.size(); ++i) out[i] = options.ground.at(at[i].x_m, at[i].z_m);
+    });
+    if (auto done = terrain->manage({&*entity, 1}); !done) return done;
+  }
+  const auto walked = walk(simulation, human, *figure, options, changes, terrain ? &*terrain : nullptr);
   auto done = walked ? write_results(*walked, simulation, human, options, start, *results)
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
@@ -273,12 +283,14 @@ Subcommand walk_command() {
   auto text = std::make_shared<WalkText>();
   Subcommand command{.name = "walk",
                      .about = "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures"};
-  command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) + "\n\n" + walk_exports_help +
+  command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) + "\n\n" + walk_ground_help +
+                   "\n\n" + walk_exports_help +
                    "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"
                    "          mobil walk --set toe_out_deg=12 --set arm_forward_deg=30 --script turn.csv --seconds 10\n"
                    "          mobil walk --method caa --inertia --view wireframe --video\n"
                    "          mobil walk --speed 5km/h --export walk.bvh --export walk.usda --export walk.mot --export "
-                   "walk.sto";
+                   "walk.sto\n"
+                   "          mobil walk --ground stairs:16cm/30cm --view skin --video";
   command.options = walk_options(*text);
   command.empty_refused = true;
   command.run = [text] {

@@ -72,6 +72,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--list-parameters", &text.list_parameters, "Print names, ranges and meanings for --set, and leave", gait},
       {"--script", &text.script, "CSV time_s,parameter,value: changes while walking, see below", gait},
       {"--seconds", &text.seconds, "How long to walk, 0.1s to 60s", gait},
+      {"--ground", &text.ground, "level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm, see below",
+       gait},
       {"--no-forces", &text.no_forces, "Leave ground reactions and joint moments out: empty cells in motion.csv", gait},
       {"--muscles", &text.muscles,
        "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
@@ -171,6 +173,14 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto frequency = optional("--step-frequency", text.step_frequency, Quantity::frequency, 10);
   if (!frequency) return tl::unexpected(frequency.error());
   options.gait.step_frequency_hz = *frequency;
+  const auto ground = read_walk_ground(text.ground);
+  if (!ground) return tl::unexpected(ground.error());
+  options.ground = *ground;
+  if (ground->kind == GroundKind::stairs && !options.gait.step_length_m) {
+    options.gait.step_length_m = ground->tread_m;
+    constexpr float usual_hz = 1.8F;  // of people on stairs
+    if (!options.gait.speed_m_s && !options.gait.step_frequency_hz) options.gait.step_frequency_hz = usual_hz;
+  }
   for (const auto& assignment : text.set) {
     if (auto done = set_gait_parameter(assignment, options.gait.style); !done) {
       return fail(fmt::format("--set {}", done.error().message));

@@ -12,6 +12,7 @@
 #include "demo/program/body_options.h"
 #include "demo/program/options.h"
 #include "demo/walk/walk_exports.h"
+#include "demo/walk/walk_ground.h"
 #include "demo/walk/walk_script.h"
 #include "engine/error.h"
 
@@ -24,6 +25,7 @@ struct WalkOptions {
   GaitRequest gait;
   std::optional<WalkScript> script;
   double seconds = 5;
+  WalkGround ground;
   LegMuscles muscles;
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
@@ -42,7 +44,7 @@ struct WalkText {
               anatomy, view = "surface", out = "out";
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
-  std::string script;
+  std::string script, ground = "level";
   bool list_parameters = false, no_forces = false, members = false, tuned = false, inertia = false;
   bool skin = false, frames = false, video = false, stereo = false;
 };

@@ -39,13 +39,15 @@ std::vector<Vec3<float>> smooth_path(const WalkRecording& recording) {
   return path;
 }
 
-/// From the front and right of where the walk began, at the height of the hips, far enough to hold the whole body; it
-/// goes along with the walker and does not turn with him, so that a turn is seen as one.
-Camera follow(const Vec3<float>& at, const Body& body) {
+/// From the front and right of where the walk began, or from behind where stairs would hide the feet, at the height of
+/// the hips, far enough to hold the whole body; it goes along with the walker and does not turn with him, so that a
+/// turn is seen as one.
+Camera follow(const Vec3<float>& at, float floor_m, bool climbs, const Body& body) {
   const float stature = body.request.height_m;
   Camera camera;
-  camera.target = {at.x, 0.50F * stature, at.z + 0.1F * stature};
-  camera.eye = {camera.target.x - 2.0F * stature, 0.60F * stature, camera.target.z + 1.1F * stature};
+  camera.target = {at.x, floor_m + 0.50F * stature, at.z + 0.1F * stature};
+  camera.eye = {camera.target.x - 2.0F * stature, floor_m + 0.60F * stature,
+                camera.target.z + (climbs ? -0.9F : 1.1F) * stature};
   camera.vertical_fov_deg = 28;
   return camera;
 }
@@ -134,6 +136,13 @@ void fill_scene(const WalkDrawing& drawing, WalkView view, std::size_t frame, Fr
   add_muscles(recording, frame, {0, 0, 0}, scene.drawn);
 }
 
+void add_ground(const GroundPicture& ground, FrameScene& scene) {
+  constexpr Colour floor{0.80F, 0.81F, 0.82F}, edge{0.45F, 0.47F, 0.50F};
+  scene.drawn.meshes.push_back(
+      {.position = ground.position, .triangle = ground.triangle, .normal = ground.normal, .colour = floor});
+  scene.lines.push_back({.position = ground.line, .colour = edge, .width = 0.012F, .unit = LineUnit::metre});
+}
+
 }  // namespace
 
 Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& options, const std::filesystem::path& folder,
@@ -151,14 +160,19 @@ Result<void> write_pictures(const WalkDrawing& drawing, const WalkOptions& optio
 
   const auto path = smooth_path(*drawing.recording);
   FrameScene contents;
+  const bool level = options.ground.kind == GroundKind::level;
+  const GroundPicture ground = level ? GroundPicture{} : picture_of(options.ground, path.back().z + 6);
   if (auto begun = begin_skin(drawing, options.view, contents); !begun) return begun;
   Image eye;
   Image whole{width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
   for (std::size_t frame = 0; frame < drawing.recording->frames.size(); ++frame) {
     fill_scene(drawing, options.view, frame, contents);
-    const Camera camera = follow(path[frame], *drawing.body);
+    const float floor_m = level ? 0 : path[frame].y - drawing.body->hip_height_m;
+    const Camera camera = follow(path[frame], floor_m, options.ground.rise > 0, *drawing.body);
     const StereoPair pair = stereo_pair(camera, static_cast<float>(options.eye_distance_m));
     Scene scene;
+    if (!level) add_ground(ground, contents);
+    scene.ground = level;
     scene.meshes = contents.drawn.meshes;
     scene.lines = contents.lines;
     scene.points = contents.points;

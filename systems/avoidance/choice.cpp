@@ -62,7 +62,8 @@ GroundPoint nearest_of(const Wall& wall, GroundPoint to) {
 /// One choice: what the walker may do, and what each costs.
 class Choice {
  public:
-  Choice(const Surroundings& around, const Striker& striker, const Footing<float>& from, const Course<float>& course)
+  Choice(const Surroundings& around, const Striker& striker, const StrikePlace<float>& from,
+         const Course<float>& course)
       : around_(around),
         mine_(around.book.claim(striker.claim)),
         me_(striker.claim),
@@ -286,7 +287,7 @@ class Choice {
   const Surroundings& around_;
   const Claim& mine_;
   std::uint32_t me_;
-  const Footing<float>& from_;
+  const StrikePlace<float>& from_;
   const Course<float>& course_;
   Trials trials_;
   WaySamples<Lanes<float>> ways_;
@@ -313,12 +314,12 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
   const auto block_of = [&](const auto& column) -> const auto& {
     return column.at(table, striker.block);
   };
-  Footing<Lanes<float>> footing;
+  StrikePlace<Lanes<float>> footing;
   next_footing(block_of(TableColumn<BodySize>(table)), block_of(TableColumn<StepPlan>(table)),
                block_of(TableColumn<GaitState>(table)), footing);
   const Course<float> course = row_of(block_of(TableColumn<Course>(table)), striker.lane);
   const Gait<float> before = row_of(block_of(TableColumn<Gait>(table)), striker.lane);
-  Footing<float> from = row_of(footing, striker.lane);
+  StrikePlace<float> from = row_of(footing, striker.lane);
   from.usual = course.usual;
   out = {};
   out.gait = out.as_claimed = before;

@@ -35,7 +35,7 @@ float wrapped(float angle_rad) {
   return angle_rad - 2 * pi * std::floor(angle_rad / (2 * pi) + 0.5F);
 }
 
-Trials make_trials(const Footing<float>& at, const Course<float>& course) {
+Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
   Trials trials;
   const float leg = static_cast<float>(fraction::thigh + fraction::shank) * at.height_m;
   const float scale = std::sqrt(leg / leg_m), least = slowest * scale, now = at.speed_m_s;

@@ -23,6 +23,6 @@ float wrapped(float angle_rad);
 
 /// Of who walks: three speeds, five turns each. Of who stands: starts at two speeds and five turns, turns on the spot
 /// either way, steps aside to either side and back.
-Trials make_trials(const Footing<float>& at, const Course<float>& course);
+Trials make_trials(const StrikePlace<float>& at, const Course<float>& course);
 
 }  // namespace mobil

@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "assets/body/anthropometry.h"
+#include "assets/gait/on_line-inl.h"
 #include "assets/gait/step_lookup.h"
 #include "engine/wide-inl.h"
 #include "systems/avoidance/ways.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/next_foot-inl.h"
-#include "systems/kinematics/on_line-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
@@ -68,7 +68,7 @@ struct StrikeAhead {
   Wide speed, pace, advance, hips, length;
 };
 
-HWY_NOINLINE StrikeAhead strike_at(const Footing<Lanes<float>>& at, const Wide& speed) {
+HWY_NOINLINE StrikeAhead strike_at(const StrikePlace<Lanes<float>>& at, const Wide& speed) {
   const Wide leg = static_cast<float>(fraction::hip_height) * load(at.height_m), to_unit = 1.0F / sqrt(gravity * leg);
   const Wide before = load(at.speed_m_s), advance = load(at.advance_m);
   const WideMask walks = speed > 0.0F, walked = (before > 0.0F) & (advance > 0.0F);
@@ -85,7 +85,7 @@ HWY_NOINLINE StrikeAhead strike_at(const Footing<Lanes<float>>& at, const Wide& 
   return {speed, when(walks, speed / max(length, 0.01F)), length, own * length, length};
 }
 
-HWY_INLINE Line line_from(const Footing<Lanes<float>>& at, const Wide& length, const NextFoot& next,
+HWY_INLINE Line line_from(const StrikePlace<Lanes<float>>& at, const Wide& length, const NextFoot& next,
                           const Wide& slant) {
   const Wide before = load(at.bend_before_per_m), now = load(at.bend_per_m), zero = wide(0.0F);
   const Wide length_before = load(at.length_before_m);
@@ -105,7 +105,7 @@ HWY_INLINE Line line_from(const Footing<Lanes<float>>& at, const Wide& length, c
 }
 
 /// A step to that strike, and where it leads.
-HWY_NOINLINE Way take_step(Footing<Lanes<float>>& at, const StrikeAhead& to, const Wide& turn, const Wide& slant) {
+HWY_NOINLINE Way take_step(StrikePlace<Lanes<float>>& at, const StrikeAhead& to, const Wide& turn, const Wide& slant) {
   const Wide zero = wide(0.0F);
   const Wide speed = load(at.speed_m_s), pace = load(at.pace_hz), length_before = load(at.length_before_m);
   const WideMask from_stands = speed <= 0.0F, to_stands = to.speed <= 0.0F;
@@ -155,7 +155,8 @@ HWY_NOINLINE Way take_step(Footing<Lanes<float>>& at, const StrikeAhead& to, con
 }
 
 /// From there on, the quickest stop.
-HWY_NOINLINE void stop(Footing<Lanes<float>>& at, const Instants& instants, Wide start, WaySamples<Lanes<float>>& out) {
+HWY_NOINLINE void stop(StrikePlace<Lanes<float>>& at, const Instants& instants, Wide start,
+                       WaySamples<Lanes<float>>& out) {
   const Wide zero = wide(0.0F);
   store(wide(1.0F), at.usual);
   const Wide leg = static_cast<float>(fraction::thigh + fraction::shank) * load(at.height_m);
@@ -192,15 +193,15 @@ void claim_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>
   const Wide start = wide(0.0F);
   out = {};
   sample(way, instants, start, start <= 0.0F, out);
-  Footing<Lanes<float>> next;
+  StrikePlace<Lanes<float>> next;
   next_footing(size, plan, state, next);
   stop(next, instants, way.duration, out);
 }
 
-void tried_block(const Footing<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& ahead,
+void tried_block(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& ahead,
                  WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end) {
   const Instants instants = {wide(ahead.first_s), ahead.every_s, 1};
-  Footing<Lanes<float>> at = from;
+  StrikePlace<Lanes<float>> at = from;
   const Wide zero = wide(0.0F), aside = load(tried.aside_m);
   StrikeAhead to = strike_at(at, load(tried.speed_m_s));
   const WideMask slants = aside > 0.0F;
@@ -277,7 +278,7 @@ HWY_EXPORT(approach_block);
 HWY_EXPORT(wall_block);
 
 void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                  const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& next) {
+                  const GaitState<Lanes<float>>& state, StrikePlace<Lanes<float>>& next) {
   GaitState<Lanes<float>> then = state;
   then.time_s = plan.duration_s;
   advance_gait(plan, then, 0);  // a tick of no length: to the strike
@@ -314,7 +315,7 @@ void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   (size, plan, state, first, static_cast<float>(every_ticks) * per_tick, units.unit_s, out);
 }
 
-void tried_ways(const Footing<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
+void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end) {
   HWY_DYNAMIC_DISPATCH(tried_block)(from, tried, at, out, end);
 }

@@ -27,7 +27,7 @@ struct WaySamples {
 /// stance foothold the hips are. The point of the line beside that foothold, and its heading there. `lands_left` is 1
 /// where the left foot is the one to come down next, else −1. `usual`: how long this walker's steps are, of usual ones.
 template <class F>
-struct Footing {
+struct StrikePlace {
   F height_m, usual;
   F speed_m_s, pace_hz, advance_m, hips_m;
   F length_before_m, half_width_m;
@@ -57,7 +57,7 @@ float usual_hips(float speed);
 
 /// At the heel strike to come, if nothing else is asked. `hips_m` of who stands is as in a usual walk.
 void next_footing(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                  const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& next);
+                  const GaitState<Lanes<float>>& state, StrikePlace<Lanes<float>>& next);
 
 /// The rest of the step and the quickest stop after it: in so many ticks for the first time, and every so many ticks.
 /// The place at an instant is the same to the bit whenever within the step it is asked for.
@@ -67,7 +67,7 @@ void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 
 /// A step from a footing to a speed that one step reaches, then the quickest stop, from the strike on; and how that
 /// step ends.
-void tried_ways(const Footing<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
+void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end);
 
 /// The least squared distance of each lane's way from one of somebody else, m²: `x_m` and `z_m` have way_samples.

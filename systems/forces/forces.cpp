@@ -5,6 +5,7 @@
 #include "assets/body/anthropometry.h"
 #include "assets/gait/leg_model.h"
 #include "assets/gait/sole-inl.h"
+#include "assets/gait/uneven-inl.h"
 #include "engine/wide_geometry-inl.h"
 #include "systems/forces/forces.h"
 
@@ -312,18 +313,44 @@ void put_moments(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<floa
   }
 }
 
+/// Centres of pressure onto the ground under each foot. How the feet share the load is left as on level ground.
+HWY_NOINLINE void put_centres(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                              const Footing<Lanes<float>>& footing, Support& ground) {
+  const Slopes slopes = slopes_of(footing, load(state.heading_rad));
+  const Line line = line_of(plan, state);
+  const Wide zero = wide(0.0F), one = wide(1.0F);
+  const Wide phase = step_phase(plan, load(state.time_s) / load(plan.duration_s));
+  const Wide landed = select(phase < load(plan.double_support), zero, one);
+  const Wide left_stands = select(equal(state.stance_side, Side::left), one, zero), out = 2.0F * left_stands - one;
+  const Slope other = part_way(slopes.leaving, slopes.landing, landed);
+  const Ground other_at = flat_other(plan, line, landed, -out);
+  const Ground stance_at = {fma(out, load(plan.from.half_width_m), line.shift), zero};
+  for (std::size_t side = 0; side < 2; ++side) {
+    const Wide stands = side == Side::left ? left_stands : one - left_stands;
+    const Slope slope = part_way(other, slopes.stance, stands);
+    const Ground from = part_way(other_at, stance_at, stands);
+    WideVec& at = ground.centre[side];
+    at.y = fma(slope.left, at.x - from.left, fma(slope.along, at.z - from.forward, slope.height));
+  }
+}
+
 void forces_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                   const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
-                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
+                  const Footing<Lanes<float>>* footing, GroundReaction<Lanes<float>>& reaction,
+                  JointMoments<Lanes<float>>& moments) {
   Support ground;
   support(size, motion, plan, state, ground);
+  const bool uneven = footing != nullptr;
+  if (uneven) put_centres(plan, state, *footing, ground);
   Wide s, c;
   sin_cos(load(state.heading_rad), s, c);
   const Wide line_x = load(state.line_x_m), line_z = load(state.line_z_m);
+  const Wide floor = uneven ? load(footing->height_m[static_cast<std::size_t>(FootholdOf::stance)]) : wide(0.0F);
   for (std::size_t side = 0; side < 2; ++side) {
     const WideVec &f = ground.force[side], &p = ground.centre[side];
     store(WideVec{fma(f.x, c, f.z * s), f.y, fnma(f.x, s, f.z * c)}, reaction.force_n[side]);
-    store(WideVec{line_x + fma(p.x, c, p.z * s), p.y, line_z + fnma(p.x, s, p.z * c)}, reaction.centre_m[side]);
+    store(WideVec{line_x + fma(p.x, c, p.z * s), uneven ? floor + p.y : p.y, line_z + fnma(p.x, s, p.z * c)},
+          reaction.centre_m[side]);
   }
   put_moments(size, motion, ground, moments);
 }
@@ -351,8 +378,9 @@ HWY_EXPORT(posed_block);
 
 void joint_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                   const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
-                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments) {
-  HWY_DYNAMIC_DISPATCH(forces_block)(size, motion, plan, state, reaction, moments);
+                  const Footing<Lanes<float>>* footing, GroundReaction<Lanes<float>>& reaction,
+                  JointMoments<Lanes<float>>& moments) {
+  HWY_DYNAMIC_DISPATCH(forces_block)(size, motion, plan, state, footing, reaction, moments);
 }
 
 void posed_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,

@@ -2,6 +2,7 @@
 // From the motion of the skeleton to the reaction of the ground and the moments at the joints (paper, section 4.3).
 
 #include "components/body.h"
+#include "components/footing.h"
 #include "components/forces.h"
 #include "components/gait.h"
 #include "components/pose.h"
@@ -20,10 +21,12 @@ namespace mobil {
 /// what the feet's forces then lack to the total is shared like the vertical force, so that their sum is exactly the
 /// total; in double support the feet push apart as the fitted walk has it. MOMENTS. About the horizontal axis through
 /// the joint, across the mean direction that the two thighs face. Thigh with kneecap, shank, and foot with toes have
-/// Winter's radii of gyration; thigh and shank are slender rods, and so is the foot from ankle to ball.
+/// Winter's radii of gyration; thigh and shank are slender rods, and so is the foot from ankle to ball. `footing`: the
+/// ground under the feet, on which the centres then lie; null where it is level.
 void joint_forces(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
                   const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
-                  GroundReaction<Lanes<float>>& reaction, JointMoments<Lanes<float>>& moments);
+                  const Footing<Lanes<float>>* footing, GroundReaction<Lanes<float>>& reaction,
+                  JointMoments<Lanes<float>>& moments);
 
 /// The same of people whose host animates them, from three poses `apart_s` seconds apart: at the instant of the middle
 /// one, which `motion` is of, in the same frame; its floor, y = 0, is the ground. The total and the moments follow as

@@ -47,10 +47,11 @@ struct ClockUnits {
   float unit_s;
   double per_s;
 
-  /// The nearest whole number.
+  /// The nearest whole number; of what no walker's clock shows, one that may be added to.
   std::int32_t of(float seconds) const {
+    constexpr double most = 0x1p29;
     const double above = static_cast<double>(seconds) * per_s + 0.5;
-    return static_cast<std::int32_t>(above);
+    return static_cast<std::int32_t>(above < most ? (above > -most ? above : -most) : most);
   }
   float seconds(std::int32_t units) const { return static_cast<float>(units) * unit_s; }
   /// A step's duration, one unit at least.

@@ -25,7 +25,7 @@ HWY_INLINE void put_foothold(const GaitState<Lanes<float>>& state, FootholdOf wh
   store(heading + turned, out.heading_rad[i]);
 }
 
-/// As kinematics have them (systems/kinematics/on_line-inl.h): each foot stands beside its own point of the line.
+/// As kinematics have them (assets/gait/on_line-inl.h): each foot stands beside its own point of the line.
 void footholds_block(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
                      Footholds<Lanes<float>>& out) {
   const Wide one = wide(1.0F), zero = wide(0.0F);

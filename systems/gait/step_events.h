@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "components/footing.h"
 #include "components/gait.h"
 #include "components/lanes.h"
 #include "components/step_events.h"
@@ -14,9 +15,8 @@ namespace mobil {
 /// has come down.
 template <class F>
 struct Footholds {
-  F x_m[3], z_m[3], heading_rad[3];
+  F x_m[3], z_m[3], heading_rad[3];  // by FootholdOf
 };
-enum class FootholdOf : std::uint8_t { leaving, stance, landing };
 
 void footholds(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Footholds<Lanes<float>>& out);
 

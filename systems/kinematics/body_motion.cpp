@@ -4,6 +4,7 @@
 
 #include "assets/body/fat_distribution.h"
 #include "assets/body/segment_inertia.h"
+#include "engine/exact_math.h"
 #include "engine/wide_geometry-inl.h"
 #include "systems/kinematics/body_motion.h"
 #include "systems/kinematics/kinematics.h"
@@ -113,6 +114,26 @@ namespace mobil {
 
 HWY_EXPORT(motion_block);
 
+namespace {
+
+/// The ground in the frame of the stance foothold: heights over it, +Z where the walking line heads there.
+Footing<Lanes<float>> seen_from_stance(const Footing<Lanes<float>>& footing, const GaitState<Lanes<float>>& state) {
+  constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
+  Footing<Lanes<float>> seen = footing;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const float s = exact::sin(state.heading_rad[l]), c = exact::cos(state.heading_rad[l]);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float x = footing.rise_x[i][l], z = footing.rise_z[i][l];
+      seen.height_m[i][l] = footing.height_m[i][l] - footing.height_m[stance][l];
+      seen.rise_x[i][l] = x * c - z * s;
+      seen.rise_z[i][l] = x * s + z * c;
+    }
+  }
+  return seen;
+}
+
+}  // namespace
+
 void motion_of_poses(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& before,
                      const Pose<Lanes<float>>& now, const Pose<Lanes<float>>& after, float apart_s,
                      BodyMotion<Lanes<float>>& motion) {
@@ -120,9 +141,12 @@ void motion_of_poses(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>
 }
 
 void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                   const GaitState<Lanes<float>>& state, BodyMotion<Lanes<float>>& motion) {
+                   const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
+                   BodyMotion<Lanes<float>>& motion) {
   GaitState<Lanes<float>> at = state;  // at the origin, where single precision is finest
   at.line_x_m = at.line_z_m = at.heading_rad = {};
+  Footing<Lanes<float>> under;
+  if (footing != nullptr) under = seen_from_stance(*footing, state);
   Pose<Lanes<float>> pose[3];
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
@@ -130,7 +154,7 @@ void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<floa
     // A step's curves go on smoothly beyond either strike.
     for (std::size_t l = 0; l < lane_count; ++l)
       at.time_s[l] = state.time_s[l] + (static_cast<float>(k) - 1) * motion_difference_s;
-    pose_skeleton(size, plan, at, pose[k], angles, feet);
+    pose_skeleton(size, plan, at, footing != nullptr ? &under : nullptr, pose[k], angles, feet);
   }
   motion_of_poses(size, pose[0], pose[1], pose[2], motion_difference_s, motion);
 }

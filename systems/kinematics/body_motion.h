@@ -2,6 +2,7 @@
 // From the solved step to how all 48 segments accelerate.
 
 #include "components/body.h"
+#include "components/footing.h"
 #include "components/forces.h"
 #include "components/gait.h"
 #include "components/pose.h"
@@ -15,8 +16,9 @@ void motion_of_poses(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>
                      BodyMotion<Lanes<float>>& motion);
 
 /// The motion of walkers at this instant of their step, from the step alone: no memory, no lag. Near either end of the
-/// step that of `motion_difference_s` within it.
+/// step that of `motion_difference_s` within it. `footing`: the ground under the feet, null where it is level.
 void walker_motion(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                   const GaitState<Lanes<float>>& state, BodyMotion<Lanes<float>>& motion);
+                   const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
+                   BodyMotion<Lanes<float>>& motion);
 
 }  // namespace mobil

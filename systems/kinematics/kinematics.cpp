@@ -38,8 +38,9 @@ struct Origin {
 };
 
 /// Thigh, kneecap, shank, foot and toes of one side; returns the forward angle of the line from hip to ankle.
-HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQuat& facing, std::size_t side,
-                           const Skeleton& skeleton, JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet) {
+HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQuat& facing, bool uneven,
+                           std::size_t side, const Skeleton& skeleton, JointAngles<Lanes<float>>& angles,
+                           Feet<Lanes<float>>& feet) {
   using enum Segment;
   const Segment thigh = on_side(thigh_right, side), patella = on_side(patella_right, side);
   const Segment shank = on_side(shank_right, side), foot_segment = on_side(foot_right, side);
@@ -66,7 +67,16 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
       on_the_way);
 
   const Wide yaw = origin.heading + at.heading + foot.toe_out * (side == Side::left ? 1.0F : -1.0F);
-  const WideQuat outward = turn_y(yaw);
+  WideQuat outward = turn_y(yaw);
+  Wide sloped = wide(0.0F);
+  if (uneven) {
+    const Slope& slope = now.under[side];
+    const Ground rise = turned(slope.left, slope.along, origin.sine, origin.cosine);
+    Wide s, c;
+    sin_cos(yaw, s, c);
+    sloped = atan2(fma(rise.left, s, rise.forward * c), wide(1.0F));
+    outward = tilt_of(rise.left, rise.forward) * outward;
+  }
   const Ground ankle = turned(at.ankle.left, at.ankle.forward, origin.sine, origin.cosine);
   const WideQuat sole = outward * turn_x(-foot.pitch), toe_rotation = outward * turn_x(-(foot.pitch + foot.toes));
   const WideVec ankle_at = origin.position + WideVec{ankle.left, foot.ankle_up, ankle.forward};
@@ -75,7 +85,7 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
 
   store(thigh_angle + now.motion.tilt, angles.hip_flexion[side]);
   store(flexion, angles.knee_flexion[side]);
-  store(foot.pitch - shank_angle, angles.ankle_dorsiflexion[side]);
+  store(foot.pitch + sloped - shank_angle, angles.ankle_dorsiflexion[side]);
   constexpr auto tall = static_cast<float>(fraction::ankle_height);
   store(ankle_at + rotate(sole, scaled({0, -tall, -unit_foot::back}, height)), feet.heel_m[side]);
   store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -unit_foot::joint, 0}, height)), feet.toe_m[side]);
@@ -142,8 +152,8 @@ HWY_NOINLINE void pose_arm(const ArmManner& arm_manner, const Wide& ahead, std::
 }
 
 void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                Feet<Lanes<float>>& feet, const NextWalkers& next) {
+                const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing, Pose<Lanes<float>>& pose,
+                JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet, const NextWalkers& next) {
   FetchAhead plans(next.plan), poses(next.pose);
   const auto fetch = [&] {
     plans.fetch(60);
@@ -151,13 +161,14 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   };
   plans.fetch(120);
   const Skeleton skeleton{load(size.height_m), pose};
-  const StepNow now = step_now(skeleton.height, plan, state);
+  const StepNow now = step_now(skeleton.height, plan, state, footing);
   const PelvisMotion& motion = now.motion;
   const PelvisPlace& pelvis = now.pelvis;
   const Wide& eased = now.eased;
 
   const Wide zero = wide(0.0F);
-  Origin origin = {{load(state.line_x_m), zero, load(state.line_z_m)}, load(state.heading_rad), zero, zero};
+  const Wide ground = footing == nullptr ? zero : load(footing->height_m[static_cast<std::size_t>(FootholdOf::stance)]);
+  Origin origin = {{load(state.line_x_m), ground, load(state.line_z_m)}, load(state.heading_rad), zero, zero};
   sin_cos(origin.heading, origin.sine, origin.cosine);
   const Ground world = turned(pelvis.position.x, pelvis.position.z, origin.sine, origin.cosine);
   const WideQuat facing = turn_y(origin.heading + pelvis.heading);
@@ -168,14 +179,15 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   fetch();
   for (std::size_t side = 0; side < 2; ++side) {
     fetch();
-    leg[side] = pose_leg(now, origin, facing, side, skeleton, angles, feet);
+    leg[side] = pose_leg(now, origin, facing, footing != nullptr, side, skeleton, angles, feet);
     store(0.5F * select(now.stands[side], now.part, now.part + 1.0F), feet.phase[side]);
   }
 
   const Manner<Lanes<float>>&from = plan.from.manner, &to = plan.to.manner;
   fetch();
-  pose_column(facing, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation,
-              harmonics(now.shape, step_shape::trunk, 3, now.waves), skeleton);
+  Wide lean = harmonics(now.shape, step_shape::trunk, 3, now.waves);
+  if (footing != nullptr) lean = lean + now.lean;
+  pose_column(facing, -manner(from.shoulder_rotation, to.shoulder_rotation, eased) * motion.rotation, lean, skeleton);
   const ArmManner arms = {manner(from.arm_back, to.arm_back, eased),
                           manner(from.arm_forward, to.arm_forward, eased),
                           manner(from.elbow_back, to.elbow_back, eased),
@@ -217,9 +229,9 @@ HWY_EXPORT(pose_block);
 HWY_EXPORT(centre_block);
 
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                   const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                   Feet<Lanes<float>>& feet, const NextWalkers& next) {
-  HWY_DYNAMIC_DISPATCH(pose_block)(size, plan, state, pose, angles, feet, next);
+                   const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing, Pose<Lanes<float>>& pose,
+                   JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet, const NextWalkers& next) {
+  HWY_DYNAMIC_DISPATCH(pose_block)(size, plan, state, footing, pose, angles, feet, next);
 }
 
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,

@@ -2,6 +2,7 @@
 // From the solved step and the walker's clock to the pose of all 48 segments.
 
 #include "components/body.h"
+#include "components/footing.h"
 #include "components/gait.h"
 #include "components/pose.h"
 
@@ -21,10 +22,11 @@ struct NextWalkers {
 /// step's curves, turned, listed, tilted and shifted as `pelvis_phase` (components/gait.h) says; the standing foot
 /// turns about its planted heel or ball, the swing foot follows its curves; thigh and shank close the chain with the
 /// knee pointing forward; the column undoes the pelvis up to the head; each arm follows the opposite leg. No state of
-/// its own: any time of any step may be asked. `next` may be empty.
+/// its own: any time of any step may be asked. `footing`: the ground under the feet, null where it is level. `next` may
+/// be empty.
 void pose_skeleton(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                   const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, JointAngles<Lanes<float>>& angles,
-                   Feet<Lanes<float>>& feet, const NextWalkers& next = {});
+                   const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing, Pose<Lanes<float>>& pose,
+                   JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet, const NextWalkers& next = {});
 
 /// Centre of mass of the whole body, from the masses and centres of its segments.
 void centre_of_mass(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& pose,

@@ -2,8 +2,8 @@
 #define HWY_TARGET_INCLUDE "systems/kinematics/root_place.cpp"
 #include <hwy/foreach_target.h>
 
+#include "assets/gait/on_line-inl.h"
 #include "engine/wide-inl.h"
-#include "systems/kinematics/on_line-inl.h"
 #include "systems/kinematics/root_place.h"
 
 HWY_BEFORE_NAMESPACE();

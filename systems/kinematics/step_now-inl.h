@@ -7,8 +7,9 @@
 #define MOBIL_SYSTEMS_KINEMATICS_STEP_NOW_INL_H_
 #endif
 
+#include "assets/gait/on_line-inl.h"
+#include "assets/gait/uneven-inl.h"
 #include "systems/kinematics/kinematics_wide-inl.h"
-#include "systems/kinematics/on_line-inl.h"
 #include "systems/kinematics/unit_skeleton.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -116,10 +117,13 @@ struct StepNow {
   WideMask stands[2];
   FootMotion foot[2];
   Foothold at[2];
+  Slope under[2];  // where there is footing, as is:
+  Wide lean;       // more than on level ground
 };
 
+/// `footing`: null on level ground.
 HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& plan,
-                            const GaitState<Lanes<float>>& state) {
+                            const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing = nullptr) {
   const Wide one = wide(1.0F), zero = wide(0.0F);
   const Wide time = load(state.time_s);
   const WideMask right_stands = equal(state.stance_side, Side::right),
@@ -130,9 +134,9 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one), height);
   const Line line = line_of(plan, state);
 
-  StepNow now{u, eased, waves, of, motion, {}, {right_stands, left_stands}, {}, {}};
+  StepNow now{u, eased, waves, of, motion, {}, {right_stands, left_stands}, {}, {}, {}, zero};
   PelvisPlace& pelvis = now.pelvis;
-  const HipsPlace hips = hips_place(plan, of, u, phase, waves);
+  HipsPlace hips = hips_place(plan, of, u, phase, waves);
   const Wide aside = select(right_stands, hips.aside, -hips.aside);
   const OnLine on = on_line(line, hips.forward, phase, eased);
   const Wide up =
@@ -144,23 +148,45 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   pelvis.heading = on.heading;
   sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
-  const FootMotion stance = stance_foot(plan, of, height, phase);
-  const FootMotion other = other_foot(plan, of, height, phase);
+  FootMotion stance = stance_foot(plan, of, height, phase);
+  FootMotion other = other_foot(plan, of, height, phase);
+  Uneven uneven;
+  HipsOver over;
+  if (footing != nullptr) {
+    uneven = uneven_of(plan, *footing, load(state.heading_rad), height);
+    over = hips_over(plan, uneven, height, phase);
+    hips.ahead = hips.ahead + over.ahead;
+    now.lean = over.lean;
+    step_otherwise(plan, *footing, of, uneven, height, phase, stance, other);
+  }
   const Wide out = select(left_stands, one, -one);  // the stance foot's side
-  const Foothold standing_at = stance_foothold(line, stance, out), other_at = other_foothold(line, other, -out);
+  Foothold standing_at = stance_foothold(line, stance, out), other_at = other_foothold(line, other, -out);
   const Wide rest = shift_at_rest(plan, line, eased);
   const Wide way_aside = aside + rest -
                          give_way * (beside(on, pelvis, standing_at, rest + out * stance.ankle_out) +
                                      beside(on, pelvis, other_at, rest - out * other.ankle_out));
   const Ground way = turned(way_aside, hips.ahead, pelvis.sine, pelvis.cosine);
   pelvis.position = {on.place.left + way.left, up, on.place.forward + way.forward};
+  if (footing != nullptr) {
+    const Slopes& slopes = uneven.slopes;
+    const Slope other_slope = part_way(slopes.leaving, slopes.landing, other.swung);
+    put_on(slopes.stance, {fma(out, load(plan.from.half_width_m), line.shift), zero}, stance, standing_at);
+    put_on(other_slope, flat_other(plan, line, other.swung, -out), other, other_at);
+    pelvis.position.y = up + over.up;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const auto of_foot = [&](Wide Slope::*word)
+                               HWY_ATTR { return select(now.stands[side], slopes.stance.*word, other_slope.*word); };
+      now.under[side] = {of_foot(&Slope::height), of_foot(&Slope::left), of_foot(&Slope::along)};
+    }
+  }
   for (std::size_t side = 0; side < 2; ++side) {
     now.foot[side] = foot_of(now.stands[side], stance, other);
     now.at[side] = foothold_of(now.stands[side], standing_at, other_at);
     draw_in(now.foot[side], now.at[side], pelvis, motion, side, height);
   }
-  // Where a leg would be too short, in a turn or at a very slow walk, the pelvis sinks.
-  const Wide rounding = 0.0002F * height;
+  // Where a leg would be too short, in a turn, at a very slow walk or on uneven ground, the pelvis sinks.
+  Wide rounding = 0.0002F * height;
+  if (footing != nullptr) rounding = rounding + gentler(uneven, eased, height);
   const auto limit = [&](std::size_t side)
                          HWY_ATTR { return highest_hips(now.foot[side], now.at[side], pelvis, motion, side, height); };
   pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(Side::right), limit(Side::left), rounding), rounding);

@@ -38,13 +38,15 @@ void look_back(const World& world, Entity human, std::uint32_t tick, float tick_
   }
   const auto sizes = broadcast(*world.get<BodySize>(human));
   const auto plan = *world.get<StepPlan>(human);
+  const auto footing = world.get<Footing>(human);
+  const auto under = broadcast(footing.value_or(Footing<float>{}));
   for (const float ticks : {3.0F, 2.0F, 1.0F, 0.0F}) {
     const auto then = earlier(*state, plan, ticks * tick_s);
     if (!then) continue;
     Pose<Lanes<float>> pose;
     JointAngles<Lanes<float>> angles;
     Feet<Lanes<float>> feet;
-    pose_skeleton(sizes, broadcast(plan), broadcast(*then), pose, angles, feet);
+    pose_skeleton(sizes, broadcast(plan), broadcast(*then), footing ? &under : nullptr, pose, angles, feet);
     recent.poses.push_back(first_lane(pose));
   }
 }

@@ -97,8 +97,10 @@ Status add_forces(World& world, Entity person) {
   BodyMotion<Lanes<float>> motion;
   GroundReaction<Lanes<float>> ground;
   JointMoments<Lanes<float>> moments;
-  walker_motion(size, plan, state, motion);
-  joint_forces(size, motion, plan, state, ground, moments);
+  const auto footing = world.get<Footing>(person);
+  const auto under = broadcast(footing.value_or(Footing<float>{}));
+  walker_motion(size, plan, state, footing ? &under : nullptr, motion);
+  joint_forces(size, motion, plan, state, footing ? &under : nullptr, ground, moments);
   return world.add_parts(person,
                          std::array<PartValue, 3>{part_value(first_lane(motion)), part_value(first_lane(ground)),
                                                   part_value(first_lane(moments))});

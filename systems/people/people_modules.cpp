@@ -14,6 +14,7 @@
 #include "engine/snapshot.h"
 #include "systems/activation/excitation.h"
 #include "systems/forces/forces.h"
+#include "systems/gait/footing.h"
 #include "systems/gait/gait.h"
 #include "systems/kinematics/body_motion.h"
 #include "systems/kinematics/kinematics.h"
@@ -25,9 +26,20 @@ namespace mobil {
 namespace {
 
 void pose_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, Ahead<StepPlan> next_plan,
-                  const GaitState<Lanes<float>>& state, Pose<Lanes<float>>& pose, Ahead<Pose> next_pose,
-                  JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet) {
-  pose_skeleton(size, plan, state, pose, angles, feet, {next_plan.block, next_pose.block});
+                  const GaitState<Lanes<float>>& state, Maybe<Footing> footing, Pose<Lanes<float>>& pose,
+                  Ahead<Pose> next_pose, JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet) {
+  pose_skeleton(size, plan, state, footing.block, pose, angles, feet, {next_plan.block, next_pose.block});
+}
+
+void move_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                  const GaitState<Lanes<float>>& state, Maybe<Footing> footing, BodyMotion<Lanes<float>>& motion) {
+  walker_motion(size, plan, state, footing.block, motion);
+}
+
+void press_walkers(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<float>>& motion,
+                   const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, Maybe<Footing> footing,
+                   GroundReaction<Lanes<float>>& ground, JointMoments<Lanes<float>>& moments) {
+  joint_forces(size, motion, plan, state, footing.block, ground, moments);
 }
 
 void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
@@ -101,6 +113,8 @@ Module walking_module() {
                 .after("gait")
                 .add("turn", &turn_gait)
                 .after("replan")
+                .add("footing", &follow_feet)
+                .after("turn")
                 .add("kinematics", &pose_walkers)
                 .add("centre of mass", &centre_of_mass);
           }};
@@ -112,8 +126,8 @@ Module forces_module() {
                     component_part<PosedPast>()},
           .systems =
               [](ScheduleBuilder& systems) {
-                systems.add("motion", &walker_motion)
-                    .add("forces", &joint_forces)
+                systems.add("motion", &move_walkers)
+                    .add("forces", &press_walkers)
                     .add("posed forces", &press_posed)
                     .after("forces");
               },

@@ -137,8 +137,8 @@ Result<void> step_aside(World& world, Entity person, float left_m, float ahead_m
   if (gait.speed_m_s > 0.0F) return fail("step_aside: this person is to walk; change the gait to a speed of 0 first");
   const auto body = make_body(body_request(world, person));
   const float scale = (body->thigh_length_m + body->shank_length_m) / step_limits::aside_leg_m;
-  for (const auto& [name, way, most] :
-       {std::tuple{"to the left", left_m, step_limits::aside_m * scale}, std::tuple{"ahead", ahead_m, step_limits::ahead_m * scale}}) {
+  for (const auto& [name, way, most] : {std::tuple{"to the left", left_m, step_limits::aside_m * scale},
+                                        std::tuple{"ahead", ahead_m, step_limits::ahead_m * scale}}) {
     if (!(std::fabs(way) <= most))
       return fail(fmt::format("step_aside: {:.3g} m {} is outside {:.2f}–{:.2f} m for this leg; take more steps", way,
                               name, -most, most));
@@ -180,7 +180,10 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   CentreOfMass<Lanes<float>> centre;
   {
     const FlushDenormals flush;  // as in a tick
-    pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), pose, angles, feet);
+    const auto footing = world.get<Footing>(person);
+    const auto under = broadcast(footing.value_or(Footing<float>{}));
+    pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), footing ? &under : nullptr, pose,
+                  angles, feet);
     centre_of_mass(size, pose, centre);
   }
   world.set(person, first_lane(pose));

@@ -27,11 +27,13 @@ constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
 /// A block of walkers where they will be.
 void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
+  const TableColumn<Footing> footing(table);
   const WalkAhead then(size, TableColumn<Gait>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
-                       TableColumn<GaitState>(table).at(table, block), ahead_s);
+                       TableColumn<GaitState>(table).at(table, block), footing ? &footing.at(table, block) : nullptr,
+                       ahead_s);
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
-  pose_skeleton(size, then.plan(), then.state(), pose, angles, feet);
+  pose_skeleton(size, then.plan(), then.state(), then.footing(), pose, angles, feet);
 }
 
 /// A block of walkers without a pose of their own.
@@ -39,7 +41,7 @@ void pose_compact(const Table& table, std::size_t block, Pose<Lanes<float>>& pos
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   pose_skeleton(TableColumn<BodySize>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
-                TableColumn<GaitState>(table).at(table, block), pose, angles, feet);
+                TableColumn<GaitState>(table).at(table, block), nullptr, pose, angles, feet);
 }
 
 /// Places and quaternions of one segment of sixteen people: x y z, x y z w.

@@ -30,7 +30,7 @@ struct RootBlock {
             const GaitState<Lanes<float>>& state, float ahead_s) {
     const FlushDenormals flush;  // as in a tick
     if (ahead_s > 0) {
-      const WalkAhead then(size, gait, plan, state, ahead_s);
+      const WalkAhead then(size, gait, plan, state, nullptr, ahead_s);
       make(then.plan(), then.state());
     } else {
       make(plan, state);

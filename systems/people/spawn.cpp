@@ -70,7 +70,7 @@ struct FirstInstants {
       state[b].heading_rad[lane] = request.heading_rad;
     }
     plan_first_step(size[b], gait[b], plan[b]);
-    pose_skeleton(size[b], plan[b], state[b], pose[b], angles[b], feet[b]);
+    pose_skeleton(size[b], plan[b], state[b], nullptr, pose[b], angles[b], feet[b]);
     centre_of_mass(size[b], pose[b], centre[b]);
   }
 

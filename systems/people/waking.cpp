@@ -52,7 +52,7 @@ struct WakingBlock {
     const FlushDenormals flush;  // as in a tick
     walk_on(gait_before, before, asked, tick, tick_s, walkers, work);
     if (as == Woken::compact) return;
-    pose_skeleton(walkers.size, walkers.plan, walkers.state, pose, angles, feet);
+    pose_skeleton(walkers.size, walkers.plan, walkers.state, nullptr, pose, angles, feet);
     centre_of_mass(walkers.size, pose, centre);
   }
 };

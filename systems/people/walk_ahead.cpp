@@ -1,13 +1,16 @@
 #include "systems/people/walk_ahead.h"
 
 #include "engine/rows.h"
+#include "systems/gait/footing.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {
 
 WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait,
-                     const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, float ahead_s)
-    : state_(state), plan_(&plan) {
+                     const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state,
+                     const Footing<Lanes<float>>* footing, float ahead_s)
+    : state_(state), plan_(&plan), uneven_(footing != nullptr) {
+  if (uneven_) footing_ = *footing;
   // What rounding leaves of a frame that ends with a tick; clocks count in units of it, of which there would be too
   // many.
   constexpr float least_s = 1e-6F;
@@ -21,6 +24,7 @@ WalkAhead::WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>
     plan_ = &next_;
   }
   turn_gait(size, *plan_, gait, state_, ahead_s);
+  if (uneven_) follow_feet(state_, footing_);
 }
 
 }  // namespace mobil

@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "components/body.h"
+#include "components/footing.h"
 #include "components/gait.h"
 
 namespace mobil {
@@ -16,17 +17,21 @@ inline constexpr double furthest_ahead_s = 0.2;
 class WalkAhead {
  public:
   WalkAhead(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, const StepPlan<Lanes<float>>& plan,
-            const GaitState<Lanes<float>>& state, float ahead_s);
+            const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing, float ahead_s);
   WalkAhead(const WalkAhead&) = delete;
   WalkAhead& operator=(const WalkAhead&) = delete;
 
   const StepPlan<Lanes<float>>& plan() const { return *plan_; }
   const GaitState<Lanes<float>>& state() const { return state_; }
+  /// Null on level ground. What comes after the step under way is as high as what it ends on.
+  const Footing<Lanes<float>>* footing() const { return uneven_ ? &footing_ : nullptr; }
 
  private:
   GaitState<Lanes<float>> state_;
   const StepPlan<Lanes<float>>* plan_;
   StepPlan<Lanes<float>> next_;
+  bool uneven_;
+  Footing<Lanes<float>> footing_;
 };
 
 }  // namespace mobil

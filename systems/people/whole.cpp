@@ -32,7 +32,7 @@ struct PosedBlock {
   }
   void make() {
     const FlushDenormals flush;  // as in a tick
-    pose_skeleton(size, plan, state, pose, angles, feet);
+    pose_skeleton(size, plan, state, nullptr, pose, angles, feet);
     centre_of_mass(size, pose, centre);
   }
 };

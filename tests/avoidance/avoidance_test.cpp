@@ -122,7 +122,7 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   simulation.tick(static_cast<std::uint32_t>(*rc::gen::inRange(stands ? 500 : 0, stands ? 560 : 160)));
   ClaimBook book;
   while (claim_of(book, simulation), book.strikers().empty()) simulation.tick();
-  Footing<Lanes<float>> footing;
+  StrikePlace<Lanes<float>> footing;
   next_footing(broadcast(*simulation.get<BodySize>(one)), broadcast(*simulation.get<StepPlan>(one)),
                broadcast(*simulation.get<GaitState>(one)), footing);
   RC_PRE(row_of(footing, 0).speed_m_s > 0 || row_of(footing, 0).length_before_m == 0);

@@ -156,7 +156,7 @@ inline void forces_of(Block& b, const Motion& motion, float apart_s) {
       b.stand(l, motion(l, (static_cast<double>(k) - 1) * static_cast<double>(apart_s)), k);
   }
   motion_of_poses(b.size, b.pose[0], b.pose[1], b.pose[2], apart_s, b.motion);
-  joint_forces(b.size, b.motion, b.plan, b.state, b.reaction, b.moments);
+  joint_forces(b.size, b.motion, b.plan, b.state, nullptr, b.reaction, b.moments);
 }
 
 /// A body thrown about with every joint in motion.

@@ -83,7 +83,7 @@ struct Walkers {
     place();
   }
   void place() {
-    pose_skeleton(size, plan, state, pose, angles, feet);
+    pose_skeleton(size, plan, state, nullptr, pose, angles, feet);
     centre_of_mass(size, pose, centre);
   }
   void place(float time_s) {

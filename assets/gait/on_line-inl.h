@@ -1,10 +1,10 @@
 // Places along the walking line of this step: of the hips and of both feet. Include it as engine/wide-inl.h says.
 
-#if defined(MOBIL_SYSTEMS_KINEMATICS_ON_LINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef MOBIL_SYSTEMS_KINEMATICS_ON_LINE_INL_H_
-#undef MOBIL_SYSTEMS_KINEMATICS_ON_LINE_INL_H_
+#if defined(MOBIL_ASSETS_GAIT_ON_LINE_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_ASSETS_GAIT_ON_LINE_INL_H_
+#undef MOBIL_ASSETS_GAIT_ON_LINE_INL_H_
 #else
-#define MOBIL_SYSTEMS_KINEMATICS_ON_LINE_INL_H_
+#define MOBIL_ASSETS_GAIT_ON_LINE_INL_H_
 #endif
 
 #include "assets/gait/step_feet-inl.h"

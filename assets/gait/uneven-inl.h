@@ -1,0 +1,265 @@
+// Feet and hips over ground that is not level. Include it as engine/wide-inl.h says.
+
+#if defined(MOBIL_ASSETS_GAIT_UNEVEN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef MOBIL_ASSETS_GAIT_UNEVEN_INL_H_
+#undef MOBIL_ASSETS_GAIT_UNEVEN_INL_H_
+#else
+#define MOBIL_ASSETS_GAIT_UNEVEN_INL_H_
+#endif
+
+#include "assets/gait/on_line-inl.h"
+#include "assets/gait/rise_table.h"
+#include "components/footing.h"
+#include "engine/wide_geometry-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
+
+/// The ground about a place: its height over the stance foothold, and how much it rises to the left of the stance
+/// foot's heading and along it, m per m.
+struct Slope {
+  Wide height, left, along;
+};
+
+HWY_INLINE Slope part_way(const Slope& a, const Slope& b, const Wide& part) {
+  return {mix(a.height, b.height, part), mix(a.left, b.left, part), mix(a.along, b.along, part)};
+}
+
+HWY_INLINE Slope slope_at(const Footing<Lanes<float>>& footing, FootholdOf which, const Wide& sine,
+                          const Wide& cosine) {
+  const auto i = static_cast<std::size_t>(which), stance = static_cast<std::size_t>(FootholdOf::stance);
+  const Wide x = load(footing.rise_x[i]), z = load(footing.rise_z[i]);
+  return {load(footing.height_m[i]) - load(footing.height_m[stance]), fnma(z, sine, x * cosine),
+          fma(x, sine, z * cosine)};
+}
+
+/// The rotation that takes the vertical to the normal of such ground, by the shortest way.
+HWY_INLINE WideQuat tilt_of(const Wide& left, const Wide& along) {
+  const Wide up = 1.0F / sqrt(fma(left, left, fma(along, along, wide(1.0F))));
+  const Wide w = 1.0F + up, x = -along * up, z = left * up;
+  const Wide r = 1.0F / sqrt(fma(w, w, fma(x, x, z * z)));
+  return {x * r, wide(0.0F), z * r, w * r};
+}
+
+/// The ground of a step's three footholds.
+struct Slopes {
+  Slope leaving, stance, landing;
+};
+
+HWY_INLINE Slopes slopes_of(const Footing<Lanes<float>>& footing, const Wide& heading) {
+  Wide s, c;
+  sin_cos(heading, s, c);
+  return {slope_at(footing, FootholdOf::leaving, s, c), slope_at(footing, FootholdOf::stance, s, c),
+          slope_at(footing, FootholdOf::landing, s, c)};
+}
+
+/// How a step over a rise differs from one on level ground: `rise_table::numbers` times the steepness at its
+/// strike.
+struct RiseManner {
+  Wide of[rise_table::count];
+  Wide rate;  // of the hips' height, of the phase
+  HWY_INLINE Wide operator[](rise_table::Number n) const { return of[n]; }
+};
+
+HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& length, const Wide& height) {
+  using namespace rise_table;
+  const Wide one = wide(1.0F);
+  const Wide steep = min(abs(rise) / (full * max(length, shortest_h * height)), one);
+  const Wide part = smooth((steep - gentle) * (1.0F / (stairs - gentle)));
+  const WideMask upward = rise > 0.0F;
+  const auto towards = [&](const Wide& by, std::size_t n)
+                           HWY_ATTR { return by * select(upward, wide(numbers[0][n]), wide(numbers[1][n])); };
+  RiseManner m;
+  for (std::size_t n = 0; n < count; ++n) m.of[n] = towards(n == trunk_lean ? steep : part, n);
+  m.rate = rise * select(upward, mix(wide(gentle_rate[0]), wide(rate[0]), part),
+                         mix(wide(gentle_rate[1]), wide(rate[1]), part));
+  return m;
+}
+
+/// What two strikes' manners are at a part of the way from one to the other.
+struct MixedManner {
+  const RiseManner &from, &to;
+  Wide part;
+  HWY_INLINE Wide operator[](rise_table::Number n) const { return mix(from[n], to[n], part); }
+};
+
+/// How far a heel has risen more than on level ground, from its beginning to toe-off; `double_support` that after the
+/// other foot's strike, of the cycle.
+HWY_INLINE Wide heel_up(const Wide& cycle, const Wide& double_support) {
+  const Wide off = 0.5F + double_support;
+  return smooth((cycle - rise_table::heel_up_from) / (off - rise_table::heel_up_from));
+}
+
+/// A leg at a strike: the horizontal way from its foothold to the hip; pitch of the foot on level ground and now; how
+/// the ground rises along it.
+struct StrikeLeg {
+  Wide hip_ahead, level_pitch, pitch, along;
+};
+
+/// How much higher over its foothold than on level ground a leg lets the hips be, `ahead` being how far they are moved.
+HWY_NOINLINE inline Wide reaches_higher(const StrikeLeg& leg, const Wide& ahead, const Wide& height) {
+  const Wide zero = wide(0.0F), full = static_cast<float>(fraction::thigh + fraction::shank) * height;
+  const auto reach = [&](const Wide& pitch, const Wide& along, const Wide& hip) HWY_ATTR {
+    const FootMotion foot = plant(height, pitch, zero, zero);
+    const Wide across = hip - foot.ankle_forward + along * foot.ankle_up;
+    return fma(along, foot.ankle_forward, foot.ankle_up) +
+           sqrt(max(full * full - across * across, 0.01F * full * full));
+  };
+  return reach(leg.pitch, leg.along, leg.hip_ahead + ahead) - reach(leg.level_pitch, zero, leg.hip_ahead);
+}
+
+/// How high over the stance foothold of the step the hips are at a strike, beside level ground: over the lower foot as
+/// they would be there, and no higher than both legs reach.
+HWY_NOINLINE inline Wide hips_at_strike(const Strike<Lanes<float>>& strike, const Slope& behind, const Slope& ahead,
+                                        const RiseManner& manner, const Wide& height) {
+  using namespace rise_table;
+  const OneShape of{strike.shape};
+  Wide hips = of(step_shape::hips_forward, 0);
+  for (std::size_t k = 1; k <= 4; ++k) hips = hips + of(step_shape::hips_forward, k);
+  const Wide lands = of(step_shape::strike, 0), half = wide(0.5F);
+  const Wide rise = usual_rise + of(step_shape::times, 1), double_support = load(strike.double_support);
+  const Wide leaves = heel_rise(of, (half - rise) / (half + double_support - rise));
+  const StrikeLeg leading = {hips, lands, fnma(manner[strike_less], lands, lands - manner[toes_first]), ahead.along};
+  const StrikeLeg trailing = {hips + load(strike.length_m), leaves,
+                              fnma(manner[heel_up_more], heel_up(half, double_support), leaves), behind.along};
+  const Wide moved = manner[hips_ahead] * height;
+  return min(fma(manner[hips_up], height, min(behind.height, ahead.height)),
+             min(ahead.height + reaches_higher(leading, moved, height),
+                 behind.height + reaches_higher(trailing, moved, height)));
+}
+
+/// The ground of a step; the manners of the rises before and after its stance foothold, and how high the hips are at
+/// its two strikes.
+struct Uneven {
+  Slopes slopes;
+  RiseManner from, to;
+  Wide hips_from, hips_to;
+};
+
+HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const Footing<Lanes<float>>& footing,
+                                     const Wide& heading, const Wide& height) {
+  Uneven u;
+  u.slopes = slopes_of(footing, heading);
+  const auto& [leaving, stance, landing] = u.slopes;
+  u.from = rise_manner(-leaving.height, load(plan.length_before_m), height);
+  u.to = rise_manner(landing.height, load(plan.step_length_m), height);
+  u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
+  // Who stands moves no foot.
+  u.hips_to = select(load(plan.landing) > 0.0F, hips_at_strike(plan.to, stance, landing, u.to, height), u.hips_from);
+  return u;
+}
+
+/// On uneven ground legs that become straight hold the hips back over more than a fraction of a millimetre.
+HWY_INLINE Wide gentler(const Uneven& uneven, const Wide& eased, const Wide& height) {
+  constexpr float part_of_rise = 0.15F, most_h = 0.012F;
+  return min(part_of_rise * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), eased),
+             most_h * height);
+}
+
+/// A bump with a value and a slant.
+HWY_INLINE Wide slanted_bump(const MixedManner& m, rise_table::Number value, rise_table::Number slant, const Wide& u) {
+  return bump(u) * fma(2.0F * u - 1.0F, m[slant], m[value]);
+}
+
+/// How much higher over the stance foothold, and further ahead, the hips are than on level ground. At a strike their
+/// height follows from that of both feet alone, so that it is known on either side of it.
+struct HipsOver {
+  Wide up, ahead, lean;
+};
+
+HWY_NOINLINE inline HipsOver hips_over(const StepPlan<Lanes<float>>& plan, const Uneven& uneven, const Wide& height,
+                                       const Wide& phase) {
+  using namespace rise_table;
+  const Wide zero = wide(0.0F), from = uneven.hips_from, to = uneven.hips_to;
+  const Wide rate_from = select(stands(plan.from), zero, uneven.from.rate);
+  const Wide rate_to = select(stands(plan.to), zero, uneven.to.rate);
+  const Wide r = to - from - rate_from, s = rate_to - rate_from, p = phase;
+  const Wide even = fma(
+      p, fma(p * p, fma(p, fma(p, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), rate_from), from);
+  const MixedManner mixed{uneven.from, uneven.to, smooth(p)};
+  const Wide walks = select(load(plan.landing) > 0.0F, wide(1.0F), zero);
+  const Wide over = vault * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), mixed.part);
+  return {fma(walks, fma(slanted_bump(mixed, hips_up_middle, hips_up_late, p), height, bump(p) * over), even),
+          walks * height * (mixed[hips_ahead] + slanted_bump(mixed, hips_ahead_middle, hips_ahead_late, p)),
+          walks * mixed[trunk_lean]};
+}
+
+/// Moves the ankle of a foot that is pitched otherwise as it does on the ground, by a part of it.
+HWY_NOINLINE inline void pitch_foot(const Wide& height, const Wide& pitch, const Wide& part, FootMotion& foot) {
+  const FootMotion was = plant(height, foot.pitch, foot.toe_out, wide(0.0F)),
+                   is = plant(height, pitch, foot.toe_out, wide(0.0F));
+  foot.pitch = pitch;
+  foot.toes = fma(part, is.toes - was.toes, foot.toes);
+  foot.ankle_up = fma(part, is.ankle_up - was.ankle_up, foot.ankle_up);
+  foot.ankle_out = fma(part, is.ankle_out - was.ankle_out, foot.ankle_out);
+  foot.ankle_forward = fma(part, is.ankle_forward - was.ankle_forward, foot.ankle_forward);
+}
+
+/// How much higher than straight from one foothold to the next the foot in the air is.
+HWY_INLINE Wide lift_now(const Footing<Lanes<float>>& footing, const Wide& part) {
+  const auto hill = [&](float top) HWY_ATTR {
+    return smooth(part * (1.0F / top)) * (1.0F - smooth((part - top) * (1.0F / (1.0F - top))));
+  };
+  return fma(load(footing.lift_early_m), hill(swing_lift::early), load(footing.lift_late_m) * hill(swing_lift::late));
+}
+
+/// A foot that comes to another height lands flat or, on the way down, toes first; one that goes down leaves the ground
+/// with its heel further up.
+HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, const Footing<Lanes<float>>& footing,
+                                        const MixedShape& of, const Uneven& uneven, const Wide& height,
+                                        const Wide& phase, FootMotion& stance, FootMotion& other) {
+  using namespace rise_table;
+  const OneShape from{plan.from.shape};
+  const Wide cycle = 0.5F * phase, one = wide(1.0F), zero = wide(0.0F);
+  const WideMask walks = load(plan.landing) > 0.0F;
+  const Wide ends = mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
+  const Wide heel = falling(from, step_shape::strike, cycle / (usual_flat + from(step_shape::times, 0)));
+  const Wide u = min(cycle * (1.0F / toes_first_part), one), left = 1.0F - u;
+  const Wide toes = left * left * left * fma(u, fma(u, wide(6.0F), wide(3.0F)), one);
+  const Wide rising = select(walks, uneven.to[heel_up_more] * heel_up(cycle, ends), zero);
+  pitch_foot(height, fnma(uneven.from[strike_less], heel, fnma(uneven.from[toes_first], toes, stance.pitch - rising)),
+             one, stance);
+
+  const Wide part = other.part, lands = smooth(part);
+  const Wide risen = heel_up(0.5F + cycle, 0.5F * load(plan.double_support));
+  pitch_foot(height, fnma(uneven.from[heel_up_more], risen * (1.0F - lands), other.pitch), 1.0F - smooth(2.0F * part),
+             other);
+  const MixedManner mixed{uneven.from, uneven.to, lands};
+  const Wide in_air = max(bump(part), 0.0F) * height;
+  pitch_foot(height,
+             fnma(lands * uneven.to[strike_less], other.pitch, fnma(lands, uneven.to[toes_first], other.pitch)) +
+                 slanted_bump(mixed, swing_pitch, swing_pitch_late, part),
+             lands, other);
+  const Wide x = 2.0F * part - 1.0F;
+  other.ankle_forward = fma(in_air, fma(x, mixed[swing_ahead_late], mixed[swing_ahead]), other.ankle_forward);
+  other.ankle_up = other.ankle_up + lift_now(footing, part);
+  other.ankle_up = select(phase >= load(plan.double_support), above_ground(other, height), other.ankle_up);
+}
+
+/// Where the ankle of the other foot would be, lay it flat, of its last foothold and of its next one; part of the way.
+HWY_NOINLINE inline Ground flat_other(const StepPlan<Lanes<float>>& plan, const Line& line, const Wide& swung,
+                                      const Wide& out) {
+  Wide before_s, before_c, ahead_s, ahead_c;
+  sin_cos(-line.turned_before, before_s, before_c);
+  sin_cos(line.turn, ahead_s, ahead_c);
+  const Wide zero = wide(0.0F);
+  Ground from = turned(fma(out, load(plan.trailing_half_width_m), line.shift_before), zero, before_s, before_c),
+         to = turned(fma(out, load(plan.to.half_width_m), line.shift_next), zero, ahead_s, ahead_c);
+  from = {fnma(line.from.length_m, line.from_s, from.left), fnma(line.from.length_m, line.from_c, from.forward)};
+  to = {fma(line.to.length_m, line.to_s, to.left), fma(line.to.length_m, line.to_c, to.forward)};
+  return part_way(from, to, swung);
+}
+
+/// A foot whose places are those on level ground, on such ground instead. `flat`: where its ankle would be, lay it
+/// flat.
+HWY_NOINLINE inline void put_on(const Slope& slope, const Ground& flat, FootMotion& foot, Foothold& at) {
+  const WideVec off = rotate(tilt_of(slope.left, slope.along),
+                             {at.ankle.left - flat.left, foot.ankle_up, at.ankle.forward - flat.forward});
+  at.ankle = {flat.left + off.x, flat.forward + off.z};
+  foot.ankle_up = slope.height + off.y;
+}
+
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,34 @@
+#pragma once
+// The ground under a walker's feet, where it is not the level plane y = 0: state like any other, on the person's row.
+
+#include <cstdint>
+
+#include "components/lanes.h"
+
+namespace mobil {
+
+/// A step's footholds: that which the other foot leaves, the stance foot's, that which the other foot comes to.
+enum class FootholdOf : std::uint8_t { leaving, stance, landing };
+
+/// By FootholdOf: the height of the ground in the world, m, and how much it rises toward +X and +Z, m per m. How much
+/// higher than straight from one foothold to the next the foot in the air passes, early and late in its swing
+/// (`swing_lift`), m. Where the stance foothold was when that was asked; the step (GaitState) that it is of; and how
+/// much of it is known (FootingKnown). All zero: level ground, nothing known yet.
+template <class F>
+struct Footing {
+  F height_m[3], rise_x[3], rise_z[3];
+  F lift_early_m, lift_late_m;
+  F stance_x_m, stance_z_m;
+  Whole<F> steps, stance_side, known;
+};
+
+/// Parts of the swing's time at which a foot's early and its late lift are greatest: each rises until then and falls
+/// from then on as 10 u³ − 15 u⁴ + 6 u⁵.
+namespace swing_lift {
+inline constexpr float early = 0.35F, late = 0.65F;
+}
+
+/// Nothing; the ground of the step before, that the stance foot has come to; all.
+enum FootingKnown : unsigned { footing_unknown = 0, footing_before = 1, footing_all = 2 };
+
+}  // namespace mobil

@@ -1,0 +1,39 @@
+#include "systems/gait/footing.h"
+
+#include <cstddef>
+#include <utility>
+
+namespace mobil {
+namespace {
+
+constexpr auto leaving = static_cast<std::size_t>(FootholdOf::leaving);
+constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
+constexpr auto landing = static_cast<std::size_t>(FootholdOf::landing);
+
+}  // namespace
+
+void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& footing) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const std::uint32_t steps = state.steps[l] - footing.steps[l];
+    const bool swapped = steps == 0 && state.stance_side[l] != footing.stance_side[l];
+    if (steps == 0 && !swapped) continue;
+    footing.steps[l] = state.steps[l];
+    footing.stance_side[l] = state.stance_side[l];
+    // Of who slept, or whose ground was not asked for in time, nothing is known.
+    const bool known = steps <= 1 && footing.known[l] != footing_unknown;
+    footing.known[l] = known ? footing_before : footing_unknown;
+    for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z}) {
+      Lanes<float>(&of)[3] = *values;
+      if (swapped) {
+        std::swap(of[leaving][l], of[stance][l]);
+      } else {
+        of[leaving][l] = of[stance][l];
+        of[stance][l] = of[landing][l];
+      }
+      of[landing][l] = of[stance][l];
+    }
+    footing.lift_early_m[l] = footing.lift_late_m[l] = 0.0F;
+  }
+}
+
+}  // namespace mobil

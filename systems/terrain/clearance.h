@@ -1,0 +1,25 @@
+#pragma once
+// How high a foot must be lifted on its way over uneven ground.
+
+#include <span>
+
+namespace mobil {
+
+/// How much higher than straight from one foothold to the next the foot passes, m, early and late in its swing
+/// (`swing_lift`).
+struct FootLift {
+  float early_m = 0, late_m = 0;
+};
+
+/// No foot is lifted further.
+inline constexpr float most_lift_m = 0.4F;
+
+/// By how much a point of the foot is too low at a part of the swing's time, between 0 and 1.
+struct TooLow {
+  float part, by_m;
+};
+
+/// A small lift after which nothing is too low, or hardly; each at most `most_lift_m`.
+FootLift lift_of(std::span<const TooLow> points);
+
+}  // namespace mobil

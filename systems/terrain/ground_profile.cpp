@@ -1,0 +1,64 @@
+#include "systems/terrain/ground_profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "components/lanes.h"
+#include "systems/terrain/foot_path.h"
+
+namespace mobil {
+namespace {
+
+/// The part of the way at which a place is, 0 to 1.
+float along(const GroundProfile& ground, float x_m, float z_m) {
+  const float x = ground.to_x_m - ground.from_x_m, z = ground.to_z_m - ground.from_z_m, length2 = x * x + z * z;
+  if (!(length2 > 0)) return 0;
+  return std::clamp(((x_m - ground.from_x_m) * x + (z_m - ground.from_z_m) * z) / length2, 0.0F, 1.0F);
+}
+
+/// What lifts all points of a foot on that path over what stands out of the straight way.
+FootLift more_lift(const GroundProfile& ground, const FootPath& path) {
+  constexpr float clear_m = 0.01F, out_m = 0.005F;
+  std::array<TooLow, FootPath::points * lane_count> low;
+  std::size_t count = 0;
+  for (const FootPath::At& at : path.at) {
+    const float q = at.part * (1 - at.part), in_air = 64 * q * q * q;
+    for (const Vec3<float>& p : at.point_m) {
+      const float height_m = ground.at(p.x, p.z), by_m = height_m + in_air * clear_m - p.y;
+      if (height_m > ground.straight_at(p.x, p.z) + out_m && by_m > 0) low[count++] = {at.part, by_m};
+    }
+  }
+  return lift_of(std::span(low).first(count));
+}
+
+}  // namespace
+
+float GroundProfile::at(float x_m, float z_m) const {
+  constexpr float step_m = 0.05F;
+  const float place = along(*this, x_m, z_m) * static_cast<float>(asked + 1);
+  const auto i = std::min(static_cast<std::size_t>(place), asked);
+  const float a = height_m[i], b = height_m[i + 1], beyond = place - static_cast<float>(i);
+  if (std::fabs(b - a) > step_m) return beyond < 0.5F ? a : b;
+  return std::lerp(a, b, beyond);
+}
+
+float GroundProfile::straight_at(float x_m, float z_m) const {
+  return std::lerp(height_m.front(), height_m.back(), along(*this, x_m, z_m));
+}
+
+FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, const StepPlan<float>& plan,
+                   const GaitState<float>& state, const Footing<float>& footing) {
+  Footing<float> under = footing;
+  under.lift_early_m = under.lift_late_m = 0;
+  if (!(plan.landing > 0)) return {};
+  constexpr int rounds = 2;  // a foot that is lifted hangs otherwise
+  for (int round = 0; round < rounds; ++round) {
+    const FootLift more = more_lift(ground, foot_path(size, plan, state, under));
+    under.lift_early_m = std::min(under.lift_early_m + more.early_m, most_lift_m);
+    under.lift_late_m = std::min(under.lift_late_m + more.late_m, most_lift_m);
+  }
+  return {under.lift_early_m, under.lift_late_m};
+}
+
+}  // namespace mobil

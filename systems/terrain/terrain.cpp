@@ -1,0 +1,218 @@
+#include "systems/terrain/terrain.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "engine/each.h"
+#include "engine/exact_math.h"
+#include "engine/rows.h"
+#include "systems/gait/step_events.h"
+#include "systems/people/person.h"
+#include "systems/simulation_world.h"
+#include "systems/terrain/ground_profile.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t leaving = static_cast<std::size_t>(FootholdOf::leaving);
+constexpr std::size_t stance = static_cast<std::size_t>(FootholdOf::stance);
+constexpr std::size_t landing = static_cast<std::size_t>(FootholdOf::landing);
+
+/// Further than that from where it was, a foothold is another one.
+constexpr float moved_m = 0.05F;
+/// Places asked for under a foothold: under the ankle first.
+constexpr std::size_t sole_places = 3;
+
+/// False where an answer is not a number or out of range. Makes what is too steep less so.
+bool make_usable(TerrainHeight& answer) {
+  constexpr float highest_m = 1e5F, steepest = 1;
+  if (!(std::fabs(answer.height_m) <= highest_m) || !std::isfinite(answer.rise_x) || !std::isfinite(answer.rise_z))
+    return false;
+  answer.rise_x = std::clamp(answer.rise_x, -steepest, steepest);
+  answer.rise_z = std::clamp(answer.rise_z, -steepest, steepest);
+  return true;
+}
+
+}  // namespace
+
+/// Whose ground is asked for, and with which query their places begin: of each foothold three along the sole, of all
+/// footholds or of the next alone; then those on the way to it.
+struct Terrain::Work {
+  struct Asking {
+    Table* table;
+    std::uint32_t block, lane;
+    std::size_t first;
+    bool all;
+  };
+  std::vector<Asking> asking;
+  std::vector<TerrainQuery> queries;
+  std::vector<TerrainHeight> answers;
+
+  TerrainReport collect(World& world, float tick_s);
+  void collect_block(Table& table, std::uint32_t block, float tick_s);
+  void ask_foothold(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, float height_m,
+                    Entity human);
+  std::size_t put_answers(const Asking& one);
+  TerrainHeight foothold(std::size_t first) const;
+};
+
+/// Under the ankle, the heel and the tips of the toes.
+void Terrain::Work::ask_foothold(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, float height_m,
+                                 Entity human) {
+  const float x = at.x_m[which][lane], z = at.z_m[which][lane], heading = at.heading_rad[which][lane];
+  const float s = exact::sin(heading), c = exact::cos(heading);
+  for (const double part : {0.0, -fraction::heel_back, fraction::ball_forward + fraction::toes_length}) {
+    const float ahead = static_cast<float>(part) * height_m;
+    queries.push_back({x + ahead * s, z + ahead * c, human});
+  }
+}
+
+void Terrain::Work::collect_block(Table& table, std::uint32_t block, float tick_s) {
+  const auto& size = TableColumn<BodySize>(table).at(table, block);
+  const auto& state = TableColumn<GaitState>(table).at(table, block);
+  auto& footing = TableColumn<Footing>(table).at(table, block);
+  Footholds<Lanes<float>> at;
+  footholds(TableColumn<StepPlan>(table).at(table, block), state, at);
+  const Entity* const entities = table.entities(block);
+  for (std::uint32_t l = 0; l < table.live(block); ++l) {
+    const float x = at.x_m[stance][l], z = at.z_m[stance][l];
+    const bool elsewhere =
+        std::fabs(x - footing.stance_x_m[l]) > moved_m || std::fabs(z - footing.stance_z_m[l]) > moved_m;
+    const bool same_step = footing.steps[l] == state.steps[l] && footing.stance_side[l] == state.stance_side[l];
+    const bool known = footing.known[l] == footing_all;
+    const bool all = footing.known[l] == footing_unknown || !same_step || (known && elsewhere);
+    const bool begun = state.time_s[l] < tick_s;
+    if (!all && known && !begun) continue;
+    footing.steps[l] = state.steps[l];
+    footing.stance_side[l] = state.stance_side[l];
+    footing.stance_x_m[l] = x;
+    footing.stance_z_m[l] = z;
+    asking.push_back({&table, block, l, queries.size(), all});
+    if (all) ask_foothold(at, leaving, l, size.height_m[l], entities[l]);
+    if (all) ask_foothold(at, stance, l, size.height_m[l], entities[l]);
+    ask_foothold(at, landing, l, size.height_m[l], entities[l]);
+    for (std::size_t i = 0; i < GroundProfile::asked; ++i) {
+      const float part = GroundProfile::part(i);
+      queries.push_back({std::lerp(at.x_m[leaving][l], at.x_m[landing][l], part),
+                         std::lerp(at.z_m[leaving][l], at.z_m[landing][l], part), entities[l]});
+    }
+  }
+}
+
+TerrainReport Terrain::Work::collect(World& world, float tick_s) {
+  asking.clear();
+  queries.clear();
+  TerrainReport report;
+  for (Table& table : world.tables()) {
+    if (!TableColumn<Footing>(table) || !TableColumn<GaitState>(table) || !TableColumn<StepPlan>(table)) continue;
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      report.people += table.live(b);
+      collect_block(table, static_cast<std::uint32_t>(b), tick_s);
+    }
+  }
+  report.asked = asking.size();
+  report.places = queries.size();
+  return report;
+}
+
+/// The plane that a foot stands on: of the ground under its ankle, raised where heel or toes would be in the ground.
+TerrainHeight Terrain::Work::foothold(std::size_t first) const {
+  TerrainHeight plane = answers[first];
+  const TerrainQuery& ankle = queries[first];
+  float raised_m = 0;
+  for (std::size_t i = first + 1; i < first + sole_places; ++i) {
+    const float x = queries[i].x_m - ankle.x_m, z = queries[i].z_m - ankle.z_m;
+    raised_m = std::max(raised_m, answers[i].height_m - plane.height_m - x * plane.rise_x - z * plane.rise_z);
+  }
+  plane.height_m += raised_m;
+  return plane;
+}
+
+/// Returns how many answers could not be used.
+std::size_t Terrain::Work::put_answers(const Asking& one) {
+  const auto& [table, block, l, first, all] = one;
+  auto& footing = TableColumn<Footing>(*table).at(*table, block);
+  const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + sole_places;
+  std::size_t unusable = 0;
+  for (std::size_t i = first; i < on_way + GroundProfile::asked; ++i) {
+    if (make_usable(answers[i])) continue;
+    // Under a foothold's heel and toes as under its ankle; else as high as where the stance foot is.
+    const bool on_sole = i < on_way && (i - first) % sole_places != 0;
+    answers[i] = on_sole ? answers[i - (i - first) % sole_places] : TerrainHeight{footing.height_m[stance][l]};
+    ++unusable;
+  }
+  const auto put = [&](std::size_t which, std::size_t query) {
+    const auto [height_m, rise_x, rise_z] = foothold(query);
+    footing.height_m[which][l] = height_m;
+    footing.rise_x[which][l] = rise_x;
+    footing.rise_z[which][l] = rise_z;
+  };
+  if (all) put(leaving, first);
+  if (all) put(stance, first + sole_places);
+  put(landing, next);
+  footing.known[l] = footing_all;
+
+  const float part = GroundProfile::part(0);
+  const TerrainQuery &to = queries[next], &on = queries[on_way];
+  GroundProfile ground = {
+      (on.x_m - part * to.x_m) / (1 - part), (on.z_m - part * to.z_m) / (1 - part), to.x_m, to.z_m, {}};
+  ground.height_m.front() = footing.height_m[leaving][l];
+  ground.height_m.back() = footing.height_m[landing][l];
+  for (std::size_t i = 0; i < GroundProfile::asked; ++i) ground.height_m[i + 1] = answers[on_way + i].height_m;
+  const FootLift lift = lift_over(ground, row_of(TableColumn<BodySize>(*table).at(*table, block), l),
+                                  row_of(TableColumn<StepPlan>(*table).at(*table, block), l),
+                                  row_of(TableColumn<GaitState>(*table).at(*table, block), l), row_of(footing, l));
+  footing.lift_early_m[l] = lift.early_m;
+  footing.lift_late_m[l] = lift.late_m;
+  return unusable;
+}
+
+Terrain::Terrain(Simulation& simulation, TerrainHeights heights)
+    : simulation_(simulation), heights_(std::move(heights)), work_(std::make_unique<Work>()) {}
+Terrain::~Terrain() = default;
+Terrain::Terrain(Terrain&&) noexcept = default;
+
+Result<void> Terrain::manage(std::span<const Entity> people) {
+  World& world = world_of(simulation_);
+  for (const Entity human : people) {
+    if (!is_person(world, human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
+    if (!simulation_.is_asleep(human) && !world.has<Gait>(human))
+      return fail("Terrain: this person's host animates the skeleton; pose them on the ground", Status::missing);
+  }
+  for (const Entity human : people) {
+    if (simulation_.is_asleep(human)) {
+      if (auto done = simulation_.wake({&human, 1}); !done) return done;
+    }
+    if (world.has<Footing>(human)) continue;
+    if (auto done = simulation_.expand({&human, 1}); !done) return done;
+    if (const Status status = world.add(human, Footing<float>{}); status != Status::ok)
+      return result_of("Terrain", status);
+  }
+  return {};
+}
+
+Result<void> Terrain::release(std::span<const Entity> people) {
+  World& world = world_of(simulation_);
+  for (const Entity human : people) {
+    if (!world.alive(human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
+    if (!world.has<Footing>(human)) return fail("Terrain: a person is not managed", Status::missing);
+  }
+  for (const Entity human : people)
+    if (auto done = result_of("Terrain", world.remove<Footing>(human)); !done) return done;
+  return {};
+}
+
+TerrainReport Terrain::update() {
+  Work& work = *work_;
+  TerrainReport report = work.collect(world_of(simulation_), static_cast<float>(simulation_.tick_s()));
+  if (work.asking.empty()) return report;
+  work.answers.assign(work.queries.size(), {});
+  heights_(work.queries, work.answers);
+  for (const Work::Asking& one : work.asking) report.unusable += work.put_answers(one);
+  return report;
+}
+
+}  // namespace mobil

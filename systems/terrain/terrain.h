@@ -1,0 +1,79 @@
+#pragma once
+// Walkers on ground that is not level: slopes, kerbs, stairs, fields. A host answers how high the ground is; feet then
+// stand on it, tilted as it is, and pass over what lies between two footholds.
+//
+//   Simulation simulation;
+//   Terrain terrain(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+//     for (std::size_t i = 0; i < at.size(); ++i) out[i].height_m = my_world.height(at[i].x_m, at[i].z_m);
+//   });
+//   terrain.manage({&human, 1});
+//   terrain.update();                                        // before each tick
+//   simulation.tick();
+//
+// The ground is asked for once a step and person: under the foothold to come, and along the way of the foot to it. What
+// was answered is state and lies on the person's row (components/footing.h); snapshots and replays need no answers
+// again. Who is not managed walks on the plane y = 0 and costs what they did.
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <span>
+
+#include "components/footing.h"
+#include "engine/error.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+
+/// Where the ground is asked for, m, and by whom.
+struct TerrainQuery {
+  float x_m, z_m;
+  Entity human;
+};
+
+/// The ground there: its height, m; how much it rises toward +X and toward +Z, m per m. Of a normal n: −n.x/n.y and
+/// −n.z/n.y.
+struct TerrainHeight {
+  float height_m = 0, rise_x = 0, rise_z = 0;
+};
+
+/// Answers all queries of an update at once, on the thread that calls `update`; `out` is as long and all zero. Heights
+/// within ±100 km; rises within ±1, steeper ones are taken as that. What is not a number is taken as level ground at
+/// the height of the last foothold.
+using TerrainHeights = std::function<void(std::span<const TerrainQuery> at, std::span<TerrainHeight> out)>;
+
+/// What an update did: people looked at, those whose ground was asked for, how many places; and how many answers were
+/// not numbers or out of range.
+struct TerrainReport {
+  std::size_t people = 0, asked = 0, places = 0, unusable = 0;
+};
+
+/// Puts those it manages on the host's ground, before each tick.
+class Terrain {
+ public:
+  /// Works on `simulation`, which must outlive it and stay where it is.
+  Terrain(Simulation& simulation, TerrainHeights heights);
+  ~Terrain();
+  Terrain(Terrain&&) noexcept;
+  Terrain(const Terrain&) = delete;
+  Terrain& operator=(const Terrain&) = delete;
+
+  /// From now on these walkers are on that ground; their pose is from the next tick on. All or none. Errors: a stale
+  /// handle, a posed person (Status::missing); nothing has changed.
+  Result<void> manage(std::span<const Entity> people);
+  /// No more: from the next tick on they walk on the plane y = 0. All or none. Errors: a stale handle, somebody who is
+  /// not managed (Status::missing).
+  Result<void> release(std::span<const Entity> people);
+
+  /// Asks for the ground of those whose step began in the last tick, or whose ground is not known: who was placed
+  /// elsewhere, who woke. Call it before each tick. Takes memory only as crowds grow.
+  TerrainReport update();
+
+ private:
+  struct Work;
+  Simulation& simulation_;
+  TerrainHeights heights_;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace mobil

@@ -1,0 +1,44 @@
+#include "systems/terrain/terrain_module.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "components/footing.h"
+#include "engine/snapshot.h"
+#include "systems/terrain/clearance.h"
+
+namespace mobil {
+namespace {
+
+bool is_sound(const Footing<float>& footing) {
+  constexpr float highest_m = 1e5F, steepest = 1;
+  const auto within = [](float value, float most) { return std::fabs(value) <= most; };  // false of no number
+  bool sound = within(footing.lift_early_m, most_lift_m) && within(footing.lift_late_m, most_lift_m) &&
+               std::isfinite(footing.stance_x_m) && std::isfinite(footing.stance_z_m) && footing.known <= footing_all;
+  for (std::size_t i = 0; i < 3; ++i)
+    sound = sound && within(footing.height_m[i], highest_m) && within(footing.rise_x[i], steepest) &&
+            within(footing.rise_z[i], steepest);
+  return sound;
+}
+
+Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
+  const std::uint32_t column = saved.column(table, type_id<Footing<float>>());
+  if (column == Table::no_column) return {};
+  for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
+    std::array<std::uint32_t, ComponentLayout<Footing>::words> word;
+    for (std::uint32_t w = 0; w < word.size(); ++w) word[w] = saved.word(table, row, column + w);
+    if (!is_sound(std::bit_cast<Footing<float>>(word)))
+      return fail("the snapshot does not agree with itself (the ground under somebody); give one that `save` made");
+  }
+  return {};
+}
+
+}  // namespace
+
+Module terrain_module() {
+  return {.name = "terrain", .parts = {component_part<Footing>()}, .check_rows = &check_rows};
+}
+
+}  // namespace mobil

@@ -1,0 +1,393 @@
+// Walkers on ground that is not level.
+
+#include "systems/terrain/terrain.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "assets/body/joint_limits.h"
+#include "components/forces.h"
+#include "engine/row_hash.h"
+#include "systems/simulation.h"
+#include "tests/engine/counting_heap.h"
+#include "tests/simulation/reseal.h"
+#include "tests/terrain/measured_stairs.h"
+
+namespace mobil {
+namespace {
+
+constexpr double degrees = 57.29577951308232;
+
+using Ground = std::function<TerrainHeight(float, float)>;
+
+TerrainHeights answering(Ground ground) {
+  return [ground = std::move(ground)](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[i] = ground(at[i].x_m, at[i].z_m);
+  };
+}
+
+Ground plane(float rise_x, float rise_z) {
+  return [=](float x, float z) { return TerrainHeight{rise_x * x + rise_z * z, rise_x, rise_z}; };
+}
+
+/// Rises, or falls, by `rise_m` every `tread_m` from z = 0 on; so many times.
+Ground stairs(float rise_m, float tread_m, float count) {
+  return [=](float, float z) {
+    return TerrainHeight{rise_m * std::clamp(std::floor(z / tread_m) + 1, 0.0F, count), 0, 0};
+  };
+}
+
+/// One walker with forces on such ground.
+struct Hike {
+  Ground ground;
+  Simulation simulation;
+  Terrain terrain;
+  Entity human;
+
+  Hike(Ground on, const GaitRequest& gait, const BodyRequest& body = {.height_m = 1.75F, .mass_kg = 75},
+       double tick_s = 1.0 / 60, float start_z_m = 0)
+      : ground(std::move(on)), simulation({.tick_s = tick_s}), terrain(simulation, answering(ground)) {
+    human = simulation.spawn(body, gait).value();
+    EXPECT_TRUE(simulation.place(human, 0, start_z_m, 0));
+    EXPECT_TRUE(simulation.add_forces(human));
+    EXPECT_TRUE(terrain.manage({&human, 1}));
+    tick();
+  }
+  void tick() {
+    terrain.update();
+    simulation.tick();
+  }
+  template <template <class> class C>
+  C<float> get() const {
+    return simulation.get<C>(human).value();
+  }
+};
+
+/// How far over the ground the lowest of a sole's points is, of a foot that stands on a plane.
+float lowest_m(const Hike& hike, std::size_t side) {
+  const Feet<float> feet = hike.get<Feet>();
+  float lowest = std::numeric_limits<float>::max();
+  for (const Vec3<float>& p : {feet.heel_m[side], feet.toe_m[side], feet.tip_m[side]})
+    lowest = std::min(lowest, p.y - hike.ground(p.x, p.z).height_m);
+  return lowest;
+}
+
+/// No foot is in a slope, whatever its direction, and the one that stands is on it: by 2 mm.
+RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndAreNeverInIt, ()) {
+  const auto drawn = [](int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) * 0.01F; };
+  const float speed = drawn(40, 170), x = drawn(-25, 26), z = drawn(-25, 26), height = drawn(150, 196);
+  Hike hike(plane(x, z), {.speed_m_s = speed}, {.height_m = height, .mass_kg = 24 * height * height});
+  RC_ASSERT(hike.simulation.turn_to(hike.human, drawn(-300, 300)).has_value());
+  for (int t = 0; t < 240; ++t) {
+    hike.tick();
+    const GaitState<float> state = hike.get<GaitState>();
+    RC_ASSERT(lowest_m(hike, 0) > -0.002F);
+    RC_ASSERT(lowest_m(hike, 1) > -0.002F);
+    // The heel's pad yields at first.
+    if (state.time_s > 0.15F * hike.get<StepPlan>().duration_s) RC_ASSERT(lowest_m(hike, state.stance_side) < 0.002F);
+  }
+}
+
+TEST(Terrain, OnAPlateauAPersonWalksAsOnLevelGround) {
+  Hike up([](float, float) { return TerrainHeight{12.5F, 0, 0}; }, {.speed_m_s = 1.3F});
+  Hike down([](float, float) { return TerrainHeight{0, 0, 0}; }, {.speed_m_s = 1.3F});
+  Simulation level;
+  const Entity human = level.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.3F}).value();
+  level.tick();
+  for (int t = 0; t < 200; ++t) {
+    const Pose<float> a = up.get<Pose>(), b = down.get<Pose>(), c = level.get<Pose>(human).value();
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      EXPECT_NEAR(a.position_m[s].y - 12.5F, b.position_m[s].y, 1e-5F);
+      EXPECT_NEAR(b.position_m[s].x, c.position_m[s].x, 1e-5F);
+      EXPECT_NEAR(b.position_m[s].y, c.position_m[s].y, 1e-5F);
+      EXPECT_NEAR(b.position_m[s].z, c.position_m[s].z, 1e-5F);
+    }
+    up.tick(), down.tick(), level.tick();
+  }
+}
+
+/// Root mean square over a stride, deg.
+struct Off {
+  double thigh = 0, knee = 0, ankle = 0;
+};
+
+/// A person of the measured ones' height, from the strike on the last stair but one to the next of that foot, on the
+/// floor: nearest to what was measured of all times a step may take.
+Off off_stairs(bool up) {
+  constexpr float step_m = 0.30F, rise_m = 0.16F, step_s = 0.55F, ankle_on_tread_m = 0.05F, ankle_down_m = 0.10F;
+  const bovi::Stride& measured = up ? bovi::ascending : bovi::descending;
+  const float edge = up ? ankle_on_tread_m : ankle_down_m;
+  // Footholds are at whole steps; the first stair is under the eleventh.
+  const Ground flight = stairs(up ? rise_m : -rise_m, step_m, 3);
+  const Ground ground = [=](float x, float z) { return flight(x, z - 11 * step_m + edge); };
+  Hike hike(ground, {.step_length_m = step_m, .step_frequency_hz = 1 / step_s}, {.height_m = 1.47F, .mass_kg = 41},
+            step_s / 40);
+  Off off;
+  std::array<double, bovi::instants> thigh{}, knee{}, ankle{};
+  std::size_t instant = 0, side = 2;
+  std::uint32_t first = 0;
+  double mean = 0;
+  while (instant < bovi::instants) {
+    const GaitState<float> state = hike.get<GaitState>();
+    const bool there = state.line_z_m > 11.5F * step_m && state.line_z_m < 12.5F * step_m;
+    if (side == 2 && there) side = state.stance_side, first = state.steps;
+    if (side != 2) {
+      const double part = (state.steps - first) + double{state.time_s} / double{hike.get<StepPlan>().duration_s};
+      if (part >= 0.1 * static_cast<double>(instant) - 1e-6) {
+        const JointAngles<float> angles = hike.get<JointAngles>();
+        const Quat<float> q = hike.get<Pose>().rotation[index(on_side(Segment::thigh_right, side))];
+        const double ahead = -2 * (double{q.y} * double{q.z} + double{q.w} * double{q.x});
+        const double down = 1 - 2 * (double{q.x} * double{q.x} + double{q.z} * double{q.z});
+        thigh[instant] = std::atan2(ahead, down) * degrees;
+        knee[instant] = double{angles.knee_flexion[side]} * degrees;
+        ankle[instant] = double{angles.ankle_dorsiflexion[side]} * degrees;
+        mean += ankle[instant] / bovi::instants;
+        ++instant;
+      }
+    }
+    hike.tick();
+  }
+  for (std::size_t i = 0; i < bovi::instants; ++i) {
+    off.thigh += std::pow(thigh[i] - measured.thigh[i], 2) / bovi::instants;
+    off.knee += std::pow(knee[i] - measured.knee[i], 2) / bovi::instants;
+    off.ankle += std::pow(ankle[i] - mean - measured.ankle[i], 2) / bovi::instants;
+  }
+  return {std::sqrt(off.thigh), std::sqrt(off.knee), std::sqrt(off.ankle)};
+}
+
+TEST(Terrain, HipKneeAndAnkleOnStairsAreThoseOfPeople) {
+  for (const bool up : {true, false}) {
+    const Off off = off_stairs(up);
+    std::printf("%s: thigh %.1f, knee %.1f, ankle %.1f deg rms\n", up ? "up" : "down", off.thigh, off.knee, off.ankle);
+    EXPECT_LT(off.thigh, 10);
+    EXPECT_LT(off.knee, 11);
+    EXPECT_LT(off.ankle, 11);
+  }
+}
+
+/// Nothing jumps, and the ankle of the foot that bears keeps within its limits.
+TEST(Terrain, HillsKerbsAndStairsAreWalkedSmoothly) {
+  const struct {
+    const char* name;
+    Ground ground;
+    GaitRequest gait;
+    float start_z_m = 0;
+    bool hard = false;  // a foot comes to the edge as it may, at full speed
+  } ways[] = {
+      {"hills",
+       [](float x, float z) {
+         constexpr float a = 0.2F;
+         return TerrainHeight{a * std::sin(z) * std::cos(x), -a * std::sin(z) * std::sin(x),
+                              a * std::cos(z) * std::cos(x)};
+       },
+       {.speed_m_s = 1.2F}},
+      {"a slope up", plane(0, 0.1F), {.speed_m_s = 1.2F}},
+      {"a slope down", plane(0, -0.2F), {.speed_m_s = 1.2F}},
+      {"a kerb up",
+       [](float, float z) {
+         return TerrainHeight{z > 4 ? 0.15F : 0, 0, 0};
+       },
+       {.speed_m_s = 1.2F}},
+      {"a kerb down",
+       [](float, float z) {
+         return TerrainHeight{z > 4 ? -0.15F : 0, 0, 0};
+       },
+       {.speed_m_s = 1.2F},
+       0,
+       true},
+      {"stairs up", stairs(0.17F, 0.30F, 20), {.speed_m_s = 0.5F, .step_length_m = 0.30F}, 0.05F},
+      {"stairs down", stairs(-0.17F, 0.30F, 20), {.speed_m_s = 0.5F, .step_length_m = 0.30F}, 0.10F},
+  };
+  for (const auto& [name, ground, gait, start_z_m, hard] : ways) {
+    Hike hike(ground, gait, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 240, start_z_m);
+    std::array<Vec3<float>, 3> pelvis{};
+    double fastest = 0, highest = 0, ankle = 0, knee = 0;
+    JointAngles<float> before = hike.get<JointAngles>();
+    for (int t = 0; t < 240 * 10; ++t) {
+      hike.tick();
+      std::rotate(pelvis.begin(), pelvis.begin() + 1, pelvis.end());
+      pelvis[2] = hike.get<Pose>().position_m[0];
+      if (t > 2)
+        highest = std::max(highest,
+                           std::fabs(double{pelvis[0].y} - 2 * double{pelvis[1].y} + double{pelvis[2].y}) * 240 * 240);
+      const JointAngles<float> now = hike.get<JointAngles>();
+      const std::uint32_t stance = hike.get<GaitState>().stance_side;
+      for (std::size_t side = 0; side < 2; ++side) {
+        fastest = std::max(fastest, std::fabs(double{now.knee_flexion[side] - before.knee_flexion[side]}) * 240);
+        knee = std::max(knee, double{now.knee_flexion[side]} * degrees);
+      }
+      ankle = std::max(ankle, double{now.ankle_dorsiflexion[stance]} * degrees);
+      before = now;
+    }
+    std::printf("%s: knees %.1f rad/s and %.0f deg, ankle %.0f deg, hips %.1f m/s2\n", name, fastest, knee, ankle,
+                highest);
+    EXPECT_LT(fastest, 20) << name;  // people's knees swing at 7 rad/s
+    EXPECT_LT(highest, 33) << name;
+    EXPECT_LT(ankle, hard ? 46 : 39) << name;
+    EXPECT_LT(knee, hard ? 125 : 112) << name;
+  }
+}
+
+TEST(Terrain, ForcesCarryTheBodyAndPressOnTheGround) {
+  for (const float grade : {-0.1F, 0.1F}) {
+    Hike hike(plane(0, grade), {.speed_m_s = 1.2F});
+    double up = 0, ahead = 0;
+    constexpr int ticks = 600;
+    for (int t = 0; t < ticks; ++t) {
+      hike.tick();
+      const GroundReaction<float> ground = hike.get<GroundReaction>();
+      for (std::size_t side = 0; side < 2; ++side) {
+        up += double{ground.force_n[side].y} / ticks;
+        ahead += double{ground.force_n[side].z} / ticks;
+        if (ground.force_n[side].y < 50) continue;
+        const Vec3<float>& at = ground.centre_m[side];
+        EXPECT_NEAR(at.y, hike.ground(at.x, at.z).height_m, 0.001F);
+      }
+    }
+    EXPECT_NEAR(up, 75 * 9.81, 15);
+    EXPECT_NEAR(ahead, 0, 12);
+  }
+}
+
+/// Fifty on hills.
+struct Crowd {
+  Simulation simulation;
+  Terrain terrain;
+  std::vector<Entity> people;
+
+  explicit Crowd(int threads)
+      : simulation({.threads = threads}),
+        terrain(simulation, answering([](float x, float z) {
+                  return TerrainHeight{0.3F * std::sin(x) + 0.1F * z, 0.3F * std::cos(x), 0.1F};
+                })) {
+    for (int i = 0; i < 50; ++i) {
+      people.push_back(simulation.spawn({}, {.speed_m_s = 0.5F + 0.02F * static_cast<float>(i)}).value());
+      EXPECT_TRUE(simulation.place(people.back(), static_cast<float>(i), 0, 0.1F * static_cast<float>(i)));
+    }
+    EXPECT_TRUE(terrain.manage(people));
+  }
+  void tick() {
+    terrain.update();
+    simulation.tick();
+  }
+};
+
+TEST(Terrain, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
+  Crowd one(1), three(3);
+  std::vector<std::byte> saved;
+  for (int k = 0; k < 300; ++k) {
+    one.tick();
+    three.tick();
+    if (k != 137) continue;
+    saved.resize(one.simulation.snapshot_bytes());
+    ASSERT_TRUE(one.simulation.save(saved));
+  }
+  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
+  ASSERT_TRUE(three.simulation.restore(saved));
+  for (int k = 138; k < 300; ++k) three.tick();
+  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
+}
+
+TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
+  Crowd crowd(1);
+  for (int k = 0; k < 200; ++k) crowd.tick();
+  std::size_t asked = 0, requests = 0;
+  std::uint32_t steps = 0;
+  for (const Entity human : crowd.people) steps -= crowd.simulation.get<GaitState>(human)->steps;
+  for (int k = 0; k < 240; ++k) {
+    const std::size_t before = heap_requests;
+    asked += crowd.terrain.update().asked;
+    requests += heap_requests - before;
+    crowd.simulation.tick();
+  }
+  for (const Entity human : crowd.people) steps += crowd.simulation.get<GaitState>(human)->steps;
+  EXPECT_NEAR(static_cast<double>(asked), static_cast<double>(steps), 50);
+  EXPECT_EQ(requests, 0U);
+}
+
+TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
+  Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
+  for (int k = 0; k < 30; ++k) hike.tick();
+  ASSERT_TRUE(hike.simulation.place(hike.human, 3, 200, 0));
+  hike.tick();
+  EXPECT_NEAR(lowest_m(hike, hike.get<GaitState>().stance_side), 0, 0.01F);
+  ASSERT_TRUE(hike.simulation.remove_forces(hike.human));
+  for (int k = 0; k < 120; ++k) hike.tick();
+  ASSERT_TRUE(hike.simulation.sleep({&hike.human, 1}));
+  ASSERT_TRUE(hike.simulation.is_asleep(hike.human));
+  for (int k = 0; k < 600; ++k) hike.tick();
+  ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
+  hike.tick();
+  EXPECT_GT(hike.get<Pose>().position_m[0].z, 210);
+  for (const std::size_t side : {0U, 1U}) {
+    EXPECT_GT(lowest_m(hike, side), -0.002F);
+    EXPECT_LT(lowest_m(hike, side), 0.3F);
+  }
+}
+
+TEST(Terrain, AnswersThatAreNoNumbersHarmNobody) {
+  int calls = 0;
+  Simulation simulation;
+  Terrain terrain(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    ++calls;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const float wild[] = {std::nanf(""), std::numeric_limits<float>::infinity(), -1e30F, 0.1F, 50, -50};
+      const auto draw = [&](std::uint64_t k) { return wild[mix64(mix64(i) ^ (k + static_cast<unsigned>(calls))) % 6]; };
+      out[i] = {draw(1), draw(2), draw(3)};
+    }
+  });
+  const Entity human = simulation.spawn({}).value();
+  ASSERT_TRUE(terrain.manage({&human, 1}));
+  std::size_t unusable = 0;
+  for (int k = 0; k < 400; ++k) {
+    unusable += terrain.update().unusable;
+    simulation.tick();
+    const Pose<float> pose = simulation.get<Pose>(human).value();
+    for (const Vec3<float>& p : pose.position_m) ASSERT_TRUE(std::isfinite(p.x + p.y + p.z));
+  }
+  EXPECT_GT(unusable, 100U);
+}
+
+TEST(Terrain, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
+  Crowd crowd(1);
+  for (int k = 0; k < 50; ++k) crowd.tick();
+  std::vector<std::byte> good(crowd.simulation.snapshot_bytes());
+  ASSERT_TRUE(crowd.simulation.save(good));
+  std::size_t taken = 0;
+  for (std::uint64_t k = 0; k < 200; ++k) {
+    std::vector<std::byte> bytes = good;
+    const std::uint64_t draw = mix64(k), at = 4 * (draw % (bytes.size() / 4));
+    const auto word = static_cast<std::uint32_t>(k % 2 == 0 ? mix64(draw) : 0x7F000000U | (mix64(draw) & 0x80FFFFFFU));
+    std::memcpy(&bytes[at], &word, 4);
+    if (!reseal_snapshot(bytes) || !crowd.simulation.restore(bytes)) continue;
+    ++taken;
+    for (int t = 0; t < 4; ++t) crowd.tick();
+  }
+  EXPECT_GT(taken, 20U);
+  ASSERT_TRUE(crowd.simulation.restore(good));
+}
+
+TEST(Terrain, SaysWhatIsWrong) {
+  Simulation simulation;
+  Terrain terrain(simulation, answering(plane(0, 0)));
+  const Entity walker = simulation.spawn({}).value(), posed = simulation.spawn_posed({}).value();
+  const Entity both[] = {walker, posed}, stale[] = {walker, Entity{}};
+  EXPECT_EQ(terrain.manage(both).error().status, Status::missing);
+  EXPECT_EQ(terrain.manage(stale).error().status, Status::stale_entity);
+  EXPECT_EQ(terrain.release({&walker, 1}).error().status, Status::missing) << "all or none";
+  ASSERT_TRUE(terrain.manage({&walker, 1}));
+  ASSERT_TRUE(terrain.manage({&walker, 1})) << "again";
+  ASSERT_TRUE(terrain.release({&walker, 1}));
+  EXPECT_EQ(terrain.update().people, 0U);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -132,12 +132,12 @@ TEST(Activation, StateGoesOn) {
   run(simulation, 20);
   const std::uint64_t later = simulation.state_hash();
   Simulation other;
-  ASSERT_TRUE(other.restore(bytes));
+  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
   run(other, 20);
   EXPECT_EQ(other.state_hash(), later);
 
   // The host takes over where the walk had it.
-  ASSERT_TRUE(simulation.restore(bytes));
+  ASSERT_TRUE(simulation.restore(bytes, RestoreLimits::none()));
   LegMuscles hosted = pulling(ExcitationSource::host, Method::reduced);
   ASSERT_TRUE(simulation.change_leg_muscles(human, hosted));
   EXPECT_EQ(activation(simulation, human, "triceps_surae", Side::right).activation, excited.activation);

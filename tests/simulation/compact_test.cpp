@@ -316,7 +316,7 @@ TEST(Compact, SnapshotsAndAnotherOriginKeepThem) {
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
   Simulation other;
-  const auto restored = other.restore(bytes);
+  const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(other.state_hash(), simulation.state_hash());
   for (int i = 0; i < 25; ++i) simulation.tick(), other.tick();

@@ -89,7 +89,7 @@ TEST(Door, ASnapshotSaysWhichPartIsUnknown) {
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("Score<float>"), std::string::npos) << refused.error().message;
   Simulation knows({.modules = {{.name = "game", .parts = {component_part<Score>()}}}});
-  const auto done = knows.restore(bytes);
+  const auto done = knows.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(done) << done.error().message;
   EXPECT_EQ(knows.get<Score>(human)->points, 3U);
 }

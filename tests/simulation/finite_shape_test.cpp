@@ -188,7 +188,7 @@ TEST(FiniteShape, GoesOnAfterAFade) {
   for (std::size_t i = 0; i < one.size(); ++i) ASSERT_NEAR(one[i], other[i], 2e-5F);
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
-  const auto restored = simulation.restore(bytes);
+  const auto restored = simulation.restore(bytes, RestoreLimits::none());
   EXPECT_TRUE(restored) << restored.error().message;
   EXPECT_TRUE(simulation.set_method(changed, Muscle::hamstrings, {Method::ecd}));
 }

@@ -185,7 +185,7 @@ TEST(Limbs, AreKeptBySnapshotsAndToldByHuman) {
   EXPECT_EQ(simulation.human(human)->body.request.limbs.thigh_m, asked.limbs.thigh_m);
   std::vector<std::byte> bytes(simulation.snapshot_bytes());
   ASSERT_TRUE(simulation.save(bytes));
-  const auto restored = other.restore(bytes);
+  const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(other.state_hash(), simulation.state_hash());
   EXPECT_EQ(other.human(human)->body.request.limbs.shank_m, asked.limbs.shank_m);

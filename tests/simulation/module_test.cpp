@@ -125,7 +125,7 @@ TEST(Modules, SnapshotsAndRollbackKeepWhatModulesName) {
 
   // In another simulation, whose resources came in another order, and where nobody ever had these parts.
   Simulation other({.modules = {counting(1, palette)}});
-  ASSERT_TRUE(other.restore(bytes)) << other.restore(bytes).error().message;
+  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none())) << other.restore(bytes).error().message;
   EXPECT_EQ(other.state_hash(), then);
   expect_marked(other, marked.human, 11, 1);
   ASSERT_NE(other.world().shared<Palette>(marked.human), nullptr);
@@ -142,7 +142,7 @@ TEST(Modules, SnapshotsOfOtherModulesOrVersionsAreRefused) {
   const auto refusal = [&](const SimulationOptions& options) {
     Simulation other(options);
     const std::uint64_t before = other.state_hash();
-    const auto done = other.restore(bytes);
+    const auto done = other.restore(bytes, RestoreLimits::none());
     if (!done) {
       EXPECT_EQ(other.state_hash(), before);
     }

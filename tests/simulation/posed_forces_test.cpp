@@ -201,7 +201,7 @@ TEST(PosedForces, GoOnAfterASnapshotAndAShiftOfTheOrigin) {
     if (tick == 60) {
       std::vector<std::byte> bytes(posed.snapshot_bytes());
       ASSERT_TRUE(posed.save(bytes));
-      const auto done = other.restore(bytes);
+      const auto done = other.restore(bytes, RestoreLimits::none());
       ASSERT_TRUE(done) << done.error().message;
       ASSERT_TRUE(shifted.shift_origin(64, -128));
     }

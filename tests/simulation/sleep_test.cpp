@@ -286,7 +286,7 @@ TEST(Sleep, ASnapshotHasSleepersInIt) {
   std::vector<std::byte> bytes(twins.dozing.snapshot_bytes());
   ASSERT_TRUE(twins.dozing.save(bytes));
   Simulation other;
-  const auto restored = other.restore(bytes);
+  const auto restored = other.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(restored) << restored.error().message;
   EXPECT_EQ(other.state_hash(), twins.dozing.state_hash());
   for (int i = 0; i < 200; ++i) other.tick();

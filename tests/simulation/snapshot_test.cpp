@@ -29,7 +29,7 @@ Bytes saved(const Simulation& simulation) {
 }
 
 void restore(Simulation& simulation, const Bytes& bytes) {
-  const auto done = simulation.restore(bytes);
+  const auto done = simulation.restore(bytes, RestoreLimits::none());
   ASSERT_TRUE(done) << done.error().message;
 }
 
@@ -164,7 +164,7 @@ TEST(Snapshot, WithTheSamePeopleRestoringTakesNoMemoryOfTheCallers) {
 /// Refused in one line, and nothing has changed.
 void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, const std::string& about = "") {
   const std::uint64_t world = hash_world(simulation), state = simulation.state_hash();
-  const auto done = simulation.restore(bytes);
+  const auto done = simulation.restore(bytes, RestoreLimits::none());
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("restore: "), std::string::npos);
   EXPECT_NE(done.error().message.find(about), std::string::npos) << done.error().message;
@@ -237,7 +237,7 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   const std::size_t resources = SnapshotLayout::header_bytes + sizeof(header) + header.modules * sizeof(SavedModule);
   bytes[resources + offsetof(SavedResource, fingerprint)] ^= std::byte{1};
   ASSERT_TRUE(reseal_snapshot(bytes));
-  const auto done = fresh.restore(bytes);
+  const auto done = fresh.restore(bytes, RestoreLimits::none());
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("otherwise"), std::string::npos) << done.error().message;
   EXPECT_EQ(fresh.people().size(), 0U);

@@ -12,13 +12,13 @@ enum class FootholdOf : std::uint8_t { leaving, stance, landing };
 
 /// By FootholdOf: the height of the ground in the world, m, and how much it rises toward +X and +Z, m per m. How much
 /// higher than straight from one foothold to the next the foot in the air passes, early and late in its swing
-/// (`swing_lift`), m. Where the stance foothold was when that was asked; the step (GaitState) that it is of; and how
-/// much of it is known (FootingKnown). All zero: level ground, nothing known yet.
+/// (`swing_lift`), m. Where the stance foothold and the next one were when that was asked; the step (GaitState) that it
+/// is of; and how much of it is known (FootingKnown). All zero: level ground, nothing known yet.
 template <class F>
 struct Footing {
   F height_m[3], rise_x[3], rise_z[3];
   F lift_early_m, lift_late_m;
-  F stance_x_m, stance_z_m;
+  F stance_x_m, stance_z_m, landing_x_m, landing_z_m;
   Whole<F> steps, stance_side, known;
 };
 

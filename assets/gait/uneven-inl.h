@@ -53,8 +53,8 @@ HWY_INLINE Slopes slopes_of(const Footing<Lanes<float>>& footing, const Wide& he
           slope_at(footing, FootholdOf::landing, s, c)};
 }
 
-/// How a step over a rise differs from one on level ground: `rise_table::numbers` times the steepness at its
-/// strike.
+/// How a step over a rise differs from one on level ground: `rise_table::numbers` times a part that grows with
+/// the steepness at its strike.
 struct RiseManner {
   Wide of[rise_table::count];
   Wide rate;  // of the hips' height, of the phase
@@ -137,15 +137,20 @@ struct Uneven {
 };
 
 HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const Footing<Lanes<float>>& footing,
-                                     const Wide& heading, const Wide& height) {
+                                     const Wide& heading, const Wide& turn, const Wide& height) {
   Uneven u;
   u.slopes = slopes_of(footing, heading);
   const auto& [leaving, stance, landing] = u.slopes;
-  u.from = rise_manner(-leaving.height, load(plan.length_before_m), height);
-  u.to = rise_manner(landing.height, load(plan.step_length_m), height);
+  // Who stands does so as on level ground.
+  const Wide zero = wide(0.0F);
+  u.from = rise_manner(select(stands(plan.from), zero, -leaving.height), load(plan.length_before_m), height);
+  u.to = rise_manner(select(stands(plan.to), zero, landing.height), load(plan.step_length_m), height);
   u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
+  // Both steps see a strike along the heading at its leading foothold.
+  const Slopes there = slopes_of(footing, heading + turn);
   // Who stands moves no foot.
-  u.hips_to = select(load(plan.landing) > 0.0F, hips_at_strike(plan.to, stance, landing, u.to, height), u.hips_from);
+  u.hips_to = select(load(plan.landing) > 0.0F, hips_at_strike(plan.to, there.stance, there.landing, u.to, height),
+                     u.hips_from);
   return u;
 }
 
@@ -171,8 +176,7 @@ HWY_NOINLINE inline HipsOver hips_over(const StepPlan<Lanes<float>>& plan, const
                                        const Wide& phase) {
   using namespace rise_table;
   const Wide zero = wide(0.0F), from = uneven.hips_from, to = uneven.hips_to;
-  const Wide rate_from = select(stands(plan.from), zero, uneven.from.rate);
-  const Wide rate_to = select(stands(plan.to), zero, uneven.to.rate);
+  const Wide rate_from = uneven.from.rate, rate_to = uneven.to.rate;
   const Wide r = to - from - rate_from, s = rate_to - rate_from, p = phase;
   const Wide even = fma(
       p, fma(p * p, fma(p, fma(p, 6.0F * r - 3.0F * s, 7.0F * s - 15.0F * r), 10.0F * r - 4.0F * s), rate_from), from);
@@ -180,19 +184,52 @@ HWY_NOINLINE inline HipsOver hips_over(const StepPlan<Lanes<float>>& plan, const
   const Wide walks = select(load(plan.landing) > 0.0F, wide(1.0F), zero);
   const Wide over = vault * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), mixed.part);
   return {fma(walks, fma(slanted_bump(mixed, hips_up_middle, hips_up_late, p), height, bump(p) * over), even),
-          walks * height * (mixed[hips_ahead] + slanted_bump(mixed, hips_ahead_middle, hips_ahead_late, p)),
-          walks * mixed[trunk_lean]};
+          height * (mixed[hips_ahead] + slanted_bump(mixed, hips_ahead_middle, hips_ahead_late, p)), mixed[trunk_lean]};
 }
 
-/// Moves the ankle of a foot that is pitched otherwise as it does on the ground, by a part of it.
-HWY_NOINLINE inline void pitch_foot(const Wide& height, const Wide& pitch, const Wide& part, FootMotion& foot) {
+/// Moves the ankle of a foot on the ground that is pitched otherwise.
+HWY_NOINLINE inline void pitch_planted(const Wide& height, const Wide& pitch, FootMotion& foot) {
   const FootMotion was = plant(height, foot.pitch, foot.toe_out, wide(0.0F)),
                    is = plant(height, pitch, foot.toe_out, wide(0.0F));
   foot.pitch = pitch;
-  foot.toes = fma(part, is.toes - was.toes, foot.toes);
-  foot.ankle_up = fma(part, is.ankle_up - was.ankle_up, foot.ankle_up);
-  foot.ankle_out = fma(part, is.ankle_out - was.ankle_out, foot.ankle_out);
-  foot.ankle_forward = fma(part, is.ankle_forward - was.ankle_forward, foot.ankle_forward);
+  foot.toes = foot.toes + is.toes - was.toes;
+  foot.ankle_up = foot.ankle_up + is.ankle_up - was.ankle_up;
+  foot.ankle_out = foot.ankle_out + is.ankle_out - was.ankle_out;
+  foot.ankle_forward = foot.ankle_forward + is.ankle_forward - was.ankle_forward;
+}
+
+/// An ankle over its foothold, of a foot of that pitch: rolled over its heel or over its toes; between the two where
+/// the pitch is less than `rounded`, for which planted_ankle has a corner.
+struct RolledAnkle {
+  Wide along, up;
+};
+HWY_NOINLINE inline RolledAnkle rolled_ankle(const Wide& height, const Wide& pitch, const Wide& rounded) {
+  using namespace unit_foot;
+  Wide s, c, q_s, q_c;
+  sin_cos(pitch, s, c);
+  sin_cos(toe_pitch(max(-pitch, 0.0F)).value, q_s, q_c);
+  const Wide on_heel = smooth(fma(pitch, 0.5F / rounded, wide(0.5F)));
+  const Wide joint_y = fma(wide(toes), q_s, joint * q_c), joint_z = fma(wide(toes), q_c, -joint * q_s);
+  const Wide ankle_y = fma(wide(-ball), s, over_joint * c), ankle_z = fma(wide(ball), c, over_joint * s);
+  return {
+      height * mix((ball + toes) - joint_z - ankle_z, fma(wide(back), c, -over_rim * s) - back - rim * pitch, on_heel),
+      height * mix(joint_y + ankle_y, fma(wide(back), s, over_rim * c) + rim, on_heel)};
+}
+
+/// The same of a foot in the air, by a part of it; exactly where the corner is not rounded.
+HWY_NOINLINE inline void pitch_in_air(const Wide& height, const Wide& pitch, const Wide& part, const Wide& rounded,
+                                      FootMotion& foot) {
+  const RolledAnkle was = rolled_ankle(height, foot.pitch, rounded), is = rolled_ankle(height, pitch, rounded);
+  const Wide toes_before = max(-foot.pitch, 0.0F) - toe_pitch(max(-foot.pitch, 0.0F)).value;
+  const Wide toes_after = max(-pitch, 0.0F) - toe_pitch(max(-pitch, 0.0F)).value;
+  Wide s, c;
+  sin_cos(foot.toe_out, s, c);
+  foot.pitch = pitch;
+  foot.toes = fma(part, toes_after - toes_before, foot.toes);
+  foot.ankle_up = fma(part, is.up - was.up, foot.ankle_up);
+  const Wide along = part * (is.along - was.along);
+  foot.ankle_out = fma(s, along, foot.ankle_out);
+  foot.ankle_forward = fma(c, along, foot.ankle_forward);
 }
 
 /// How much higher than straight from one foothold to the next the foot in the air is.
@@ -213,23 +250,28 @@ HWY_NOINLINE inline void step_otherwise(const StepPlan<Lanes<float>>& plan, cons
   const Wide cycle = 0.5F * phase, one = wide(1.0F), zero = wide(0.0F);
   const WideMask walks = load(plan.landing) > 0.0F;
   const Wide ends = mix(load(plan.from.double_support), load(plan.to.double_support), of.part);
-  const Wide heel = falling(from, step_shape::strike, cycle / (usual_flat + from(step_shape::times, 0)));
-  const Wide u = min(cycle * (1.0F / toes_first_part), one), left = 1.0F - u;
+  const Wide flat = usual_flat + from(step_shape::times, 0);
+  const Wide heel = falling(from, step_shape::strike, cycle / flat);
+  // On the way up the pitch must not pass level on its way to it.
+  const Wide falls = select(uneven.slopes.leaving.height < 0.0F, flat, wide(toes_first_part));
+  const Wide u = min(cycle / falls, one), left = 1.0F - u;
   const Wide toes = left * left * left * fma(u, fma(u, wide(6.0F), wide(3.0F)), one);
   const Wide rising = select(walks, uneven.to[heel_up_more] * heel_up(cycle, ends), zero);
-  pitch_foot(height, fnma(uneven.from[strike_less], heel, fnma(uneven.from[toes_first], toes, stance.pitch - rising)),
-             one, stance);
+  pitch_planted(
+      height, fnma(uneven.from[strike_less], heel, fnma(uneven.from[toes_first], toes, stance.pitch - rising)), stance);
 
   const Wide part = other.part, lands = smooth(part);
   const Wide risen = heel_up(0.5F + cycle, 0.5F * load(plan.double_support));
-  pitch_foot(height, fnma(uneven.from[heel_up_more], risen * (1.0F - lands), other.pitch), 1.0F - smooth(2.0F * part),
-             other);
+  const Wide lifted = fnma(uneven.from[heel_up_more], risen * (1.0F - lands), other.pitch);
+  // The corner of the landing foot is as it is on the ground at the strike alone.
+  const Wide rounded = fma(smooth(2.0F * part - 1.0F), wide(-0.199F), wide(0.2F));
+  pitch_in_air(height, lifted, 1.0F - smooth(2.0F * part), wide(1e-3F), other);
   const MixedManner mixed{uneven.from, uneven.to, lands};
   const Wide in_air = max(bump(part), 0.0F) * height;
-  pitch_foot(height,
-             fnma(lands * uneven.to[strike_less], other.pitch, fnma(lands, uneven.to[toes_first], other.pitch)) +
-                 slanted_bump(mixed, swing_pitch, swing_pitch_late, part),
-             lands, other);
+  pitch_in_air(height,
+               fnma(lands * uneven.to[strike_less], other.pitch, fnma(lands, uneven.to[toes_first], other.pitch)) +
+                   slanted_bump(mixed, swing_pitch, swing_pitch_late, part),
+               lands, rounded, other);
   const Wide x = 2.0F * part - 1.0F;
   other.ankle_forward = fma(in_air, fma(x, mixed[swing_ahead_late], mixed[swing_ahead]), other.ankle_forward);
   other.ankle_up = other.ankle_up + lift_now(footing, part);

@@ -15,21 +15,21 @@ constexpr auto landing = static_cast<std::size_t>(FootholdOf::landing);
 void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& footing) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const std::uint32_t steps = state.steps[l] - footing.steps[l];
-    const bool swapped = steps == 0 && state.stance_side[l] != footing.stance_side[l];
+    // A step that begins at rest may be the other foot's.
+    const bool swapped = (state.stance_side[l] & 1U) != ((footing.stance_side[l] ^ steps) & 1U);
     if (steps == 0 && !swapped) continue;
     footing.steps[l] = state.steps[l];
     footing.stance_side[l] = state.stance_side[l];
     // Of who slept, or whose ground was not asked for in time, nothing is known.
-    const bool known = steps <= 1 && footing.known[l] != footing_unknown;
+    const bool known = steps <= 1 && footing.known[l] >= (steps == 1 ? footing_all : footing_before);
     footing.known[l] = known ? footing_before : footing_unknown;
     for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z}) {
       Lanes<float>(&of)[3] = *values;
-      if (swapped) {
-        std::swap(of[leaving][l], of[stance][l]);
-      } else {
+      if (steps != 0) {
         of[leaving][l] = of[stance][l];
         of[stance][l] = of[landing][l];
       }
+      if (swapped) std::swap(of[leaving][l], of[stance][l]);
       of[landing][l] = of[stance][l];
     }
     footing.lift_early_m[l] = footing.lift_late_m[l] = 0.0F;

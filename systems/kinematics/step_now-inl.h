@@ -49,10 +49,10 @@ HWY_INLINE Wide lower_of(const Wide& a, const Wide& b, const Wide& width) {
   return min(a, b) - width * (rounded - max(d, 0.0F));
 }
 
-/// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, and less the nearer it is to the
-/// ground it left or comes to.
+/// A foot in the air that its leg cannot reach is drawn in toward the hip: smoothly, from `rounding` of the leg's
+/// length before it, and less the nearer it is to the ground it left or comes to.
 HWY_NOINLINE inline void draw_in(FootMotion& foot, Foothold& at, const PelvisPlace& root, const PelvisMotion& motion,
-                                 std::size_t side, const Wide& height) {
+                                 std::size_t side, const Wide& height, float rounding) {
   const WideVec& hip = motion.hip[side];
   const Wide hip_left = root.position.x + fma(hip.x, root.cosine, hip.z * root.sine);
   const Wide hip_ahead = root.position.z + fnma(hip.x, root.sine, hip.z * root.cosine);
@@ -61,7 +61,7 @@ HWY_NOINLINE inline void draw_in(FootMotion& foot, Foothold& at, const PelvisPla
   const Wide distance = sqrt(fma(dx, dx, fma(dy, dy, dz * dz)));
   constexpr float full = static_cast<float>(fraction::thigh + fraction::shank);
   const Wide most = 0.9995F * full * height;
-  const Wide within = fma(0.01F * full * height, foot.in_the_air, wide(1e-5F));
+  const Wide within = fma(rounding * full * height, foot.in_the_air, wide(1e-5F));
   const Wide near = max(1.0F - abs(distance - most) / within, 0.0F);
   const Wide reached = min(distance, most) - within * (1.0F / 6.0F) * near * near * near;
   const Wide part = mix(wide(1.0F), reached / distance, smooth(4.0F * foot.in_the_air));
@@ -153,7 +153,7 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   Uneven uneven;
   HipsOver over;
   if (footing != nullptr) {
-    uneven = uneven_of(plan, *footing, load(state.heading_rad), height);
+    uneven = uneven_of(plan, *footing, load(state.heading_rad), line.turn, height);
     over = hips_over(plan, uneven, height, phase);
     hips.ahead = hips.ahead + over.ahead;
     now.lean = over.lean;
@@ -182,13 +182,19 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   for (std::size_t side = 0; side < 2; ++side) {
     now.foot[side] = foot_of(now.stands[side], stance, other);
     now.at[side] = foothold_of(now.stands[side], standing_at, other_at);
-    draw_in(now.foot[side], now.at[side], pelvis, motion, side, height);
+    draw_in(now.foot[side], now.at[side], pelvis, motion, side, height, footing != nullptr ? 0.06F : 0.01F);
   }
   // Where a leg would be too short, in a turn, at a very slow walk or on uneven ground, the pelvis sinks.
   Wide rounding = 0.0002F * height;
   if (footing != nullptr) rounding = rounding + gentler(uneven, eased, height);
-  const auto limit = [&](std::size_t side)
-                         HWY_ATTR { return highest_hips(now.foot[side], now.at[side], pelvis, motion, side, height); };
+  const auto limit = [&](std::size_t side) HWY_ATTR {
+    const Wide highest = highest_hips(now.foot[side], now.at[side], pelvis, motion, side, height);
+    if (footing == nullptr) return highest;
+    // On its way up a foot has been drawn in already and need not hold the hips back; before it lands it does.
+    const FootMotion& foot = now.foot[side];
+    const Wide free = smooth(4.0F * foot.in_the_air) * (1.0F - smooth((foot.part - 0.35F) * (1.0F / 0.3F)));
+    return fma(0.05F * height, free, highest);
+  };
   pelvis.position.y = lower_of(pelvis.position.y, lower_of(limit(Side::right), limit(Side::left), rounding), rounding);
   return now;
 }

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "components/compact.h"
+#include "components/footing.h"
 #include "components/forces.h"
 #include "components/gait.h"
 #include "components/pose.h"
@@ -79,7 +80,8 @@ bool same_mesh(const ReducedChoice& a, const ReducedChoice& b) {
 void look_at(const MuscleScene& scene, Entity person, CompactWork& work) {
   const World& world = scene.world;
   const auto* const at = world.locate(person);
-  if (at == nullptr || !world.has<Gait>(person) || !world.has<Pose>(person) || world.has<GroundReaction>(person))
+  if (at == nullptr || !world.has<Gait>(person) || !world.has<Pose>(person) || world.has<GroundReaction>(person) ||
+      world.has<Footing>(person))
     return;
   const std::size_t first = work.muscles.size();
   bool fits = true;

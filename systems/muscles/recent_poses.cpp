@@ -24,6 +24,19 @@ FirstLine first_line(const MuscleLines& lines, const LegScale<float>& scale, Far
   return {first_lane(line), first_lane(end)};
 }
 
+/// The ground of the step before; of its first foothold nothing is known.
+Footing<float> a_step_before(Footing<float> footing) {
+  constexpr auto leaving = static_cast<std::size_t>(FootholdOf::leaving);
+  constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
+  constexpr auto landing = static_cast<std::size_t>(FootholdOf::landing);
+  for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z}) {
+    (*values)[landing] = (*values)[stance];
+    (*values)[stance] = (*values)[leaving];
+  }
+  footing.lift_early_m = footing.lift_late_m = 0;
+  return footing;
+}
+
 void look_back(const World& world, Entity human, std::uint32_t tick, float tick_s, RecentPoses& recent) {
   if (recent.human == human && recent.tick == tick) return;
   recent.human = {};  // not valid, should reserve throw
@@ -39,13 +52,14 @@ void look_back(const World& world, Entity human, std::uint32_t tick, float tick_
   const auto sizes = broadcast(*world.get<BodySize>(human));
   const auto plan = *world.get<StepPlan>(human);
   const auto footing = world.get<Footing>(human);
-  const auto under = broadcast(footing.value_or(Footing<float>{}));
+  const Footing<float> now = footing.value_or(Footing<float>{});
   for (const float ticks : {3.0F, 2.0F, 1.0F, 0.0F}) {
     const auto then = earlier(*state, plan, ticks * tick_s);
     if (!then) continue;
     Pose<Lanes<float>> pose;
     JointAngles<Lanes<float>> angles;
     Feet<Lanes<float>> feet;
+    const auto under = broadcast(then->stance_side == state->stance_side ? now : a_step_before(now));
     pose_skeleton(sizes, broadcast(plan), broadcast(*then), footing ? &under : nullptr, pose, angles, feet);
     recent.poses.push_back(first_lane(pose));
   }

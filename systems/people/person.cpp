@@ -172,6 +172,11 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   gait.heading_rad = way.turned(gait.heading_rad);
   world.set(person, state);
   world.set(person, gait);
+  auto footing = world.get<Footing>(person);
+  if (footing) {
+    footing->known = footing_unknown;
+    world.set(person, *footing);
+  }
   if (!world.has<Pose>(person)) return way;  // compact
   const auto size = broadcast(*world.get<BodySize>(person));
   Pose<Lanes<float>> pose;
@@ -180,7 +185,6 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   CentreOfMass<Lanes<float>> centre;
   {
     const FlushDenormals flush;  // as in a tick
-    const auto footing = world.get<Footing>(person);
     const auto under = broadcast(footing.value_or(Footing<float>{}));
     pose_skeleton(size, broadcast(*world.get<StepPlan>(person)), broadcast(state), footing ? &under : nullptr, pose,
                   angles, feet);
@@ -208,6 +212,12 @@ void shift_people(World& world, float x_m, float z_m) {
     }
   });
   each(world, [&](CentreOfMass<Lanes<float>>& centre) { shift(centre.position_m); });
+  each(world, [&](Footing<Lanes<float>>& footing) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      footing.stance_x_m[lane] -= x_m, footing.stance_z_m[lane] -= z_m;
+      footing.landing_x_m[lane] -= x_m, footing.landing_z_m[lane] -= z_m;
+    }
+  });
   each(world, [&](GaitState<Lanes<float>>& state) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) state.line_x_m[lane] -= x_m, state.line_z_m[lane] -= z_m;
     state.anchor_x_m = state.line_x_m;

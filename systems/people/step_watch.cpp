@@ -6,9 +6,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "components/footing.h"
 #include "components/gait.h"
 #include "components/sleep.h"
 #include "engine/access.h"
+#include "engine/each.h"
 #include "engine/schedule.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_events.h"
@@ -41,6 +43,15 @@ Result<void> check_watch_key(const TableKey& key, const World&) {
 std::size_t most_events(std::uint32_t ticks, float tick_s) {
   const double steps = std::min(2.0 * ticks, 6.0 * ticks * static_cast<double>(tick_s)) + 1;
   return static_cast<std::size_t>(std::ceil(3 * steps));
+}
+
+/// How high the ground is where that came to pass, of a walker after the tick.
+float ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& footing, std::uint32_t stance_side,
+                std::size_t lane) {
+  FootholdOf where = FootholdOf::stance;
+  if (one.kind == StepEventKind::toe_off) where = FootholdOf::leaving;
+  if (one.kind == StepEventKind::heel_strike && one.side != stance_side) where = FootholdOf::landing;
+  return footing.height_m[static_cast<std::size_t>(where)][lane];
 }
 
 }  // namespace
@@ -104,6 +115,8 @@ void StepLog::take(const World& world, std::uint32_t tick, float tick_s) {
   for (const std::uint32_t t : tables_) {
     const Table& table = world.tables()[t];
     const std::size_t column = table.column(type_id<StepEvents>()) * lane_count;
+    const TableColumn<Footing> footing(table);
+    const TableColumn<GaitState> state(table);
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       const auto* const rows = reinterpret_cast<const StepEvents*>(table.block(b) + column);
       const std::uint32_t live = (std::uint32_t{1} << table.live(b)) - 1;
@@ -111,8 +124,9 @@ void StepLog::take(const World& world, std::uint32_t tick, float tick_s) {
         const auto l = static_cast<std::size_t>(std::countr_zero(left));
         for (std::uint32_t i = 0; i < rows[l].count; ++i) {
           const StepEvents::One& one = rows[l].of[i];
+          const float y_m = footing ? ground_of(one, footing.at(table, b), state.at(table, b).stance_side[l], l) : 0.0F;
           events_.push_back({table.entities(b)[l], one.kind, static_cast<Side>(one.side), tick,
-                             static_cast<float>(one.at) * part, Vec3<float>{one.x_m, 0, one.z_m}, one.heading_rad});
+                             static_cast<float>(one.at) * part, Vec3<float>{one.x_m, y_m, one.z_m}, one.heading_rad});
         }
       }
     }

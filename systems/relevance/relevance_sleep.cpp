@@ -4,7 +4,9 @@
 #include <bit>
 #include <cmath>
 
+#include "components/footing.h"
 #include "components/sleep.h"
+#include "engine/each.h"
 #include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
@@ -25,6 +27,16 @@ constexpr float unsettled_m = 8;
 
 float length(const Vec3<float>& v) {
   return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+/// How high sleepers' hips are; over the ground that they fell asleep on where it is not level.
+Lanes<float> pelvis_heights(const Table& table, std::size_t block) {
+  Lanes<float> up_m;
+  const TableColumn<Footing> footing(table);
+  constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
+  for (std::size_t l = 0; l < lane_count; ++l)
+    up_m[l] = footing ? pelvis_m + footing.at(table, block).height_m[stance][l] : pelvis_m;
+  return up_m;
 }
 
 /// How much nearer to being seen anybody can have come as a camera has moved so.
@@ -70,13 +82,14 @@ void Relevance::look_at_sleepers() {
       const float within = *scene_.asleep_beyond_m + (TableColumn<Unsettled>(*table) ? unsettled_m : 0);
       Lanes<float> x_m, z_m;
       steady_places(TableColumn<Asleep>(*table).at(*table, block).walk, tick, tick_s, x_m, z_m);
+      const Lanes<float> up_m = pelvis_heights(*table, block);
       const float farthest = gap.farthest(within);
       std::uint32_t lanes = 0;
       for (std::uint32_t l = 0; l < lane_count; ++l)
-        lanes |= static_cast<std::uint32_t>(gap.squared({x_m[l], pelvis_m, z_m[l]}) < farthest * farthest) << l;
+        lanes |= static_cast<std::uint32_t>(gap.squared({x_m[l], up_m[l], z_m[l]}) < farthest * farthest) << l;
       for (std::uint32_t left = lanes; left != 0; left &= left - 1) {
         const auto l = static_cast<std::uint32_t>(std::countr_zero(left));
-        if (!(gap({x_m[l], pelvis_m, z_m[l]}) < within)) lanes &= ~(1U << l);
+        if (!(gap({x_m[l], up_m[l], z_m[l]}) < within)) lanes &= ~(1U << l);
       }
       near_lanes_[i] = static_cast<std::uint16_t>(lanes & ((1U << table->live(block)) - 1));
     }
@@ -91,7 +104,7 @@ void Relevance::look_at_sleepers() {
       const auto l = static_cast<std::uint32_t>(std::countr_zero(left));
       const float dx = x_m[l] - camera.position_m.x, dz = z_m[l] - camera.position_m.z;
       // Who is seen comes before who is not, then the nearer one.
-      const float unseen_m = std::max(gap({x_m[l], pelvis_m, z_m[l]}), 0.0F);
+      const float unseen_m = std::max(gap({x_m[l], pelvis_heights(*table, block)[l], z_m[l]}), 0.0F);
       waking_.push_back({std::sqrt(dx * dx + dz * dz) + 1000 * unseen_m, table->entities(block)[l], unseen_m == 0});
     }
   }
@@ -116,7 +129,8 @@ void Relevance::wake_sleepers(RelevanceReport& report) {
   // Who is not seen yet has no pose until then; with forces there is one.
   const World& world = simulation_.world();
   const auto whole = [&](const Waking& one) {
-    return !scene_.compact_unseen || one.seen || world.has<SleepsWithForces>(one.human);
+    return !scene_.compact_unseen || one.seen || world.has<SleepsWithForces>(one.human) ||
+           world.has<Footing>(one.human);
   };
   const auto compact = std::partition(waking_.begin(), waking_.end(), whole);
   for (const auto& [some, as] : {std::pair{std::span(waking_.begin(), compact), Woken::whole},

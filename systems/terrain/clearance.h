@@ -11,6 +11,8 @@ struct FootLift {
   float early_m = 0, late_m = 0;
 };
 
+/// No ground is higher or lower.
+inline constexpr float highest_ground_m = 1e5F;
 /// No foot is lifted further.
 inline constexpr float most_lift_m = 0.4F;
 

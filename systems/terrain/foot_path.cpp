@@ -37,7 +37,7 @@ FootPath foot_path(const BodySize<float>& size, const StepPlan<float>& plan, con
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   pose_skeleton(broadcast(size), broadcast(plan), states, &under, pose, angles, feet);
-  const std::size_t side = state.stance_side ^ 1U;
+  const std::size_t side = (state.stance_side ^ 1U) & 1U;
   for (std::size_t l = 0; l < lane_count; ++l) {
     std::size_t i = 0;
     for (const auto* points : {&feet.heel_m, &feet.toe_m, &feet.tip_m}) {

@@ -10,16 +10,20 @@
 namespace mobil {
 namespace {
 
+/// What stands out less is left to the swing, which passes level ground by as much.
+constexpr float out_m = 0.005F;
+
 /// The part of the way at which a place is, 0 to 1.
 float along(const GroundProfile& ground, float x_m, float z_m) {
   const float x = ground.to_x_m - ground.from_x_m, z = ground.to_z_m - ground.from_z_m, length2 = x * x + z * z;
   if (!(length2 > 0)) return 0;
-  return std::clamp(((x_m - ground.from_x_m) * x + (z_m - ground.from_z_m) * z) / length2, 0.0F, 1.0F);
+  const float part = ((x_m - ground.from_x_m) * x + (z_m - ground.from_z_m) * z) / length2;
+  return part >= 0 ? std::min(part, 1.0F) : 0;  // 0 where it is not a number
 }
 
 /// What lifts all points of a foot on that path over what stands out of the straight way.
 FootLift more_lift(const GroundProfile& ground, const FootPath& path) {
-  constexpr float clear_m = 0.01F, out_m = 0.005F;
+  constexpr float clear_m = 0.01F;
   std::array<TooLow, FootPath::points * lane_count> low;
   std::size_t count = 0;
   for (const FootPath::At& at : path.at) {
@@ -51,7 +55,12 @@ FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, con
                    const GaitState<float>& state, const Footing<float>& footing) {
   Footing<float> under = footing;
   under.lift_early_m = under.lift_late_m = 0;
-  if (!(plan.landing > 0)) return {};
+  bool stands_out = false;
+  for (std::size_t i = 0; i < GroundProfile::asked; ++i)
+    stands_out =
+        stands_out || ground.height_m[i + 1] >
+                          std::lerp(ground.height_m.front(), ground.height_m.back(), GroundProfile::part(i)) + out_m;
+  if (!(plan.landing > 0) || !stands_out) return {};
   constexpr int rounds = 2;  // a foot that is lifted hangs otherwise
   for (int round = 0; round < rounds; ++round) {
     const FootLift more = more_lift(ground, foot_path(size, plan, state, under));

@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "components/pose.h"
 #include "engine/each.h"
 #include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "systems/gait/step_events.h"
+#include "systems/muscles/leg_muscles.h"
 #include "systems/people/person.h"
 #include "systems/simulation_world.h"
 #include "systems/terrain/ground_profile.h"
@@ -28,8 +30,9 @@ constexpr std::size_t sole_places = 3;
 
 /// False where an answer is not a number or out of range. Makes what is too steep less so.
 bool make_usable(TerrainHeight& answer) {
-  constexpr float highest_m = 1e5F, steepest = 1;
-  if (!(std::fabs(answer.height_m) <= highest_m) || !std::isfinite(answer.rise_x) || !std::isfinite(answer.rise_z))
+  constexpr float steepest = 1;
+  if (!(std::fabs(answer.height_m) <= highest_ground_m) || !std::isfinite(answer.rise_x) ||
+      !std::isfinite(answer.rise_z))
     return false;
   answer.rise_x = std::clamp(answer.rise_x, -steepest, steepest);
   answer.rise_z = std::clamp(answer.rise_z, -steepest, steepest);
@@ -51,11 +54,12 @@ struct Terrain::Work {
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
 
-  TerrainReport collect(World& world, float tick_s);
-  void collect_block(Table& table, std::uint32_t block, float tick_s);
+  TerrainReport collect(World& world);
+  void collect_block(Table& table, std::uint32_t block);
   void ask_foothold(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, float height_m,
                     Entity human);
-  std::size_t put_answers(const Asking& one);
+  std::size_t put_answers(World& world, const Asking& one);
+  static void stand_up(World& world, const Asking& one);
   TerrainHeight foothold(std::size_t first) const;
 };
 
@@ -70,7 +74,7 @@ void Terrain::Work::ask_foothold(const Footholds<Lanes<float>>& at, std::size_t 
   }
 }
 
-void Terrain::Work::collect_block(Table& table, std::uint32_t block, float tick_s) {
+void Terrain::Work::collect_block(Table& table, std::uint32_t block) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
   const auto& state = TableColumn<GaitState>(table).at(table, block);
   auto& footing = TableColumn<Footing>(table).at(table, block);
@@ -78,18 +82,21 @@ void Terrain::Work::collect_block(Table& table, std::uint32_t block, float tick_
   footholds(TableColumn<StepPlan>(table).at(table, block), state, at);
   const Entity* const entities = table.entities(block);
   for (std::uint32_t l = 0; l < table.live(block); ++l) {
-    const float x = at.x_m[stance][l], z = at.z_m[stance][l];
-    const bool elsewhere =
-        std::fabs(x - footing.stance_x_m[l]) > moved_m || std::fabs(z - footing.stance_z_m[l]) > moved_m;
+    const auto elsewhere = [&](std::size_t which, float x_m, float z_m) {
+      return std::fabs(at.x_m[which][l] - x_m) > moved_m || std::fabs(at.z_m[which][l] - z_m) > moved_m;
+    };
     const bool same_step = footing.steps[l] == state.steps[l] && footing.stance_side[l] == state.stance_side[l];
     const bool known = footing.known[l] == footing_all;
-    const bool all = footing.known[l] == footing_unknown || !same_step || (known && elsewhere);
-    const bool begun = state.time_s[l] < tick_s;
-    if (!all && known && !begun) continue;
+    const bool all = footing.known[l] == footing_unknown || !same_step ||
+                     (known && elsewhere(stance, footing.stance_x_m[l], footing.stance_z_m[l]));
+    if (!all && known && !elsewhere(landing, footing.landing_x_m[l], footing.landing_z_m[l])) continue;
     footing.steps[l] = state.steps[l];
     footing.stance_side[l] = state.stance_side[l];
-    footing.stance_x_m[l] = x;
-    footing.stance_z_m[l] = z;
+    footing.stance_x_m[l] = at.x_m[stance][l];
+    footing.stance_z_m[l] = at.z_m[stance][l];
+    footing.landing_x_m[l] = at.x_m[landing][l];
+    footing.landing_z_m[l] = at.z_m[landing][l];
+    footing.known[l] = footing_unknown;  // should the host throw
     asking.push_back({&table, block, l, queries.size(), all});
     if (all) ask_foothold(at, leaving, l, size.height_m[l], entities[l]);
     if (all) ask_foothold(at, stance, l, size.height_m[l], entities[l]);
@@ -102,7 +109,7 @@ void Terrain::Work::collect_block(Table& table, std::uint32_t block, float tick_
   }
 }
 
-TerrainReport Terrain::Work::collect(World& world, float tick_s) {
+TerrainReport Terrain::Work::collect(World& world) {
   asking.clear();
   queries.clear();
   TerrainReport report;
@@ -110,7 +117,7 @@ TerrainReport Terrain::Work::collect(World& world, float tick_s) {
     if (!TableColumn<Footing>(table) || !TableColumn<GaitState>(table) || !TableColumn<StepPlan>(table)) continue;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       report.people += table.live(b);
-      collect_block(table, static_cast<std::uint32_t>(b), tick_s);
+      collect_block(table, static_cast<std::uint32_t>(b));
     }
   }
   report.asked = asking.size();
@@ -127,21 +134,50 @@ TerrainHeight Terrain::Work::foothold(std::size_t first) const {
     const float x = queries[i].x_m - ankle.x_m, z = queries[i].z_m - ankle.z_m;
     raised_m = std::max(raised_m, answers[i].height_m - plane.height_m - x * plane.rise_x - z * plane.rise_z);
   }
-  plane.height_m += raised_m;
+  plane.height_m = std::clamp(plane.height_m + raised_m, -highest_ground_m, highest_ground_m);
   return plane;
 }
 
+/// Whoever's pose is of other ground is moved onto this at once: who was placed, woke or has just come. No inertia is
+/// felt.
+void Terrain::Work::stand_up(World& world, const Asking& one) {
+  constexpr float more_than_a_step_m = 0.4F;
+  const Entity human = one.table->entities(one.block)[one.lane];
+  const auto feet = world.get<Feet>(human);
+  const auto state = world.get<GaitState>(human);
+  if (!feet || !state) return;
+  const std::size_t side = state->stance_side & 1U;
+  const float lowest_m = std::min({feet->heel_m[side].y, feet->toe_m[side].y, feet->tip_m[side].y});
+  const float by_m = world.get<Footing>(human)->height_m[stance] - lowest_m;
+  if (!(std::fabs(by_m) > more_than_a_step_m)) return;
+  Pose<float> pose = *world.get<Pose>(human);
+  for (auto& at : pose.position_m) at.y += by_m;
+  Feet<float> moved = *feet;
+  for (auto* const points : {moved.heel_m, moved.toe_m, moved.tip_m}) points[0].y += by_m, points[1].y += by_m;
+  CentreOfMass<float> centre = *world.get<CentreOfMass>(human);
+  centre.position_m.y += by_m;
+  world.set(human, pose);
+  world.set(human, moved);
+  world.set(human, centre);
+  forget_motion(world, human);
+}
+
 /// Returns how many answers could not be used.
-std::size_t Terrain::Work::put_answers(const Asking& one) {
+std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   const auto& [table, block, l, first, all] = one;
   auto& footing = TableColumn<Footing>(*table).at(*table, block);
   const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + sole_places;
   std::size_t unusable = 0;
   for (std::size_t i = first; i < on_way + GroundProfile::asked; ++i) {
     if (make_usable(answers[i])) continue;
-    // Under a foothold's heel and toes as under its ankle; else as high as where the stance foot is.
-    const bool on_sole = i < on_way && (i - first) % sole_places != 0;
-    answers[i] = on_sole ? answers[i - (i - first) % sole_places] : TerrainHeight{footing.height_m[stance][l]};
+    // Under a foothold's heel and toes in the plane under its ankle; else as high as where the stance foot is.
+    const std::size_t on_sole = i < on_way ? (i - first) % sole_places : 0, ankle = i - on_sole;
+    answers[i] = {footing.height_m[stance][l]};
+    if (on_sole != 0) {
+      answers[i] = answers[ankle];
+      answers[i].height_m += (queries[i].x_m - queries[ankle].x_m) * answers[i].rise_x +
+                             (queries[i].z_m - queries[ankle].z_m) * answers[i].rise_z;
+    }
     ++unusable;
   }
   const auto put = [&](std::size_t which, std::size_t query) {
@@ -154,6 +190,7 @@ std::size_t Terrain::Work::put_answers(const Asking& one) {
   if (all) put(stance, first + sole_places);
   put(landing, next);
   footing.known[l] = footing_all;
+  if (all) stand_up(world, one);
 
   const float part = GroundProfile::part(0);
   const TerrainQuery &to = queries[next], &on = queries[on_way];
@@ -182,6 +219,7 @@ Result<void> Terrain::manage(std::span<const Entity> people) {
     if (!simulation_.is_asleep(human) && !world.has<Gait>(human))
       return fail("Terrain: this person's host animates the skeleton; pose them on the ground", Status::missing);
   }
+  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
   for (const Entity human : people) {
     if (simulation_.is_asleep(human)) {
       if (auto done = simulation_.wake({&human, 1}); !done) return done;
@@ -191,6 +229,7 @@ Result<void> Terrain::manage(std::span<const Entity> people) {
     if (const Status status = world.add(human, Footing<float>{}); status != Status::ok)
       return result_of("Terrain", status);
   }
+  attempt.keep();
   return {};
 }
 
@@ -200,18 +239,24 @@ Result<void> Terrain::release(std::span<const Entity> people) {
     if (!world.alive(human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
     if (!world.has<Footing>(human)) return fail("Terrain: a person is not managed", Status::missing);
   }
-  for (const Entity human : people)
+  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
+  for (const Entity human : people) {
+    if (!world.has<Footing>(human)) continue;  // named twice
     if (auto done = result_of("Terrain", world.remove<Footing>(human)); !done) return done;
+  }
+  attempt.keep();
   return {};
 }
 
 TerrainReport Terrain::update() {
   Work& work = *work_;
-  TerrainReport report = work.collect(world_of(simulation_), static_cast<float>(simulation_.tick_s()));
+  World& world = world_of(simulation_);
+  TerrainReport report = work.collect(world);
   if (work.asking.empty()) return report;
   work.answers.assign(work.queries.size(), {});
   heights_(work.queries, work.answers);
-  for (const Work::Asking& one : work.asking) report.unusable += work.put_answers(one);
+  const FlushDenormals flush;  // as in a tick
+  for (const Work::Asking& one : work.asking) report.unusable += work.put_answers(world, one);
   return report;
 }
 

@@ -11,8 +11,8 @@
 //   simulation.tick();
 //
 // The ground is asked for once a step and person: under the foothold to come, and along the way of the foot to it. What
-// was answered is state and lies on the person's row (components/footing.h); snapshots and replays need no answers
-// again. Who is not managed walks on the plane y = 0 and costs what they did.
+// was answered is state and lies on the person's row (components/footing.h); a restored world goes on by the same
+// answers. Who is not managed walks on the plane y = 0 and costs what they did.
 
 #include <cstddef>
 #include <functional>
@@ -40,6 +40,7 @@ struct TerrainHeight {
 /// Answers all queries of an update at once, on the thread that calls `update`; `out` is as long and all zero. Heights
 /// within ±100 km; rises within ±1, steeper ones are taken as that. What is not a number is taken as level ground at
 /// the height of the last foothold.
+/// Must not change the simulation. The same places must get the same answers where a run is to be repeated.
 using TerrainHeights = std::function<void(std::span<const TerrainQuery> at, std::span<TerrainHeight> out)>;
 
 /// What an update did: people looked at, those whose ground was asked for, how many places; and how many answers were
@@ -58,15 +59,15 @@ class Terrain {
   Terrain(const Terrain&) = delete;
   Terrain& operator=(const Terrain&) = delete;
 
-  /// From now on these walkers are on that ground; their pose is from the next tick on. All or none. Errors: a stale
-  /// handle, a posed person (Status::missing); nothing has changed.
+  /// From now on these walkers are on that ground; their pose follows it from the next update on. All or none. Errors:
+  /// a stale handle, a posed person (Status::missing); nothing has changed.
   Result<void> manage(std::span<const Entity> people);
   /// No more: from the next tick on they walk on the plane y = 0. All or none. Errors: a stale handle, somebody who is
   /// not managed (Status::missing).
   Result<void> release(std::span<const Entity> people);
 
-  /// Asks for the ground of those whose step began in the last tick, or whose ground is not known: who was placed
-  /// elsewhere, who woke. Call it before each tick. Takes memory only as crowds grow.
+  /// Asks for the ground of those whose next foothold is new, or whose ground is not known: who was placed elsewhere,
+  /// who woke. Call it before each tick, last. Takes memory where more people are asked for at once than ever before.
   TerrainReport update();
 
  private:

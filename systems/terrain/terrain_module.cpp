@@ -13,12 +13,13 @@ namespace mobil {
 namespace {
 
 bool is_sound(const Footing<float>& footing) {
-  constexpr float highest_m = 1e5F, steepest = 1;
+  constexpr float steepest = 1;
   const auto within = [](float value, float most) { return std::fabs(value) <= most; };  // false of no number
   bool sound = within(footing.lift_early_m, most_lift_m) && within(footing.lift_late_m, most_lift_m) &&
-               std::isfinite(footing.stance_x_m) && std::isfinite(footing.stance_z_m) && footing.known <= footing_all;
+               std::isfinite(footing.stance_x_m) && std::isfinite(footing.stance_z_m) &&
+               std::isfinite(footing.landing_x_m) && std::isfinite(footing.landing_z_m) && footing.known <= footing_all;
   for (std::size_t i = 0; i < 3; ++i)
-    sound = sound && within(footing.height_m[i], highest_m) && within(footing.rise_x[i], steepest) &&
+    sound = sound && within(footing.height_m[i], highest_ground_m) && within(footing.rise_x[i], steepest) &&
             within(footing.rise_z[i], steepest);
   return sound;
 }

@@ -6,15 +6,18 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <span>
 #include <vector>
 
 #include "components/forces.h"
 #include "components/sleep.h"
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
+#include "systems/terrain/terrain.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
 
@@ -87,7 +90,9 @@ class Crowd {
  public:
   /// `order`: in which people who come at once do so, and in which everybody is asked; all numbers once.
   Crowd(const SimulationOptions& options, const Script& script, std::vector<int> order)
-      : simulation_(options), script_(script), order_(std::move(order)) {}
+      : simulation_(options), terrain_(simulation_, &hills), script_(script), order_(std::move(order)) {}
+  Crowd(const Crowd&) = delete;
+  Crowd& operator=(const Crowd&) = delete;
   Crowd(const SimulationOptions& options, const Script& script) : Crowd(options, script, in_turn(script)) {}
 
   static std::vector<int> in_turn(const Script& script) {
@@ -107,6 +112,7 @@ class Crowd {
       const auto person = people_.find(who);
       if (person != people_.end()) ask(who, person->second);
     }
+    terrain_.update();
     simulation_.tick();
     ++now_;
   }
@@ -121,6 +127,11 @@ class Crowd {
 
  private:
   static bool is_posed(int who) { return who % 16 == 11; }
+  static bool is_on_hills(int who) { return who % 16 == 6; }
+  static void hills(std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    for (std::size_t i = 0; i < at.size(); ++i)
+      out[i] = {0.3F * std::sin(at[i].x_m) + 0.1F * at[i].z_m, 0.3F * std::cos(at[i].x_m), 0.1F};
+  }
   std::uint64_t draw(int who, int what) const {
     return mixed(script_.seed, static_cast<std::uint64_t>(who), static_cast<std::uint64_t>(what));
   }
@@ -137,6 +148,9 @@ class Crowd {
     }
     if (who % 3 == 0 && !is_posed(who)) {
       EXPECT_TRUE(simulation_.watch_steps({&*human, 1}));
+    }
+    if (is_on_hills(who)) {
+      EXPECT_TRUE(terrain_.manage({&*human, 1}));
     }
     if (who % 8 == 5) return;  // walks without muscles
     const auto added = simulation_.add_leg_muscles(*human, choice_for(*human, draw(who, -1)));
@@ -225,6 +239,7 @@ class Crowd {
   }
 
   Simulation simulation_;
+  Terrain terrain_;
   Script script_;
   std::vector<int> order_;
   std::map<int, Entity> people_;

@@ -96,6 +96,7 @@ RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndAreNeverInIt, ()) {
   }
 }
 
+/// But for a foot in the air, which keeps a little further from where its leg would be straight.
 TEST(Terrain, OnAPlateauAPersonWalksAsOnLevelGround) {
   Hike up([](float, float) { return TerrainHeight{12.5F, 0, 0}; }, {.speed_m_s = 1.3F});
   Hike down([](float, float) { return TerrainHeight{0, 0, 0}; }, {.speed_m_s = 1.3F});
@@ -106,9 +107,9 @@ TEST(Terrain, OnAPlateauAPersonWalksAsOnLevelGround) {
     const Pose<float> a = up.get<Pose>(), b = down.get<Pose>(), c = level.get<Pose>(human).value();
     for (std::size_t s = 0; s < segment_count; ++s) {
       EXPECT_NEAR(a.position_m[s].y - 12.5F, b.position_m[s].y, 1e-5F);
-      EXPECT_NEAR(b.position_m[s].x, c.position_m[s].x, 1e-5F);
-      EXPECT_NEAR(b.position_m[s].y, c.position_m[s].y, 1e-5F);
-      EXPECT_NEAR(b.position_m[s].z, c.position_m[s].z, 1e-5F);
+      EXPECT_NEAR(b.position_m[s].x, c.position_m[s].x, 2e-3F);
+      EXPECT_NEAR(b.position_m[s].y, c.position_m[s].y, 2e-3F);
+      EXPECT_NEAR(b.position_m[s].z, c.position_m[s].z, 2e-3F);
     }
     up.tick(), down.tick(), level.tick();
   }
@@ -255,6 +256,90 @@ TEST(Terrain, ForcesCarryTheBodyAndPressOnTheGround) {
     EXPECT_NEAR(up, 75 * 9.81, 15);
     EXPECT_NEAR(ahead, 0, 12);
   }
+}
+
+double fastest_m_s(const Pose<float>& before, const Pose<float>& now, double tick_s) {
+  double most = 0;
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const Vec3<float>&a = before.position_m[s], &b = now.position_m[s];
+    most = std::max(most, std::hypot(double{b.x} - double{a.x}, double{b.y} - double{a.y}, double{b.z} - double{a.z}));
+  }
+  return most / tick_s;
+}
+
+/// Along a kerb, one foot on it: walking, coming to a stop, standing, stepping aside to either side, turning on the
+/// spot and walking on.
+TEST(Terrain, OneFootHigherThanTheOtherNothingJumps) {
+  constexpr double tick_s = 1.0 / 240;
+  for (const float high_m : {0.15F, -0.15F}) {
+    Hike hike(
+        [=](float x, float) {
+          return TerrainHeight{x > 0 ? high_m : 0, 0, 0};
+        },
+        {.speed_m_s = 1.0F}, {.height_m = 1.75F, .mass_kg = 75}, tick_s);
+    double fastest = 0, standing = 0;
+    Pose<float> before = hike.get<Pose>();
+    const auto go = [&](int ticks, double& most) {
+      for (int t = 0; t < ticks; ++t) {
+        hike.tick();
+        const Pose<float> now = hike.get<Pose>();
+        most = std::max(most, fastest_m_s(before, now, tick_s));
+        before = now;
+        for (const std::size_t side : {0U, 1U}) ASSERT_GT(lowest_m(hike, side), -0.16F);
+      }
+    };
+    go(480, fastest);
+    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 0.0F}));
+    ASSERT_TRUE(hike.simulation.step_aside(hike.human, 0.2F, 0));  // once they stand
+    go(720, fastest);
+    go(240, standing);
+    ASSERT_TRUE(hike.simulation.step_aside(hike.human, -0.2F, 0));
+    go(480, fastest);
+    ASSERT_TRUE(hike.simulation.turn_to(hike.human, 1.0F));
+    go(720, fastest);
+    for (const std::size_t side : {0U, 1U}) EXPECT_NEAR(lowest_m(hike, side), 0, 0.002F);
+    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.0F}));
+    go(480, fastest);
+    EXPECT_LT(standing, 0.001) << high_m;
+    EXPECT_LT(fastest, 8) << high_m;
+  }
+}
+
+TEST(Terrain, WhoIsOnItIsNotMadeCompact) {
+  Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
+  ASSERT_TRUE(hike.simulation.remove_forces(hike.human));
+  EXPECT_EQ(hike.simulation.compact({&hike.human, 1}).value(), 0U);
+}
+
+/// Hosts may let several ticks pass between two updates: the ground is then asked for later, and once more where nobody
+/// asked in time.
+TEST(Terrain, WhoIsAskedForLateStandsOnTheGroundAgain) {
+  Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 0.0F}));
+  for (int k = 0; k < 60; ++k) hike.terrain.update(), hike.simulation.tick(2);
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.2F}));
+  for (int k = 0; k < 100; ++k) {
+    hike.terrain.update(), hike.simulation.tick(2);
+    for (const std::size_t side : {0U, 1U}) EXPECT_GT(lowest_m(hike, side), -0.004F);
+  }
+  hike.simulation.tick(90);
+  hike.tick();
+  hike.tick();
+  EXPECT_NEAR(lowest_m(hike, hike.get<GaitState>().stance_side), 0, 0.01F);
+}
+
+TEST(Terrain, StepsAreReportedWhereTheGroundIs) {
+  Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
+  ASSERT_TRUE(hike.simulation.watch_steps({&hike.human, 1}));
+  std::size_t count = 0;
+  for (int t = 0; t < 200; ++t) {
+    hike.tick();
+    for (const StepEvent& event : hike.simulation.events()) {
+      ++count;
+      EXPECT_NEAR(event.place_m.y, hike.ground(event.place_m.x, event.place_m.z).height_m, 1e-4F);
+    }
+  }
+  EXPECT_GT(count, 8U);
 }
 
 /// Fifty on hills.

@@ -13,7 +13,7 @@ for ground in stairs:16cm/30cm stairs:-16cm/30cm slope:20% slope:-20%; do
   line=""
   for k in 0 1 2 3; do
     inputs+=(-i "$scratch/$row/frame_00$((66 + 5 * k)).png")
-    filter+="[$((4 * row + k))]crop=440:600:400:80,scale=220:300[p$row$k];"
+    filter+="[$((4 * row + k))]crop=440:720:400:0,scale=220:360[p$row$k];"
     line+="[p$row$k]"
   done
   filter+="${line}hstack=4[r$row];"

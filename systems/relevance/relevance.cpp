@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "components/footing.h"
 #include "components/sleep.h"
 #include "engine/exact_math.h"
 #include "engine/rows.h"
@@ -96,7 +97,8 @@ void Relevance::decide_compact(Entity human, bool compact, const Tiers<float>& t
   const bool looked_at = static_cast<View>(tiers.view) == View::seen;
   if ((tiers.effects & (tier_inertia | tier_living)) != 0 && !compact) return;
   if (compact && (looked_at || !settled || !scene_.compact_unseen)) out.expanding.push_back({excess, human});
-  if (!compact && scene_.compact_unseen && !looked_at && settled) out.unseen.push_back(human);
+  if (!compact && scene_.compact_unseen && !looked_at && settled && !simulation_.world().has<Footing>(human))
+    out.unseen.push_back(human);
 }
 
 /// Tables come and stay. Their order follows from what they are, not from which came first: where not everybody's turn

@@ -16,6 +16,7 @@
 #include "assets/body/joint_limits.h"
 #include "components/forces.h"
 #include "engine/row_hash.h"
+#include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/simulation/reseal.h"
@@ -309,6 +310,34 @@ TEST(Terrain, WhoIsOnItIsNotMadeCompact) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   ASSERT_TRUE(hike.simulation.remove_forces(hike.human));
   EXPECT_EQ(hike.simulation.compact({&hike.human, 1}).value(), 0U);
+}
+
+/// Nor do those who cannot be keep others from it.
+TEST(Terrain, RelevanceMakesTheOthersCompact) {
+  Simulation simulation;
+  Terrain terrain(simulation, answering([](float, float) { return TerrainHeight{50, 0, 0}; }));
+  RelevanceOptions options;
+  options.machine_factor = 1;
+  options.leg_muscles.muscles = 1;
+  options.compacts = 1;
+  Relevance relevance(simulation, options);
+  std::vector<Entity> people;
+  for (int i = 0; i < 8; ++i) {
+    people.push_back(simulation.spawn({}, {.speed_m_s = 1.0F}).value());
+    ASSERT_TRUE(simulation.place(people.back(), static_cast<float>(i), 100, 0));
+    ASSERT_TRUE(relevance.manage(people.back(), {}));
+  }
+  ASSERT_TRUE(terrain.manage(std::span(people).first(4)));
+  SceneNeeds needs;
+  needs.muscles = 1;
+  needs.compact_unseen = true;
+  needs.camera = Viewpoint{.position_m = {0, 51, 0}, .forward = {0, 0, -1}};
+  ASSERT_TRUE(relevance.set_scene(needs));
+  const auto go = [&](int ticks) {
+    for (int t = 0; t < ticks; ++t) relevance.update(), terrain.update(), simulation.tick();
+  };
+  go(120);
+  for (std::size_t i = 0; i < people.size(); ++i) EXPECT_EQ(simulation.is_compact(people[i]), i >= 4) << i;
 }
 
 /// Hosts may let several ticks pass between two updates: the ground is then asked for later, and once more where nobody

@@ -6,80 +6,21 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <limits>
 #include <vector>
 
-#include "assets/body/joint_limits.h"
 #include "components/forces.h"
 #include "engine/row_hash.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/simulation/reseal.h"
-#include "tests/terrain/measured_stairs.h"
+#include "tests/terrain/hike.h"
 
 namespace mobil {
 namespace {
-
-constexpr double degrees = 57.29577951308232;
-
-using Ground = std::function<TerrainHeight(float, float)>;
-
-TerrainHeights answering(Ground ground) {
-  return [ground = std::move(ground)](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
-    for (std::size_t i = 0; i < at.size(); ++i) out[i] = ground(at[i].x_m, at[i].z_m);
-  };
-}
-
-Ground plane(float rise_x, float rise_z) {
-  return [=](float x, float z) { return TerrainHeight{rise_x * x + rise_z * z, rise_x, rise_z}; };
-}
-
-/// Rises, or falls, by `rise_m` every `tread_m` from z = 0 on; so many times.
-Ground stairs(float rise_m, float tread_m, float count) {
-  return [=](float, float z) {
-    return TerrainHeight{rise_m * std::clamp(std::floor(z / tread_m) + 1, 0.0F, count), 0, 0};
-  };
-}
-
-/// One walker with forces on such ground.
-struct Hike {
-  Ground ground;
-  Simulation simulation;
-  Terrain terrain;
-  Entity human;
-
-  Hike(Ground on, const GaitRequest& gait, const BodyRequest& body = {.height_m = 1.75F, .mass_kg = 75},
-       double tick_s = 1.0 / 60, float start_z_m = 0)
-      : ground(std::move(on)), simulation({.tick_s = tick_s}), terrain(simulation, answering(ground)) {
-    human = simulation.spawn(body, gait).value();
-    EXPECT_TRUE(simulation.place(human, 0, start_z_m, 0));
-    EXPECT_TRUE(simulation.add_forces(human));
-    EXPECT_TRUE(terrain.manage({&human, 1}));
-    tick();
-  }
-  void tick() {
-    terrain.update();
-    simulation.tick();
-  }
-  template <template <class> class C>
-  C<float> get() const {
-    return simulation.get<C>(human).value();
-  }
-};
-
-/// How far over the ground the lowest of a sole's points is, of a foot that stands on a plane.
-float lowest_m(const Hike& hike, std::size_t side) {
-  const Feet<float> feet = hike.get<Feet>();
-  float lowest = std::numeric_limits<float>::max();
-  for (const Vec3<float>& p : {feet.heel_m[side], feet.toe_m[side], feet.tip_m[side]})
-    lowest = std::min(lowest, p.y - hike.ground(p.x, p.z).height_m);
-  return lowest;
-}
 
 /// No foot is in a slope, whatever its direction, and the one that stands is on it: by 2 mm.
 RC_GTEST_PROP(Terrain, FeetStandOnAnySlopeAndAreNeverInIt, ()) {
@@ -113,149 +54,6 @@ TEST(Terrain, OnAPlateauAPersonWalksAsOnLevelGround) {
       EXPECT_NEAR(b.position_m[s].z, c.position_m[s].z, 2e-3F);
     }
     up.tick(), down.tick(), level.tick();
-  }
-}
-
-/// Root mean square over a stride, deg.
-struct Off {
-  double thigh = 0, knee = 0, ankle = 0;
-};
-
-/// A person of the measured ones' height, from the strike on the last stair but one to the next of that foot, on the
-/// floor: nearest to what was measured of all times a step may take.
-Off off_stairs(bool up) {
-  constexpr float step_m = 0.30F, rise_m = 0.16F, step_s = 0.55F, ankle_on_tread_m = 0.05F, ankle_down_m = 0.10F;
-  const bovi::Stride& measured = up ? bovi::ascending : bovi::descending;
-  const float edge = up ? ankle_on_tread_m : ankle_down_m;
-  // Footholds are at whole steps; the first stair is under the eleventh.
-  const Ground flight = stairs(up ? rise_m : -rise_m, step_m, 3);
-  const Ground ground = [=](float x, float z) { return flight(x, z - 11 * step_m + edge); };
-  Hike hike(ground, {.step_length_m = step_m, .step_frequency_hz = 1 / step_s}, {.height_m = 1.47F, .mass_kg = 41},
-            step_s / 40);
-  Off off;
-  std::array<double, bovi::instants> thigh{}, knee{}, ankle{};
-  std::size_t instant = 0, side = 2;
-  std::uint32_t first = 0;
-  double mean = 0;
-  while (instant < bovi::instants) {
-    const GaitState<float> state = hike.get<GaitState>();
-    const bool there = state.line_z_m > 11.5F * step_m && state.line_z_m < 12.5F * step_m;
-    if (side == 2 && there) side = state.stance_side, first = state.steps;
-    if (side != 2) {
-      const double part = (state.steps - first) + double{state.time_s} / double{hike.get<StepPlan>().duration_s};
-      if (part >= 0.1 * static_cast<double>(instant) - 1e-6) {
-        const JointAngles<float> angles = hike.get<JointAngles>();
-        const Quat<float> q = hike.get<Pose>().rotation[index(on_side(Segment::thigh_right, side))];
-        const double ahead = -2 * (double{q.y} * double{q.z} + double{q.w} * double{q.x});
-        const double down = 1 - 2 * (double{q.x} * double{q.x} + double{q.z} * double{q.z});
-        thigh[instant] = std::atan2(ahead, down) * degrees;
-        knee[instant] = double{angles.knee_flexion[side]} * degrees;
-        ankle[instant] = double{angles.ankle_dorsiflexion[side]} * degrees;
-        mean += ankle[instant] / bovi::instants;
-        ++instant;
-      }
-    }
-    hike.tick();
-  }
-  for (std::size_t i = 0; i < bovi::instants; ++i) {
-    off.thigh += std::pow(thigh[i] - measured.thigh[i], 2) / bovi::instants;
-    off.knee += std::pow(knee[i] - measured.knee[i], 2) / bovi::instants;
-    off.ankle += std::pow(ankle[i] - mean - measured.ankle[i], 2) / bovi::instants;
-  }
-  return {std::sqrt(off.thigh), std::sqrt(off.knee), std::sqrt(off.ankle)};
-}
-
-TEST(Terrain, HipKneeAndAnkleOnStairsAreThoseOfPeople) {
-  for (const bool up : {true, false}) {
-    const Off off = off_stairs(up);
-    std::printf("%s: thigh %.1f, knee %.1f, ankle %.1f deg rms\n", up ? "up" : "down", off.thigh, off.knee, off.ankle);
-    EXPECT_LT(off.thigh, 10);
-    EXPECT_LT(off.knee, 11);
-    EXPECT_LT(off.ankle, 11);
-  }
-}
-
-/// Nothing jumps, and the ankle of the foot that bears keeps within its limits.
-TEST(Terrain, HillsKerbsAndStairsAreWalkedSmoothly) {
-  const struct {
-    const char* name;
-    Ground ground;
-    GaitRequest gait;
-    float start_z_m = 0;
-    bool hard = false;  // a foot comes to the edge as it may, at full speed
-  } ways[] = {
-      {"hills",
-       [](float x, float z) {
-         constexpr float a = 0.2F;
-         return TerrainHeight{a * std::sin(z) * std::cos(x), -a * std::sin(z) * std::sin(x),
-                              a * std::cos(z) * std::cos(x)};
-       },
-       {.speed_m_s = 1.2F}},
-      {"a slope up", plane(0, 0.1F), {.speed_m_s = 1.2F}},
-      {"a slope down", plane(0, -0.2F), {.speed_m_s = 1.2F}},
-      {"a kerb up",
-       [](float, float z) {
-         return TerrainHeight{z > 4 ? 0.15F : 0, 0, 0};
-       },
-       {.speed_m_s = 1.2F}},
-      {"a kerb down",
-       [](float, float z) {
-         return TerrainHeight{z > 4 ? -0.15F : 0, 0, 0};
-       },
-       {.speed_m_s = 1.2F},
-       0,
-       true},
-      {"stairs up", stairs(0.17F, 0.30F, 20), {.speed_m_s = 0.5F, .step_length_m = 0.30F}, 0.05F},
-      {"stairs down", stairs(-0.17F, 0.30F, 20), {.speed_m_s = 0.5F, .step_length_m = 0.30F}, 0.10F},
-  };
-  for (const auto& [name, ground, gait, start_z_m, hard] : ways) {
-    Hike hike(ground, gait, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 240, start_z_m);
-    std::array<Vec3<float>, 3> pelvis{};
-    double fastest = 0, highest = 0, ankle = 0, knee = 0;
-    JointAngles<float> before = hike.get<JointAngles>();
-    for (int t = 0; t < 240 * 10; ++t) {
-      hike.tick();
-      std::rotate(pelvis.begin(), pelvis.begin() + 1, pelvis.end());
-      pelvis[2] = hike.get<Pose>().position_m[0];
-      if (t > 2)
-        highest = std::max(highest,
-                           std::fabs(double{pelvis[0].y} - 2 * double{pelvis[1].y} + double{pelvis[2].y}) * 240 * 240);
-      const JointAngles<float> now = hike.get<JointAngles>();
-      const std::uint32_t stance = hike.get<GaitState>().stance_side;
-      for (std::size_t side = 0; side < 2; ++side) {
-        fastest = std::max(fastest, std::fabs(double{now.knee_flexion[side] - before.knee_flexion[side]}) * 240);
-        knee = std::max(knee, double{now.knee_flexion[side]} * degrees);
-      }
-      ankle = std::max(ankle, double{now.ankle_dorsiflexion[stance]} * degrees);
-      before = now;
-    }
-    std::printf("%s: knees %.1f rad/s and %.0f deg, ankle %.0f deg, hips %.1f m/s2\n", name, fastest, knee, ankle,
-                highest);
-    EXPECT_LT(fastest, 20) << name;  // people's knees swing at 7 rad/s
-    EXPECT_LT(highest, 33) << name;
-    EXPECT_LT(ankle, hard ? 46 : 39) << name;
-    EXPECT_LT(knee, hard ? 125 : 112) << name;
-  }
-}
-
-TEST(Terrain, ForcesCarryTheBodyAndPressOnTheGround) {
-  for (const float grade : {-0.1F, 0.1F}) {
-    Hike hike(plane(0, grade), {.speed_m_s = 1.2F});
-    double up = 0, ahead = 0;
-    constexpr int ticks = 600;
-    for (int t = 0; t < ticks; ++t) {
-      hike.tick();
-      const GroundReaction<float> ground = hike.get<GroundReaction>();
-      for (std::size_t side = 0; side < 2; ++side) {
-        up += double{ground.force_n[side].y} / ticks;
-        ahead += double{ground.force_n[side].z} / ticks;
-        if (ground.force_n[side].y < 50) continue;
-        const Vec3<float>& at = ground.centre_m[side];
-        EXPECT_NEAR(at.y, hike.ground(at.x, at.z).height_m, 0.001F);
-      }
-    }
-    EXPECT_NEAR(up, 75 * 9.81, 15);
-    EXPECT_NEAR(ahead, 0, 12);
   }
 }
 

@@ -164,7 +164,10 @@ void Terrain::Work::stand_up(World& world, const Asking& one) {
 
 /// Returns how many answers could not be used.
 std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
-  const auto& [table, block, l, first, all] = one;
+  Table* const table = one.table;
+  const std::uint32_t block = one.block, l = one.lane;
+  const std::size_t first = one.first;
+  const bool all = one.all;
   auto& footing = TableColumn<Footing>(*table).at(*table, block);
   const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + sole_places;
   std::size_t unusable = 0;

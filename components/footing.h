@@ -1,6 +1,7 @@
 #pragma once
 // The ground under a walker's feet, where it is not the level plane y = 0: state like any other, on the person's row.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "components/lanes.h"
@@ -9,6 +10,9 @@ namespace mobil {
 
 /// A step's footholds: that which the other foot leaves, the stance foot's, that which the other foot comes to.
 enum class FootholdOf : std::uint8_t { leaving, stance, landing };
+constexpr std::size_t index(FootholdOf which) {
+  return static_cast<std::size_t>(which);
+}
 
 /// By FootholdOf: the height of the ground in the world, m, and how much it rises toward +X and +Z, m per m. How much
 /// higher than straight from one foothold to the next the foot in the air passes, early and late in its swing

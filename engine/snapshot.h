@@ -3,6 +3,8 @@
 // what tables mean: shared resources are numbers here, which the caller translates, and what else goes into a snapshot
 // is the caller's (systems/snapshot/snapshot.h). Layout: engine/snapshot_bytes.h.
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -47,6 +49,19 @@ struct SavedWorld {
   std::uint32_t column(std::uint32_t table, std::uint64_t id) const;
   std::uint32_t word(std::uint32_t table, std::uint32_t row, std::uint32_t column_word) const;
 };
+
+/// Whether `is_sound` says so of component C in every row of a table; true where the table has none.
+template <template <class> class C, class Sound>
+bool every_row(const SavedWorld& saved, std::uint32_t table, Sound is_sound) {
+  const std::uint32_t column = saved.column(table, type_id<C<float>>());
+  if (column == Table::no_column) return true;
+  for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
+    std::array<std::uint32_t, ComponentLayout<C>::words> word;
+    for (std::uint32_t w = 0; w < word.size(); ++w) word[w] = saved.word(table, row, column + w);
+    if (!is_sound(std::bit_cast<C<float>>(word))) return false;
+  }
+  return true;
+}
 
 /// A resource's number in the snapshot and in the world that is restored.
 struct SharedNumber {

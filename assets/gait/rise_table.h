@@ -39,17 +39,11 @@ inline constexpr float heel_up_from = 0.25F;
 /// gentle slope.
 inline constexpr float gentle_rate[2] = {0.35F, 0.8F};
 
-#ifdef MOBIL_FIT
-extern float fit_numbers[2][count], fit_rate[2];
-static float (&numbers)[2][count] = fit_numbers;
-static float (&rate)[2] = fit_rate;
-#else
 /// The same where it is that steep; up, then down.
 inline constexpr float rate[2] = {0.955F, 1.594F};
 inline constexpr float numbers[2][count] = {{0.12F, -0.011F, 0.164F, 0.129F, 0.0047F, -0.0221F, 0.0465F, -0.0321F,
                                              -0.0050F, 0.0490F, -0.371F, -0.388F, -0.245F, -0.139F},
                                             {0.03F, 1.289F, 0.506F, 0.334F, 0.0340F, -0.0315F, 0.0263F, 0.0671F,
                                              -0.0276F, -0.0081F, -0.853F, -0.986F, -0.123F, -0.124F}};
-#endif
 
 }  // namespace mobil::rise_table

@@ -27,7 +27,7 @@ HWY_INLINE Slope part_way(const Slope& a, const Slope& b, const Wide& part) {
 
 HWY_INLINE Slope slope_at(const Footing<Lanes<float>>& footing, FootholdOf which, const Wide& sine,
                           const Wide& cosine) {
-  const auto i = static_cast<std::size_t>(which), stance = static_cast<std::size_t>(FootholdOf::stance);
+  const auto i = index(which), stance = index(FootholdOf::stance);
   const Wide x = load(footing.rise_x[i]), z = load(footing.rise_z[i]);
   return {load(footing.height_m[i]) - load(footing.height_m[stance]), fnma(z, sine, x * cosine),
           fma(x, sine, z * cosine)};

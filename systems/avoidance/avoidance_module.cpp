@@ -1,7 +1,5 @@
 #include "systems/avoidance/avoidance_module.h"
 
-#include <array>
-#include <bit>
 #include <cstdint>
 
 #include "components/avoidance.h"
@@ -22,14 +20,8 @@ bool is_sound(const Course<float>& course) {
 }
 
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
-  const std::uint32_t column = saved.column(table, type_id<Course<float>>());
-  if (column == Table::no_column) return {};
-  for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
-    std::array<std::uint32_t, ComponentLayout<Course>::words> word;
-    for (std::uint32_t w = 0; w < word.size(); ++w) word[w] = saved.word(table, row, column + w);
-    if (!is_sound(std::bit_cast<Course<float>>(word)))
-      return fail("the snapshot does not agree with itself (where somebody wants to go); give one that `save` made");
-  }
+  if (!every_row<Course>(saved, table, is_sound))
+    return fail("the snapshot does not agree with itself (where somebody wants to go); give one that `save` made");
   return {};
 }
 

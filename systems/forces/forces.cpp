@@ -345,7 +345,7 @@ void forces_block(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<flo
   Wide s, c;
   sin_cos(load(state.heading_rad), s, c);
   const Wide line_x = load(state.line_x_m), line_z = load(state.line_z_m);
-  const Wide floor = uneven ? load(footing->height_m[static_cast<std::size_t>(FootholdOf::stance)]) : wide(0.0F);
+  const Wide floor = uneven ? load(footing->height_m[index(FootholdOf::stance)]) : wide(0.0F);
   for (std::size_t side = 0; side < 2; ++side) {
     const WideVec &f = ground.force[side], &p = ground.centre[side];
     store(WideVec{fma(f.x, c, f.z * s), f.y, fnma(f.x, s, f.z * c)}, reaction.force_n[side]);

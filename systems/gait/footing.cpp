@@ -6,9 +6,9 @@
 namespace mobil {
 namespace {
 
-constexpr auto leaving = static_cast<std::size_t>(FootholdOf::leaving);
-constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
-constexpr auto landing = static_cast<std::size_t>(FootholdOf::landing);
+constexpr auto leaving = index(FootholdOf::leaving);
+constexpr auto stance = index(FootholdOf::stance);
+constexpr auto landing = index(FootholdOf::landing);
 
 }  // namespace
 

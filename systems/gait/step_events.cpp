@@ -16,7 +16,7 @@ namespace mobil::HWY_NAMESPACE {
 /// A place to the left of and ahead of the stance foothold, and a foot's heading there, in the world.
 HWY_INLINE void put_foothold(const GaitState<Lanes<float>>& state, FootholdOf which, const Wide& left,
                              const Wide& forward, const Wide& turned, Footholds<Lanes<float>>& out) {
-  const auto i = static_cast<std::size_t>(which);
+  const auto i = index(which);
   const Wide heading = load(state.heading_rad);
   Wide s, c;
   sin_cos(heading, s, c);
@@ -109,7 +109,7 @@ class BlockEvents {
   void add(std::size_t lane, std::int32_t at, StepEventKind kind, std::uint32_t side, FootholdOf where) {
     if (!placed_) HWY_DYNAMIC_DISPATCH(footholds_block)(plan_, state_, places_);
     placed_ = true;
-    const auto i = static_cast<std::size_t>(where);
+    const auto i = index(where);
     append(lane, at, kind, side, {places_.x_m[i][lane], 0, places_.z_m[i][lane]}, places_.heading_rad[i][lane]);
   }
   /// Of the whole person, on the walking line.

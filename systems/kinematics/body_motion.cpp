@@ -118,7 +118,7 @@ namespace {
 
 /// The ground in the frame of the stance foothold: heights over it, +Z where the walking line heads there.
 Footing<Lanes<float>> seen_from_stance(const Footing<Lanes<float>>& footing, const GaitState<Lanes<float>>& state) {
-  constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
+  constexpr auto stance = index(FootholdOf::stance);
   Footing<Lanes<float>> seen = footing;
   for (std::size_t l = 0; l < lane_count; ++l) {
     const float s = exact::sin(state.heading_rad[l]), c = exact::cos(state.heading_rad[l]);

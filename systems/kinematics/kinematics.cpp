@@ -167,7 +167,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   const Wide& eased = now.eased;
 
   const Wide zero = wide(0.0F);
-  const Wide ground = footing == nullptr ? zero : load(footing->height_m[static_cast<std::size_t>(FootholdOf::stance)]);
+  const Wide ground = footing == nullptr ? zero : load(footing->height_m[index(FootholdOf::stance)]);
   Origin origin = {{load(state.line_x_m), ground, load(state.line_z_m)}, load(state.heading_rad), zero, zero};
   sin_cos(origin.heading, origin.sine, origin.cosine);
   const Ground world = turned(pelvis.position.x, pelvis.position.z, origin.sine, origin.cosine);

@@ -26,9 +26,9 @@ FirstLine first_line(const MuscleLines& lines, const LegScale<float>& scale, Far
 
 /// The ground of the step before; of its first foothold nothing is known.
 Footing<float> a_step_before(Footing<float> footing) {
-  constexpr auto leaving = static_cast<std::size_t>(FootholdOf::leaving);
-  constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
-  constexpr auto landing = static_cast<std::size_t>(FootholdOf::landing);
+  constexpr auto leaving = index(FootholdOf::leaving);
+  constexpr auto stance = index(FootholdOf::stance);
+  constexpr auto landing = index(FootholdOf::landing);
   for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z}) {
     (*values)[landing] = (*values)[stance];
     (*values)[stance] = (*values)[leaving];

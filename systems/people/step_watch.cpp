@@ -51,7 +51,7 @@ float ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& footing
   FootholdOf where = FootholdOf::stance;
   if (one.kind == StepEventKind::toe_off) where = FootholdOf::leaving;
   if (one.kind == StepEventKind::heel_strike && one.side != stance_side) where = FootholdOf::landing;
-  return footing.height_m[static_cast<std::size_t>(where)][lane];
+  return footing.height_m[index(where)][lane];
 }
 
 }  // namespace

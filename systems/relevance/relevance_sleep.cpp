@@ -33,7 +33,7 @@ float length(const Vec3<float>& v) {
 Lanes<float> pelvis_heights(const Table& table, std::size_t block) {
   Lanes<float> up_m;
   const TableColumn<Footing> footing(table);
-  constexpr auto stance = static_cast<std::size_t>(FootholdOf::stance);
+  constexpr auto stance = index(FootholdOf::stance);
   for (std::size_t l = 0; l < lane_count; ++l)
     up_m[l] = footing ? pelvis_m + footing.at(table, block).height_m[stance][l] : pelvis_m;
   return up_m;

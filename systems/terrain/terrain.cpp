@@ -19,9 +19,9 @@
 namespace mobil {
 namespace {
 
-constexpr std::size_t leaving = static_cast<std::size_t>(FootholdOf::leaving);
-constexpr std::size_t stance = static_cast<std::size_t>(FootholdOf::stance);
-constexpr std::size_t landing = static_cast<std::size_t>(FootholdOf::landing);
+constexpr std::size_t leaving = index(FootholdOf::leaving);
+constexpr std::size_t stance = index(FootholdOf::stance);
+constexpr std::size_t landing = index(FootholdOf::landing);
 
 /// Further than that from where it was, a foothold is another one.
 constexpr float moved_m = 0.05F;
@@ -138,8 +138,8 @@ TerrainHeight Terrain::Work::foothold(std::size_t first) const {
   return plane;
 }
 
-/// Whoever's pose is of other ground is moved onto this at once: who was placed, woke or has just come. No inertia is
-/// felt.
+/// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
+/// inertia is felt.
 void Terrain::Work::stand_up(World& world, const Asking& one) {
   constexpr float more_than_a_step_m = 0.4F;
   const Entity human = one.table->entities(one.block)[one.lane];

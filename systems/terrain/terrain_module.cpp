@@ -1,7 +1,5 @@
 #include "systems/terrain/terrain_module.h"
 
-#include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
@@ -25,14 +23,8 @@ bool is_sound(const Footing<float>& footing) {
 }
 
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
-  const std::uint32_t column = saved.column(table, type_id<Footing<float>>());
-  if (column == Table::no_column) return {};
-  for (std::uint32_t row = 0; row < saved.tables[table].rows; ++row) {
-    std::array<std::uint32_t, ComponentLayout<Footing>::words> word;
-    for (std::uint32_t w = 0; w < word.size(); ++w) word[w] = saved.word(table, row, column + w);
-    if (!is_sound(std::bit_cast<Footing<float>>(word)))
-      return fail("the snapshot does not agree with itself (the ground under somebody); give one that `save` made");
-  }
+  if (!every_row<Footing>(saved, table, is_sound))
+    return fail("the snapshot does not agree with itself (the ground under somebody); give one that `save` made");
   return {};
 }
 

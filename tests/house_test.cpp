@@ -178,6 +178,7 @@ const std::map<std::string, std::string> no_header_yet = {
     {"systems/c/c_simulation.cpp", "mobil.h"},
     {"systems/c/c_skin.cpp", "mobil_skin.h"},
     {"systems/c/c_surfaces.cpp", "mobil_surfaces.h"},
+    {"systems/c/c_surroundings.cpp", "mobil_surroundings.h"},
     {"systems/deformation/explicit.cpp", "deformation.h"},
     {"systems/deformation/implicit.cpp", "deformation.h"},
     {"systems/deformation/reduced_report.cpp", "reduced.h"},

@@ -269,6 +269,17 @@ mobil_skin_target usual() {
   return target;
 }
 template <>
+mobil_avoidance usual() {
+  const AvoidanceOptions as;
+  return {sizeof(mobil_avoidance), as.radius_h, as.overlap_m};
+}
+template <>
+mobil_steered usual() {
+  mobil_steered steered{};
+  steered.size = sizeof steered;
+  return steered;
+}
+template <>
 mobil_limits usual() {
   const RestoreLimits of;
   mobil_limits limits{};

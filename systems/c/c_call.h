@@ -19,6 +19,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "systems/avoidance/avoidance.h"
 #include "systems/c/mobil.h"
 #include "systems/people/pose_axes.h"
 #include "systems/people/pose_writer.h"
@@ -26,6 +27,7 @@
 #include "systems/simulation.h"
 #include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
+#include "systems/terrain/terrain.h"
 
 namespace mobil::c {
 
@@ -122,6 +124,10 @@ template <>
 mobil_limits usual();
 template <>
 mobil_skin_target usual();
+template <>
+mobil_avoidance usual();
+template <>
+mobil_steered usual();
 
 /// Sizes that a struct may say it has.
 constexpr bool is_struct_size(std::size_t size) {
@@ -227,6 +233,8 @@ struct mobil_sim {
   mobil::c::HostMemory memory;  // goes after everything that lives in it
   std::optional<mobil::Simulation> simulation;
   std::optional<mobil::Relevance> relevance;
+  std::optional<mobil::Avoidance> avoidance;
+  std::optional<mobil::Terrain> terrain;
   mobil::c::HostAxes axes;
   std::optional<mobil::PoseWriter> poses;
   std::optional<mobil::SurfaceWriter> surfaces;
@@ -237,6 +245,7 @@ struct mobil_sim {
   std::vector<mobil::Entity> people;
   std::vector<float> row;
   std::vector<mobil::Root> roots;
+  std::vector<mobil::TerrainHeight> heights;
 
   mobil::Simulation& world() { return *simulation; }
   const mobil::Jobs& jobs_of() const;

@@ -2,7 +2,9 @@
 
 #include <cmath>
 
+#include "components/avoidance.h"
 #include "components/compact.h"
+#include "components/footing.h"
 #include "components/forces.h"
 #include "components/relevance.h"
 #include "components/sleep.h"
@@ -261,7 +263,9 @@ int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
             (world.is_compact(person) ? MOBIL_COMPACT : 0) | (muscles ? MOBIL_HAS_MUSCLES : 0) |
             (world.world().has<GroundReaction>(person) ? MOBIL_HAS_FORCES : 0) |
             (world.world().has<Needs>(person) || world.world().has<SleepsManaged>(person) ? MOBIL_MANAGED : 0) |
-            (is_watched(world.world(), person) ? MOBIL_WATCHED : 0);
+            (is_watched(world.world(), person) ? MOBIL_WATCHED : 0) |
+            (world.world().has<Course>(person) ? MOBIL_AVOIDS : 0) |
+            (world.world().has<Footing>(person) ? MOBIL_ON_GROUND : 0);
     return int{MOBIL_OK};
   });
 }

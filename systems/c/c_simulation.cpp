@@ -43,6 +43,7 @@ int make(mobil_sim& sim, const mobil_options* given) {
   auto made = Simulation::make(as);
   if (!made) return sim.line.refuse(made.error());
   sim.simulation.emplace(std::move(*made));
+  sim.terrain.emplace(*sim.simulation);
   sim.poses.emplace(as.memory);
   sim.surfaces.emplace(as.memory);
   return MOBIL_OK;
@@ -96,6 +97,10 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_limits>(filled, size);
     case MOBIL_SKIN_TARGET:
       return fill<mobil_skin_target>(filled, size);
+    case MOBIL_AVOIDANCE:
+      return fill<mobil_avoidance>(filled, size);
+    case MOBIL_STEERED:
+      return fill<mobil_steered>(filled, size);
     default:
       return MOBIL_REFUSED;
   }

@@ -44,7 +44,7 @@ extern "C" {
 #endif
 
 /* The version of this header. mobil_interface() is the library's: equal or greater serves. */
-#define MOBIL_INTERFACE 2
+#define MOBIL_INTERFACE 3
 MOBIL_API int mobil_interface(void);               /* the library's MOBIL_INTERFACE */
 MOBIL_API const char* mobil_library_version(void); /* "0.2.0" */
 
@@ -121,7 +121,9 @@ enum {
   MOBIL_SURFACE_CHOICE,
   MOBIL_SURFACE_TARGET,
   MOBIL_LIMITS,
-  MOBIL_SKIN_TARGET
+  MOBIL_SKIN_TARGET,
+  MOBIL_AVOIDANCE,
+  MOBIL_STEERED
 };
 /* Fills a struct of that kind, as large as the caller knows it, with usual values. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
@@ -196,7 +198,9 @@ enum {
   MOBIL_HAS_MUSCLES = 8,
   MOBIL_HAS_FORCES = 16,
   MOBIL_MANAGED = 32,
-  MOBIL_WATCHED = 64
+  MOBIL_WATCHED = 64,
+  MOBIL_AVOIDS = 128,   /* others: mobil_avoid */
+  MOBIL_ON_GROUND = 256 /* mobil_set_on_ground */
 };
 /* What a person is now: bits of those above. */
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
@@ -475,6 +479,7 @@ MOBIL_API int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t cou
 MOBIL_API int mobil_hash(mobil_sim* sim, unsigned int out[2]);
 #include "systems/c/mobil_play.h"
 #include "systems/c/mobil_skin.h"
+#include "systems/c/mobil_surroundings.h"
 
 #ifdef __cplusplus
 }

@@ -55,9 +55,9 @@ export class World {
     return at;
   }
   #muscles(take, fields) { return fields ? this.#struct(take, 'mobil_muscles', 'MOBIL_MUSCLES', fields) : 0; }
-  #style(take, style) {
-    const at = take(4 * style.length);
-    this.library.f32.set(style, at >> 2);
+  #put(take, numbers) {
+    const at = take(4 * numbers.length);
+    this.library.f32.set(numbers, at >> 2);
     return at;
   }
   /** Which numbers are said, and the style's place; `at` is a filled mobil_person or mobil_walk. */
@@ -67,7 +67,7 @@ export class World {
     for (const [field, bit] of Object.entries(given)) if (fields[field] !== undefined) bits |= bit;
     if (style) {
       bits |= c.MOBIL_STYLE;
-      fields.style = this.#style(take, style);
+      fields.style = this.#put(take, style);
       fields.style_count = style.length;
     }
     for (const [field, value] of Object.entries(fields)) if (value !== undefined) this.library.set(name, at, field, value);
@@ -198,6 +198,40 @@ export class World {
     const at = take(idBytes);
     this.library.u32.set(id, at >> 2);
     return [at];
+  }
+
+  // ---- Others, walls and ground
+  /** Fields of mobil_avoidance. */
+  startAvoidance(options = {}) { this.library.within((take) => this.#call('start_avoidance', this.#struct(take, 'mobil_avoidance', 'MOBIL_AVOIDANCE', options))); }
+  /** They keep out of each other's way from now on, or no more. */
+  avoid(people, on = true) { this.#call('avoid', people.ids, people.count, on ? 1 : 0); }
+  /** Where they want to go: an array of [speed in m/s, heading in rad], one a person. */
+  want(people, wishes) { this.library.within((take) => this.#call('want', people.ids, people.count, this.#put(take, wishes.flat()), 0)); }
+  /** Instead of those before: arrays of six numbers, two places. */
+  setWalls(walls) { this.library.within((take) => this.#call('set_walls', this.#put(take, walls.flat()), 0, walls.length)); }
+  /** Instead of those before: arrays of seven numbers, place, velocity, radius. */
+  setDiscs(discs) { this.library.within((take) => this.#call('set_discs', this.#put(take, discs.flat()), 0, discs.length)); }
+  /** Before each tick: fields of mobil_steered. */
+  steer() {
+    return this.library.within((take) => {
+      const at = this.#struct(take, 'mobil_steered', 'MOBIL_STEERED');
+      this.#call('steer', at);
+      return this.library.object('mobil_steered', at);
+    });
+  }
+  setOnGround(people, on = true) { this.#call('set_on_ground', people.ids, people.count, on ? 1 : 0); }
+  /** Before each tick: `heights(places, count)` is given three numbers a place, and returns four: the height, and the
+   *  normal (0 0 0: level). */
+  updateGround(heights) {
+    this.library.within((take) => {
+      const count = take(4);
+      this.#call('ask_ground', 0, 0, 0, 0, count);
+      const places = this.library.u32[count >> 2], at = take(12 * places);
+      if (places === 0) return;
+      this.#call('ask_ground', at, 0, 0, places, count);
+      const ground = this.#put(take, heights(this.#floats(at, 3 * places).slice(), places));
+      this.#call('answer_ground', ground, 0, places, 0);
+    });
   }
 
   // ---- Time

@@ -1,5 +1,7 @@
 #include "systems/terrain/terrain.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -41,25 +43,28 @@ bool make_usable(TerrainHeight& answer) {
 
 }  // namespace
 
-/// Whose ground is asked for, and with which query their places begin: of each foothold three along the sole, of all
-/// footholds or of the next alone; then those on the way to it.
+/// Whose ground is asked for, in which step, and with which query their places begin: of each foothold three along the
+/// sole, of all footholds or of the next alone; then those on the way to it.
 struct Terrain::Work {
   struct Asking {
-    Table* table;
-    std::uint32_t block, lane;
+    Entity human;
+    std::uint32_t steps, stance_side;
+    float stance_x_m, stance_z_m;
     std::size_t first;
     bool all;
   };
   std::vector<Asking> asking;
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
+  TerrainReport report;
 
-  TerrainReport collect(World& world);
-  void collect_block(Table& table, std::uint32_t block);
+  void collect(const World& world);
+  void collect_block(const Table& table, std::uint32_t block);
   void ask_foothold(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, float height_m,
                     Entity human);
+  void put_answers(World& world);
   std::size_t put_answers(World& world, const Asking& one);
-  static void stand_up(World& world, const Asking& one);
+  static void stand_up(World& world, Entity human);
   TerrainHeight foothold(std::size_t first) const;
 };
 
@@ -74,10 +79,10 @@ void Terrain::Work::ask_foothold(const Footholds<Lanes<float>>& at, std::size_t 
   }
 }
 
-void Terrain::Work::collect_block(Table& table, std::uint32_t block) {
+void Terrain::Work::collect_block(const Table& table, std::uint32_t block) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
   const auto& state = TableColumn<GaitState>(table).at(table, block);
-  auto& footing = TableColumn<Footing>(table).at(table, block);
+  const auto& footing = TableColumn<Footing>(table).at(table, block);
   Footholds<Lanes<float>> at;
   footholds(TableColumn<StepPlan>(table).at(table, block), state, at);
   const Entity* const entities = table.entities(block);
@@ -90,14 +95,8 @@ void Terrain::Work::collect_block(Table& table, std::uint32_t block) {
     const bool all = footing.known[l] == footing_unknown || !same_step ||
                      (known && elsewhere(stance, footing.stance_x_m[l], footing.stance_z_m[l]));
     if (!all && known && !elsewhere(landing, footing.landing_x_m[l], footing.landing_z_m[l])) continue;
-    footing.steps[l] = state.steps[l];
-    footing.stance_side[l] = state.stance_side[l];
-    footing.stance_x_m[l] = at.x_m[stance][l];
-    footing.stance_z_m[l] = at.z_m[stance][l];
-    footing.landing_x_m[l] = at.x_m[landing][l];
-    footing.landing_z_m[l] = at.z_m[landing][l];
-    footing.known[l] = footing_unknown;  // should the host throw
-    asking.push_back({&table, block, l, queries.size(), all});
+    asking.push_back(
+        {entities[l], state.steps[l], state.stance_side[l], at.x_m[stance][l], at.z_m[stance][l], queries.size(), all});
     if (all) ask_foothold(at, leaving, l, size.height_m[l], entities[l]);
     if (all) ask_foothold(at, stance, l, size.height_m[l], entities[l]);
     ask_foothold(at, landing, l, size.height_m[l], entities[l]);
@@ -109,11 +108,11 @@ void Terrain::Work::collect_block(Table& table, std::uint32_t block) {
   }
 }
 
-TerrainReport Terrain::Work::collect(World& world) {
+void Terrain::Work::collect(const World& world) {
   asking.clear();
   queries.clear();
-  TerrainReport report;
-  for (Table& table : world.tables()) {
+  report = {};
+  for (const Table& table : world.tables()) {
     if (!TableColumn<Footing>(table) || !TableColumn<GaitState>(table) || !TableColumn<StepPlan>(table)) continue;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       report.people += table.live(b);
@@ -122,7 +121,7 @@ TerrainReport Terrain::Work::collect(World& world) {
   }
   report.asked = asking.size();
   report.places = queries.size();
-  return report;
+  answers.assign(queries.size(), {});
 }
 
 /// The plane that a foot stands on: of the ground under its ankle, raised where heel or toes would be in the ground.
@@ -140,9 +139,8 @@ TerrainHeight Terrain::Work::foothold(std::size_t first) const {
 
 /// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
 /// inertia is felt.
-void Terrain::Work::stand_up(World& world, const Asking& one) {
+void Terrain::Work::stand_up(World& world, Entity human) {
   constexpr float more_than_a_step_m = 0.4F;
-  const Entity human = one.table->entities(one.block)[one.lane];
   const auto feet = world.get<Feet>(human);
   const auto state = world.get<GaitState>(human);
   if (!feet || !state) return;
@@ -162,13 +160,24 @@ void Terrain::Work::stand_up(World& world, const Asking& one) {
   forget_motion(world, human);
 }
 
-/// Returns how many answers could not be used.
+void Terrain::Work::put_answers(World& world) {
+  const FlushDenormals flush;  // as in a tick
+  for (const Asking& one : asking) report.unusable += put_answers(world, one);
+  asking.clear();
+  queries.clear();
+}
+
+/// Returns how many answers could not be used. Who is gone, or has taken a step since, is left as they are.
 std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
-  Table* const table = one.table;
-  const std::uint32_t block = one.block, l = one.lane;
-  const std::size_t first = one.first;
+  const auto [table, row] = world.find(one.human);
+  if (table == nullptr || !TableColumn<Footing>(*table) || !TableColumn<GaitState>(*table) ||
+      !TableColumn<StepPlan>(*table))
+    return 0;
+  const std::size_t first = one.first, block = row / lane_count, l = row % lane_count;
   const bool all = one.all;
   auto& footing = TableColumn<Footing>(*table).at(*table, block);
+  const auto& state = TableColumn<GaitState>(*table).at(*table, block);
+  if (one.steps != state.steps[l] || one.stance_side != state.stance_side[l]) return 0;
   const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + sole_places;
   std::size_t unusable = 0;
   for (std::size_t i = first; i < on_way + GroundProfile::asked; ++i) {
@@ -192,8 +201,14 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   if (all) put(leaving, first);
   if (all) put(stance, first + sole_places);
   put(landing, next);
+  footing.steps[l] = one.steps;
+  footing.stance_side[l] = one.stance_side;
+  footing.stance_x_m[l] = one.stance_x_m;
+  footing.stance_z_m[l] = one.stance_z_m;
+  footing.landing_x_m[l] = queries[next].x_m;
+  footing.landing_z_m[l] = queries[next].z_m;
   footing.known[l] = footing_all;
-  if (all) stand_up(world, one);
+  if (all) stand_up(world, one.human);
 
   const float part = GroundProfile::part(0);
   const TerrainQuery &to = queries[next], &on = queries[on_way];
@@ -202,9 +217,9 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   ground.height_m.front() = footing.height_m[leaving][l];
   ground.height_m.back() = footing.height_m[landing][l];
   for (std::size_t i = 0; i < GroundProfile::asked; ++i) ground.height_m[i + 1] = answers[on_way + i].height_m;
-  const FootLift lift = lift_over(ground, row_of(TableColumn<BodySize>(*table).at(*table, block), l),
-                                  row_of(TableColumn<StepPlan>(*table).at(*table, block), l),
-                                  row_of(TableColumn<GaitState>(*table).at(*table, block), l), row_of(footing, l));
+  const FootLift lift =
+      lift_over(ground, row_of(TableColumn<BodySize>(*table).at(*table, block), l),
+                row_of(TableColumn<StepPlan>(*table).at(*table, block), l), row_of(state, l), row_of(footing, l));
   footing.lift_early_m[l] = lift.early_m;
   footing.lift_late_m[l] = lift.late_m;
   return unusable;
@@ -251,16 +266,30 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   return {};
 }
 
+std::span<const TerrainQuery> Terrain::ask() {
+  work_->collect(world_of(simulation_));
+  return work_->queries;
+}
+
+Result<TerrainReport> Terrain::answer(std::span<const TerrainHeight> heights) {
+  Work& work = *work_;
+  if (heights.size() != work.queries.size())
+    return fail(
+        fmt::format("Terrain: there are {} answers, and {} places were asked for; answer those of the last ask, once",
+                    heights.size(), work.queries.size()),
+        Status::not_valid);
+  std::ranges::copy(heights, work.answers.begin());
+  work.put_answers(world_of(simulation_));
+  return work.report;
+}
+
 TerrainReport Terrain::update() {
   Work& work = *work_;
-  World& world = world_of(simulation_);
-  TerrainReport report = work.collect(world);
-  if (work.asking.empty()) return report;
-  work.answers.assign(work.queries.size(), {});
+  work.collect(world_of(simulation_));
+  if (work.asking.empty() || !heights_) return work.report;
   heights_(work.queries, work.answers);
-  const FlushDenormals flush;  // as in a tick
-  for (const Work::Asking& one : work.asking) report.unusable += work.put_answers(world, one);
-  return report;
+  work.put_answers(world_of(simulation_));
+  return work.report;
 }
 
 }  // namespace mobil

@@ -53,7 +53,8 @@ struct TerrainReport {
 class Terrain {
  public:
   /// Works on `simulation`, which must outlive it and stay where it is.
-  Terrain(Simulation& simulation, TerrainHeights heights);
+  /// Without `heights`, `update` does nothing: use `ask` and `answer`.
+  explicit Terrain(Simulation& simulation, TerrainHeights heights = {});
   ~Terrain();
   Terrain(Terrain&&) noexcept;
   Terrain(const Terrain&) = delete;
@@ -69,6 +70,14 @@ class Terrain {
   /// Asks for the ground of those whose next foothold is new, or whose ground is not known: who was placed elsewhere,
   /// who woke. Call it before each tick, last. Takes memory where more people are asked for at once than ever before.
   TerrainReport update();
+
+  /// The halves of `update`, for a host whose ground is not a function: it lies in another language, or is looked up by
+  /// jobs of its own. `ask` gives the places, and changes nothing; they are good until the next call of this object.
+  std::span<const TerrainQuery> ask();
+  /// The ground at the places of the last `ask`, in their order, once, and before the next tick: a foot jumps that
+  /// hears later how high its foothold is. Who has gone or taken a step since then is left as they are, and asked for
+  /// again. Errors: not as many as were asked for (Status::not_valid); nothing has changed.
+  Result<TerrainReport> answer(std::span<const TerrainHeight> heights);
 
  private:
   struct Work;

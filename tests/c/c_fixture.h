@@ -4,9 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "systems/c/mobil.h"
+#include "systems/simulation.h"
 
 namespace mobil::c_test {
 
@@ -60,6 +62,39 @@ inline std::vector<mobil_id> spawn(const Sim& sim, std::size_t count, const mobi
   EXPECT_EQ(mobil_spawn(sim, people.data(), 0, count, muscles, ids.data()), MOBIL_OK) << sim.message();
   return ids;
 }
+
+inline mobil_options unreal() {
+  auto options = filled<mobil_options>(MOBIL_OPTIONS);
+  options.axes = MOBIL_AXES_UNREAL;
+  options.units_per_m = 100;
+  return options;
+}
+
+/// The same five people, in Unreal's axes and in ours.
+struct Twins {
+  Twins() : sim(unreal()) {
+    std::vector<mobil_person> people = some_people(5);
+    std::vector<SpawnRequest> requests(5);
+    for (std::size_t i = 0; i < 5; ++i) {
+      requests[i].body.height_m = people[i].height_m;
+      requests[i].body.mass_kg = people[i].mass_kg;
+      requests[i].gait.speed_m_s = people[i].speed_m_s;
+      requests[i].x_m = static_cast<float>(i);
+      requests[i].heading_rad = people[i].heading_rad;
+      people[i].place[0] = 0;
+      people[i].place[1] = -100 * static_cast<float>(i);  // y is to the right there
+    }
+    ids.resize(5);
+    EXPECT_EQ(mobil_spawn(sim, people.data(), 0, 5, nullptr, ids.data()), MOBIL_OK) << sim.message();
+    entities.resize(5);
+    EXPECT_TRUE(simulation.spawn(requests, entities));
+  }
+
+  Sim sim;
+  Simulation simulation;
+  std::vector<mobil_id> ids;
+  std::vector<Entity> entities;
+};
 
 inline mobil_muscles reduced_muscles() {
   auto muscles = filled<mobil_muscles>(MOBIL_MUSCLES);

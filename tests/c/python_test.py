@@ -201,6 +201,51 @@ class Worlds(unittest.TestCase):
         world.shift_origin([64, 0, 0])
         self.assertLess(world.roots(people)["place"][0, 0], -60)
 
+    def test_who_avoids_others_does_not_walk_through_them(self):
+        def nearest(avoids):
+            world = mobil.World()
+            people = world.spawn(speed_m_s=1.3, place=[[0, 0, 0], [0.05, 0, 7]], heading_rad=[0, np.pi])
+            avoidance = mobil.Avoidance(world, overlap_m=0.02)
+            if avoids:
+                avoidance.manage(people)
+                avoidance.want(people, 1.3, [0, np.pi])
+            avoidance.set_walls([[[-2, 0, -9], [-2, 0, 20]]])
+            avoidance.set_discs([[0, 0, 12]], 0.3)
+            apart = np.inf
+            for _ in range(300):
+                self.assertEqual(avoidance.update().people, 2)
+                world.tick()
+                place = world.roots(people)["place"]
+                apart = min(apart, float(np.hypot(*(place[1] - place[0])[[0, 2]])))
+            if avoids:
+                avoidance.release(people)
+                with self.assertRaises(mobil.MissingError):
+                    avoidance.release(people)
+            return apart
+
+        self.assertLess(nearest(False), 0.2)
+        self.assertGreater(nearest(True), 0.4)
+
+    def test_walkers_stand_on_the_ground_that_python_tells_of(self):
+        world = mobil.World(axes="unreal", units_per_m=100)
+        people = crowd(world, 4)
+        slope = 0.1
+        terrain = mobil.Terrain(world, lambda at: (slope * at[:, 0], [-slope, 0, 1]))
+        terrain.manage(people)
+        places, who = terrain.ask()
+        self.assertEqual(places.shape, (96, 3))
+        self.assertEqual(set(who["index"]), set(people["index"]))
+        with self.assertRaises(mobil.RefusedError):
+            terrain.answer([0.0])
+        for _ in range(200):
+            self.assertEqual(terrain.update(), 0)
+            world.tick()
+        soles, _ = world.feet(people)
+        over = soles[..., 2] - slope * soles[..., 0]  # (n, points, sides)
+        self.assertGreater(over.min(), -0.5)  # cm
+        self.assertLess(over.min(axis=(1, 2)).max(), 0.5)
+        terrain.release(people)
+
     def test_choosing_follows_the_camera(self):
         world = mobil.World()
         people = crowd(world)

@@ -20,6 +20,7 @@ class WildHost {
     promise(mobil_create(&options, &sim_, line, sizeof line) == MOBIL_OK, "a simulation is made");
     static const std::vector<unsigned char> baked = bake();
     if (!baked.empty()) mobil_load_baked(sim_, baked.data(), baked.size());
+    promise(mobil_start_avoidance(sim_, nullptr) == MOBIL_OK, "avoidance begins");
   }
   ~WildHost() { mobil_destroy(sim_); }
   WildHost(const WildHost&) = delete;
@@ -163,6 +164,8 @@ class WildHost {
         return mobil_set_excitation(sim_, &who, 1, numbers_.wild(17), numbers_.wild(2), &excitation, 0);
       }
       case 14:
+        promise(mobil_steer(sim_, nullptr) == MOBIL_OK, "steps are chosen");
+        answer_ground();
         return mobil_tick(sim_, numbers_.byte() % 8);
       case 15:
         return mobil_advance(sim_, static_cast<double>(numbers_.number()) / 16, nullptr);
@@ -183,6 +186,7 @@ class WildHost {
         return mobil_read(sim_, what, &who, 1, row, 0);
       }
       default: {
+        if (numbers_.byte() % 4 != 0) return call_surroundings(who);
         mobil_pose_layout layout;
         mobil_defaults(MOBIL_POSE_LAYOUT, &layout, sizeof layout);
         layout.form = numbers_.wild(3);
@@ -192,6 +196,41 @@ class WildHost {
         return mobil_poses(sim_, &who, 1, &layout, out.data(), 0);
       }
     }
+  }
+
+  int call_surroundings(const mobil_id& who) {
+    float row[7];
+    for (float& number : row) number = numbers_.number();
+    const size_t count = numbers_.byte() % 2;
+    switch (numbers_.byte() % 6) {
+      case 0:
+        return mobil_avoid(sim_, &who, 1, numbers_.wild(2));
+      case 1:
+        return mobil_want(sim_, &who, 1, row, 0);
+      case 2:
+        return mobil_set_walls(sim_, row, 0, count);
+      case 3:
+        return mobil_set_discs(sim_, row, 0, count);
+      case 4: {
+        mobil_avoidance options;
+        mobil_defaults(MOBIL_AVOIDANCE, &options, sizeof options);
+        options.radius_h = row[0];
+        options.overlap_m = row[1];
+        return mobil_start_avoidance(sim_, &options);
+      }
+      default:
+        return mobil_set_on_ground(sim_, &who, 1, numbers_.wild(2));
+    }
+  }
+
+  /// Now and then something else than what was asked for.
+  void answer_ground() {
+    size_t places = 0;
+    promise(mobil_ask_ground(sim_, nullptr, 0, nullptr, 0, &places) == MOBIL_OK, "the ground is asked for");
+    if (places == 0) return;
+    std::vector<float> ground(4 * places);
+    for (float& number : ground) number = numbers_.byte() < 32 ? numbers_.number() : 0.25F * numbers_.number();
+    mobil_answer_ground(sim_, ground.data(), 0, numbers_.byte() < 250 ? places : places - 1, nullptr);
   }
 
   /// Whatever was called, everybody who is there is somewhere.

@@ -225,6 +225,47 @@ TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
   EXPECT_EQ(requests, 0U);
 }
 
+/// Who answers in halves has what others have; asking changes nothing.
+TEST(Terrain, TheHalvesOfAnUpdateAreTheWhole) {
+  Crowd whole(1), halves(1);
+  std::vector<TerrainHeight> answers;
+  for (int k = 0; k < 200; ++k) {
+    whole.tick();
+    const std::uint64_t before = halves.simulation.state_hash();
+    const std::size_t once = halves.terrain.ask().size();
+    const std::span<const TerrainQuery> at = halves.terrain.ask();
+    ASSERT_EQ(at.size(), once);
+    ASSERT_EQ(halves.simulation.state_hash(), before);
+    answers.assign(at.size(), {});
+    for (std::size_t i = 0; i < at.size(); ++i)
+      answers[i] = {0.3F * std::sin(at[i].x_m) + 0.1F * at[i].z_m, 0.3F * std::cos(at[i].x_m), 0.1F};
+    ASSERT_TRUE(halves.terrain.answer(answers));
+    halves.simulation.tick();
+  }
+  EXPECT_EQ(whole.simulation.state_hash(), halves.simulation.state_hash());
+}
+
+/// Between both halves people go, take steps, or move to other tables.
+TEST(Terrain, AnswersForWhoHasGoneOnAreLeftOut) {
+  Crowd crowd(1);
+  crowd.tick();
+  for (int k = 0; k < 40; ++k) {
+    std::vector<TerrainHeight> answers(crowd.terrain.ask().size());
+    if (k == 10) {
+      ASSERT_TRUE(crowd.simulation.despawn(crowd.people.back()));
+      crowd.people.pop_back();
+    }
+    if (k == 20) (void)crowd.simulation.add_forces(crowd.people.front());
+    if (k == 25) (void)crowd.terrain.release({&crowd.people[1], 1});
+    crowd.simulation.tick(7);
+    ASSERT_TRUE(crowd.terrain.answer(answers));
+    EXPECT_EQ(crowd.terrain.answer(answers).has_value(), answers.empty());  // once
+  }
+  crowd.tick();
+  for (const Entity human : crowd.people)
+    EXPECT_TRUE(std::isfinite(crowd.simulation.get<Pose>(human)->position_m[0].y));
+}
+
 TEST(Terrain, WhoIsPlacedElsewhereOrWakesStandsOnTheGroundThere) {
   Hike hike(plane(0, 0.1F), {.speed_m_s = 1.2F});
   for (int k = 0; k < 30; ++k) hike.tick();

@@ -33,12 +33,14 @@ from .names import (
 from .plots import plot_walk
 from .skin import Skin
 from .surfaces import Part, Surfaces
+from .surroundings import Avoidance, Steered, Terrain
 from .walks import Walk, walk
 from .world import EVENT, PERSON, ROOT, Choice, SystemCost, Ticks, World, method, muscles
 
 __version__ = text(lib.mobil_library_version())
 __all__ = [
     "ACTIVATION",
+    "Avoidance",
     "Choice",
     "EVENT",
     "EVENTS",
@@ -60,10 +62,12 @@ __all__ = [
     "STYLE",
     "Skin",
     "StaleError",
+    "Steered",
     "StyleParameter",
     "Surfaces",
     "SystemCost",
     "TENDON",
+    "Terrain",
     "Ticks",
     "Walk",
     "World",

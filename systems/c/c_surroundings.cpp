@@ -1,0 +1,207 @@
+// Others, walls and ground.
+
+#include <cmath>
+#include <limits>
+
+#include "components/avoidance.h"
+#include "components/footing.h"
+#include "systems/c/c_call.h"
+#include "systems/people/person.h"
+
+namespace {
+
+using namespace mobil;
+using namespace mobil::c;
+
+/// How far apart rows of so many floats lie.
+int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floats, const char* name,
+               std::size_t& stride) {
+  if (rows == nullptr && count > 0) return line.refuse_null(name);
+  const std::size_t close = floats * sizeof(float);
+  if (stride == 0) stride = close;
+  if (stride >= close) return MOBIL_OK;
+  return line.refuse(MOBIL_REFUSED, fmt::format("{} lie {} bytes apart and are {} long", name, stride, close));
+}
+
+int avoidance_of(mobil_sim& sim, Avoidance*& out) {
+  if (!sim.avoidance)
+    return sim.line.refuse(MOBIL_MISSING, "nobody avoids anybody yet; mobil_start_avoidance begins that");
+  out = &*sim.avoidance;
+  return MOBIL_OK;
+}
+
+/// Before anybody is changed: that all of them can be.
+int check_avoiders(mobil_sim& sim, bool on) {
+  for (std::size_t i = 0; i < sim.people.size(); ++i) {
+    const Entity person = sim.people[i];
+    if (!sim.world().is_person(person)) return sim.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+    if (on && is_posed(sim.world().world(), person))
+      return sim.line.refuse(MOBIL_MISSING,
+                             fmt::format("person {} is posed by the host; hand them over by mobil_set_discs", i));
+    if (!on && !sim.world().world().has<Course>(person))
+      return sim.line.refuse(MOBIL_MISSING, fmt::format("person {} avoids nobody; mobil_avoid begins that", i));
+  }
+  return MOBIL_OK;
+}
+
+int start_avoiding(mobil_sim& sim, Avoidance& avoidance) {
+  std::vector<Entity> new_ones;
+  new_ones.reserve(sim.people.size());
+  const auto undo = [&] {
+    for (const Entity one : new_ones) (void)avoidance.release(one);
+  };
+  try {
+    for (std::size_t i = 0; i < sim.people.size(); ++i) {
+      const bool already = sim.world().world().has<Course>(sim.people[i]);
+      if (const auto done = avoidance.manage(sim.people[i]); !done) {
+        undo();
+        return sim.line.refuse(done.error(), person_number(i));
+      }
+      if (!already) new_ones.push_back(sim.people[i]);
+    }
+  } catch (const std::bad_alloc&) {
+    undo();
+    throw;
+  }
+  return MOBIL_OK;
+}
+
+GroundPoint ground_point(const HostAxes& axes, const float* theirs) {
+  const Vec3<float> at = axes.place_from(theirs);
+  return {at.x, at.z};
+}
+
+/// A height along the host's axis up, and a normal.
+TerrainHeight height_from(const HostAxes& axes, const float* theirs) {
+  const Vec3<float> n = axes.direction_from(theirs + 1);
+  const float height_m = theirs[0] / axes.units_per_m;
+  if (n.x == 0 && n.y == 0 && n.z == 0) return {height_m, 0, 0};
+  if (!(n.y > 0)) return {std::numeric_limits<float>::quiet_NaN(), 0, 0};
+  return {height_m, -n.x / n.y, -n.z / n.y};
+}
+
+}  // namespace
+
+int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options) {
+  return call(sim, "mobil_start_avoidance", [&](mobil_sim& s) {
+    auto known = usual<mobil_avoidance>();
+    if (options != nullptr) {
+      if (const int code = read_struct(s.line, options, "options", known)) return code;
+    }
+    if (!std::isfinite(known.radius_h) || !std::isfinite(known.overlap_m))
+      return s.line.refuse(MOBIL_REFUSED, "radius_h or overlap_m is not finite; mobil_defaults gives the usual ones");
+    s.avoidance.emplace(s.world(), AvoidanceOptions{known.radius_h, known.overlap_m});
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
+  return call(sim, "mobil_avoid", [&](mobil_sim& s) {
+    Avoidance* avoidance = nullptr;
+    if (const int code = avoidance_of(s, avoidance)) return code;
+    if (const int code = s.name_people(ids, count)) return code;
+    if (const int code = check_avoiders(s, on != 0)) return code;
+    if (on != 0) return start_avoiding(s, *avoidance);
+    for (const Entity person : s.people) (void)avoidance->release(person);  // who is named twice has gone before
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride) {
+  return call(sim, "mobil_want", [&](mobil_sim& s) {
+    Avoidance* avoidance = nullptr;
+    if (const int code = avoidance_of(s, avoidance)) return code;
+    if (const int code = s.name_people(ids, count)) return code;
+    if (const int code = row_stride(s.line, wishes, count, 2, "wishes", stride)) return code;
+    std::vector<WalkWish> to(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const row = row_at(wishes, i, stride, 0);
+      to[i] = {s.people[i], row[0], row[1]};
+    }
+    const auto done = avoidance->want(to);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_set_walls(mobil_sim* sim, const float* walls, size_t stride, size_t count) {
+  return call(sim, "mobil_set_walls", [&](mobil_sim& s) {
+    Avoidance* avoidance = nullptr;
+    if (const int code = avoidance_of(s, avoidance)) return code;
+    if (const int code = row_stride(s.line, walls, count, 6, "walls", stride)) return code;
+    std::vector<Wall> to(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const row = row_at(walls, i, stride, 0);
+      to[i] = {ground_point(s.axes, row), ground_point(s.axes, row + 3)};
+    }
+    const auto done = avoidance->set_walls(to);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_set_discs(mobil_sim* sim, const float* discs, size_t stride, size_t count) {
+  return call(sim, "mobil_set_discs", [&](mobil_sim& s) {
+    Avoidance* avoidance = nullptr;
+    if (const int code = avoidance_of(s, avoidance)) return code;
+    if (const int code = row_stride(s.line, discs, count, 7, "discs", stride)) return code;
+    std::vector<Disc> to(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const float* const row = row_at(discs, i, stride, 0);
+      const Vec3<float> velocity = s.axes.place_from(row + 3);
+      to[i] = {ground_point(s.axes, row), row[6] / s.axes.units_per_m, velocity.x, velocity.z};
+    }
+    const auto done = avoidance->set_discs(to);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_steer(mobil_sim* sim, mobil_steered* out) {
+  return call(sim, "mobil_steer", [&](mobil_sim& s) {
+    Avoidance* avoidance = nullptr;
+    if (const int code = avoidance_of(s, avoidance)) return code;
+    if (out != nullptr) {  // before anything is done
+      if (const int code = write_struct(s.line, usual<mobil_steered>(), out, "out")) return code;
+    }
+    const AvoidanceReport did = avoidance->update();
+    if (out == nullptr) return int{MOBIL_OK};
+    const mobil_steered to = {sizeof to, did.people, did.chose, did.kept_claim, did.gave_way, did.waiting};
+    return write_struct(s.line, to, out, "out");
+  });
+}
+
+int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
+  return call(sim, "mobil_set_on_ground", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    const auto done = on != 0 ? s.terrain->manage(s.people) : s.terrain->release(s.people);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
+  });
+}
+
+int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
+  return call(sim, "mobil_ask_ground", [&](mobil_sim& s) {
+    const std::span<const TerrainQuery> asked = s.terrain->ask();
+    if (count != nullptr) *count = asked.size();
+    if (places == nullptr && count != nullptr) return int{MOBIL_OK};
+    if (const int code = row_stride(s.line, places, asked.size(), 3, "places", stride)) return code;
+    if (room < asked.size())
+      return s.line.refuse(MOBIL_ROOM,
+                           fmt::format("{} places are asked for, and there is room for {}", asked.size(), room));
+    for (std::size_t i = 0; i < asked.size(); ++i) {
+      s.axes.place_to({asked[i].x_m, 0, asked[i].z_m}, row_at(places, i, stride, 0));
+      if (who != nullptr) who[i] = id_of(asked[i].human);
+    }
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_answer_ground(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable) {
+  return call(sim, "mobil_answer_ground", [&](mobil_sim& s) {
+    if (const int code = row_stride(s.line, ground, count, 4, "ground", stride)) return code;
+    std::vector<TerrainHeight>& heights = s.heights;
+    heights.resize(count);
+    for (std::size_t i = 0; i < count; ++i) heights[i] = height_from(s.axes, row_at(ground, i, stride, 0));
+    const auto done = s.terrain->answer(heights);
+    if (!done) return s.line.refuse(done.error());
+    if (unusable != nullptr) *unusable = done->unusable;
+    return int{MOBIL_OK};
+  });
+}

@@ -1,0 +1,160 @@
+// Others, walls and ground through the C interface: those of C++, in the host's axes.
+
+#include <array>
+#include <cmath>
+
+#include "systems/avoidance/avoidance.h"
+#include "systems/terrain/terrain.h"
+#include "tests/c/c_fixture.h"
+
+namespace mobil::c_surroundings_test {
+namespace {
+using namespace c_test;
+
+TEST(CSurroundings, TheWaysOfWhoAvoidOthersAreThoseOfCpp) {
+  Twins twins;
+  Avoidance avoidance(twins.simulation);
+  ASSERT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 1), MOBIL_MISSING);
+  EXPECT_NE(twins.sim.message().find("mobil_start_avoidance"), std::string::npos);
+  ASSERT_EQ(mobil_start_avoidance(twins.sim, nullptr), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
+  for (const Entity human : twins.entities) ASSERT_TRUE(avoidance.manage(human));
+  int bits = 0;
+  ASSERT_EQ(mobil_state(twins.sim, twins.ids[2], &bits), MOBIL_OK);
+  EXPECT_EQ(bits & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_AVOIDS);
+
+  // All of them to the middle, between two walls, past a pillar that comes along.
+  std::vector<std::array<float, 2>> wishes(5);
+  std::vector<WalkWish> ours(5);
+  for (std::size_t i = 0; i < 5; ++i) {
+    wishes[i] = {1.2F, 0.5F * static_cast<float>(i) - 1};
+    ours[i] = {twins.entities[i], wishes[i][0], wishes[i][1]};
+  }
+  const float walls[2][6] = {{-500, 100, 0, 900, 100, 0}, {-500, -600, 0, 900, -600, 30}};
+  const float discs[1][7] = {{300, -200, 0, -50, 0, 0, 25}};
+  ASSERT_EQ(mobil_want(twins.sim, twins.ids.data(), 5, wishes[0].data(), 0), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_set_walls(twins.sim, walls[0], 0, 2), MOBIL_OK) << twins.sim.message();
+  ASSERT_EQ(mobil_set_discs(twins.sim, discs[0], 0, 1), MOBIL_OK) << twins.sim.message();
+  ASSERT_TRUE(avoidance.want(ours));
+  ASSERT_TRUE(avoidance.set_walls({{{{-1, -5}, {-1, 9}}, {{6, -5}, {6, 9}}}}));
+  ASSERT_TRUE(avoidance.set_discs({{{{2, 3}, 0.25F, 0, -0.5F}}}));
+  std::size_t chose = 0;
+  for (int t = 0; t < 300; ++t) {
+    auto did = filled<mobil_steered>(MOBIL_STEERED);
+    ASSERT_EQ(mobil_steer(twins.sim, &did), MOBIL_OK) << twins.sim.message();
+    const AvoidanceReport report = avoidance.update();
+    ASSERT_EQ(did.people, 5U);
+    ASSERT_EQ(did.chose, report.chose);
+    ASSERT_EQ(did.kept_claim, report.kept_claim);
+    chose += did.chose;
+    ASSERT_EQ(mobil_tick(twins.sim, 1), MOBIL_OK);
+    twins.simulation.tick();
+  }
+  EXPECT_GT(chose, 30U);
+  EXPECT_EQ(twins.sim.hash(), twins.simulation.state_hash());
+  ASSERT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 0), MOBIL_OK) << twins.sim.message();
+  EXPECT_EQ(mobil_avoid(twins.sim, twins.ids.data(), 5, 0), MOBIL_MISSING);
+  EXPECT_NE(twins.sim.message().find("person 0"), std::string::npos);
+}
+
+/// A hill of no simple form, at a place of theirs or ours.
+TerrainHeight hill(float x_m, float z_m) {
+  return {0.3F * std::sin(x_m) + 0.1F * z_m, 0.3F * std::cos(x_m), 0.1F};
+}
+
+TEST(CSurroundings, TheGroundIsThatOfCpp) {
+  Twins twins;
+  Terrain terrain(twins.simulation, [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    for (std::size_t i = 0; i < at.size(); ++i) out[i] = hill(at[i].x_m, at[i].z_m);
+  });
+  ASSERT_EQ(mobil_set_on_ground(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
+  ASSERT_TRUE(terrain.manage(twins.entities));
+  int bits = 0;
+  ASSERT_EQ(mobil_state(twins.sim, twins.ids[2], &bits), MOBIL_OK);
+  EXPECT_EQ(bits & (MOBIL_AVOIDS | MOBIL_ON_GROUND), MOBIL_ON_GROUND);
+  std::size_t all = 0;
+  for (int t = 0; t < 200; ++t) {
+    std::size_t count = 0, unusable = 1;
+    ASSERT_EQ(mobil_ask_ground(twins.sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+    const TerrainReport report = terrain.update();
+    ASSERT_EQ(count, report.places);
+    all += count;
+    if (count > 0) {
+      std::vector<std::array<float, 3>> places(count);
+      std::vector<std::array<float, 4>> ground(count);
+      std::vector<mobil_id> who(count);
+      EXPECT_EQ(mobil_ask_ground(twins.sim, places[0].data(), 0, who.data(), count - 1, nullptr), MOBIL_ROOM);
+      ASSERT_EQ(mobil_ask_ground(twins.sim, places[0].data(), 0, who.data(), count, nullptr), MOBIL_OK);
+      for (std::size_t i = 0; i < count; ++i) {
+        EXPECT_LT(who[i].index, 5U);
+        EXPECT_EQ(places[i][2], 0);
+        const TerrainHeight at = hill(-places[i][1] / 100, places[i][0] / 100);
+        ground[i] = {100 * at.height_m, -2 * at.rise_z, 2 * at.rise_x, 2};  // x ahead, y right, z up
+      }
+      EXPECT_EQ(mobil_answer_ground(twins.sim, ground[0].data(), 0, count - 1, nullptr), MOBIL_REFUSED);
+      ASSERT_EQ(mobil_answer_ground(twins.sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << twins.sim.message();
+      EXPECT_EQ(unusable, 0U);
+    }
+    ASSERT_EQ(mobil_tick(twins.sim, 1), MOBIL_OK);
+    twins.simulation.tick();
+  }
+  EXPECT_GT(all, 300U);
+  std::vector<float> pose(std::size_t{7} * MOBIL_SEGMENTS);
+  for (std::size_t i = 0; i < 5; ++i) {
+    ASSERT_EQ(mobil_poses(twins.sim, &twins.ids[i], 1, nullptr, pose.data(), 0), MOBIL_OK);
+    const Vec3<float> pelvis = twins.simulation.get<Pose>(twins.entities[i])->position_m[0];
+    EXPECT_NEAR(pose[0], 100 * pelvis.z, 0.01);
+    EXPECT_NEAR(pose[1], -100 * pelvis.x, 0.01);
+    EXPECT_NEAR(pose[2], 100 * pelvis.y, 0.01);
+  }
+}
+
+TEST(CSurroundings, GroundThatHangsOverOrIsNoNumberIsLevel) {
+  const Sim sim;
+  const auto ids = spawn(sim, 1);
+  ASSERT_EQ(mobil_set_on_ground(sim, ids.data(), 1, 1), MOBIL_OK);
+  std::size_t count = 0, unusable = 0;
+  ASSERT_EQ(mobil_ask_ground(sim, nullptr, 0, nullptr, 0, &count), MOBIL_OK);
+  ASSERT_EQ(count, 24U);
+  std::vector<std::array<float, 4>> ground(count);
+  ground[3] = {0, 0, -1, 0};
+  ground[7] = {NAN, 0, 1, 0};
+  ground[9] = {0, 1, 0, 0};
+  ASSERT_EQ(mobil_answer_ground(sim, ground[0].data(), 0, count, &unusable), MOBIL_OK) << sim.message();
+  EXPECT_EQ(unusable, 3U);
+  EXPECT_EQ(mobil_answer_ground(sim, ground[0].data(), 0, count, &unusable), MOBIL_REFUSED);
+}
+
+TEST(CSurroundings, AllOrNone) {
+  const Sim sim;
+  auto ids = spawn(sim, 2);
+  ASSERT_EQ(mobil_start_avoidance(sim, nullptr), MOBIL_OK);
+  auto person = filled<mobil_person>(MOBIL_PERSON);
+  person.posed = 1;
+  mobil_id posed;
+  ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &posed), MOBIL_OK);
+  ids.push_back(posed);
+  const std::uint64_t before = sim.hash();
+  EXPECT_EQ(mobil_avoid(sim, ids.data(), 3, 1), MOBIL_MISSING);
+  EXPECT_NE(sim.message().find("person 2"), std::string::npos);
+  EXPECT_EQ(mobil_set_on_ground(sim, ids.data(), 3, 1), MOBIL_MISSING);
+  ids[2] = {99, 9};
+  EXPECT_EQ(mobil_avoid(sim, ids.data(), 3, 1), MOBIL_STALE);
+  EXPECT_EQ(mobil_set_on_ground(sim, ids.data(), 3, 1), MOBIL_STALE);
+  EXPECT_EQ(sim.hash(), before);
+  ASSERT_EQ(mobil_avoid(sim, ids.data(), 2, 1), MOBIL_OK);
+  const float wishes[2][2] = {{1, 0}, {NAN, 0}};
+  const std::uint64_t avoiding = sim.hash();
+  EXPECT_EQ(mobil_want(sim, ids.data(), 2, wishes[0], 0), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_want(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_want(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
+  EXPECT_EQ(sim.hash(), avoiding);
+  const float wall[6] = {0, 0, 0, INFINITY, 0, 0};
+  EXPECT_EQ(mobil_set_walls(sim, wall, 0, 1), MOBIL_REFUSED);
+  auto options = filled<mobil_avoidance>(MOBIL_AVOIDANCE);
+  options.radius_h = NAN;
+  EXPECT_EQ(mobil_start_avoidance(sim, &options), MOBIL_REFUSED);
+}
+
+}  // namespace
+}  // namespace mobil::c_surroundings_test

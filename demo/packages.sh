@@ -3,7 +3,8 @@
 
 build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
   libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
-  libgles2 libgl1-mesa-dri ffmpeg libbullet-dev libgl-dev libglfw3-dev libimgui-dev"
+  libgles2 libgl1-mesa-dri ffmpeg libbullet-dev libgl-dev libglfw3-dev libimgui-dev
+  librecast-dev"
 test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-setuptools python3-wheel xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"

@@ -76,7 +76,7 @@ const std::map<std::string, std::vector<std::string>> order = {
     {"systems", {"people", "muscles", "relevance", "avoidance", "terrain", "surfaces", "snapshot", no_folder, "cluster", "c"}},
     {"demo", {"examples", "rivals",  "program", "measure",  "pictures", "muscle",     "walk",
               "body",     "anatomy", "compare", "gait_fit", "paper",    "bake",       "crowd",
-              "view",     "bench",   "effects", "frontier", "stress",   "completion", "man"}},
+              "town",   "view",     "bench",   "effects", "frontier", "stress",   "completion", "man"}},
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the facade may use them all.

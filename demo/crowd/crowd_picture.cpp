@@ -54,6 +54,8 @@ struct CrowdCamera::Parts {
   RecordedScene legs_drawn;
   CrowdLegs legs;
   std::vector<DrawMesh> meshes;
+  std::span<const DrawMesh> backdrop;
+  std::span<const DrawLines> backdrop_lines;
 
   Result<void> add_skin(const PicturedPerson& person, const WalkRecording* legs);
 };
@@ -87,6 +89,11 @@ Result<void> CrowdCamera::Parts::add_skin(const PicturedPerson& person, const Wa
   skin.pose(person.pose, of_legs != nullptr ? muscles_of(*of_legs, 0) : LegVertices{});
   skin.draw(meshes);
   return {};
+}
+
+void CrowdCamera::set_backdrop(std::span<const DrawMesh> meshes, std::span<const DrawLines> lines) {
+  parts_->backdrop = meshes;
+  parts_->backdrop_lines = lines;
 }
 
 void CrowdCamera::forget(std::uint64_t number) {
@@ -135,7 +142,7 @@ Result<void> CrowdCamera::draw(const Camera& camera, std::span<const PicturedPer
                                Image& image) {
   Parts& parts = *parts_;
   parts.drawn.clear();
-  parts.meshes.clear();
+  parts.meshes.assign(parts.backdrop.begin(), parts.backdrop.end());
   parts.legs_drawn = {};
   for (const PicturedPerson& person : seen) {
     const auto found = legs.find(person.number);
@@ -152,6 +159,8 @@ Result<void> CrowdCamera::draw(const Camera& camera, std::span<const PicturedPer
   Scene drawn;
   drawn.camera = camera;
   drawn.meshes = parts.meshes;
+  drawn.lines = parts.backdrop_lines;
+  drawn.ground = parts.backdrop.empty();
   drawn.light = {-0.55F, 0.80F, -0.35F};
   return parts.renderer.render(drawn, image);
 }

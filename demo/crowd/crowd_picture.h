@@ -60,6 +60,8 @@ class CrowdCamera {
   /// A picture of them in that order. `legs`: by number, of those whose legs are drawn.
   using Legs = std::map<std::uint64_t, const WalkRecording*>;
   Result<void> draw(const Camera& camera, std::span<const PicturedPerson> seen, const Legs& legs, Image& image);
+  /// What stands round the people in all pictures to come, instead of the plane with its grid. It must live until then.
+  void set_backdrop(std::span<const DrawMesh> meshes, std::span<const DrawLines> lines);
   /// Lets go of the surfaces of who had this number.
   void forget(std::uint64_t number);
 

@@ -41,6 +41,7 @@ Subcommand paper_command();
 Subcommand frontier_command();
 Subcommand effects_command();
 Subcommand crowd_command();
+Subcommand town_command();
 Subcommand view_command();
 Subcommand completion_command();
 

@@ -1,0 +1,184 @@
+// `mobil town`: people go about a small town with kerbs, stairs and a ramp, and keep out of each other's way.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "assets/files/output_file.h"
+#include "demo/program/commands.h"
+#include "demo/program/json.h"
+#include "demo/program/progress.h"
+#include "demo/program/units.h"
+#include "demo/town/town_picture.h"
+#include "demo/town/town_scene.h"
+#include "systems/capture/png.h"
+#include "systems/capture/video.h"
+
+namespace mobil {
+namespace {
+
+struct TownText {
+  std::string humans = "40", seconds = "45", seed = "1", threads = "0", view = "follow", capture, report;
+};
+
+struct TownRun {
+  TownOptions town;
+  double seconds = 0;
+  TownView view = TownView::follow;
+  std::filesystem::path capture, report;
+  bool video = false;
+};
+
+constexpr int width = 1280, height = 720, ticks_a_picture = 2;
+
+Result<TownRun> read_options(const TownText& text) {
+  TownRun run;
+  const auto count = [](const char* name, const std::string& given, std::uint64_t low,
+                        std::uint64_t high) -> Result<std::uint64_t> {
+    const auto value = parse_count(given, low, high);
+    if (!value) return fail(fmt::format("{} {}: give a whole number of {} to {}", name, given, low, high));
+    return *value;
+  };
+  const auto humans = count("--humans", text.humans, 1, 300);
+  if (!humans) return tl::unexpected(humans.error());
+  const auto seed = count("--seed", text.seed, 0, 999'999'999'999'999'999);
+  if (!seed) return tl::unexpected(seed.error());
+  const auto threads = count("--threads", text.threads, 0, 256);
+  if (!threads) return tl::unexpected(threads.error());
+  const auto seconds = read_value("--seconds", text.seconds, Quantity::time, 0.1, 3600);
+  if (!seconds) return tl::unexpected(seconds.error());
+  run.town = {*humans, *seed, static_cast<int>(*threads)};
+  run.seconds = *seconds;
+  run.view = text.view == "above" ? TownView::above : TownView::follow;
+  run.capture = text.capture;
+  run.report = text.report;
+  run.video = run.capture.extension() == ".mp4";
+  if (!run.capture.empty()) {
+    if (!run.video && run.capture.extension() != ".png")
+      return fail(
+          fmt::format("--capture {}: end it in .mp4 for a film, or in .png for a picture of the end", text.capture));
+    if (auto place = check_result_place("--capture", run.capture); !place) return tl::unexpected(place.error());
+  }
+  if (!run.report.empty()) {
+    if (auto place = check_result_place("--report", run.report); !place) return tl::unexpected(place.error());
+  }
+  return run;
+}
+
+std::string report_text(const TownScene& scene) {
+  const TownReport& r = scene.report();
+  const double per_tick = 1e6 / static_cast<double>(r.ticks), people = static_cast<double>(scene.people().size());
+  const double seconds = scene.simulation().time_s();
+  return fmt::format(
+      "{} people, {:.0f} s: {:.2f} m/s on average, {} times somebody arrived, {} ways found\n"
+      "nobody came nearer than {:.1f} cm to touching; the longest wait was {:.1f} s\n"
+      "a tick took {:.0f} us: ways {:.0f}, avoidance {:.0f}, ground {:.0f} ({:.1f} places), walking {:.0f}\n",
+      scene.people().size(), seconds, r.walked_m / seconds / people, r.arrivals, r.paths, 100 * r.nearest_m,
+      r.longest_wait_s, per_tick * (r.paths_s + r.avoidance_s + r.terrain_s + r.tick_s), per_tick * r.paths_s,
+      per_tick * r.avoidance_s, per_tick * r.terrain_s,
+      static_cast<double>(r.places_asked) / static_cast<double>(r.ticks), per_tick * r.tick_s);
+}
+
+std::string report_json(const TownScene& scene, const TownRun& run) {
+  const TownReport& r = scene.report();
+  Json json;
+  json["humans"] = scene.people().size();
+  json["seed"] = run.town.seed;
+  json["seconds"] = scene.simulation().time_s();
+  json["mean_speed_m_s"] = r.walked_m / scene.simulation().time_s() / static_cast<double>(scene.people().size());
+  json["arrivals"] = r.arrivals;
+  json["paths"] = r.paths;
+  json["nearest_m"] = r.nearest_m;
+  json["longest_wait_s"] = r.longest_wait_s;
+  json["tick_us"] = {{"ways", 1e6 * r.paths_s / static_cast<double>(r.ticks)},
+                     {"avoidance", 1e6 * r.avoidance_s / static_cast<double>(r.ticks)},
+                     {"ground", 1e6 * r.terrain_s / static_cast<double>(r.ticks)},
+                     {"walking", 1e6 * r.tick_s / static_cast<double>(r.ticks)}};
+  json["state_hash"] = fmt::format("{:016x}", scene.simulation().state_hash());
+  return json.dump(2) + "\n";
+}
+
+/// The ticks, and of every second one a picture where there is to be a film.
+Result<void> go(const TownRun& run, TownScene& scene) {
+  const auto ticks = static_cast<std::size_t>(std::max(1L, std::lround(run.seconds / scene.simulation().tick_s())));
+  std::optional<TownCamera> camera;
+  std::optional<VideoWriter> video;
+  if (!run.capture.empty()) {
+    auto made = TownCamera::create(width, height, run.view);
+    if (!made) return tl::unexpected(made.error());
+    camera.emplace(std::move(*made));
+  }
+  if (run.video) {
+    auto opened =
+        VideoWriter::create(run.capture.string(), width, height, 1 / (ticks_a_picture * scene.simulation().tick_s()));
+    if (!opened) return tl::unexpected(opened.error());
+    video = std::move(*opened);
+  }
+  Image image;
+  ProgressBar bar("town", ticks);
+  for (std::size_t tick = 0; tick < ticks; ++tick) {
+    scene.tick();
+    if (camera && !run.video) camera->follow(scene);
+    if (run.video && tick % ticks_a_picture == 0) {
+      camera->follow(scene);
+      if (auto done = camera->take(scene, image); !done) return done;
+      if (auto done = video->add(image); !done) return done;
+    }
+    bar.at(tick + 1);
+  }
+  if (video) {
+    if (auto done = video->close(); !done) return done;
+  } else if (camera) {
+    if (auto done = camera->take(scene, image); !done) return done;
+    if (auto done = write_png(run.capture.string(), image, PngEffort::small); !done)
+      return fail("--capture " + done.error().message);
+  }
+  if (camera) say_written(run.capture);
+  return {};
+}
+
+Result<void> run_town(const TownText& text) {
+  const auto run = read_options(text);
+  if (!run) return tl::unexpected(run.error());
+  auto scene = TownScene::make(run->town);
+  if (!scene) return tl::unexpected(scene.error());
+  if (auto done = go(*run, *scene); !done) return done;
+  fmt::print("{}", report_text(*scene));
+  if (run->report.empty()) return {};
+  return write_result("--report", run->report, report_json(*scene, *run));
+}
+
+}  // namespace
+
+Subcommand town_command() {
+  auto text = std::make_shared<TownText>();
+  Subcommand command{.name = "town",
+                     .about = "People go about a small town with kerbs, stairs and a ramp, out of each other's way"};
+  command.footer =
+      "A street with kerbs, a square, houses, stairs up to a terrace and a ramp down from it. Everybody has a place "
+      "to\n"
+      "go to, a way there by Recast and Detour, and a wish that follows it; Avoidance keeps people apart, Terrain "
+      "puts\n"
+      "their feet on the ground. One of them takes a tour: across the street, round the corner of a house, up the\n"
+      "stairs, over the terrace and down the ramp; --view follow goes along.\n"
+      "\nExamples: mobil town\n"
+      "          mobil town --capture town.mp4\n"
+      "          mobil town --humans 120 --seconds 20 --view above --capture town.png";
+  add_options(command, {{"--humans", &text->humans, "How many people, 1 to 300"},
+                        {"--seconds", &text->seconds, "How long"},
+                        {"--seed", &text->seed, "Who they are and where they go"},
+                        {"--threads", &text->threads, "Threads that work, 1 to 256; 0: as many as the machine has"},
+                        {"--view", &text->view, "From where pictures are taken", {}, {"follow", "above"}},
+                        {"--capture", &text->capture, "FILE.mp4: a film of it; FILE.png: a picture of the end"},
+                        {"--report", &text->report, "FILE for what happened, as JSON"}});
+  command.empty_refused = true;
+  command.run = [text] { return exit_status_of("town", run_town(*text)); };
+  return command;
+}
+
+}  // namespace mobil

@@ -1,0 +1,38 @@
+#pragma once
+// The town and its people as pictures, from beside whoever takes the tour, or from above.
+
+#include <vector>
+
+#include "demo/crowd/crowd_picture.h"
+#include "demo/town/town_map.h"
+#include "demo/town/town_scene.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+enum class TownView { follow, above };
+
+class TownCamera {
+ public:
+  /// Errors: a size out of range, no driver.
+  static Result<TownCamera> create(int width, int height, TownView view);
+
+  /// Goes along, once a picture; a little late, so that it sways less than who is followed.
+  void follow(const TownScene& scene);
+  /// Errors: a driver that fails.
+  Result<void> take(const TownScene& scene, Image& image);
+
+ private:
+  TownCamera(CrowdCamera camera, TownView view);
+
+  CrowdCamera people_;
+  TownView view_;
+  Camera camera_;
+  bool looks_ = false;
+  std::vector<TownMesh> town_;
+  std::vector<Vec3<float>> paving_;
+  std::vector<DrawMesh> meshes_;
+  std::vector<DrawLines> lines_;
+};
+
+}  // namespace mobil

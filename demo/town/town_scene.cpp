@@ -1,0 +1,182 @@
+#include "demo/town/town_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "components/avoidance.h"
+#include "demo/crowd/crowd_people.h"
+#include "demo/measure/measure.h"
+#include "demo/town/town_map.h"
+
+namespace mobil {
+namespace {
+
+// Somebody has come to a corner, or to where they go, who is that near.
+constexpr float corner_m = 0.5F, arrived_m = 1;
+constexpr std::uint32_t wishes_every = 6, ways_every = 120;  // ticks
+constexpr float on_stairs_m_s = 0.65F;
+constexpr std::uint64_t place_stream = 0x60000;
+
+float squared(float x) {
+  return x * x;
+}
+float apart_m(const GroundPoint& a, const GroundPoint& b) {
+  return std::sqrt(squared(a.x_m - b.x_m) + squared(a.z_m - b.z_m));
+}
+GroundPoint place_of(const Root& root) {
+  return {static_cast<float>(root.x_m), static_cast<float>(root.z_m)};
+}
+
+}  // namespace
+
+TownScene::TownScene(TownPaths paths, const TownOptions& options)
+    : paths_(std::move(paths)),
+      simulation_(std::make_unique<Simulation>(SimulationOptions{.threads = options.threads})),
+      avoidance_(*simulation_),
+      terrain_(*simulation_,
+               [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+                 for (std::size_t i = 0; i < at.size(); ++i) out[i] = town_ground(at[i].x_m, at[i].z_m);
+               }),
+      seed_(options.seed) {}
+TownScene::TownScene(TownScene&&) noexcept = default;
+TownScene::~TownScene() = default;
+
+Result<TownScene> TownScene::make(const TownOptions& options) {
+  auto paths = TownPaths::make();
+  if (!paths) return tl::unexpected(paths.error());
+  TownScene scene(std::move(*paths), options);
+  if (auto come = scene.people_come(options); !come) return tl::unexpected(come.error());
+  return scene;
+}
+
+/// Everybody begins somewhere on the way between two places, the first where the tour begins.
+Result<void> TownScene::people_come(const TownOptions& options) {
+  const auto places = town_places();
+  std::vector<SpawnRequest> requests(options.humans);
+  goers_.resize(options.humans);
+  std::vector<GroundPoint> way;
+  std::vector<GroundPoint> taken;
+  for (std::size_t i = 0; i < options.humans; ++i) {
+    const CrowdPerson person = crowd_person(options.seed, i, 0);
+    SpawnRequest& request = requests[i];
+    request.body = person.body;
+    request.gait = person.gait;
+    Goer& goer = goers_[i];
+    goer.speed_m_s = std::max(*person.gait.speed_m_s, 0.9F);
+    request.gait.speed_m_s = goer.speed_m_s;
+    CrowdRandom random(options.seed, i, place_stream);
+    GroundPoint at = places.front();
+    constexpr int tries = 40;
+    for (int k = 0; i > 0 && k < tries; ++k) {
+      const GroundPoint from = places[random.below(places.size())], to = places[random.below(places.size())];
+      paths_.find(from, to, way);
+      if (way.empty()) continue;
+      const float part = random.even(0, 1);
+      at = {std::lerp(from.x_m, way.front().x_m, part), std::lerp(from.z_m, way.front().z_m, part)};
+      const auto near = [&](const GroundPoint& other) { return apart_m(at, other) < 1; };
+      if (std::ranges::none_of(taken, near) && !on_town_stairs(at.x_m, at.z_m)) break;
+    }
+    taken.push_back(at);
+    request.x_m = at.x_m;
+    request.z_m = at.z_m;
+    request.heading_rad = random.even(-3, 3);
+    if (i == 0) request.heading_rad = 0;
+  }
+  people_.resize(options.humans);
+  roots_.resize(options.humans);
+  if (auto done = simulation_->spawn(requests, people_); !done) return done;
+  if (auto done = avoidance_.set_walls(town_walls()); !done) return done;
+  for (const Entity person : people_)
+    if (auto done = avoidance_.manage(person); !done) return done;
+  if (auto done = terrain_.manage(people_); !done) return done;
+  if (auto done = simulation_->roots(people_, roots_); !done) return done;
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    goers_[i].radius_m = simulation_->get<Course>(people_[i])->radius_m;
+    choose_place(i);
+  }
+  return {};
+}
+
+void TownScene::choose_place(std::size_t number) {
+  Goer& goer = goers_[number];
+  const std::size_t places = town_places().size();
+  if (number == 0 && goer.toured < tour_stops) {
+    goer.place = ++goer.toured;
+  } else {
+    CrowdRandom random(seed_, number, place_stream + ++goer.drawn);
+    const std::size_t before = goer.place;
+    while (goer.place == before) goer.place = random.below(places);
+  }
+  find_way(number);
+}
+
+void TownScene::find_way(std::size_t number) {
+  Goer& goer = goers_[number];
+  const double begin_s = wall_now_s();
+  paths_.find(place_of(roots_[number]), town_places()[goer.place], goer.corners);
+  report_.paths_s += wall_now_s() - begin_s;
+  ++report_.paths;
+  goer.next = 0;
+}
+
+/// Toward the next corner, slowly where stairs are.
+void TownScene::follow_way(std::size_t number) {
+  Goer& goer = goers_[number];
+  const GroundPoint at = place_of(roots_[number]);
+  while (goer.next + 1 < goer.corners.size() && apart_m(at, goer.corners[goer.next]) < corner_m) ++goer.next;
+  if (goer.corners.empty() || apart_m(at, goer.corners.back()) < arrived_m) {
+    report_.arrivals += !goer.corners.empty();
+    choose_place(number);
+  }
+  if (goer.corners.empty()) return;
+  const GroundPoint& to = goer.corners[goer.next];
+  WalkWish wish{people_[number], goer.speed_m_s, std::atan2(to.x_m - at.x_m, to.z_m - at.z_m)};
+  if (on_town_stairs(at.x_m, at.z_m)) wish.speed_m_s = on_stairs_m_s;
+  constexpr float turned_rad = 0.01F;
+  if (goer.asked && wish.speed_m_s == goer.wish.speed_m_s &&
+      std::fabs(wish.heading_rad - goer.wish.heading_rad) < turned_rad)
+    return;
+  goer.wish = wish;
+  goer.asked = true;
+  wishes_.push_back(wish);
+}
+
+void TownScene::tick() {
+  const std::uint32_t now = simulation_->ticks();
+  wishes_.clear();
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    const auto turn = static_cast<std::uint32_t>(i);
+    if ((now + turn) % ways_every == 0) find_way(i);
+    if ((now + turn) % wishes_every == 0 || !goers_[i].asked) follow_way(i);
+  }
+  (void)avoidance_.want(wishes_);  // speeds and headings are in range
+  const double begin_s = wall_now_s();
+  avoidance_.update();
+  const double avoided_s = wall_now_s();
+  report_.places_asked += terrain_.update().places;
+  const double grounded_s = wall_now_s();
+  simulation_->tick();
+  report_.avoidance_s += avoided_s - begin_s;
+  report_.terrain_s += grounded_s - avoided_s;
+  report_.tick_s += wall_now_s() - grounded_s;
+  ++report_.ticks;
+  measure();
+}
+
+void TownScene::measure() {
+  const std::vector<Root> before = roots_;
+  (void)simulation_->roots(people_, roots_);
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    const GroundPoint at = place_of(roots_[i]);
+    report_.walked_m += std::hypot(roots_[i].x_m - before[i].x_m, roots_[i].z_m - before[i].z_m);
+    for (std::size_t j = 0; j < i; ++j) {
+      const float between_m = apart_m(at, place_of(roots_[j])) - goers_[i].radius_m - goers_[j].radius_m;
+      report_.nearest_m = std::min(report_.nearest_m, static_cast<double>(between_m));
+    }
+    const float waits_s = simulation_->get<Course>(people_[i])->waits_s;
+    report_.longest_wait_s = std::max(report_.longest_wait_s, static_cast<double>(waits_s));
+  }
+}
+
+}  // namespace mobil

@@ -1,0 +1,84 @@
+#pragma once
+// People who go about a small town: each has somewhere to go, a way there, and a wish that follows it. Avoidance keeps
+// them apart, Terrain puts their feet on kerbs, stairs and ramp.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "demo/town/town_paths.h"
+#include "engine/error.h"
+#include "systems/avoidance/avoidance.h"
+#include "systems/simulation.h"
+#include "systems/terrain/terrain.h"
+
+namespace mobil {
+
+struct TownOptions {
+  std::size_t humans = 60;
+  std::uint64_t seed = 1;
+  int threads = 0;
+};
+
+/// What happened so far.
+struct TownReport {
+  std::size_t arrivals = 0, paths = 0, places_asked = 0;
+  double nearest_m = 1e9;     // between the walking lines of any two, less their radii
+  double longest_wait_s = 0;  // of who stands though they want to walk
+  double walked_m = 0;        // of all
+  double paths_s = 0, avoidance_s = 0, terrain_s = 0, tick_s = 0;  // wall time
+  std::size_t ticks = 0;
+};
+
+class TownScene {
+ public:
+  /// Errors: Recast, memory.
+  static Result<TownScene> make(const TownOptions& options);
+  TownScene(TownScene&&) noexcept;
+  TownScene& operator=(TownScene&&) = delete;
+  ~TownScene();
+
+  void tick();
+
+  const Simulation& simulation() const { return *simulation_; }
+  /// The first of them takes the tour (town_places).
+  const std::vector<Entity>& people() const { return people_; }
+  const TownReport& report() const { return report_; }
+  bool tour_over() const { return goers_.front().toured >= tour_stops; }
+  /// Where the walking line of the first of them is, and heads.
+  Root guide() const { return roots_.front(); }
+
+ private:
+  static constexpr std::size_t tour_stops = 6;
+
+  struct Goer {
+    float speed_m_s, radius_m;
+    std::size_t place;  // they are on the way to
+    std::size_t toured = 0;
+    std::vector<GroundPoint> corners;
+    std::size_t next = 0;
+    std::uint32_t drawn = 0;
+    WalkWish wish{};
+    bool asked = false;
+  };
+
+  TownScene(TownPaths paths, const TownOptions& options);
+  Result<void> people_come(const TownOptions& options);
+  void choose_place(std::size_t number);
+  void find_way(std::size_t number);
+  void follow_way(std::size_t number);
+  void measure();
+
+  TownPaths paths_;
+  std::unique_ptr<Simulation> simulation_;
+  Avoidance avoidance_;
+  Terrain terrain_;
+  std::uint64_t seed_;
+  std::vector<Entity> people_;
+  std::vector<Goer> goers_;
+  std::vector<Root> roots_;
+  std::vector<WalkWish> wishes_;
+  TownReport report_;
+};
+
+}  // namespace mobil

@@ -62,6 +62,10 @@ CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t
     float& value = person.gait.style.*parameter.value;
     value = std::clamp(value * random.even(0.9F, 1.1F), parameter.low, parameter.high);
   }
+  // A tenth of it would have half of the crowd walk on knees bent by 30 to 50°.
+  constexpr float part_of_it = 0.05F;
+  float& height = person.gait.style.mid_stance_height;
+  height = std::lerp(GaitStyle{}.mid_stance_height, height, part_of_it);
   return person;
 }
 

@@ -36,7 +36,8 @@ struct CrowdPerson {
 
 /// Drawn from: height 1.72 ± 0.09 m, body mass index 24 ± 3 kg/m², biotype about 3-4-3 ± 0.7 each, speed 1.35 ± 0.15
 /// m/s (mean ± standard deviation, bell-shaped, cut at 2.5 deviations), any constitution, and every gait parameter
-/// within a tenth of its default (even), asymmetries none. `draw`: another person for the same number.
+/// within a tenth of its default (even), hips in mid-stance within a two-hundredth, asymmetries none. `draw`: another
+/// person for the same number.
 CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t draw);
 
 /// m/s, from the crowd's distribution.

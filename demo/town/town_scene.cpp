@@ -50,7 +50,7 @@ Result<TownScene> TownScene::make(const TownOptions& options) {
   return scene;
 }
 
-/// Everybody begins somewhere on the way between two places, the first where the tour begins.
+/// Everybody stands somewhere on the way between two places, the first where the tour begins.
 Result<void> TownScene::people_come(const TownOptions& options) {
   const auto places = town_places();
   std::vector<SpawnRequest> requests(options.humans);
@@ -64,7 +64,7 @@ Result<void> TownScene::people_come(const TownOptions& options) {
     request.gait = person.gait;
     Goer& goer = goers_[i];
     goer.speed_m_s = std::max(*person.gait.speed_m_s, 0.9F);
-    request.gait.speed_m_s = goer.speed_m_s;
+    request.gait.speed_m_s = 0;  // who walks already might be about to walk into somebody
     CrowdRandom random(options.seed, i, place_stream);
     GroundPoint at = places.front();
     constexpr int tries = 40;

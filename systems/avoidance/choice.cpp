@@ -268,17 +268,25 @@ class Choice {
         go.x_m == 0 && go.z_m == 0 ? 0 : wrapped(static_cast<float>(exact::atan2(go.x_m, go.z_m)) - from_.heading_rad);
     const bool as_wished = go.x_m * sine(course_.heading_rad) + go.z_m * cosine(course_.heading_rad) > 0.85F * pace;
     constexpr float of_turning_there = 0.05F, of_turning_away = 0.2F, of_turning_on_spot = 0.1F, of_slower = 0.3F;
+    constexpr float of_sidling = 0.3F;  // where the way is open: to turn and walk is faster
     constexpr float turns_from = 0.5F;  // rad
+    // Who has stood for long would rather step anywhere than stay, so that others, or they themselves, get past.
+    constexpr float patience_s = 2, of_waiting_per_s = 0.3F, most_of_waiting = 1;
+    const float of_staying = std::clamp(of_waiting_per_s * (course_.waits_s - patience_s), 0.0F, most_of_waiting);
     Lanes<float> speed, heading = end_.heading_rad, more{};
     for (std::size_t l = 0; l < lane_count; ++l) {
       const TrialKind kind = trials_.kind[l];
       speed[l] = kind == TrialKind::stay ? 0 : pace;
-      if (kind == TrialKind::aside) heading[l] = from_.heading_rad + trial.slant_rad[l];
+      if (kind == TrialKind::aside) {
+        heading[l] = from_.heading_rad + trial.slant_rad[l];
+        if (as_wished && std::fabs(off) > turns_from) more[l] = of_sidling;
+      }
+      if (kind == TrialKind::stay || kind == TrialKind::turn) more[l] = of_staying;
       if (kind == TrialKind::go) more[l] = of_slower * square(trial.speed_m_s[l] - pace);
       if (kind != TrialKind::turn) continue;
       const bool there = std::fabs(off) > turns_from && off * trial.turn_rad[l] > 0;  // to walk there from then on
       if (there) heading[l] = from_.heading_rad + off;
-      more[l] = !there ? of_turning_on_spot : as_wished ? of_turning_there : of_turning_away * std::fabs(off);
+      more[l] += !there ? of_turning_on_spot : as_wished ? of_turning_there : of_turning_away * std::fabs(off);
     }
     off_velocity(speed, heading, go.x_m, go.z_m, cost_);
     for (std::size_t l = 0; l < lane_count; ++l) cost_[l] += more[l];

@@ -358,6 +358,40 @@ TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
   EXPECT_NEAR(one.z_m, other.z_m, 1e-3);
 }
 
+/// Whoever stands and wants to go behind them or to a side turns and walks; nobody sidles all the way.
+TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
+  for (int degrees = -180; degrees < 180; degrees += 7) {
+    Simulation simulation;
+    Avoidance avoidance(simulation);
+    const Entity one = walker(simulation, 0.0F);
+    ASSERT_TRUE(avoidance.manage(one));
+    const float heading = static_cast<float>(degrees) * pi / 180;
+    ASSERT_TRUE(avoidance.want({{WalkWish{one, 1.3F, heading}}}));
+    for (int k = 0; k < 6 * 60; ++k) avoidance.update(), simulation.tick();
+    const Root at = root_of(simulation, one);
+    EXPECT_GT(at.x_m * std::sin(heading) + at.z_m * std::cos(heading), 2) << degrees;
+    EXPECT_LT(std::fabs(std::remainder(at.heading_rad - heading, 2 * pi)), 0.05F) << degrees;
+  }
+}
+
+/// Even where every step along it is closed: they step back first.
+TEST(Avoidance, WhoStandsTooNearACornerGetsRoundIt) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  ASSERT_TRUE(avoidance.set_walls(
+      {{Wall{{-0.12F, 0.23F}, {0.12F, 0.23F}}, Wall{{0.12F, 0.23F}, {0.12F, 3}}, Wall{{-0.12F, 0.23F}, {-0.12F, 3}}}}));
+  const Entity one = walker(simulation, 0.0F, -0.07F, 0, 0.8F, 1.86F);
+  ASSERT_TRUE(avoidance.manage(one));
+  for (int k = 0; k < 15 * 60; ++k) {
+    const Root at = root_of(simulation, one);
+    const auto heading = static_cast<float>(std::atan2(0.45 - at.x_m, 0.4 - at.z_m));
+    const bool past = at.x_m > 0.3;
+    ASSERT_TRUE(avoidance.want({{WalkWish{one, 1.2F, past ? 0 : heading}}}));
+    avoidance.update(), simulation.tick();
+  }
+  EXPECT_GT(root_of(simulation, one).z_m, 3);
+}
+
 TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
   Room room(1);
   for (int k = 0; k < 100; ++k) room.tick();

@@ -14,13 +14,16 @@ constexpr std::size_t index(FootholdOf which) {
   return static_cast<std::size_t>(which);
 }
 
-/// By FootholdOf: the height of the ground in the world, m, and how much it rises toward +X and +Z, m per m. How much
-/// higher than straight from one foothold to the next the foot in the air passes, early and late in its swing
+/// By FootholdOf: the height of the ground in the world, m, and how much it rises toward +X and +Z, m per m; how far
+/// the foothold is moved in the world from where a foot comes down on level ground, m, so that no edge is under the
+/// sole. How much higher than straight from one foothold to the next the foot in the air passes, early and late in its
+/// swing
 /// (`swing_lift`), m. Where the stance foothold and the next one were when that was asked; the step (GaitState) that it
 /// is of; and how much of it is known (FootingKnown). All zero: level ground, nothing known yet.
 template <class F>
 struct Footing {
   F height_m[3], rise_x[3], rise_z[3];
+  F moved_x_m[3], moved_z_m[3];
   F lift_early_m, lift_late_m;
   F stance_x_m, stance_z_m, landing_x_m, landing_z_m;
   Whole<F> steps, stance_side, known;

@@ -15,22 +15,25 @@
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 
-/// The ground about a place: its height over the stance foothold, and how much it rises to the left of the stance
-/// foot's heading and along it, m per m.
+/// The ground about a foothold: its height over the stance foothold, and how much it rises to the left of the stance
+/// foot's heading and along it, m per m; and how far the foothold is moved that way.
 struct Slope {
   Wide height, left, along;
+  Wide moved_left, moved_along;
 };
 
 HWY_INLINE Slope part_way(const Slope& a, const Slope& b, const Wide& part) {
-  return {mix(a.height, b.height, part), mix(a.left, b.left, part), mix(a.along, b.along, part)};
+  return {mix(a.height, b.height, part), mix(a.left, b.left, part), mix(a.along, b.along, part),
+          mix(a.moved_left, b.moved_left, part), mix(a.moved_along, b.moved_along, part)};
 }
 
 HWY_INLINE Slope slope_at(const Footing<Lanes<float>>& footing, FootholdOf which, const Wide& sine,
                           const Wide& cosine) {
   const auto i = index(which), stance = index(FootholdOf::stance);
   const Wide x = load(footing.rise_x[i]), z = load(footing.rise_z[i]);
+  const Wide moved_x = load(footing.moved_x_m[i]), moved_z = load(footing.moved_z_m[i]);
   return {load(footing.height_m[i]) - load(footing.height_m[stance]), fnma(z, sine, x * cosine),
-          fma(x, sine, z * cosine)};
+          fma(x, sine, z * cosine), fnma(moved_z, sine, moved_x * cosine), fma(moved_x, sine, moved_z * cosine)};
 }
 
 /// The rotation that takes the vertical to the normal of such ground, by the shortest way.
@@ -119,8 +122,10 @@ HWY_NOINLINE inline Wide hips_at_strike(const Strike<Lanes<float>>& strike, cons
   const Wide lands = of(step_shape::strike, 0), half = wide(0.5F);
   const Wide rise = usual_rise + of(step_shape::times, 1), double_support = load(strike.double_support);
   const Wide leaves = heel_rise(of, (half - rise) / (half + double_support - rise));
-  const StrikeLeg leading = {hips, lands, fnma(manner[strike_less], lands, lands - manner[toes_first]), ahead.along};
-  const StrikeLeg trailing = {hips + load(strike.length_m), leaves,
+  const Wide nearer = 0.5F * (behind.moved_along - ahead.moved_along);  // the hips are moved half as far as both feet
+  const StrikeLeg leading = {hips + nearer, lands, fnma(manner[strike_less], lands, lands - manner[toes_first]),
+                             ahead.along};
+  const StrikeLeg trailing = {hips + load(strike.length_m) - nearer, leaves,
                               fnma(manner[heel_up_more], heel_up(half, double_support), leaves), behind.along};
   const Wide moved = manner[hips_ahead] * height;
   return min(fma(manner[hips_up], height, min(behind.height, ahead.height)),
@@ -185,6 +190,13 @@ HWY_NOINLINE inline HipsOver hips_over(const StepPlan<Lanes<float>>& plan, const
   const Wide over = vault * mix(abs(uneven.slopes.leaving.height), abs(uneven.slopes.landing.height), mixed.part);
   return {fma(walks, fma(slanted_bump(mixed, hips_up_middle, hips_up_late, p), height, bump(p) * over), even),
           height * (mixed[hips_ahead] + slanted_bump(mixed, hips_ahead_middle, hips_ahead_late, p)), mixed[trunk_lean]};
+}
+
+/// How far the hips are moved with the footholds: at a strike to the middle of what both feet are.
+HWY_INLINE Ground hips_moved(const Slopes& slopes, const Wide& eased) {
+  const Slope hips = part_way(part_way(slopes.leaving, slopes.stance, wide(0.5F)),
+                              part_way(slopes.stance, slopes.landing, wide(0.5F)), eased);
+  return {hips.moved_left, hips.moved_along};
 }
 
 /// Moves the ankle of a foot on the ground that is pitched otherwise.
@@ -297,7 +309,7 @@ HWY_NOINLINE inline Ground flat_other(const StepPlan<Lanes<float>>& plan, const 
 HWY_NOINLINE inline void put_on(const Slope& slope, const Ground& flat, FootMotion& foot, Foothold& at) {
   const WideVec off = rotate(tilt_of(slope.left, slope.along),
                              {at.ankle.left - flat.left, foot.ankle_up, at.ankle.forward - flat.forward});
-  at.ankle = {flat.left + off.x, flat.forward + off.z};
+  at.ankle = {flat.left + slope.moved_left + off.x, flat.forward + slope.moved_along + off.z};
   foot.ankle_up = slope.height + off.y;
 }
 

@@ -40,8 +40,8 @@ MOBIL_API int mobil_steer(mobil_sim* sim, mobil_steered* out);
 /* From now on these walkers stand on the ground that mobil_answer_ground tells of, or (`on` 0) again on the level plane
  * through the origin. All or none. */
 MOBIL_API int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
-/* Where the ground has to be known before the next tick: some 18 places for who takes a step (24 for who is new, or was
- * put elsewhere). Rows of three floats, a place whose height is 0; `who` (may be null) is whose they are. *count is how
+/* Where the ground has to be known before the next tick: 27 places for who takes a step (33 for who is new, or was put
+ * elsewhere). Rows of three floats, a place whose height is 0; `who` (may be null) is whose they are. *count is how
  * many there are. Without `places` the call writes nothing else; with too little room it writes nothing else and
  * returns MOBIL_ROOM. Asking changes nothing. */
 MOBIL_API int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count);

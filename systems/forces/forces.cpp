@@ -331,6 +331,8 @@ HWY_NOINLINE void put_centres(const StepPlan<Lanes<float>>& plan, const GaitStat
     const Ground from = part_way(other_at, stance_at, stands);
     WideVec& at = ground.centre[side];
     at.y = fma(slope.left, at.x - from.left, fma(slope.along, at.z - from.forward, slope.height));
+    at.x = at.x + slope.moved_left;
+    at.z = at.z + slope.moved_along;
   }
 }
 

@@ -23,7 +23,7 @@ void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& fo
     // Of who slept, or whose ground was not asked for in time, nothing is known.
     const bool known = steps <= 1 && footing.known[l] >= (steps == 1 ? footing_all : footing_before);
     footing.known[l] = known ? footing_before : footing_unknown;
-    for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z}) {
+    for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z, &footing.moved_x_m, &footing.moved_z_m}) {
       Lanes<float>(&of)[3] = *values;
       if (steps != 0) {
         of[leaving][l] = of[stance][l];
@@ -32,6 +32,7 @@ void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& fo
       if (swapped) std::swap(of[leaving][l], of[stance][l]);
       of[landing][l] = of[stance][l];
     }
+    footing.moved_x_m[landing][l] = footing.moved_z_m[landing][l] = 0;
     footing.lift_early_m[l] = footing.lift_late_m[l] = 0.0F;
   }
 }

@@ -127,6 +127,9 @@ Footing<Lanes<float>> seen_from_stance(const Footing<Lanes<float>>& footing, con
       seen.height_m[i][l] = footing.height_m[i][l] - footing.height_m[stance][l];
       seen.rise_x[i][l] = x * c - z * s;
       seen.rise_z[i][l] = x * s + z * c;
+      const float moved_x = footing.moved_x_m[i][l], moved_z = footing.moved_z_m[i][l];
+      seen.moved_x_m[i][l] = moved_x * c - moved_z * s;
+      seen.moved_z_m[i][l] = moved_x * s + moved_z * c;
     }
   }
   return seen;

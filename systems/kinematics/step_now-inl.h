@@ -172,11 +172,13 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
     const Slope other_slope = part_way(slopes.leaving, slopes.landing, other.swung);
     put_on(slopes.stance, {fma(out, load(plan.from.half_width_m), line.shift), zero}, stance, standing_at);
     put_on(other_slope, flat_other(plan, line, other.swung, -out), other, other_at);
-    pelvis.position.y = up + over.up;
+    const Ground moved = hips_moved(slopes, eased);
+    pelvis.position = {pelvis.position.x + moved.left, up + over.up, pelvis.position.z + moved.forward};
     for (std::size_t side = 0; side < 2; ++side) {
       const auto of_foot = [&](Wide Slope::*word)
                                HWY_ATTR { return select(now.stands[side], slopes.stance.*word, other_slope.*word); };
-      now.under[side] = {of_foot(&Slope::height), of_foot(&Slope::left), of_foot(&Slope::along)};
+      now.under[side] = {of_foot(&Slope::height), of_foot(&Slope::left), of_foot(&Slope::along),
+                         of_foot(&Slope::moved_left), of_foot(&Slope::moved_along)};
     }
   }
   for (std::size_t side = 0; side < 2; ++side) {

@@ -175,6 +175,7 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   auto footing = world.get<Footing>(person);
   if (footing) {
     footing->known = footing_unknown;
+    for (std::size_t i = 0; i < 3; ++i) footing->moved_x_m[i] = footing->moved_z_m[i] = 0;
     world.set(person, *footing);
   }
   if (!world.has<Pose>(person)) return way;  // compact

@@ -45,13 +45,16 @@ std::size_t most_events(std::uint32_t ticks, float tick_s) {
   return static_cast<std::size_t>(std::ceil(3 * steps));
 }
 
-/// How high the ground is where that came to pass, of a walker after the tick.
-float ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& footing, std::uint32_t stance_side,
-                std::size_t lane) {
+/// How high the ground is where that came to pass, and how far the foothold is moved, of a walker after the tick.
+Vec3<float> ground_of(const StepEvents::One& one, const Footing<Lanes<float>>& footing, std::uint32_t stance_side,
+                      std::size_t lane) {
   FootholdOf where = FootholdOf::stance;
   if (one.kind == StepEventKind::toe_off) where = FootholdOf::leaving;
   if (one.kind == StepEventKind::heel_strike && one.side != stance_side) where = FootholdOf::landing;
-  return footing.height_m[index(where)][lane];
+  const std::size_t i = index(where);
+  const bool of_foot = one.kind == StepEventKind::heel_strike || one.kind == StepEventKind::toe_off;
+  return {of_foot ? footing.moved_x_m[i][lane] : 0.0F, footing.height_m[i][lane],
+          of_foot ? footing.moved_z_m[i][lane] : 0.0F};
 }
 
 }  // namespace
@@ -124,9 +127,11 @@ void StepLog::take(const World& world, std::uint32_t tick, float tick_s) {
         const auto l = static_cast<std::size_t>(std::countr_zero(left));
         for (std::uint32_t i = 0; i < rows[l].count; ++i) {
           const StepEvents::One& one = rows[l].of[i];
-          const float y_m = footing ? ground_of(one, footing.at(table, b), state.at(table, b).stance_side[l], l) : 0.0F;
+          const Vec3<float> over = footing ? ground_of(one, footing.at(table, b), state.at(table, b).stance_side[l], l)
+                                           : Vec3<float>{0, 0, 0};
           events_.push_back({table.entities(b)[l], one.kind, static_cast<Side>(one.side), tick,
-                             static_cast<float>(one.at) * part, Vec3<float>{one.x_m, y_m, one.z_m}, one.heading_rad});
+                             static_cast<float>(one.at) * part, Vec3<float>{one.x_m + over.x, over.y, one.z_m + over.z},
+                             one.heading_rad});
         }
       }
     }

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
-#include "assets/body/anthropometry.h"
 #include "components/pose.h"
 #include "engine/each.h"
 #include "engine/exact_math.h"
@@ -17,6 +17,7 @@
 #include "systems/people/person.h"
 #include "systems/simulation_world.h"
 #include "systems/terrain/ground_profile.h"
+#include "systems/terrain/sole_fit.h"
 
 namespace mobil {
 namespace {
@@ -27,7 +28,7 @@ constexpr std::size_t landing = index(FootholdOf::landing);
 
 /// Further than that from where it was, a foothold is another one.
 constexpr float moved_m = 0.05F;
-/// Places asked for under a foothold: under the ankle first.
+/// Places asked for under a foot that stands already: under the ankle first.
 constexpr std::size_t sole_places = 3;
 
 /// False where an answer is not a number or out of range. Makes what is too steep less so.
@@ -43,13 +44,13 @@ bool make_usable(TerrainHeight& answer) {
 
 }  // namespace
 
-/// Whose ground is asked for, in which step, and with which query their places begin: of each foothold three along the
-/// sole, of all footholds or of the next alone; then those on the way to it.
+/// Whose ground is asked for, in which step, and with which query their places begin: three along the sole of each foot
+/// that stands, where all footholds are asked for; those of the next one; then those on the way to it.
 struct Terrain::Work {
   struct Asking {
     Entity human;
     std::uint32_t steps, stance_side;
-    float stance_x_m, stance_z_m;
+    float stance_x_m, stance_z_m, landing_x_m, landing_z_m;
     std::size_t first;
     bool all;
   };
@@ -60,23 +61,20 @@ struct Terrain::Work {
 
   void collect(const World& world);
   void collect_block(const Table& table, std::uint32_t block);
-  void ask_foothold(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, float height_m,
-                    Entity human);
+  void ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
+                 std::span<const float> ahead_m);
   void put_answers(World& world);
   std::size_t put_answers(World& world, const Asking& one);
   static void stand_up(World& world, Entity human);
   TerrainHeight foothold(std::size_t first) const;
+  std::size_t mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m);
 };
 
-/// Under the ankle, the heel and the tips of the toes.
-void Terrain::Work::ask_foothold(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, float height_m,
-                                 Entity human) {
+void Terrain::Work::ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
+                              std::span<const float> ahead_m) {
   const float x = at.x_m[which][lane], z = at.z_m[which][lane], heading = at.heading_rad[which][lane];
   const float s = exact::sin(heading), c = exact::cos(heading);
-  for (const double part : {0.0, -fraction::heel_back, fraction::ball_forward + fraction::toes_length}) {
-    const float ahead = static_cast<float>(part) * height_m;
-    queries.push_back({x + ahead * s, z + ahead * c, human});
-  }
+  for (const float ahead : ahead_m) queries.push_back({x + ahead * s, z + ahead * c, human});
 }
 
 void Terrain::Work::collect_block(const Table& table, std::uint32_t block) {
@@ -95,11 +93,15 @@ void Terrain::Work::collect_block(const Table& table, std::uint32_t block) {
     const bool all = footing.known[l] == footing_unknown || !same_step ||
                      (known && elsewhere(stance, footing.stance_x_m[l], footing.stance_z_m[l]));
     if (!all && known && !elsewhere(landing, footing.landing_x_m[l], footing.landing_z_m[l])) continue;
-    asking.push_back(
-        {entities[l], state.steps[l], state.stance_side[l], at.x_m[stance][l], at.z_m[stance][l], queries.size(), all});
-    if (all) ask_foothold(at, leaving, l, size.height_m[l], entities[l]);
-    if (all) ask_foothold(at, stance, l, size.height_m[l], entities[l]);
-    ask_foothold(at, landing, l, size.height_m[l], entities[l]);
+    asking.push_back({entities[l], state.steps[l], state.stance_side[l], at.x_m[stance][l], at.z_m[stance][l],
+                      at.x_m[landing][l], at.z_m[landing][l], queries.size(), all});
+    const float height_m = size.height_m[l];
+    const std::array<float, sole_places> sole = {0, -SoleGround::back_h * height_m, SoleGround::front_h * height_m};
+    std::array<float, SoleGround::places> about;
+    for (std::size_t i = 0; i < SoleGround::places; ++i) about[i] = SoleGround::ahead_h(i) * height_m;
+    if (all) ask_along(at, leaving, l, entities[l], sole);
+    if (all) ask_along(at, stance, l, entities[l], sole);
+    ask_along(at, landing, l, entities[l], about);
     for (std::size_t i = 0; i < GroundProfile::asked; ++i) {
       const float part = GroundProfile::part(i);
       queries.push_back({std::lerp(at.x_m[leaving][l], at.x_m[landing][l], part),
@@ -135,6 +137,31 @@ TerrainHeight Terrain::Work::foothold(std::size_t first) const {
   }
   plane.height_m = std::clamp(plane.height_m + raised_m, -highest_ground_m, highest_ground_m);
   return plane;
+}
+
+/// Of answers along one sole, those that cannot be used: the plane of the nearest that can, toward the ankle or away
+/// from it; where none can, level ground at the usual height. Returns how many there were.
+std::size_t Terrain::Work::mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m) {
+  std::size_t unusable = 0;
+  const auto nearer = [&](std::size_t a, std::size_t b) {
+    return std::max(a, ankle) - std::min(a, ankle) < std::max(b, ankle) - std::min(b, ankle);
+  };
+  std::array<bool, SoleGround::places> usable{};
+  std::size_t best = first + count;
+  for (std::size_t i = first; i < first + count; ++i) {
+    usable[i - first] = make_usable(answers[i]);
+    if (usable[i - first] && (best == first + count || nearer(i, best))) best = i;
+  }
+  for (std::size_t i = first; i < first + count; ++i) {
+    if (usable[i - first]) continue;
+    ++unusable;
+    answers[i] = {usual_m};
+    if (best == first + count) continue;
+    answers[i] = answers[best];
+    answers[i].height_m += (queries[i].x_m - queries[best].x_m) * answers[best].rise_x +
+                           (queries[i].z_m - queries[best].z_m) * answers[best].rise_z;
+  }
+  return unusable;
 }
 
 /// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
@@ -178,42 +205,51 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   auto& footing = TableColumn<Footing>(*table).at(*table, block);
   const auto& state = TableColumn<GaitState>(*table).at(*table, block);
   if (one.steps != state.steps[l] || one.stance_side != state.stance_side[l]) return 0;
-  const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + sole_places;
+  const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + SoleGround::places;
+  const float usual_m = footing.height_m[stance][l],
+              height_m = TableColumn<BodySize>(*table).at(*table, block).height_m[l];
   std::size_t unusable = 0;
-  for (std::size_t i = first; i < on_way + GroundProfile::asked; ++i) {
-    if (make_usable(answers[i])) continue;
-    // Under a foothold's heel and toes in the plane under its ankle; else as high as where the stance foot is.
-    const std::size_t on_sole = i < on_way ? (i - first) % sole_places : 0, ankle = i - on_sole;
-    answers[i] = {footing.height_m[stance][l]};
-    if (on_sole != 0) {
-      answers[i] = answers[ankle];
-      answers[i].height_m += (queries[i].x_m - queries[ankle].x_m) * answers[i].rise_x +
-                             (queries[i].z_m - queries[ankle].z_m) * answers[i].rise_z;
-    }
-    ++unusable;
-  }
-  const auto put = [&](std::size_t which, std::size_t query) {
-    const auto [height_m, rise_x, rise_z] = foothold(query);
-    footing.height_m[which][l] = height_m;
-    footing.rise_x[which][l] = rise_x;
-    footing.rise_z[which][l] = rise_z;
+  for (std::size_t i = first; i < next; i += sole_places) unusable += mend_answers(i, sole_places, i, usual_m);
+  unusable += mend_answers(next, SoleGround::places, next + SoleGround::places / 2, usual_m);
+  for (std::size_t i = on_way; i < on_way + GroundProfile::asked; ++i) unusable += mend_answers(i, 1, i, usual_m);
+
+  const auto put = [&](std::size_t which, const TerrainHeight& plane, float moved_x_m, float moved_z_m) {
+    footing.height_m[which][l] = std::clamp(plane.height_m, -highest_ground_m, highest_ground_m);
+    footing.rise_x[which][l] = plane.rise_x;
+    footing.rise_z[which][l] = plane.rise_z;
+    footing.moved_x_m[which][l] = moved_x_m;
+    footing.moved_z_m[which][l] = moved_z_m;
   };
-  if (all) put(leaving, first);
-  if (all) put(stance, first + sole_places);
-  put(landing, next);
+  if (all) put(leaving, foothold(first), 0, 0);
+  if (all) put(stance, foothold(first + sole_places), 0, 0);
+  // Along the sole, toward the toes.
+  const TerrainQuery &heel = queries[next], &toes = queries[on_way - 1];
+  const float sole_m = SoleGround::apart_h * height_m * static_cast<float>(SoleGround::places - 1);
+  const float x = (toes.x_m - heel.x_m) / sole_m, z = (toes.z_m - heel.z_m) / sole_m;
+  SoleGround sole;
+  for (std::size_t i = 0; i < SoleGround::places; ++i) {
+    sole.height_m[i] = answers[next + i].height_m;
+    sole.rise[i] = x * answers[next + i].rise_x + z * answers[next + i].rise_z;
+  }
+  const SoleFit fit = fit_sole(sole, height_m, TableColumn<StepPlan>(*table).at(*table, block).step_length_m[l]);
+  const TerrainHeight& under = answers[next + fit.place];
+  put(landing, {fit.height_m, under.rise_x, under.rise_z}, fit.ahead_m * x, fit.ahead_m * z);
   footing.steps[l] = one.steps;
   footing.stance_side[l] = one.stance_side;
   footing.stance_x_m[l] = one.stance_x_m;
   footing.stance_z_m[l] = one.stance_z_m;
-  footing.landing_x_m[l] = queries[next].x_m;
-  footing.landing_z_m[l] = queries[next].z_m;
+  footing.landing_x_m[l] = one.landing_x_m;
+  footing.landing_z_m[l] = one.landing_z_m;
   footing.known[l] = footing_all;
   if (all) stand_up(world, one.human);
 
   const float part = GroundProfile::part(0);
-  const TerrainQuery &to = queries[next], &on = queries[on_way];
-  GroundProfile ground = {
-      (on.x_m - part * to.x_m) / (1 - part), (on.z_m - part * to.z_m) / (1 - part), to.x_m, to.z_m, {}};
+  const TerrainQuery& on = queries[on_way];
+  GroundProfile ground = {(on.x_m - part * one.landing_x_m) / (1 - part),
+                          (on.z_m - part * one.landing_z_m) / (1 - part),
+                          one.landing_x_m,
+                          one.landing_z_m,
+                          {}};
   ground.height_m.front() = footing.height_m[leaving][l];
   ground.height_m.back() = footing.height_m[landing][l];
   for (std::size_t i = 0; i < GroundProfile::asked; ++i) ground.height_m[i + 1] = answers[on_way + i].height_m;

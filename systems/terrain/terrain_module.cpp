@@ -6,6 +6,7 @@
 #include "components/footing.h"
 #include "engine/snapshot.h"
 #include "systems/terrain/clearance.h"
+#include "systems/terrain/sole_fit.h"
 
 namespace mobil {
 namespace {
@@ -18,7 +19,8 @@ bool is_sound(const Footing<float>& footing) {
                std::isfinite(footing.landing_x_m) && std::isfinite(footing.landing_z_m) && footing.known <= footing_all;
   for (std::size_t i = 0; i < 3; ++i)
     sound = sound && within(footing.height_m[i], highest_ground_m) && within(footing.rise_x[i], steepest) &&
-            within(footing.rise_z[i], steepest);
+            within(footing.rise_z[i], steepest) && within(footing.moved_x_m[i], most_moved_m) &&
+            within(footing.moved_z_m[i], most_moved_m);
   return sound;
 }
 
@@ -31,7 +33,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 }  // namespace
 
 Module terrain_module() {
-  return {.name = "terrain", .parts = {component_part<Footing>()}, .check_rows = &check_rows};
+  return {.name = "terrain", .version = 2, .parts = {component_part<Footing>()}, .check_rows = &check_rows};
 }
 
 }  // namespace mobil

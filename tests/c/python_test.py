@@ -233,7 +233,7 @@ class Worlds(unittest.TestCase):
         terrain = mobil.Terrain(world, lambda at: (slope * at[:, 0], [-slope, 0, 1]))
         terrain.manage(people)
         places, who = terrain.ask()
-        self.assertEqual(places.shape, (96, 3))
+        self.assertEqual(places.shape, (132, 3))
         self.assertEqual(set(who["index"]), set(people["index"]))
         with self.assertRaises(mobil.RefusedError):
             terrain.answer([0.0])

@@ -14,12 +14,13 @@ constexpr std::size_t index(FootholdOf which) {
   return static_cast<std::size_t>(which);
 }
 
-/// By FootholdOf: the height of the ground in the world, m, and how much it rises toward +X and +Z, m per m; how far
-/// the foothold is moved in the world from where a foot comes down on level ground, m, so that no edge is under the
-/// sole. How much higher than straight from one foothold to the next the foot in the air passes, early and late in its
-/// swing
-/// (`swing_lift`), m. Where the stance foothold and the next one were when that was asked; the step (GaitState) that it
-/// is of; and how much of it is known (FootingKnown). All zero: level ground, nothing known yet.
+/// By FootholdOf: the height of the ground in the world, m; how much it rises toward +X and +Z, m per m; how far the
+/// foothold is moved in the world from where it would be on level ground, m, so that no edge is under the sole.
+/// `lift_early_m`, `lift_late_m`: how much higher than straight from one foothold to the next the foot in the air
+/// passes
+/// (`swing_lift`). Where the stance foothold and the next one were when the ground was asked for, before they were
+/// moved; the step (GaitState) that it is of; and how much of it is known (FootingKnown). All zero: level ground,
+/// nothing known yet.
 template <class F>
 struct Footing {
   F height_m[3], rise_x[3], rise_z[3];

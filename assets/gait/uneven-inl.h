@@ -123,14 +123,13 @@ HWY_NOINLINE inline Wide hips_at_strike(const Strike<Lanes<float>>& strike, cons
   const Wide rise = usual_rise + of(step_shape::times, 1), double_support = load(strike.double_support);
   const Wide leaves = heel_rise(of, (half - rise) / (half + double_support - rise));
   const Wide nearer = 0.5F * (behind.moved_along - ahead.moved_along);  // the hips are moved half as far as both feet
-  const StrikeLeg leading = {hips + nearer, lands, fnma(manner[strike_less], lands, lands - manner[toes_first]),
-                             ahead.along};
-  const StrikeLeg trailing = {hips + load(strike.length_m) - nearer, leaves,
+  const StrikeLeg leading = {hips, lands, fnma(manner[strike_less], lands, lands - manner[toes_first]), ahead.along};
+  const StrikeLeg trailing = {hips + load(strike.length_m), leaves,
                               fnma(manner[heel_up_more], heel_up(half, double_support), leaves), behind.along};
   const Wide moved = manner[hips_ahead] * height;
   return min(fma(manner[hips_up], height, min(behind.height, ahead.height)),
-             min(ahead.height + reaches_higher(leading, moved, height),
-                 behind.height + reaches_higher(trailing, moved, height)));
+             min(ahead.height + reaches_higher(leading, moved + nearer, height),
+                 behind.height + reaches_higher(trailing, moved - nearer, height)));
 }
 
 /// The ground of a step; the manners of the rises before and after its stance foothold, and how high the hips are at

@@ -76,9 +76,10 @@ std::string report_text(const TownScene& scene) {
   const double seconds = scene.simulation().time_s();
   return fmt::format(
       "{} people, {:.0f} s: {:.2f} m/s on average, {} times somebody arrived, {} ways found\n"
-      "nobody came nearer than {:.1f} cm to touching; the longest wait was {:.1f} s\n"
+      "{}the longest wait was {:.1f} s\n"
       "a tick took {:.0f} us: ways {:.0f}, avoidance {:.0f}, ground {:.0f} ({:.1f} places), walking {:.0f}\n",
-      scene.people().size(), seconds, r.walked_m / seconds / people, r.arrivals, r.paths, 100 * r.nearest_m,
+      scene.people().size(), seconds, r.walked_m / seconds / people, r.arrivals, r.paths,
+      people < 2 ? "" : fmt::format("nobody came nearer than {:.1f} cm to touching; ", 100 * r.nearest_m),
       r.longest_wait_s, per_tick * (r.paths_s + r.avoidance_s + r.terrain_s + r.tick_s), per_tick * r.paths_s,
       per_tick * r.avoidance_s, per_tick * r.terrain_s,
       static_cast<double>(r.places_asked) / static_cast<double>(r.ticks), per_tick * r.tick_s);
@@ -93,7 +94,7 @@ std::string report_json(const TownScene& scene, const TownRun& run) {
   json["mean_speed_m_s"] = r.walked_m / scene.simulation().time_s() / static_cast<double>(scene.people().size());
   json["arrivals"] = r.arrivals;
   json["paths"] = r.paths;
-  json["nearest_m"] = r.nearest_m;
+  if (scene.people().size() > 1) json["nearest_m"] = r.nearest_m;
   json["longest_wait_s"] = r.longest_wait_s;
   json["tick_us"] = {{"ways", 1e6 * r.paths_s / static_cast<double>(r.ticks)},
                      {"avoidance", 1e6 * r.avoidance_s / static_cast<double>(r.ticks)},

@@ -36,7 +36,7 @@ bool on_town_stairs(float x_m, float z_m);
 /// Places that people go to; the first few are the way that a visitor is shown, from across the street to the foot of
 /// the ramp.
 std::span<const GroundPoint> town_places();
-inline constexpr std::size_t tour_length = 7;
+inline constexpr std::size_t tour_stops = 6;  // after where it begins
 
 /// Triangles of one colour, counter-clockwise from outside; each corner has its own vertices.
 struct TownMesh {

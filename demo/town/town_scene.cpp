@@ -125,14 +125,16 @@ void TownScene::follow_way(std::size_t number) {
   Goer& goer = goers_[number];
   const GroundPoint at = place_of(roots_[number]);
   while (goer.next + 1 < goer.corners.size() && apart_m(at, goer.corners[goer.next]) < corner_m) ++goer.next;
-  if (goer.corners.empty() || apart_m(at, goer.corners.back()) < arrived_m) {
-    report_.arrivals += !goer.corners.empty();
+  if (!goer.corners.empty() && apart_m(at, goer.corners.back()) < arrived_m) {
+    ++report_.arrivals;
     choose_place(number);
   }
-  if (goer.corners.empty()) return;
-  const GroundPoint& to = goer.corners[goer.next];
-  WalkWish wish{people_[number], goer.speed_m_s, std::atan2(to.x_m - at.x_m, to.z_m - at.z_m)};
-  if (on_town_stairs(at.x_m, at.z_m)) wish.speed_m_s = on_stairs_m_s;
+  WalkWish wish{people_[number], 0, goer.wish.heading_rad};
+  if (!goer.corners.empty()) {  // else they wait until a way is found
+    const GroundPoint& to = goer.corners[goer.next];
+    wish.heading_rad = std::atan2(to.x_m - at.x_m, to.z_m - at.z_m);
+    wish.speed_m_s = on_town_stairs(at.x_m, at.z_m) ? on_stairs_m_s : goer.speed_m_s;
+  }
   constexpr float turned_rad = 0.01F;
   if (goer.asked && wish.speed_m_s == goer.wish.speed_m_s &&
       std::fabs(wish.heading_rad - goer.wish.heading_rad) < turned_rad)

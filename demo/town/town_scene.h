@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "demo/town/town_map.h"
 #include "demo/town/town_paths.h"
 #include "engine/error.h"
 #include "systems/avoidance/avoidance.h"
@@ -15,7 +16,7 @@
 namespace mobil {
 
 struct TownOptions {
-  std::size_t humans = 60;
+  std::size_t humans = 40;
   std::uint64_t seed = 1;
   int threads = 0;
 };
@@ -49,8 +50,6 @@ class TownScene {
   Root guide() const { return roots_.front(); }
 
  private:
-  static constexpr std::size_t tour_stops = 6;
-
   struct Goer {
     float speed_m_s, radius_m;
     std::size_t place;  // they are on the way to

@@ -21,8 +21,8 @@ constexpr float sees_m = 6;
 constexpr float squeezes_m = 0.06F;
 /// How much wider a berth those get who make no room themselves, m.
 constexpr float all_of_the_way_m = 0.15F;
-/// Who has stood so long presses on as far as people may overlap, s.
-constexpr float presses_after_s = 2;
+/// Who has stood so long presses on as far as people may overlap, and would rather step anywhere than stay, s.
+constexpr float patience_s = 2;
 /// What turning costs; what speaks for passing on the right of who comes.
 constexpr float of_turning = 0.15F, keeps_right = 0.05F;
 /// How much nearer to a wall than now somebody may come who is too near already, m: else nobody gets along it.
@@ -70,7 +70,7 @@ class Choice {
         from_(from),
         course_(course),
         trials_(make_trials(from, course)),
-        overlap_m_(around.overlap_m * std::min(course.waits_s * (1 / presses_after_s), 1.0F)) {
+        overlap_m_(around.overlap_m * std::min(course.waits_s * (1 / patience_s), 1.0F)) {
     tried_ways(broadcast(from), trials_.trial, around.book.instants(), ways_, end_);
     const std::size_t now = mine_.at(around.book.instant());
     for (std::size_t s = 0; s < way_samples; ++s) {  // to the bit what others keep clear of
@@ -270,8 +270,7 @@ class Choice {
     constexpr float of_turning_there = 0.05F, of_turning_away = 0.2F, of_turning_on_spot = 0.1F, of_slower = 0.3F;
     constexpr float of_sidling = 0.3F;  // where the way is open: to turn and walk is faster
     constexpr float turns_from = 0.5F;  // rad
-    // Who has stood for long would rather step anywhere than stay, so that others, or they themselves, get past.
-    constexpr float patience_s = 2, of_waiting_per_s = 0.3F, most_of_waiting = 1;
+    constexpr float of_waiting_per_s = 0.3F, most_of_waiting = 1;
     const float of_staying = std::clamp(of_waiting_per_s * (course_.waits_s - patience_s), 0.0F, most_of_waiting);
     Lanes<float> speed, heading = end_.heading_rad, more{};
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -281,12 +280,14 @@ class Choice {
         heading[l] = from_.heading_rad + trial.slant_rad[l];
         if (as_wished && std::fabs(off) > turns_from) more[l] = of_sidling;
       }
-      if (kind == TrialKind::stay || kind == TrialKind::turn) more[l] = of_staying;
+      if (kind == TrialKind::stay) more[l] = of_staying;
       if (kind == TrialKind::go) more[l] = of_slower * square(trial.speed_m_s[l] - pace);
       if (kind != TrialKind::turn) continue;
       const bool there = std::fabs(off) > turns_from && off * trial.turn_rad[l] > 0;  // to walk there from then on
       if (there) heading[l] = from_.heading_rad + off;
-      more[l] += !there ? of_turning_on_spot : as_wished ? of_turning_there : of_turning_away * std::fabs(off);
+      more[l] = !there      ? of_turning_on_spot + of_staying
+                : as_wished ? of_turning_there
+                            : of_turning_away * std::fabs(off);
     }
     off_velocity(speed, heading, go.x_m, go.z_m, cost_);
     for (std::size_t l = 0; l < lane_count; ++l) cost_[l] += more[l];

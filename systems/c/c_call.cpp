@@ -89,6 +89,17 @@ std::string from_the_future(const char* name, std::size_t known) {
       name, known);
 }
 
+int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floats, const char* name,
+               std::size_t& stride) {
+  if (rows == nullptr && count > 0) return line.refuse_null(name);
+  const std::size_t close = floats * sizeof(float);
+  if (stride == 0) stride = close;
+  if (stride >= close) return MOBIL_OK;
+  return line.refuse(MOBIL_REFUSED,
+                     fmt::format("{} lie {} bytes apart and are {} long; give a stride of at least {}, or 0", name,
+                                 stride, close, close));
+}
+
 int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
               VertexStream& to) {
   to.stride = stride == 0 ? close : stride;

@@ -201,6 +201,10 @@ int struct_stride(Line& line, const S* rows, std::size_t count, const char* name
   return line.refuse(MOBIL_REFUSED, fmt::format("{} lie {} bytes apart and are {} long", name, stride, size));
 }
 
+/// How far apart rows of so many floats lie; `stride` 0: close together.
+int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floats, const char* name,
+               std::size_t& stride);
+
 /// A stream of the caller's, `close` bytes apart where no stride is given; without bytes where it is left out.
 int stream_of(Line& line, void* memory, std::size_t stride, std::size_t bytes, std::size_t close, const char* name,
               VertexStream& to);

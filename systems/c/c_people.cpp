@@ -326,14 +326,11 @@ int mobil_shift_origin(mobil_sim* sim, const float to[3]) {
 int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride, int jumped) {
   return call(sim, "mobil_set_poses", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
-    if (poses == nullptr && count > 0) return s.line.refuse_null("poses");
-    constexpr std::size_t close = segment_count * 7 * sizeof(float);
-    if (stride != 0 && stride < close)
-      return s.line.refuse(MOBIL_REFUSED, fmt::format("poses lie {} bytes apart and are {} long", stride, close));
+    if (const int code = row_stride(s.line, poses, count, std::size_t{7} * segment_count, "poses", stride)) return code;
     // All are looked at before one is taken.
     for (const bool take : {false, true}) {
       for (std::size_t i = 0; i < count; ++i) {
-        const Pose<float> pose = pose_from(s.axes, row_at(poses, i, stride, close));
+        const Pose<float> pose = pose_from(s.axes, row_at(poses, i, stride, 0));
         const auto done = take ? s.world().set_pose(s.people[i], pose, jumped != 0 ? Arrival::jumped : Arrival::moved)
                                : check_pose(s.world().world(), s.people[i], pose);
         if (!done) return s.line.refuse(done.error(), person_number(i));

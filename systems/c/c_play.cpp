@@ -77,13 +77,10 @@ int mobil_get_walk(mobil_sim* sim, mobil_id id, mobil_walk* out, float* style, s
 int mobil_place_many(mobil_sim* sim, const mobil_id* ids, size_t count, const float* places, size_t stride) {
   return call(sim, "mobil_place_many", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
-    if (places == nullptr && count > 0) return s.line.refuse_null("places");
-    constexpr std::size_t close = 4 * sizeof(float);
-    if (stride != 0 && stride < close)
-      return s.line.refuse(MOBIL_REFUSED, fmt::format("places lie {} bytes apart and are {} long", stride, close));
+    if (const int code = row_stride(s.line, places, count, 4, "places", stride)) return code;
     std::vector<PlaceRequest> to(count);
     for (std::size_t i = 0; i < count; ++i) {
-      const float* const row = row_at(places, i, stride, close);
+      const float* const row = row_at(places, i, stride, 0);
       const Vec3<float> at = s.axes.place_from(row);
       to[i] = {s.people[i], at.x, at.z, row[3]};
     }

@@ -2,26 +2,18 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "components/avoidance.h"
 #include "components/footing.h"
 #include "systems/c/c_call.h"
 #include "systems/people/person.h"
+#include "systems/simulation_world.h"
 
 namespace {
 
 using namespace mobil;
 using namespace mobil::c;
-
-/// How far apart rows of so many floats lie.
-int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floats, const char* name,
-               std::size_t& stride) {
-  if (rows == nullptr && count > 0) return line.refuse_null(name);
-  const std::size_t close = floats * sizeof(float);
-  if (stride == 0) stride = close;
-  if (stride >= close) return MOBIL_OK;
-  return line.refuse(MOBIL_REFUSED, fmt::format("{} lie {} bytes apart and are {} long", name, stride, close));
-}
 
 int avoidance_of(mobil_sim& sim, Avoidance*& out) {
   if (!sim.avoidance)
@@ -44,25 +36,16 @@ int check_avoiders(mobil_sim& sim, bool on) {
   return MOBIL_OK;
 }
 
-int start_avoiding(mobil_sim& sim, Avoidance& avoidance) {
-  std::vector<Entity> new_ones;
-  new_ones.reserve(sim.people.size());
-  const auto undo = [&] {
-    for (const Entity one : new_ones) (void)avoidance.release(one);
-  };
-  try {
-    for (std::size_t i = 0; i < sim.people.size(); ++i) {
-      const bool already = sim.world().world().has<Course>(sim.people[i]);
-      if (const auto done = avoidance.manage(sim.people[i]); !done) {
-        undo();
-        return sim.line.refuse(done.error(), person_number(i));
-      }
-      if (!already) new_ones.push_back(sim.people[i]);
-    }
-  } catch (const std::bad_alloc&) {
-    undo();
-    throw;
+/// All of them, or none. Who avoids others already keeps their wish.
+int set_avoiding(mobil_sim& sim, Avoidance& avoidance, bool on) {
+  World::Attempt attempt(world_of(sim.world()), sim.jobs_of());
+  for (std::size_t i = 0; i < sim.people.size(); ++i) {
+    const Entity person = sim.people[i];
+    if (sim.world().world().has<Course>(person) == on) continue;
+    if (const auto done = on ? avoidance.manage(person) : avoidance.release(person); !done)
+      return sim.line.refuse(done.error(), person_number(i));
   }
+  attempt.keep();
   return MOBIL_OK;
 }
 
@@ -90,7 +73,8 @@ int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options) {
     }
     if (!std::isfinite(known.radius_h) || !std::isfinite(known.overlap_m))
       return s.line.refuse(MOBIL_REFUSED, "radius_h or overlap_m is not finite; mobil_defaults gives the usual ones");
-    s.avoidance.emplace(s.world(), AvoidanceOptions{known.radius_h, known.overlap_m});
+    Avoidance made(s.world(), {known.radius_h, known.overlap_m});
+    s.avoidance.emplace(std::move(made));
     return int{MOBIL_OK};
   });
 }
@@ -101,9 +85,7 @@ int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
     if (const int code = avoidance_of(s, avoidance)) return code;
     if (const int code = s.name_people(ids, count)) return code;
     if (const int code = check_avoiders(s, on != 0)) return code;
-    if (on != 0) return start_avoiding(s, *avoidance);
-    for (const Entity person : s.people) (void)avoidance->release(person);  // who is named twice has gone before
-    return int{MOBIL_OK};
+    return set_avoiding(s, *avoidance, on != 0);
   });
 }
 

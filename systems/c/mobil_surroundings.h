@@ -22,7 +22,8 @@ typedef struct mobil_steered {
 /* Begins, or begins anew with other options and without walls and discs; `options` null: usual ones. Who avoids others
  * already goes on to. */
 MOBIL_API int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options);
-/* From now on these walkers keep out of each other's way, and want what they were last asked to do; or no more (`on`
+/* From now on these walkers keep out of each other's way, and want what they were last asked to do (who does so
+ * already keeps their wish and room); or no more (`on`
  * 0), and go on as they now do. All or none. Who avoids others is asked by mobil_want: what mobil_change_walk asks
  * lasts until the next step. */
 MOBIL_API int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
@@ -46,9 +47,9 @@ MOBIL_API int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t co
  * returns MOBIL_ROOM. Asking changes nothing. */
 MOBIL_API int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count);
 /* The ground at the places of the last mobil_ask_ground, in their order, before the next tick: rows of four floats, its
- * height, and its normal, of any length (0 0 0: level). Slopes above 45 degrees are taken as that. What is not a
- * number, or hangs over, is taken as level ground at the height of the last foothold; `unusable` (may be null) is how
- * many of those there were. */
+ * height, and its normal, of any length (0 0 0: level). Slopes above 45 degrees are taken as that. Of an answer
+ * that is not a number, or whose normal does not point up, the plane of another under the same sole is taken, or level
+ * ground at the height of the last foothold; `unusable` (may be null) is how many of those there were. */
 MOBIL_API int mobil_answer_ground(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable);
 
 #endif

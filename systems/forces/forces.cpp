@@ -328,11 +328,10 @@ HWY_NOINLINE void put_centres(const StepPlan<Lanes<float>>& plan, const GaitStat
   for (std::size_t side = 0; side < 2; ++side) {
     const Wide stands = side == Side::left ? left_stands : one - left_stands;
     const Slope slope = part_way(other, slopes.stance, stands);
-    const Ground from = part_way(other_at, stance_at, stands);
+    const Ground unmoved = part_way(other_at, stance_at, stands);
+    const Ground from = {unmoved.left + slope.moved_left, unmoved.forward + slope.moved_along};
     WideVec& at = ground.centre[side];
     at.y = fma(slope.left, at.x - from.left, fma(slope.along, at.z - from.forward, slope.height));
-    at.x = at.x + slope.moved_left;
-    at.z = at.z + slope.moved_along;
   }
 }
 

@@ -206,7 +206,10 @@ export class World {
   /** They keep out of each other's way from now on, or no more. */
   avoid(people, on = true) { this.#call('avoid', people.ids, people.count, on ? 1 : 0); }
   /** Where they want to go: an array of [speed in m/s, heading in rad], one a person. */
-  want(people, wishes) { this.library.within((take) => this.#call('want', people.ids, people.count, this.#put(take, wishes.flat()), 0)); }
+  want(people, wishes) {
+    if (wishes.length !== people.count) throw new MobilError(`${wishes.length} wishes for ${people.count} people; give one each`, c.MOBIL_REFUSED);
+    this.library.within((take) => this.#call('want', people.ids, people.count, this.#put(take, wishes.flat()), 0));
+  }
   /** Instead of those before: arrays of six numbers, two places. */
   setWalls(walls) { this.library.within((take) => this.#call('set_walls', this.#put(take, walls.flat()), 0, walls.length)); }
   /** Instead of those before: arrays of seven numbers, place, velocity, radius. */
@@ -229,7 +232,9 @@ export class World {
       const places = this.library.u32[count >> 2], at = take(12 * places);
       if (places === 0) return;
       this.#call('ask_ground', at, 0, 0, places, count);
-      const ground = this.#put(take, heights(this.#floats(at, 3 * places).slice(), places));
+      const answers = heights(this.#floats(at, 3 * places).slice(), places);
+      if (answers.length !== 4 * places) throw new MobilError(`${answers.length} numbers for ${places} places; give four each`, c.MOBIL_REFUSED);
+      const ground = this.#put(take, answers);
       this.#call('answer_ground', ground, 0, places, 0);
     });
   }

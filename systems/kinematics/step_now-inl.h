@@ -172,7 +172,7 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
     const Slope other_slope = part_way(slopes.leaving, slopes.landing, other.swung);
     put_on(slopes.stance, {fma(out, load(plan.from.half_width_m), line.shift), zero}, stance, standing_at);
     put_on(other_slope, flat_other(plan, line, other.swung, -out), other, other_at);
-    const Ground moved = hips_moved(slopes, eased);
+    const Ground moved = hips_moved(slopes, select(load(plan.landing) > 0.0F, eased, zero));
     pelvis.position = {pelvis.position.x + moved.left, up + over.up, pelvis.position.z + moved.forward};
     for (std::size_t side = 0; side < 2; ++side) {
       const auto of_foot = [&](Wide Slope::*word)

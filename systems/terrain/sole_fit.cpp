@@ -34,9 +34,8 @@ float overhang(const Edges& edge, std::size_t heel) {
 
 /// Of a sole whose heel is at that place.
 SoleFit fit_at(const SoleGround& ground, std::size_t heel, float height_m) {
-  constexpr auto ankle = static_cast<std::size_t>(G::back_h / G::apart_h + 0.5F);  // ahead of the heel, in places
   SoleFit fit;
-  fit.place = heel + ankle;
+  fit.place = heel + G::ankle - G::moves;
   const float moved_h = (static_cast<float>(heel) - static_cast<float>(G::moves)) * G::apart_h;
   fit.ahead_m = moved_h * height_m;
   const auto plane_m = [&](float ahead_h) {

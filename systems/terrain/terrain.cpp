@@ -50,6 +50,7 @@ struct Terrain::Work {
   struct Asking {
     Entity human;
     std::uint32_t steps, stance_side;
+    float line_x_m, line_z_m;
     float stance_x_m, stance_z_m, landing_x_m, landing_z_m;
     std::size_t first;
     bool all;
@@ -67,6 +68,11 @@ struct Terrain::Work {
   std::size_t put_answers(World& world, const Asking& one);
   static void stand_up(World& world, Entity human);
   TerrainHeight foothold(std::size_t first) const;
+  struct Landing {
+    TerrainHeight plane;
+    float moved_x_m, moved_z_m;
+  };
+  Landing fit_landing(std::size_t first, float height_m, float step_length_m) const;
   std::size_t mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m);
 };
 
@@ -93,8 +99,9 @@ void Terrain::Work::collect_block(const Table& table, std::uint32_t block) {
     const bool all = footing.known[l] == footing_unknown || !same_step ||
                      (known && elsewhere(stance, footing.stance_x_m[l], footing.stance_z_m[l]));
     if (!all && known && !elsewhere(landing, footing.landing_x_m[l], footing.landing_z_m[l])) continue;
-    asking.push_back({entities[l], state.steps[l], state.stance_side[l], at.x_m[stance][l], at.z_m[stance][l],
-                      at.x_m[landing][l], at.z_m[landing][l], queries.size(), all});
+    asking.push_back({entities[l], state.steps[l], state.stance_side[l], state.line_x_m[l], state.line_z_m[l],
+                      at.x_m[stance][l], at.z_m[stance][l], at.x_m[landing][l], at.z_m[landing][l], queries.size(),
+                      all});
     const float height_m = size.height_m[l];
     const std::array<float, sole_places> sole = {0, -SoleGround::back_h * height_m, SoleGround::front_h * height_m};
     std::array<float, SoleGround::places> about;
@@ -139,8 +146,23 @@ TerrainHeight Terrain::Work::foothold(std::size_t first) const {
   return plane;
 }
 
-/// Of answers along one sole, those that cannot be used: the plane of the nearest that can, toward the ankle or away
-/// from it; where none can, level ground at the usual height. Returns how many there were.
+/// The next foothold, clear of edges where it can be.
+Terrain::Work::Landing Terrain::Work::fit_landing(std::size_t first, float height_m, float step_length_m) const {
+  const TerrainQuery &heel = queries[first], &toes = queries[first + SoleGround::places - 1];
+  const float sole_m = SoleGround::apart_h * height_m * static_cast<float>(SoleGround::places - 1);
+  const float x = (toes.x_m - heel.x_m) / sole_m, z = (toes.z_m - heel.z_m) / sole_m;  // where the toes point
+  SoleGround sole;
+  for (std::size_t i = 0; i < SoleGround::places; ++i) {
+    sole.height_m[i] = answers[first + i].height_m;
+    sole.rise[i] = x * answers[first + i].rise_x + z * answers[first + i].rise_z;
+  }
+  const SoleFit fit = fit_sole(sole, height_m, step_length_m);
+  const TerrainHeight& under = answers[first + fit.place];
+  return {{fit.height_m, under.rise_x, under.rise_z}, fit.ahead_m * x, fit.ahead_m * z};
+}
+
+/// Unusable answers along a sole get the plane of the usable one nearest to the ankle, or level ground at `usual_m`.
+/// Returns how many there were.
 std::size_t Terrain::Work::mend_answers(std::size_t first, std::size_t count, std::size_t ankle, float usual_m) {
   std::size_t unusable = 0;
   const auto nearer = [&](std::size_t a, std::size_t b) {
@@ -194,7 +216,8 @@ void Terrain::Work::put_answers(World& world) {
   queries.clear();
 }
 
-/// Returns how many answers could not be used. Who is gone, or has taken a step since, is left as they are.
+/// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
+/// are.
 std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   const auto [table, row] = world.find(one.human);
   if (table == nullptr || !TableColumn<Footing>(*table) || !TableColumn<GaitState>(*table) ||
@@ -204,13 +227,16 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   const bool all = one.all;
   auto& footing = TableColumn<Footing>(*table).at(*table, block);
   const auto& state = TableColumn<GaitState>(*table).at(*table, block);
-  if (one.steps != state.steps[l] || one.stance_side != state.stance_side[l]) return 0;
+  const auto& plan = TableColumn<StepPlan>(*table).at(*table, block);
+  if (one.steps != state.steps[l] || one.stance_side != state.stance_side[l] || one.line_x_m != state.line_x_m[l] ||
+      one.line_z_m != state.line_z_m[l])
+    return 0;
   const std::size_t next = first + (all ? 2 * sole_places : 0), on_way = next + SoleGround::places;
   const float usual_m = footing.height_m[stance][l],
               height_m = TableColumn<BodySize>(*table).at(*table, block).height_m[l];
   std::size_t unusable = 0;
   for (std::size_t i = first; i < next; i += sole_places) unusable += mend_answers(i, sole_places, i, usual_m);
-  unusable += mend_answers(next, SoleGround::places, next + SoleGround::places / 2, usual_m);
+  unusable += mend_answers(next, SoleGround::places, next + SoleGround::ankle, usual_m);
   for (std::size_t i = on_way; i < on_way + GroundProfile::asked; ++i) unusable += mend_answers(i, 1, i, usual_m);
 
   const auto put = [&](std::size_t which, const TerrainHeight& plane, float moved_x_m, float moved_z_m) {
@@ -222,18 +248,13 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   };
   if (all) put(leaving, foothold(first), 0, 0);
   if (all) put(stance, foothold(first + sole_places), 0, 0);
-  // Along the sole, toward the toes.
-  const TerrainQuery &heel = queries[next], &toes = queries[on_way - 1];
-  const float sole_m = SoleGround::apart_h * height_m * static_cast<float>(SoleGround::places - 1);
-  const float x = (toes.x_m - heel.x_m) / sole_m, z = (toes.z_m - heel.z_m) / sole_m;
-  SoleGround sole;
-  for (std::size_t i = 0; i < SoleGround::places; ++i) {
-    sole.height_m[i] = answers[next + i].height_m;
-    sole.rise[i] = x * answers[next + i].rise_x + z * answers[next + i].rise_z;
+  if (plan.landing[l] > 0) {
+    const Landing at = fit_landing(next, height_m, plan.step_length_m[l]);
+    put(landing, at.plane, at.moved_x_m, at.moved_z_m);
+  } else {  // who stands moves no foot
+    put(landing, {footing.height_m[leaving][l], footing.rise_x[leaving][l], footing.rise_z[leaving][l]},
+        footing.moved_x_m[leaving][l], footing.moved_z_m[leaving][l]);
   }
-  const SoleFit fit = fit_sole(sole, height_m, TableColumn<StepPlan>(*table).at(*table, block).step_length_m[l]);
-  const TerrainHeight& under = answers[next + fit.place];
-  put(landing, {fit.height_m, under.rise_x, under.rise_z}, fit.ahead_m * x, fit.ahead_m * z);
   footing.steps[l] = one.steps;
   footing.stance_side[l] = one.stance_side;
   footing.stance_x_m[l] = one.stance_x_m;
@@ -253,9 +274,8 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   ground.height_m.front() = footing.height_m[leaving][l];
   ground.height_m.back() = footing.height_m[landing][l];
   for (std::size_t i = 0; i < GroundProfile::asked; ++i) ground.height_m[i + 1] = answers[on_way + i].height_m;
-  const FootLift lift =
-      lift_over(ground, row_of(TableColumn<BodySize>(*table).at(*table, block), l),
-                row_of(TableColumn<StepPlan>(*table).at(*table, block), l), row_of(state, l), row_of(footing, l));
+  const FootLift lift = lift_over(ground, row_of(TableColumn<BodySize>(*table).at(*table, block), l), row_of(plan, l),
+                                  row_of(state, l), row_of(footing, l));
   footing.lift_early_m[l] = lift.early_m;
   footing.lift_late_m[l] = lift.late_m;
   return unusable;
@@ -321,8 +341,9 @@ Result<TerrainReport> Terrain::answer(std::span<const TerrainHeight> heights) {
 
 TerrainReport Terrain::update() {
   Work& work = *work_;
+  if (!heights_) return {};
   work.collect(world_of(simulation_));
-  if (work.asking.empty() || !heights_) return work.report;
+  if (work.asking.empty()) return work.report;
   heights_(work.queries, work.answers);
   work.put_answers(world_of(simulation_));
   return work.report;

@@ -10,7 +10,8 @@
 //   terrain.update();                                        // before each tick
 //   simulation.tick();
 //
-// The ground is asked for once a step and person: under the foothold to come, and along the way of the foot to it. What
+// The ground is asked for once a step and person: under the foothold to come and a little behind and ahead of it, for
+// feet keep clear of edges, and along the way of the foot to it. What
 // was answered is state and lies on the person's row (components/footing.h); a restored world goes on by the same
 // answers. Who is not managed walks on the plane y = 0 and costs what they did.
 
@@ -38,8 +39,9 @@ struct TerrainHeight {
 };
 
 /// Answers all queries of an update at once, on the thread that calls `update`; `out` is as long and all zero. Heights
-/// within ±100 km; rises within ±1, steeper ones are taken as that. What is not a number is taken as level ground at
-/// the height of the last foothold.
+/// within ±100 km; rises within ±1, steeper ones are taken as that. Instead of an
+/// answer that is not a number the plane of another under the same sole is taken, or level ground at the height of the
+/// last foothold.
 /// Must not change the simulation. The same places must get the same answers where a run is to be repeated.
 using TerrainHeights = std::function<void(std::span<const TerrainQuery> at, std::span<TerrainHeight> out)>;
 

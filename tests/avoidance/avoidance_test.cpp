@@ -374,6 +374,26 @@ TEST(Avoidance, WhoStandsTurnsAndWalksWhereTheyWant) {
   }
 }
 
+/// Also who had to wait before, boxed in.
+TEST(Avoidance, WhoWasBoxedInTurnsAndWalksOnceTheWayIsOpen) {
+  for (const float heading : {pi, 1.2F, -2.0F}) {
+    Simulation simulation;
+    Avoidance avoidance(simulation);
+    const Entity one = walker(simulation, 0.0F);
+    ASSERT_TRUE(avoidance.manage(one));
+    constexpr float a = 0.3F;
+    ASSERT_TRUE(avoidance.set_walls(
+        {{Wall{{-a, -a}, {a, -a}}, Wall{{a, -a}, {a, a}}, Wall{{a, a}, {-a, a}}, Wall{{-a, a}, {-a, -a}}}}));
+    ASSERT_TRUE(avoidance.want({{WalkWish{one, 1.3F, heading}}}));
+    for (int k = 0; k < 7 * 60; ++k) avoidance.update(), simulation.tick();
+    const Root from = root_of(simulation, one);
+    ASSERT_TRUE(avoidance.set_walls({}));
+    for (int k = 0; k < 6 * 60; ++k) avoidance.update(), simulation.tick();
+    const Root at = root_of(simulation, one);
+    EXPECT_GT((at.x_m - from.x_m) * std::sin(heading) + (at.z_m - from.z_m) * std::cos(heading), 2) << heading;
+  }
+}
+
 /// Even where every step along it is closed: they step back first.
 TEST(Avoidance, WhoStandsTooNearACornerGetsRoundIt) {
   Simulation simulation;

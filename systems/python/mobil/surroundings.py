@@ -51,8 +51,8 @@ class Avoidance:
 
     def want(self, people: People, speed_m_s: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
         """Where they want to go, and how fast (0: to stand)."""
-        people = np.atleast_1d(people)
-        rows = np.empty((len(people), 2), np.float32)
+        people = np.ravel(people)
+        rows = np.empty((people.size, 2), np.float32)
         rows[:, 0] = speed_m_s
         rows[:, 1] = heading_rad
         self._world._do(lib.mobil_want(self._world._sim, *_all(people), _floats(rows), 0))

@@ -95,6 +95,7 @@ class FlowScene {
     bool back = false;
     double stands_s = 0;
     std::uint32_t came_in = 0;
+    bool clear = true;  // of everybody, some time after they came in
   };
 
   float heading(const Person& one) const {
@@ -151,20 +152,24 @@ class FlowScene {
       one.x_m += x;
       one.z_m += z;
       one.came_in = simulation_.ticks();
+      one.clear = false;
     }
   }
 
-  /// Not those who have just come in: they may be put where somebody is about to be.
+  /// Who has come in may have been put where somebody was about to be: they count from when they are clear of everybody
+  /// some seconds later.
   void look_who_is_near() {
     constexpr std::uint32_t settled = 300;
     constexpr double counts_m = 0.05;
-    for (const Person& one : people_) {
-      double overlap = 0;
+    for (Person& one : people_) {
+      double overlap = 0, of_all = 0;
       for (const Person& other : people_) {
-        if (&other == &one || std::max(one.came_in, other.came_in) + settled > simulation_.ticks()) continue;
+        if (&other == &one) continue;
         const double apart = std::hypot(double{other.x_m} - double{one.x_m}, double{other.z_m} - double{one.z_m});
-        overlap = std::max(overlap, 2 * double{radius_m} - apart);
+        of_all = std::max(of_all, 2 * double{radius_m} - apart);
+        if (one.clear && other.clear) overlap = std::max(overlap, 2 * double{radius_m} - apart);
       }
+      one.clear = one.clear || (of_all <= 0 && one.came_in + settled < simulation_.ticks());
       nearest_m = std::max(nearest_m, overlap);
       near += overlap > counts_m ? 1 : 0;
       ++looks;

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A film of two minutes, of all that mobil shows: about ten minutes of work without a graphics card.
+# A film of two minutes, of all that mobil shows: a quarter of an hour of work without a graphics card.
 # Usage: demo/gallery/film.sh PROGRAM [FILM.mp4]; FILM.mp4 has English subtitles as a track of their own.
 set -euo pipefail
 program=$(realpath "$1") gallery=$(cd "$(dirname "$0")" && pwd)
@@ -37,18 +37,18 @@ still() {
 }
 
 walk 10 "Height, mass and speed go in. A walking skeleton and muscles that deform come out." --height 1.80 --mass 80 --speed 5km/h
-walk 6 "A stick figure: 48 segments, and the quadriceps' line of action." --view stick --muscles quadriceps
+walk 8 "A stick figure: 48 segments, and the quadriceps' line of action." --view stick --muscles quadriceps
 walk 6 "The muscles under the skin." --view glass --sex woman --height 1.68 --mass 62
 walk 6 "Taller, heavier, faster." --view skin --height 1.92 --mass 105 --speed 6.5km/h
 walk 7 "Up stairs of 16 and 30 cm." --view skin --ground stairs:16cm/30cm
 walk 7 "Down a slope of a fifth." --view skin --sex woman --height 1.66 --mass 60 --ground slope:-20%
 "$program" town --quiet --seconds 46 --capture town.mp4 >/dev/null
 part 46 town.mp4 "A town: places to go, ways by Recast, avoidance, kerbs, stairs and a ramp."
-"$program" town --quiet --humans 120 --seconds 12 --view above --seed 4 --capture above.mp4 >/dev/null
-part 12 above.mp4 "A hundred and twenty people, from above."
-"$program" crowd --quiet --humans 2000 --seconds 0.1 --seed 3 --frames 360 --capture crowd >/dev/null
+"$program" town --quiet --humans 120 --seconds 17 --view above --seed 4 --capture above.mp4 >/dev/null
+part 17 above.mp4 "A hundred and twenty people, from above."
+"$program" crowd --quiet --humans 2000 --seconds 0.1 --seed 3 --frames 150 --capture crowd >/dev/null
 ffmpeg -y -loglevel error -framerate 30 -i crowd/frame_%04d.png -c:v libx264 -preset veryfast -pix_fmt yuv420p crowd.mp4
-part 12 crowd.mp4 "Two thousand who are all different; of the nearest the muscles are simulated."
+part 5 crowd.mp4 "Two thousand who are all different; of the nearest the muscles are simulated."
 still 4 "Up and down, step by step." "$gallery/ground.jpg"
 still 4 "A million alive, ten thousand in view." "$gallery/city.jpg"
 

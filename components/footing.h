@@ -1,6 +1,7 @@
 #pragma once
 // The ground under a walker's feet, where it is not the level plane y = 0: state like any other, on the person's row.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -29,6 +30,12 @@ struct Footing {
   F stance_x_m, stance_z_m, landing_x_m, landing_z_m;
   Whole<F> steps, stance_side, known;
 };
+
+/// All that is kept by FootholdOf.
+template <class F>
+std::array<F (*)[3], 5> by_foothold(Footing<F>& footing) {
+  return {&footing.height_m, &footing.rise_x, &footing.rise_z, &footing.moved_x_m, &footing.moved_z_m};
+}
 
 /// Parts of the swing's time at which a foot's early and its late lift are greatest: each rises until then and falls
 /// from then on as 10 u³ − 15 u⁴ + 6 u⁵.

@@ -1,5 +1,5 @@
 #pragma once
-// The town and its people as pictures, from beside whoever takes the tour, or from above.
+// Pictures of the town and its people. The camera is above the town, or goes along beside the person on the tour.
 
 #include <vector>
 

@@ -54,7 +54,7 @@ Result<TownScene> TownScene::make(const TownOptions& options) {
 Result<void> TownScene::people_come(const TownOptions& options) {
   const auto places = town_places();
   std::vector<SpawnRequest> requests(options.humans);
-  goers_.resize(options.humans);
+  pedestrians_.resize(options.humans);
   std::vector<GroundPoint> way;
   std::vector<GroundPoint> taken;
   for (std::size_t i = 0; i < options.humans; ++i) {
@@ -62,8 +62,8 @@ Result<void> TownScene::people_come(const TownOptions& options) {
     SpawnRequest& request = requests[i];
     request.body = person.body;
     request.gait = person.gait;
-    Goer& goer = goers_[i];
-    goer.speed_m_s = std::max(*person.gait.speed_m_s, 0.9F);
+    Pedestrian& pedestrian = pedestrians_[i];
+    pedestrian.speed_m_s = std::max(*person.gait.speed_m_s, 0.9F);
     request.gait.speed_m_s = 0;  // who walks already might be about to walk into somebody
     CrowdRandom random(options.seed, i, place_stream);
     GroundPoint at = places.front();
@@ -92,55 +92,56 @@ Result<void> TownScene::people_come(const TownOptions& options) {
   if (auto done = terrain_.manage(people_); !done) return done;
   if (auto done = simulation_->roots(people_, roots_); !done) return done;
   for (std::size_t i = 0; i < people_.size(); ++i) {
-    goers_[i].radius_m = simulation_->get<Course>(people_[i])->radius_m;
+    pedestrians_[i].radius_m = simulation_->get<Course>(people_[i])->radius_m;
     choose_place(i);
   }
   return {};
 }
 
 void TownScene::choose_place(std::size_t number) {
-  Goer& goer = goers_[number];
+  Pedestrian& pedestrian = pedestrians_[number];
   const std::size_t places = town_places().size();
-  if (number == 0 && goer.toured < tour_stops) {
-    goer.place = ++goer.toured;
+  if (number == 0 && pedestrian.toured < tour_stops) {
+    pedestrian.place = ++pedestrian.toured;
   } else {
-    CrowdRandom random(seed_, number, place_stream + ++goer.drawn);
-    const std::size_t before = goer.place;
-    while (goer.place == before) goer.place = random.below(places);
+    CrowdRandom random(seed_, number, place_stream + ++pedestrian.drawn);
+    const std::size_t before = pedestrian.place;
+    while (pedestrian.place == before) pedestrian.place = random.below(places);
   }
   find_way(number);
 }
 
 void TownScene::find_way(std::size_t number) {
-  Goer& goer = goers_[number];
+  Pedestrian& pedestrian = pedestrians_[number];
   const double begin_s = wall_now_s();
-  paths_.find(place_of(roots_[number]), town_places()[goer.place], goer.corners);
+  paths_.find(place_of(roots_[number]), town_places()[pedestrian.place], pedestrian.corners);
   report_.paths_s += wall_now_s() - begin_s;
   ++report_.paths;
-  goer.next = 0;
+  pedestrian.next = 0;
 }
 
 /// Toward the next corner, slowly where stairs are.
 void TownScene::follow_way(std::size_t number) {
-  Goer& goer = goers_[number];
+  Pedestrian& pedestrian = pedestrians_[number];
   const GroundPoint at = place_of(roots_[number]);
-  while (goer.next + 1 < goer.corners.size() && apart_m(at, goer.corners[goer.next]) < corner_m) ++goer.next;
-  if (!goer.corners.empty() && apart_m(at, goer.corners.back()) < arrived_m) {
+  while (pedestrian.next + 1 < pedestrian.corners.size() && apart_m(at, pedestrian.corners[pedestrian.next]) < corner_m)
+    ++pedestrian.next;
+  if (!pedestrian.corners.empty() && apart_m(at, pedestrian.corners.back()) < arrived_m) {
     ++report_.arrivals;
     choose_place(number);
   }
-  WalkWish wish{people_[number], 0, goer.wish.heading_rad};
-  if (!goer.corners.empty()) {  // else they wait until a way is found
-    const GroundPoint& to = goer.corners[goer.next];
+  WalkWish wish{people_[number], 0, pedestrian.wish.heading_rad};
+  if (!pedestrian.corners.empty()) {  // else they wait until a way is found
+    const GroundPoint& to = pedestrian.corners[pedestrian.next];
     wish.heading_rad = std::atan2(to.x_m - at.x_m, to.z_m - at.z_m);
-    wish.speed_m_s = on_town_stairs(at.x_m, at.z_m) ? on_stairs_m_s : goer.speed_m_s;
+    wish.speed_m_s = on_town_stairs(at.x_m, at.z_m) ? on_stairs_m_s : pedestrian.speed_m_s;
   }
   constexpr float turned_rad = 0.01F;
-  if (goer.asked && wish.speed_m_s == goer.wish.speed_m_s &&
-      std::fabs(wish.heading_rad - goer.wish.heading_rad) < turned_rad)
+  if (pedestrian.asked && wish.speed_m_s == pedestrian.wish.speed_m_s &&
+      std::fabs(wish.heading_rad - pedestrian.wish.heading_rad) < turned_rad)
     return;
-  goer.wish = wish;
-  goer.asked = true;
+  pedestrian.wish = wish;
+  pedestrian.asked = true;
   wishes_.push_back(wish);
 }
 
@@ -150,7 +151,7 @@ void TownScene::tick() {
   for (std::size_t i = 0; i < people_.size(); ++i) {
     const auto turn = static_cast<std::uint32_t>(i);
     if ((now + turn) % ways_every == 0) find_way(i);
-    if ((now + turn) % wishes_every == 0 || !goers_[i].asked) follow_way(i);
+    if ((now + turn) % wishes_every == 0 || !pedestrians_[i].asked) follow_way(i);
   }
   (void)avoidance_.want(wishes_);  // speeds and headings are in range
   const double begin_s = wall_now_s();
@@ -173,7 +174,7 @@ void TownScene::measure() {
     const GroundPoint at = place_of(roots_[i]);
     report_.walked_m += std::hypot(roots_[i].x_m - before[i].x_m, roots_[i].z_m - before[i].z_m);
     for (std::size_t j = 0; j < i; ++j) {
-      const float between_m = apart_m(at, place_of(roots_[j])) - goers_[i].radius_m - goers_[j].radius_m;
+      const float between_m = apart_m(at, place_of(roots_[j])) - pedestrians_[i].radius_m - pedestrians_[j].radius_m;
       report_.nearest_m = std::min(report_.nearest_m, static_cast<double>(between_m));
     }
     const float waits_s = simulation_->get<Course>(people_[i])->waits_s;

@@ -45,12 +45,12 @@ class TownScene {
   /// The first of them takes the tour (town_places).
   const std::vector<Entity>& people() const { return people_; }
   const TownReport& report() const { return report_; }
-  bool tour_over() const { return goers_.front().toured >= tour_stops; }
+  bool tour_over() const { return pedestrians_.front().toured >= tour_stops; }
   /// Where the walking line of the first of them is, and heads.
   Root guide() const { return roots_.front(); }
 
  private:
-  struct Goer {
+  struct Pedestrian {
     float speed_m_s, radius_m;
     std::size_t place;  // they are on the way to
     std::size_t toured = 0;
@@ -74,7 +74,7 @@ class TownScene {
   Terrain terrain_;
   std::uint64_t seed_;
   std::vector<Entity> people_;
-  std::vector<Goer> goers_;
+  std::vector<Pedestrian> pedestrians_;
   std::vector<Root> roots_;
   std::vector<WalkWish> wishes_;
   TownReport report_;

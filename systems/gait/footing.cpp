@@ -23,7 +23,7 @@ void follow_feet(const GaitState<Lanes<float>>& state, Footing<Lanes<float>>& fo
     // Of who slept, or whose ground was not asked for in time, nothing is known.
     const bool known = steps <= 1 && footing.known[l] >= (steps == 1 ? footing_all : footing_before);
     footing.known[l] = known ? footing_before : footing_unknown;
-    for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z, &footing.moved_x_m, &footing.moved_z_m}) {
+    for (auto* values : by_foothold(footing)) {
       Lanes<float>(&of)[3] = *values;
       if (steps != 0) {
         of[leaving][l] = of[stance][l];

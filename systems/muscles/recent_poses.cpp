@@ -29,7 +29,7 @@ Footing<float> a_step_before(Footing<float> footing) {
   constexpr auto leaving = index(FootholdOf::leaving);
   constexpr auto stance = index(FootholdOf::stance);
   constexpr auto landing = index(FootholdOf::landing);
-  for (auto* values : {&footing.height_m, &footing.rise_x, &footing.rise_z, &footing.moved_x_m, &footing.moved_z_m}) {
+  for (auto* values : by_foothold(footing)) {
     (*values)[landing] = (*values)[stance];
     (*values)[stance] = (*values)[leaving];
   }

@@ -252,8 +252,7 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
     const Landing at = fit_landing(next, height_m, plan.step_length_m[l]);
     put(landing, at.plane, at.moved_x_m, at.moved_z_m);
   } else {  // who stands moves no foot
-    put(landing, {footing.height_m[leaving][l], footing.rise_x[leaving][l], footing.rise_z[leaving][l]},
-        footing.moved_x_m[leaving][l], footing.moved_z_m[leaving][l]);
+    for (auto* values : by_foothold(footing)) (*values)[landing][l] = (*values)[leaving][l];
   }
   footing.steps[l] = one.steps;
   footing.stance_side[l] = one.stance_side;

@@ -19,7 +19,7 @@ namespace mobil {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float wide_m = 5, long_m = 50, square_m = 22, door_m = 1.2F, post_m = 0.2F;
+constexpr float wide_m = 5, round_m = 100, ring_m = round_m / (2 * pi), square_m = 22, door_m = 1.2F, post_m = 0.2F;
 constexpr float radius_m = 0.22F;
 
 enum class Flow : std::uint8_t { one_way, both_ways, crossing, door };
@@ -28,12 +28,13 @@ float drawn(std::uint64_t number, std::uint64_t what) {
   return static_cast<float>(mix64(mix64(number + 78) ^ what) >> 40) * 0x1p-24F;
 }
 
-/// Who walks on a stretch of ground, at whose end they come in again at the other as soon as there is room.
+/// People who walk round a ring, so that nobody comes or goes; or across a square and through a door, at whose end they
+/// come in again at the other as soon as there is room.
 class FlowScene {
  public:
   FlowScene(Flow flow, float people_a_m2) : flow_(flow), avoidance_(simulation_) {
     across_m_ = flow == Flow::crossing ? square_m : wide_m;
-    along_m_ = flow == Flow::crossing ? square_m : flow == Flow::door ? 30 : long_m;
+    along_m_ = flow == Flow::crossing ? square_m : flow == Flow::door ? 30 : round_m;
     const auto count = static_cast<int>(people_a_m2 * along_m_ * across_m_);
     const float room_m = flow == Flow::crossing ? across_m_ : across_m_ - 2 * radius_m;
     const int rows =
@@ -51,6 +52,11 @@ class FlowScene {
       const float along = along_m_ / static_cast<float>(columns), across = room_m / static_cast<float>(rows);
       one.x_m = (static_cast<float>(i / rows) + 0.5F) * along - 0.5F * along_m_ + spread(along, 1);
       one.z_m = (static_cast<float>(i % rows) + 0.5F) * across - 0.5F * room_m + spread(across, 2);
+      if (round()) {
+        const float angle = one.x_m / ring_m, radius = ring_m + one.z_m;
+        one.x_m = radius * std::cos(angle);
+        one.z_m = radius * std::sin(angle);
+      }
       if (flow == Flow::door && std::fabs(one.x_m) < 0.7F) continue;
       one.entity =
           simulation_.spawn({.height_m = height, .mass_kg = 24 * height * height}, {.speed_m_s = 0.0F}).value();
@@ -66,6 +72,7 @@ class FlowScene {
 
   std::size_t people() const { return people_.size(); }
   double choosing_s = 0, way_m = 0, person_s = 0, stood_s = 0, nearest_m = 0, near = 0, looks = 0;
+  double in_middle_m2 = 0, ticks = 0;  // people a m²
   std::size_t passed = 0;
 
   void tick(bool counts) {
@@ -83,6 +90,8 @@ class FlowScene {
     for (std::size_t i = 0; i < people_.size(); ++i) move(people_[i], roots_[i], counts);
     come_in_again();
     if (!counts) return;
+    in_middle_m2 += density();
+    ticks += 1;
     choosing_s += spent.count();
     person_s += simulation_.tick_s() * static_cast<double>(people_.size());
     if (now % 6 == 0) look_who_is_near();
@@ -98,9 +107,16 @@ class FlowScene {
     bool clear = true;  // of everybody, some time after they came in
   };
 
+  bool round() const { return flow_ == Flow::one_way || flow_ == Flow::both_ways; }
+
   float heading(const Person& one) const {
+    if (round()) {
+      constexpr float looks_ahead_m = 1.7F;  // as steps follow a heading late: whoever walks alone stays in their lane
+      const float way = flow_ == Flow::both_ways && one.back ? -1 : 1;
+      const float at = std::atan2(one.z_m, one.x_m) + way * looks_ahead_m / std::hypot(one.x_m, one.z_m);
+      return std::atan2(-way * std::sin(at), way * std::cos(at));
+    }
     if (flow_ == Flow::crossing) return one.back ? 0 : 0.5F * pi;
-    if (flow_ == Flow::both_ways && one.back) return -0.5F * pi;
     if (flow_ != Flow::door || one.x_m > 0.3F) return 0.5F * pi;
     const float free_m = 0.5F * door_m - radius_m - 0.03F, ahead = one.x_m < -post_m ? 0.0F : 1.0F;
     return std::atan2(ahead - one.x_m, std::clamp(one.z_m, -free_m, free_m) - one.z_m);
@@ -108,11 +124,23 @@ class FlowScene {
 
   void put_walls() {
     if (flow_ == Flow::crossing) return;
+    if (round()) {
+      constexpr int sides = 48;
+      std::vector<Wall> walls;
+      for (const float radius : {ring_m - 0.5F * wide_m, ring_m + 0.5F * wide_m}) {
+        const auto corner = [&](int i) {
+          const float angle = 2 * pi * static_cast<float>(i) / sides;
+          return GroundPoint{radius * std::cos(angle), radius * std::sin(angle)};
+        };
+        for (int i = 0; i < sides; ++i) walls.push_back({corner(i), corner(i + 1)});
+      }
+      avoidance_.set_walls(walls);
+      return;
+    }
     constexpr float beyond = 30, half = 0.5F * wide_m, gap = 0.5F * door_m;
     const float end = 0.5F * along_m_ + beyond;
     std::vector<Wall> walls = {{{-end, -half}, {end, -half}}, {{-end, half}, {end, half}}};
     for (const float side : {-1.0F, 1.0F}) {
-      if (flow_ != Flow::door) break;
       for (const float x : {-post_m, post_m}) walls.push_back({{x, side * half}, {x, side * gap}});
       walls.push_back({{-post_m, side * gap}, {post_m, side * gap}});
     }
@@ -122,7 +150,10 @@ class FlowScene {
   void move(Person& one, const Root& root, bool counts) {
     const auto x = static_cast<float>(root.x_m), z = static_cast<float>(root.z_m);
     const bool sideways = flow_ == Flow::crossing && one.back;
-    const float on = sideways ? z - one.z_m : flow_ == Flow::both_ways && one.back ? one.x_m - x : x - one.x_m;
+    const float turned = (z - one.z_m) * x - (x - one.x_m) * z;
+    const float on = round()    ? (flow_ == Flow::both_ways && one.back ? -turned : turned) / std::hypot(x, z)
+                     : sideways ? z - one.z_m
+                                : x - one.x_m;
     if (counts) {
       way_m += static_cast<double>(on);
       passed += flow_ == Flow::door && one.x_m < 0 && x >= 0;
@@ -134,26 +165,49 @@ class FlowScene {
     one.z_m = z;
   }
 
+  /// Who has left comes in again at the other end as soon as there is room, beside where they left: so that as many
+  /// people stay on the stretch.
   void come_in_again() {
+    if (round()) return;
     const float end = 0.5F * along_m_;
-    for (Person& one : people_) {
-      const float x = one.x_m > end ? -along_m_ : one.x_m < -end ? along_m_ : 0;
-      const float z = flow_ != Flow::crossing ? 0 : one.z_m > end ? -along_m_ : one.z_m < -end ? along_m_ : 0;
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      Person& one = people_[i];
+      const float x = one.x_m > end ? -1 : one.x_m < -end ? 1 : 0;
+      const float z = flow_ != Flow::crossing ? 0 : one.z_m > end ? -1 : one.z_m < -end ? 1 : 0;
       if (x == 0 && z == 0) continue;
       const auto state = *simulation_.get<GaitState>(one.entity);
-      const float ahead_x = std::sin(state.heading_rad), ahead_z = std::cos(state.heading_rad);
-      constexpr float room_m = 2.2F, middle_m = 0.7F;
-      const bool free = std::none_of(people_.begin(), people_.end(), [&](const Person& other) {
-        return &other != &one && std::hypot(other.x_m - one.x_m - x - middle_m * ahead_x,
-                                            other.z_m - one.z_m - z - middle_m * ahead_z) < 0.5F * room_m;
-      });
-      if (!free) continue;
-      simulation_.place(one.entity, state.line_x_m + x, state.line_z_m + z, state.heading_rad);
-      one.x_m += x;
-      one.z_m += z;
-      one.came_in = simulation_.ticks();
-      one.clear = false;
+      constexpr int tries = 16;
+      for (int k = 0; k < tries; ++k) {
+        constexpr float within_m = 8, beside_m = 0.3F;
+        const std::uint64_t draw = mix64(simulation_.ticks() * tries + static_cast<std::uint64_t>(k)) ^ i;
+        const float deep = end - within_m * drawn(draw, 1), most = 0.5F * across_m_ - radius_m - 0.1F;
+        const float side = std::clamp((x != 0 ? one.z_m : one.x_m) + beside_m * (2 * drawn(draw, 2) - 1), -most, most);
+        const float to_x = x != 0 ? x * deep : side, to_z = x != 0 ? side : z * deep;
+        if (!is_free(one, to_x, to_z, state.heading_rad)) continue;
+        simulation_.place(one.entity, to_x, to_z, state.heading_rad);
+        one.x_m = to_x;
+        one.z_m = to_z;
+        one.came_in = simulation_.ticks();
+        one.clear = false;
+        break;
+      }
     }
+  }
+
+  bool is_free(const Person& one, float x_m, float z_m, float heading_rad) const {
+    constexpr float room_m = 2.2F, middle_m = 0.7F;
+    const float at_x = x_m + middle_m * std::sin(heading_rad), at_z = z_m + middle_m * std::cos(heading_rad);
+    return std::none_of(people_.begin(), people_.end(), [&](const Person& other) {
+      return &other != &one && std::hypot(other.x_m - at_x, other.z_m - at_z) < 0.5F * room_m;
+    });
+  }
+
+  /// How many people a m² are in the middle of the square.
+  double density() const {
+    const auto inside = std::count_if(people_.begin(), people_.end(), [&](const Person& one) {
+      return std::max(std::fabs(one.x_m), std::fabs(one.z_m)) < 0.25F * square_m;
+    });
+    return static_cast<double>(inside) / static_cast<double>(0.25F * square_m * square_m);
   }
 
   /// Who has come in may have been put where somebody was about to be: they count from when they are clear of everybody
@@ -195,8 +249,8 @@ void add(BenchRun& run, const std::string& name, double value, const char* unit,
   run.results.push_back(std::move(result));
 }
 
-void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2) {
-  const int seconds = run.quick ? 6 : 90;
+void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2, int full_s = 90) {
+  const int seconds = run.quick ? 6 : full_s;
   FlowScene scene(flow, people_a_m2);
   for (int tick = 0; tick < seconds * 60; ++tick) scene.tick(tick >= seconds * 20);
   const std::string of = fmt::format("{} people, {} s", scene.people(), seconds);
@@ -204,7 +258,10 @@ void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a
     add(run, name + ".people_per_s", static_cast<double>(scene.passed) / (seconds * 2 / 3.0), "/s", of);
   } else {
     add(run, name + ".m_per_s", scene.way_m / scene.person_s, "m/s",
-        of + fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
+        of +
+            (flow == Flow::crossing ? fmt::format("; {:.2f} a m² in the middle", scene.in_middle_m2 / scene.ticks)
+                                    : "") +
+            fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
   }
   add(run, name + ".overlap_cm", 100 * scene.nearest_m, "cm",
       fmt::format("the most; {:.2f} % of people by more than 5 cm", 100 * scene.near / std::max(scene.looks, 1.0)));
@@ -220,6 +277,7 @@ Result<void> bench_avoidance(BenchRun& run) {
   time_flow(run, "avoidance.both_ways_0.2", Flow::both_ways, 0.2F);
   time_flow(run, "avoidance.both_ways_0.5", Flow::both_ways, 0.5F);
   time_flow(run, "avoidance.both_ways_1", Flow::both_ways, 1);
+  time_flow(run, "avoidance.both_ways_1_long", Flow::both_ways, 1, 600);
   time_flow(run, "avoidance.crossing_0.5", Flow::crossing, 0.5F);
   time_flow(run, "avoidance.crossing_1", Flow::crossing, 1);
   time_flow(run, "avoidance.door", Flow::door, 0.7F);

@@ -8,6 +8,7 @@
 #include "engine/each.h"
 #include "engine/exact_math.h"
 #include "engine/rows.h"
+#include "systems/avoidance/lane.h"
 #include "systems/avoidance/preference.h"
 #include "systems/gait/gait.h"
 
@@ -25,8 +26,9 @@ constexpr float all_of_the_way_m = 0.15F;
 constexpr float patience_s = 2;
 /// What turning costs; what speaks for passing on the right of who comes.
 constexpr float of_turning = 0.15F, keeps_right = 0.05F;
-/// How much nearer to a wall than now somebody may come who is too near already, m: else nobody gets along it.
-constexpr float brushes_m = 0.01F;
+/// How near to a wall arms give way, m: who starts beside one sways. Who is nearer to anything
+/// comes no nearer but by rounding.
+constexpr float brushes_m = 0.03F, rounding_m = 2e-4F;
 /// How far ways are from the rectangle between their ends, m: they bend.
 constexpr float off_straight_m = 0.1F;
 
@@ -50,13 +52,6 @@ struct Near {
 GroundBox box_of(GroundPoint a, GroundPoint b, float more_m) {
   return {std::min(a.x_m, b.x_m) - more_m, std::max(a.x_m, b.x_m) + more_m, std::min(a.z_m, b.z_m) - more_m,
           std::max(a.z_m, b.z_m) + more_m};
-}
-
-GroundPoint nearest_of(const Wall& wall, GroundPoint to) {
-  const float x = wall.to.x_m - wall.from.x_m, z = wall.to.z_m - wall.from.z_m, squared = square(x) + square(z);
-  const float along = (to.x_m - wall.from.x_m) * x + (to.z_m - wall.from.z_m) * z;
-  const float part = squared > 0 ? std::clamp(along / squared, 0.0F, 1.0F) : 0;
-  return {wall.from.x_m + part * x, wall.from.z_m + part * z};
 }
 
 /// One choice: what the walker may do, and what each costs.
@@ -120,7 +115,7 @@ class Choice {
  private:
   /// Trials may come as near to somebody as `apart_m`; or, where the claim comes nearer, as near as that.
   void keep_clear(const Lanes<float>& least_m2, float apart_m) {
-    const float least = std::min(square(apart_m), least_m2[claimed]);
+    const float least = square(std::min(apart_m, std::max(std::sqrt(least_m2[claimed]) - rounding_m, 0.0F)));
     for (std::size_t l = 1; l < lane_count; ++l) open_[l] = least_m2[l] >= least ? open_[l] : 0;
   }
 
@@ -168,7 +163,6 @@ class Choice {
     for (const Wall& wall : around_.walls) {
       if (!box_of(wall.from, wall.to, 0).meets(box_, mine_.radius_m)) continue;
       nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, least_m2_);
-      least_m2_[claimed] = square(std::max(std::sqrt(least_m2_[claimed]) - brushes_m, 0.0F));
       keep_clear(least_m2_, mine_.radius_m - brushes_m);
     }
   }
@@ -264,12 +258,14 @@ class Choice {
     const Trial<Lanes<float>>& trial = trials_.trial;
     const float pace = trial.speed_m_s[1];
     const GroundPoint go = wished_start(pace);
+    const bool goes = go.x_m != 0 || go.z_m != 0;  // else they face where they want to go, and wait
     const float off =
-        go.x_m == 0 && go.z_m == 0 ? 0 : wrapped(static_cast<float>(exact::atan2(go.x_m, go.z_m)) - from_.heading_rad);
+        goes ? wrapped(static_cast<float>(exact::atan2(go.x_m, go.z_m)) - from_.heading_rad) : trials_.wish_rad;
     const bool as_wished = go.x_m * sine(course_.heading_rad) + go.z_m * cosine(course_.heading_rad) > 0.85F * pace;
-    constexpr float of_turning_there = 0.05F, of_turning_away = 0.2F, of_turning_on_spot = 0.1F, of_slower = 0.3F;
-    constexpr float of_sidling = 0.3F;  // where the way is open: to turn and walk is faster
-    constexpr float turns_from = 0.5F;  // rad
+    constexpr float of_turning_there = 0.05F, of_turning_little = 0.15F, of_turning_away = 0.2F;
+    constexpr float of_turning_on_spot = 0.1F, of_slower = 0.3F;
+    constexpr float of_sidling = 0.3F;                    // where the way is open: to turn and walk is faster
+    constexpr float turns_from = 0.5F, least_off = 0.1F;  // rad; between them: if no step is open that leads there
     constexpr float of_waiting_per_s = 0.3F, most_of_waiting = 1;
     const float of_staying = std::clamp(of_waiting_per_s * (course_.waits_s - patience_s), 0.0F, most_of_waiting);
     Lanes<float> speed, heading = end_.heading_rad, more{};
@@ -283,10 +279,17 @@ class Choice {
       if (kind == TrialKind::stay) more[l] = of_staying;
       if (kind == TrialKind::go) more[l] = of_slower * square(trial.speed_m_s[l] - pace);
       if (kind != TrialKind::turn) continue;
-      const bool there = std::fabs(off) > turns_from && off * trial.turn_rad[l] > 0;  // to walk there from then on
+      const bool there = std::fabs(off) > least_off && off * trial.turn_rad[l] > 0;  // to walk there from then on
       if (there) heading[l] = from_.heading_rad + off;
+      if (there && !goes) {
+        constexpr float of_facing_it = -0.01F;
+        speed[l] = 0;
+        more[l] = of_staying + of_facing_it;
+        continue;
+      }
+      const bool much = std::fabs(off) > turns_from;
       more[l] = !there      ? of_turning_on_spot + of_staying
-                : as_wished ? of_turning_there
+                : as_wished ? (much ? of_turning_there : of_turning_little)
                             : of_turning_away * std::fabs(off);
     }
     off_velocity(speed, heading, go.x_m, go.z_m, cost_);
@@ -326,7 +329,7 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
   StrikePlace<Lanes<float>> footing;
   next_footing(block_of(TableColumn<BodySize>(table)), block_of(TableColumn<StepPlan>(table)),
                block_of(TableColumn<GaitState>(table)), footing);
-  const Course<float> course = row_of(block_of(TableColumn<Course>(table)), striker.lane);
+  Course<float> course = row_of(block_of(TableColumn<Course>(table)), striker.lane);
   const Gait<float> before = row_of(block_of(TableColumn<Gait>(table)), striker.lane);
   StrikePlace<float> from = row_of(footing, striker.lane);
   from.usual = course.usual;
@@ -339,6 +342,9 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
     out.gait.heading_rad = course.heading_rad;
     return;
   }
+  const Claim& mine = around.book.claim(striker.claim);
+  const std::size_t now = mine.at(around.book.instant());
+  course.heading_rad = lane_heading(around.book, around.walls, striker.claim, course, {mine.x_m[now], mine.z_m[now]});
   Choice choice(around, striker, from, course);
   const std::size_t best = choice.best();
   choice.tell(best, out);

@@ -116,8 +116,10 @@ void ClaimBook::remake(BlockOf& at, float radius_h) {
       claim.z_m[s] = ways.z_m[s][l];
     }
     const double heading = double{state.heading_rad[l]} + double{state.turn_rad[l]};
-    claim.x_m_s = plan.to.speed_m_s[l] * static_cast<float>(exact::sin(heading));
-    claim.z_m_s = plan.to.speed_m_s[l] * static_cast<float>(exact::cos(heading));
+    claim.faces_x = static_cast<float>(exact::sin(heading));
+    claim.faces_z = static_cast<float>(exact::cos(heading));
+    claim.x_m_s = plan.to.speed_m_s[l] * claim.faces_x;
+    claim.z_m_s = plan.to.speed_m_s[l] * claim.faces_z;
     if (!courses) go_on(instants(), claim);
     finish(claim);
   }

@@ -25,7 +25,8 @@ struct GroundBox {
   }
 };
 
-/// Where somebody is at the instants from `first` on, and then stays; how fast they go as their step ends.
+/// Where somebody is at the instants from `first` on, and then stays; which way they face and how fast they go as their
+/// step ends.
 struct Claim {
   /// Of claims that were made up to that many instants ago a whole row of way_samples is still there.
   static constexpr std::size_t kept = 2 * way_samples;
@@ -40,7 +41,7 @@ struct Claim {
   std::uint32_t first;
   Source source;
   GroundBox box;
-  float x_m_s, z_m_s, radius_m;
+  float faces_x, faces_z, x_m_s, z_m_s, radius_m;
   bool yields;  // avoids others too
   std::array<float, kept> x_m, z_m;
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numbers>
 #include <vector>
 
 #include "components/avoidance.h"
@@ -17,32 +16,14 @@
 #include "systems/avoidance/trials.h"
 #include "systems/simulation.h"
 #include "systems/simulation_world.h"
+#include "tests/avoidance/walkers.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/simulation/reseal.h"
 
 namespace mobil {
 namespace {
 
-constexpr float pi = std::numbers::pi_v<float>;
 constexpr float tick_s = 1.0F / 60;
-
-float drawn(std::uint64_t a, std::uint64_t b) {
-  return static_cast<float>(mix64(mix64(a + 1) ^ b) >> 40) * 0x1p-24F;
-}
-
-Entity walker(Simulation& simulation, float speed_m_s, float x_m = 0, float z_m = 0, float heading_rad = 0,
-              float height_m = 1.72F) {
-  const Entity one =
-      simulation.spawn({.height_m = height_m, .mass_kg = 24 * height_m * height_m}, {.speed_m_s = speed_m_s}).value();
-  EXPECT_TRUE(simulation.place(one, x_m, z_m, heading_rad));
-  return one;
-}
-
-Root root_of(const Simulation& simulation, Entity one) {
-  Root root;
-  EXPECT_TRUE(simulation.roots({&one, 1}, {&root, 1}));
-  return root;
-}
 
 void tick_to_strike(Simulation& simulation, Entity one) {
   const std::uint32_t steps = simulation.get<GaitState>(one)->steps;

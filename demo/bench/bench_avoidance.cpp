@@ -43,7 +43,7 @@ class FlowScene {
     for (int i = 0; i < columns * rows && static_cast<int>(people_.size()) < count; ++i) {
       const auto number = static_cast<std::uint64_t>(i);
       Person one;
-      one.back = drawn(number, 3) < 0.5F;
+      one.back = flow != Flow::one_way && drawn(number, 3) < 0.5F;
       one.speed_m_s = 1.34F + 0.35F * (drawn(number, 4) + drawn(number, 5) - 1);
       const float height = 1.72F + 0.15F * (drawn(number, 6) + drawn(number, 7) - 1);
       const auto spread = [&](float cell, std::uint64_t what) {
@@ -72,7 +72,7 @@ class FlowScene {
 
   std::size_t people() const { return people_.size(); }
   double choosing_s = 0, way_m = 0, person_s = 0, stood_s = 0, nearest_m = 0, near = 0, looks = 0;
-  double in_middle_m2 = 0, ticks = 0;  // people a m²
+  double in_middle = 0;  // of the square: people, summed over ticks
   std::size_t passed = 0;
 
   void tick(bool counts) {
@@ -90,8 +90,7 @@ class FlowScene {
     for (std::size_t i = 0; i < people_.size(); ++i) move(people_[i], roots_[i], counts);
     come_in_again();
     if (!counts) return;
-    in_middle_m2 += density();
-    ticks += 1;
+    if (flow_ == Flow::crossing) in_middle += static_cast<double>(count_in_middle());
     choosing_s += spent.count();
     person_s += simulation_.tick_s() * static_cast<double>(people_.size());
     if (now % 6 == 0) look_who_is_near();
@@ -111,8 +110,9 @@ class FlowScene {
 
   float heading(const Person& one) const {
     if (round()) {
-      constexpr float looks_ahead_m = 1.7F;  // as steps follow a heading late: whoever walks alone stays in their lane
-      const float way = flow_ == Flow::both_ways && one.back ? -1 : 1;
+      constexpr float looks_ahead_m =
+          1.7F;  // steps follow a heading late: with this a lone walker drifts neither out nor in
+      const float way = one.back ? -1 : 1;
       const float at = std::atan2(one.z_m, one.x_m) + way * looks_ahead_m / std::hypot(one.x_m, one.z_m);
       return std::atan2(-way * std::sin(at), way * std::cos(at));
     }
@@ -151,9 +151,7 @@ class FlowScene {
     const auto x = static_cast<float>(root.x_m), z = static_cast<float>(root.z_m);
     const bool sideways = flow_ == Flow::crossing && one.back;
     const float turned = (z - one.z_m) * x - (x - one.x_m) * z;
-    const float on = round()    ? (flow_ == Flow::both_ways && one.back ? -turned : turned) / std::hypot(x, z)
-                     : sideways ? z - one.z_m
-                                : x - one.x_m;
+    const float on = round() ? (one.back ? -turned : turned) / std::hypot(x, z) : sideways ? z - one.z_m : x - one.x_m;
     if (counts) {
       way_m += static_cast<double>(on);
       passed += flow_ == Flow::door && one.x_m < 0 && x >= 0;
@@ -202,12 +200,10 @@ class FlowScene {
     });
   }
 
-  /// How many people a m² are in the middle of the square.
-  double density() const {
-    const auto inside = std::count_if(people_.begin(), people_.end(), [&](const Person& one) {
+  std::ptrdiff_t count_in_middle() const {
+    return std::count_if(people_.begin(), people_.end(), [&](const Person& one) {
       return std::max(std::fabs(one.x_m), std::fabs(one.z_m)) < 0.25F * square_m;
     });
-    return static_cast<double>(inside) / static_cast<double>(0.25F * square_m * square_m);
   }
 
   /// Who has come in may have been put where somebody was about to be: they count from when they are clear of everybody
@@ -253,15 +249,16 @@ void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a
   const int seconds = run.quick ? 6 : full_s;
   FlowScene scene(flow, people_a_m2);
   for (int tick = 0; tick < seconds * 60; ++tick) scene.tick(tick >= seconds * 20);
-  const std::string of = fmt::format("{} people, {} s", scene.people(), seconds);
+  std::string of = fmt::format("{} people, {} s", scene.people(), seconds);
+  if (flow == Flow::crossing) {
+    constexpr double middle_m2 = 0.25 * square_m * square_m;
+    of += fmt::format("; {:.2f} a m² in the middle", scene.in_middle / (seconds * 40 * middle_m2));
+  }
   if (flow == Flow::door) {
     add(run, name + ".people_per_s", static_cast<double>(scene.passed) / (seconds * 2 / 3.0), "/s", of);
   } else {
     add(run, name + ".m_per_s", scene.way_m / scene.person_s, "m/s",
-        of +
-            (flow == Flow::crossing ? fmt::format("; {:.2f} a m² in the middle", scene.in_middle_m2 / scene.ticks)
-                                    : "") +
-            fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
+        of + fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
   }
   add(run, name + ".overlap_cm", 100 * scene.nearest_m, "cm",
       fmt::format("the most; {:.2f} % of people by more than 5 cm", 100 * scene.near / std::max(scene.looks, 1.0)));

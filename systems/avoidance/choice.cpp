@@ -342,9 +342,7 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
     out.gait.heading_rad = course.heading_rad;
     return;
   }
-  const Claim& mine = around.book.claim(striker.claim);
-  const std::size_t now = mine.at(around.book.instant());
-  course.heading_rad = lane_heading(around.book, around.walls, striker.claim, course, {mine.x_m[now], mine.z_m[now]});
+  course.heading_rad = lane_heading(around.book, around.walls, striker.claim, course);
   Choice choice(around, striker, from, course);
   const std::size_t best = choice.best();
   choice.tell(best, out);

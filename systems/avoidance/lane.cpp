@@ -13,14 +13,13 @@ constexpr int lanes_aside = 4, lanes_across = 2 * lanes_aside + 1;
 constexpr float lane_apart_m = 0.4F, lane_breadth_m = 0.7F;
 /// How far people are looked at, and how far ahead the walker is to be in the lane, m.
 constexpr float lanes_ahead_m = 7, joins_ahead_m = 1.5F;
-/// What somebody who comes costs; a lane, by the square of its distance, /m²; the left where anybody comes, /m; a wall
-/// that is so near.
-constexpr float of_comer = 0.5F, of_changing = 0.1F, of_left = 1, of_wall = 0.3F, wall_clear_m = 0.35F;
+/// What an oncoming walker in the lane costs; changing to a lane, by the square of its distance, /m²; lanes to the left
+/// where many come, /m; a wall within wall_clear_m of the lane.
+constexpr float of_oncoming = 0.5F, of_changing = 0.1F, of_left = 1, of_wall = 0.3F, wall_clear_m = 0.35F;
 /// Where lanes are tried for walls, m ahead; a lane that a wall closes.
 constexpr float tried_ahead_m = 0.8F, closed = 10;
-/// From what opposition in the lane straight on, and from how many who come, the walker keeps to the right for all it
-/// is worth.
-constexpr float opposed = 0.2F, many = 6;
+/// Keeping right counts fully from this sum of weights in the lane straight on and from this many oncoming walkers.
+constexpr float opposed = 0.2F, many_oncoming = 6;
 /// Sums are of whole numbers, so that the order of people does not matter.
 constexpr float unit = 1.0F / 4096;
 
@@ -37,37 +36,41 @@ GroundPoint nearest_of(const Wall& wall, GroundPoint to) {
   return {wall.from.x_m + part * x, wall.from.z_m + part * z};
 }
 
-float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint32_t me, const Course<float>& course,
-                   GroundPoint at) {
+float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint32_t me, const Course<float>& course) {
+  const Claim& mine = book.claim(me);
+  const std::size_t now_at = mine.at(book.instant());
+  const GroundPoint at = {mine.x_m[now_at], mine.z_m[now_at]};
   const auto ahead_x = static_cast<float>(exact::sin(course.heading_rad));
   const auto ahead_z = static_cast<float>(exact::cos(course.heading_rad));
   const float left_x = ahead_z, left_z = -ahead_x;
-  std::int32_t come[lanes_across] = {};
-  int comers = 0;
+  std::int64_t weight[lanes_across] = {};  // of oncoming walkers, in units
+  int oncoming = 0;
   constexpr float half = 0.5F * lanes_ahead_m;
   book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, half, [&](std::uint32_t other) {
     const Claim& claim = book.claim(other);
-    constexpr float least_against = 0.3F;  // of the cosine: who crosses does not count
+    constexpr float least_against = 0.3F;  // a cosine: people who cross do not count
     const float against = -(claim.faces_x * ahead_x + claim.faces_z * ahead_z) - least_against;
     if (other == me || !(against > 0)) return;
     const std::size_t now = claim.at(book.instant());
     const float x = claim.x_m[now] - at.x_m, z = claim.z_m[now] - at.z_m;
     const float ahead = x * ahead_x + z * ahead_z, left = x * left_x + z * left_z;
     if (!(ahead >= 0 && ahead <= lanes_ahead_m)) return;
-    ++comers;
+    ++oncoming;
     const float counts = 2 * against * (1 - ahead / lanes_ahead_m);
     for (int i = 0; i < lanes_across; ++i) {
       const float off = std::fabs(left - lane_apart_m * static_cast<float>(i - lanes_aside));
-      come[i] += static_cast<std::int32_t>(counts * std::max(0.0F, 1 - off / lane_breadth_m) * (1 / unit));
+      weight[i] += static_cast<std::int64_t>(counts * std::max(0.0F, 1 - off / lane_breadth_m) * (1 / unit));
     }
   });
 
   float cost[lanes_across];
-  const float crowded = std::min(1.0F, static_cast<float>(comers) / many);
-  const float keeps_right = crowded * of_left * std::min(1.0F, unit * static_cast<float>(come[lanes_aside]) / opposed);
+  const float crowded = std::min(1.0F, static_cast<float>(oncoming) / many_oncoming);
+  const float keeps_right =
+      crowded * of_left * std::min(1.0F, unit * static_cast<float>(weight[lanes_aside]) / opposed);
   for (int i = 0; i < lanes_across; ++i) {
     const float left = lane_apart_m * static_cast<float>(i - lanes_aside);
-    cost[i] = crowded * of_comer * unit * static_cast<float>(come[i]) + of_changing * left * left + keeps_right * left;
+    cost[i] =
+        crowded * of_oncoming * unit * static_cast<float>(weight[i]) + of_changing * left * left + keeps_right * left;
   }
   for (const Wall& wall : walls) {
     const GroundPoint here = nearest_of(wall, at);

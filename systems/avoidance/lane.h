@@ -13,10 +13,9 @@ namespace mobil {
 /// The place of a wall that is nearest to `to`, m.
 GroundPoint nearest_of(const Wall& wall, GroundPoint to);
 
-/// Where to head, rad, for somebody of claim `me` who is at `at` and wants to go as `course` says: toward the lane
-/// beside the way straight on in which fewest people come the other way. Where people come, lanes to the right cost
-/// less, so that the two flows part. Lanes that a wall closes are not taken. From any thread.
-float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint32_t me, const Course<float>& course,
-                   GroundPoint at);
+/// The heading, rad, of the walker whose claim is `me` and who wants to go as `course` says: toward that lane, straight
+/// on or beside it, in which the fewest people come the other way. Where many come, lanes to the right cost less, so
+/// that the two flows part. No lane is behind a wall. From any thread.
+float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint32_t me, const Course<float>& course);
 
 }  // namespace mobil

@@ -148,7 +148,7 @@ TEST(CSurroundings, AllOrNone) {
   EXPECT_EQ(mobil_want(sim, ids.data(), 2, wishes[0], 0), MOBIL_REFUSED);
   EXPECT_EQ(mobil_want(sim, ids.data(), 2, wishes[0], 4), MOBIL_REFUSED);
   EXPECT_EQ(mobil_want(sim, ids.data(), 2, nullptr, 0), MOBIL_REFUSED);
-  EXPECT_EQ(mobil_avoid(sim, ids.data(), 2, 1), MOBIL_OK);  // whoever does already keeps their wish
+  EXPECT_EQ(mobil_avoid(sim, ids.data(), 2, 1), MOBIL_OK);  // people who avoid others already keep their wish
   EXPECT_EQ(sim.hash(), avoiding);
   const float wall[6] = {0, 0, 0, INFINITY, 0, 0};
   EXPECT_EQ(mobil_set_walls(sim, wall, 0, 1), MOBIL_REFUSED);

@@ -198,12 +198,12 @@ void Table::write(std::uint32_t row, std::uint32_t first_word, std::uint32_t wor
   float* to = blocks_[row / lane_count] + first_word * lane_count + row % lane_count;
   const auto* from = static_cast<const std::byte*>(in);
   for (std::size_t w = 0; w < words; ++w) std::memcpy(to + w * lane_count, from + w * word_bytes, word_bytes);
-  if (row % lane_count == 0) park(first_word, words);
+  if (is_parked_as(row)) park(first_word, words);
 }
 
 void Table::copy_from(std::uint32_t row, const Table& other, std::uint32_t other_row) {
   copy_new_from(row, other, other_row);
-  if (row % lane_count == 0) park(0, words_);
+  if (is_parked_as(row)) park(0, words_);
 }
 
 void Table::copy_new_from(std::uint32_t row, const Table& other, std::uint32_t other_row) {

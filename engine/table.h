@@ -92,6 +92,8 @@ class Table {
     std::size_t blocks;
   };
   void park(std::uint32_t first_word, std::uint32_t words);
+  /// Whether the row is what the lanes past the last row are copies of. No other row's writer touches those.
+  bool is_parked_as(std::uint32_t row) const { return row % lane_count == 0 && row / lane_count == rows_ / lane_count; }
   std::size_t chunk_bytes(std::size_t blocks) const;
   static std::size_t alignment_of(std::size_t bytes);
   void add_chunk(std::size_t least_blocks);

@@ -228,9 +228,9 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
   keep_walk_limits(*world_, jobs_, people, gaits, sleep_work_->styles);
   for (std::size_t i = 0, k = 0; i < changes.size(); ++i) {
     if (!asked[i].gait || !changes[i].gait) continue;
-    asked[i].gait = gaits[k++];
-    if (asked[i].asleep && !same_style(gait_of(*world_, changes[i].human)->style, asked[i].gait->style))
-      asked[i].must_wake = true;
+    const Gait<float>& kept = gaits[k++];
+    if (asked[i].asleep && !same_style(kept.style, asked[i].gait->style)) asked[i].must_wake = true;
+    asked[i].gait = kept;
   }
   people.clear();
   for (std::size_t i = 0; i < changes.size(); ++i)

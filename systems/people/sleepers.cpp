@@ -165,19 +165,22 @@ bool is_busy(const World& world, Entity person, const SleepTime& time) {
 }
 
 void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> asked, const SleepTime& time) {
+  constexpr std::uint32_t none = ~0U;
   struct Begins {
     std::uint32_t table;
     Entity entity;
   };
-  std::vector<Begins> begins;  // who is steady
-  for (const AskedSleeper& one : asked) {
-    const auto since = unsettled_of(world, one.entity);
-    if (!since) {
-      begins.push_back({world.locate(one.entity)->table, one.entity});
-    } else if (since->until_tick != 0) {  // steady again since
-      world.set(one.entity, Unsettled<float>{world.get<Asleep>(one.entity)->walk, time.tick, 0});
-    }  // else asked for something else in this tick already
-  }
+  std::vector<Begins> begins(asked.size());  // who is steady, in which table
+  in_parallel(jobs, asked.size(), [&](std::size_t first, std::size_t last) {
+    for (; first < last; ++first) {
+      const Entity one = asked[first].entity;
+      const auto since = unsettled_of(world, one);
+      begins[first] = {since ? none : world.locate(one)->table, one};
+      if (since && since->until_tick != 0)  // steady again since; else asked for something else in this tick already
+        world.set(one, Unsettled<float>{world.get<Asleep>(one)->walk, time.tick, 0});
+    }
+  });
+  std::erase_if(begins, [](const Begins& one) { return one.table == none; });
   std::ranges::stable_sort(begins, {}, &Begins::table);
   std::vector<Entity> people;
   std::vector<Unsettled<Lanes<float>>> since;
@@ -195,17 +198,20 @@ void ask_sleepers(World& world, const Jobs& jobs, std::span<const AskedSleeper> 
     });
     world.remake_many(people, std::array{PartValue{component_part<Unsettled>(), since.data()}}, {}, jobs);
   }
-  for (const auto& [entity, gait] : asked) {
-    const auto place = world.find(entity);
-    SteadyWalk<float> walk{};
-    walk.asked_heading_rad = gait.heading_rad;
-    walk.speed_m_s = gait.speed_m_s;
-    walk.step_length_m = gait.step_length_m;
-    walk.requests = gait.revision | gait.displacement << 16U;
-    constexpr std::size_t first = offsetof(SteadyWalk<float>, asked_heading_rad) / 4;
-    place.table->write(place.row, place.table->column(type_id<Asleep<float>>()) + first, sizeof(walk) / 4 - first,
-                       &walk.asked_heading_rad);
-  }
+  in_parallel(jobs, asked.size(), [&](std::size_t begin, std::size_t end) {
+    for (; begin < end; ++begin) {
+      const auto& [entity, gait] = asked[begin];
+      const auto place = world.find(entity);
+      SteadyWalk<float> walk{};
+      walk.asked_heading_rad = gait.heading_rad;
+      walk.speed_m_s = gait.speed_m_s;
+      walk.step_length_m = gait.step_length_m;
+      walk.requests = gait.revision | gait.displacement << 16U;
+      constexpr std::size_t first = offsetof(SteadyWalk<float>, asked_heading_rad) / 4;
+      place.table->write(place.row, place.table->column(type_id<Asleep<float>>()) + first, sizeof(walk) / 4 - first,
+                         &walk.asked_heading_rad);
+    }
+  });
 }
 
 void end_unsettled(World& world, const Jobs& jobs, const SleepTime& time, UnsettledTables& tables,

@@ -98,24 +98,28 @@ struct Break {
   float value;
 };
 
-/// Sixteen walkers on the way from the usual style to that asked for.
+/// Walkers on the way from the usual style to that asked for: as many as have `lanes_each` lanes of sixteen. Who has
+/// several has several answers foreseen in one look; what is found is the same.
 class StyleBlock {
  public:
-  /// Of those people: at most sixteen.
   StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
-             std::span<const std::size_t> people) {
-    step_share_.fill(1);
+             std::span<const std::size_t> people, std::size_t lanes_each = 1)
+      : people_(people.size()), each_(lanes_each) {
+    for (std::size_t w = 0; w < people_; ++w) {
+      const Gait<float>& gait = gaits[people[w]];
+      Walker& walker = walkers_[w];
+      walker.asked = walker.style = gait.style;
+      walker.asked_m = gait.step_length_m;
+      walker.usual_m = usual_length_m(sizes[people[w]].height_m, gait.speed_m_s);
+    }
     for (std::size_t l = 0; l < lane_count; ++l) {
-      const std::size_t i = people[l < people.size() ? l : 0];
+      const std::size_t i = people[walker_of(l)];
       put_row(sizes[i], size_, l);
       Gait<float>& row = gait_row_[l];
       row = {};
       row.speed_m_s = gaits[i].speed_m_s;
       row.step_length_m = gaits[i].step_length_m;
       row.step_frequency_hz = gaits[i].step_frequency_hz;
-      asked_[l] = tried_[l] = gaits[i].style;
-      asked_m_[l] = gaits[i].step_length_m;
-      usual_m_[l] = usual_length_m(sizes[i].height_m, gaits[i].speed_m_s);
     }
   }
 
@@ -126,63 +130,99 @@ class StyleBlock {
   }
   void draw_nearer() {
     hold_to_limits(Looking::closely);
-    tried_.fill(usual_);
-    step_share_.fill(0);
-    look();
+    for (Walker& walker : walkers()) {
+      walker.style = usual_;
+      walker.step_share = 0;
+    }
+    look_at_walkers();
     for (std::size_t b = 0; b < bound_count; ++b)
       for (std::size_t l = 0; l < lane_count; ++l) held_[b][l] = std::max(held_[b][l], found_.value[b][l]);
-    step_share_.fill(1);
-    drawn_ = still_broken(Looking::closely);
-    for (std::size_t l = 0; l < lane_count; ++l) step_why_[l] = worst(l);
-    if (any(drawn_)) halve([&](std::size_t l, float share) { step_share_[l] = step_why_[l] ? share : 1; });
-    tried_ = asked_;
+    for (Walker& walker : walkers()) walker.step_share = 1;
+    look_at_walkers();
+    for (std::size_t w = 0; w < people_; ++w) walkers_[w].step_why = worst(w * each_);
+    halve([](const Walker& walker) { return walker.step_why.has_value(); },
+          [](Walker& walker, float share) { walker.step_share = share; });
+    for (Walker& walker : walkers()) walker.style = walker.asked;
     const auto broken = still_broken(Looking::closely);
-    for (std::size_t l = 0; l < lane_count; ++l) drawn_[l] = drawn_[l] || broken[l];
-    if (!any(broken)) return;
-    for (std::size_t l = 0; l < lane_count; ++l)
-      if (broken[l]) moved_[l].fill(true);
+    for (std::size_t w = 0; w < people_; ++w) {
+      walkers_[w].moved.fill(broken[w]);
+      walkers_[w].drawn = broken[w] || walkers_[w].step_why;
+    }
     give_back();
-    halve([&](std::size_t l, float share) { tried_[l] = at(l, share); });
+    halve([](const Walker& walker) { return walker.is_moved(); },
+          [](Walker& walker, float share) { walker.style = walker.at(share); });
   }
 
-  bool is_drawn(std::size_t lane) const { return drawn_[lane]; }
-  const GaitStyle& style(std::size_t lane) const { return tried_[lane]; }
-  float step_length_m(std::size_t lane) const { return length_m(lane); }
-  std::vector<StyleChange> changes(std::size_t lane) const {
+  bool is_drawn(std::size_t walker) const { return walkers_[walker].drawn; }
+  const GaitStyle& style(std::size_t walker) const { return walkers_[walker].style; }
+  float step_length_m(std::size_t walker) const { return walkers_[walker].length_m(); }
+  std::vector<StyleChange> changes(std::size_t walker) const {
     std::vector<StyleChange> changes;
-    const float speed_m_s = gait_row_[lane].speed_m_s;
-    if (const auto& why = step_why_[lane])
-      changes.push_back({parameter_count, asked_m_[lane], length_m(lane), why->bound, why->value, speed_m_s});
+    const Walker& of = walkers_[walker];
+    const float speed_m_s = gait_row_[walker * each_].speed_m_s;
+    if (const auto& why = of.step_why)
+      changes.push_back({parameter_count, of.asked_m, of.length_m(), why->bound, why->value, speed_m_s});
     for (std::size_t p = 0; p < parameter_count; ++p) {
       const auto value = gait_parameters[p].value;
-      if (!moved_[lane][p] || asked_[lane].*value == tried_[lane].*value) continue;
-      const Break& why = why_[lane][p];
-      changes.push_back({p, asked_[lane].*value, tried_[lane].*value, why.bound, why.value, speed_m_s});
+      if (!of.moved[p] || of.asked.*value == of.style.*value) continue;
+      changes.push_back({p, of.asked.*value, of.style.*value, of.why[p].bound, of.why[p].value, speed_m_s});
     }
     return changes;
   }
 
  private:
+  static constexpr GaitStyle usual_{};
+
+  struct Walker {
+    GaitStyle asked{}, style{};  // `style`, `step_share`: what is tried, and at the end what is kept
+    float asked_m = 0, usual_m = 0, step_share = 1;
+    std::optional<Break> step_why;
+    std::array<bool, parameter_count> moved{};
+    std::array<Break, parameter_count> why{};
+    bool drawn = false;
+
+    bool is_moved() const {
+      return std::ranges::any_of(moved, [](bool is) { return is; });
+    }
+    /// All that may stay as asked, and the others so far from the usual ones.
+    GaitStyle at(float share) const {
+      GaitStyle there = asked;
+      for (std::size_t p = 0; p < parameter_count; ++p) {
+        const auto value = gait_parameters[p].value;
+        if (moved[p]) there.*value = usual_.*value + share * (asked.*value - usual_.*value);
+      }
+      return there;
+    }
+    float length_m() const { return step_share == 1 ? asked_m : usual_m + step_share * (asked_m - usual_m); }
+  };
+
+  std::span<Walker> walkers() { return std::span(walkers_).first(people_); }
+  std::size_t walker_of(std::size_t lane) const { return lane / each_ < people_ ? lane / each_ : 0; }
   void hold_to_limits(Looking looking) {
     for (std::size_t l = 0; l < lane_count; ++l) {
-      const bool usual_style = same_style(asked_[l], usual_);
+      const bool usual_style = same_style(walkers_[walker_of(l)].asked, usual_);
       for (std::size_t b = 0; b < bound_count; ++b) held_[b][l] = held_to(b, looking, usual_style);
     }
   }
   std::array<bool, lane_count> still_broken(Looking looking) {
-    look(looking);
+    look_at_walkers(looking);
     std::array<bool, lane_count> broken{};
-    for (std::size_t l = 0; l < lane_count; ++l) broken[l] = worst(l).has_value();
+    for (std::size_t w = 0; w < people_; ++w) broken[w] = worst(w * each_).has_value();
     return broken;
+  }
+  void look_at_walkers(Looking looking = Looking::closely) {
+    for (std::size_t l = 0; l < lane_count; ++l) try_in(l, walkers_[walker_of(l)]);
+    look(looking);
+  }
+  void try_in(std::size_t lane, const Walker& walker) {
+    Gait<float>& row = gait_row_[lane];
+    row.style = walker.style;
+    row.step_length_m = walker.length_m();
+    row.step_frequency_hz = walker.asked_m > 0 ? row.speed_m_s / row.step_length_m : 0;
   }
   /// How far the walks go that are tried.
   void look(Looking looking = Looking::closely) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      gait_row_[l].style = tried_[l];
-      gait_row_[l].step_length_m = length_m(l);
-      gait_row_[l].step_frequency_hz = asked_m_[l] > 0 ? gait_row_[l].speed_m_s / length_m(l) : 0;
-      put_row(gait_row_[l], gait_, l);
-    }
+    for (std::size_t l = 0; l < lane_count; ++l) put_row(gait_row_[l], gait_, l);
     walk_extremes(size_, gait_, looking, found_);
   }
   /// What the walk looked at last breaks most, in parts of the limit.
@@ -198,63 +238,90 @@ class StyleBlock {
     }
     return worst;
   }
-  /// All that may stay as asked, and the others so far from the usual ones.
-  GaitStyle at(std::size_t lane, float share) const {
-    GaitStyle style = asked_[lane];
-    for (std::size_t p = 0; p < parameter_count; ++p) {
-      const auto value = gait_parameters[p].value;
-      if (moved_[lane][p]) style.*value = usual_.*value + share * (asked_[lane].*value - usual_.*value);
-    }
-    return style;
-  }
-  float length_m(std::size_t lane) const {
-    return step_share_[lane] == 1 ? asked_m_[lane]
-                                  : usual_m_[lane] + step_share_[lane] * (asked_m_[lane] - usual_m_[lane]);
-  }
-  static bool any(const std::array<bool, lane_count>& lanes) {
-    return std::ranges::any_of(lanes, [](bool is) { return is; });
-  }
-  /// One number after another becomes what was asked, and stays so if nothing breaks.
+  /// One number after another becomes what was asked, and stays so if nothing breaks. A walker's lanes try the next
+  /// numbers, each with those before it: what is tried is right up to the first that breaks something.
   void give_back() {
     static const auto order = giving_back_order();
-    for (const std::size_t p : order) {
-      const auto value = gait_parameters[p].value;
-      std::array<bool, lane_count> given{};
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        given[l] = moved_[l][p] && asked_[l].*value != usual_.*value;
-        moved_[l][p] = false;
-        tried_[l] = at(l, 0);
+    std::array<std::size_t, lane_count> next{};
+    for (;;) {
+      std::array<std::array<std::size_t, lane_count>, lane_count> given{};  // places in `order`
+      std::array<std::size_t, lane_count> count{};
+      bool any = false;
+      for (std::size_t w = 0; w < people_; ++w) {
+        Walker walker = walkers_[w];
+        for (std::size_t k = next[w]; k < parameter_count && count[w] < each_; ++k) {
+          const auto value = gait_parameters[order[k]].value;
+          if (!walker.moved[order[k]]) continue;
+          walker.moved[order[k]] = false;
+          if (walker.asked.*value == usual_.*value) continue;
+          walker.style = walker.at(0);
+          try_in(w * each_ + count[w], walker);
+          given[w][count[w]++] = k;
+          any = true;
+        }
       }
-      if (!any(given)) continue;
+      if (!any) break;
       look();
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const auto breaks = given[l] ? worst(l) : std::nullopt;
-        moved_[l][p] = breaks.has_value();
-        if (breaks) why_[l][p] = *breaks;
+      for (std::size_t w = 0; w < people_; ++w) {
+        Walker& walker = walkers_[w];
+        for (std::size_t c = 0; c < count[w]; ++c) {
+          const std::size_t p = order[given[w][c]];
+          const auto breaks = worst(w * each_ + c);
+          next[w] = given[w][c] + 1;
+          walker.moved[p] = breaks.has_value();
+          if (!breaks) continue;
+          walker.why[p] = *breaks;
+          break;
+        }
       }
     }
+    for (Walker& walker : walkers())
+      for (std::size_t p = 0; p < parameter_count; ++p) {
+        const auto value = gait_parameters[p].value;
+        if (walker.asked.*value == usual_.*value) walker.moved[p] = false;
+      }
   }
-  /// Shares of what was asked, as large as nothing breaks, from that of 0 on; `set` has it tried.
-  template <class Set>
-  void halve(Set set) {
-    std::array<float, lane_count> kept{}, broken_at{};
-    broken_at.fill(1);
-    for (int i = 0; i < halvings; ++i) {
-      for (std::size_t l = 0; l < lane_count; ++l) set(l, 0.5F * (kept[l] + broken_at[l]));
+  /// Shares of what was asked, as large as nothing breaks, from that of 0 on, of whom `of` says; `set` has one tried. A
+  /// walker's lanes try what the next halvings may come to: a binary tree, whose node n has the children 2n and 2n + 1.
+  template <class Of, class Set>
+  void halve(Of of, Set set) {
+    struct Between {
+      float kept, broken_at;
+      float middle() const { return 0.5F * (kept + broken_at); }
+    };
+    int depth = 1;
+    while ((std::size_t{2} << depth) <= each_ + 1) ++depth;
+    std::array<Between, lane_count> now;
+    now.fill({0, 1});
+    const bool none = std::ranges::none_of(walkers(), of);
+    for (int done = 0; done < halvings && !none; done += depth) {
+      std::array<std::array<Between, 2 * lane_count>, lane_count> tree{};
+      for (std::size_t w = 0; w < people_; ++w) {
+        tree[w][1] = now[w];
+        for (std::size_t n = 1; n < std::size_t{1} << depth; ++n) {
+          const Between& at = tree[w][n];
+          tree[w][2 * n] = {at.kept, at.middle()};
+          tree[w][2 * n + 1] = {at.middle(), at.broken_at};
+          Walker walker = walkers_[w];
+          if (of(walker)) set(walker, at.middle());
+          try_in(w * each_ + n - 1, walker);
+        }
+      }
       look();
-      for (std::size_t l = 0; l < lane_count; ++l) (worst(l) ? broken_at : kept)[l] = 0.5F * (kept[l] + broken_at[l]);
+      for (std::size_t w = 0; w < people_; ++w) {
+        std::size_t n = 1;
+        for (int level = 0; level < depth && done + level < halvings; ++level)
+          n = 2 * n + (worst(w * each_ + n - 1) ? 0 : 1);
+        now[w] = tree[w][n];
+      }
     }
-    for (std::size_t l = 0; l < lane_count; ++l) set(l, kept[l]);
+    for (std::size_t w = 0; w < people_; ++w)
+      if (of(walkers_[w])) set(walkers_[w], now[w].kept);
   }
 
-  static constexpr GaitStyle usual_{};
-  std::array<GaitStyle, lane_count> asked_, tried_;
+  std::size_t people_, each_;
+  std::array<Walker, lane_count> walkers_;
   std::array<Gait<float>, lane_count> gait_row_;
-  std::array<std::array<bool, parameter_count>, lane_count> moved_{};
-  std::array<std::array<Break, parameter_count>, lane_count> why_{};
-  std::array<bool, lane_count> drawn_{};
-  std::array<float, lane_count> asked_m_{}, usual_m_{}, step_share_{};
-  std::array<std::optional<Break>, lane_count> step_why_{};
   BodySize<Lanes<float>> size_{};
   Gait<Lanes<float>> gait_{};
   WalkExtremes found_{};
@@ -294,19 +361,19 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
   for (std::size_t i = 0; i < gaits.size(); ++i)
     if (work.breaks[i] != 0) unusual.push_back(i);
   if (unusual.empty()) return;
-  const auto in_blocks = [&](std::span<const std::size_t> people, auto look_at) {
-    in_parallel(jobs, (people.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t first = begin * lane_count; first < std::min(end * lane_count, people.size());
-           first += lane_count) {
-        const auto some = people.subspan(first, std::min(lane_count, people.size() - first));
-        StyleBlock block(sizes, gaits, some);
+  const auto in_blocks = [&](std::span<const std::size_t> people, std::size_t lanes_each, auto look_at) {
+    const std::size_t of_block = lane_count / lanes_each;
+    in_parallel(jobs, (people.size() + of_block - 1) / of_block, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t first = begin * of_block; first < std::min(end * of_block, people.size()); first += of_block) {
+        const auto some = people.subspan(first, std::min(of_block, people.size() - first));
+        StyleBlock block(sizes, gaits, some, lanes_each);
         look_at(some, block);
       }
     });
   };
   // Few come near a limit, fewer break one: those come together in blocks of their own.
   const auto look = [&](std::span<const std::size_t> people, Looking looking) {
-    in_blocks(people, [&](std::span<const std::size_t> some, StyleBlock& block) {
+    in_blocks(people, 1, [&](std::span<const std::size_t> some, StyleBlock& block) {
       const auto broken = block.broken(looking);
       for (std::size_t l = 0; l < some.size(); ++l) work.breaks[some[l]] = static_cast<std::uint8_t>(broken[l]);
     });
@@ -318,14 +385,18 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
   look(work.near, Looking::roughly);
   work.near.assign(unusual.begin(), unusual.end());
   look(work.near, Looking::closely);
-  in_blocks(unusual, [&](std::span<const std::size_t> people, StyleBlock& block) {
+  // As many lanes each as keep all threads at work in one round.
+  std::size_t lanes_each = lane_count;
+  while (lanes_each > 1 && unusual.size() * lanes_each > lane_count * std::max<std::size_t>(jobs.threads, 1))
+    lanes_each /= 2;
+  in_blocks(unusual, lanes_each, [&](std::span<const std::size_t> people, StyleBlock& block) {
     block.draw_nearer();
-    for (std::size_t l = 0; l < people.size(); ++l) {
-      if (!block.is_drawn(l)) continue;
-      const float height_m = sizes[people[l]].height_m;
-      Gait<float>& gait = gaits[people[l]];
-      if (!moved.empty()) moved[people[l]] = block.changes(l);
-      const Gait<float> kept = complete_gait(height_m, gait.speed_m_s, block.step_length_m(l), block.style(l));
+    for (std::size_t w = 0; w < people.size(); ++w) {
+      if (!block.is_drawn(w)) continue;
+      const float height_m = sizes[people[w]].height_m;
+      Gait<float>& gait = gaits[people[w]];
+      if (!moved.empty()) moved[people[w]] = block.changes(w);
+      const Gait<float> kept = complete_gait(height_m, gait.speed_m_s, block.step_length_m(w), block.style(w));
       gait.style = kept.style;
       gait.step_length_m = kept.step_length_m;
       gait.step_frequency_hz = kept.step_frequency_hz;
@@ -336,15 +407,23 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
 
 void keep_walk_limits(const World& world, const Jobs& jobs, std::span<const Entity> people,
                       std::span<Gait<float>> gaits, StyleWork& work) {
+  work.differ.resize(people.size());
+  work.sizes.resize(people.size());
+  in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      work.differ[i] = same_walk(*gait_of(world, people[i]), gaits[i]) ? 0 : 1;
+      if (work.differ[i] != 0) work.sizes[i] = body_size(world, people[i]);
+    }
+  });
   work.others.clear();
-  work.sizes.clear();
   work.asked.clear();
   for (std::size_t i = 0; i < people.size(); ++i) {
-    if (same_walk(*gait_of(world, people[i]), gaits[i])) continue;
+    if (work.differ[i] == 0) continue;
+    work.sizes[work.others.size()] = work.sizes[i];
     work.others.push_back(i);
-    work.sizes.push_back(body_size(world, people[i]));
     work.asked.push_back(gaits[i]);
   }
+  work.sizes.resize(work.others.size());
   keep_walk_limits(jobs, work.sizes, work.asked, work);
   for (std::size_t k = 0; k < work.others.size(); ++k) gaits[work.others[k]] = work.asked[k];
 }

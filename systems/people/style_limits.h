@@ -32,7 +32,7 @@ std::string described(const StyleChange& change);
 /// What looking at styles works in, kept from one time to the next.
 struct StyleWork {
   std::vector<std::size_t> others, unusual, near;
-  std::vector<std::uint8_t> breaks;
+  std::vector<std::uint8_t> breaks, differ;
   std::vector<BodySize<float>> sizes;
   std::vector<Gait<float>> asked;
 };

@@ -67,6 +67,7 @@ Result<void> bench_table1(BenchRun& run);
 Result<void> bench_fem(BenchRun& run);
 Result<void> bench_reduced(BenchRun& run);
 Result<void> bench_paper_figures(BenchRun& run);
+Result<void> bench_threads(BenchRun& run);
 Result<void> bench_relevance(BenchRun& run);
 Result<void> bench_cluster(BenchRun& run);
 Result<void> bench_crowds(BenchRun& run);

@@ -39,12 +39,22 @@ LegMuscles bench_paper_muscles() {
 Jobs BenchScene::jobs() {
   return {&turn_,
           [](void* user, std::size_t count, Jobs::Body body, void* context) {
-            const Turn& turn = *static_cast<Turn*>(user);
-            if (turn.alone) return body(context, 0, count);
-            const Jobs both = turn.two.jobs();
-            both.parallel_for(both.user, count, body, context);
+            Turn& turn = *static_cast<Turn*>(user);
+            const double start_s = wall_now_s();
+            if (turn.now == nullptr) {
+              body(context, 0, count);
+            } else {
+              const Jobs all = turn.now->jobs();
+              all.parallel_for(all.user, count, body, context);
+            }
+            turn.handed_out_s += wall_now_s() - start_s;
+            ++turn.loops;
           },
-          2};
+          static_cast<std::size_t>(Threads().count())};
+}
+
+const Threads& BenchScene::pool(int threads) {
+  return pools_.try_emplace(threads, threads).first->second;
 }
 
 BenchScene::BenchScene(const LegMuscles& choice) : choice_(choice), simulation_({.jobs = jobs()}) {}
@@ -103,25 +113,30 @@ double BenchScene::bytes_per_human() const {
 
 void BenchScene::measure(int threads, int ticks, BenchTick& best) {
   Schedule& schedule = simulation_.schedule();
-  turn_.alone = threads == 1;
-  Series& series = series_[threads - 1];
+  if (threads > 1) turn_.now = &pool(threads);
+  Series& series = series_[threads];
   if (best.system_s.empty()) series = {};
   best.system_s.resize(schedule.systems().size(), 1e9);
   schedule.measure_with(&thread_cpu_now_s);
+  turn_.loops = 0;
   for (int i = 0; i < ticks; ++i) {
+    turn_.handed_out_s = 0;
     const double wall = wall_now_s(), cpu = process_cpu_now_s();
     simulation_.tick();
     series.cpu.push_back(process_cpu_now_s() - cpu);
     series.wall.push_back(wall_now_s() - wall);
+    series.serial_share.push_back(1 - turn_.handed_out_s / series.wall.back());
     for (std::size_t s = 0; s < best.system_s.size(); ++s)
       best.system_s[s] = std::min(best.system_s[s], schedule.timings()[s].last_seconds);
   }
   schedule.measure_with(nullptr);
-  turn_.alone = true;
+  turn_.now = nullptr;
+  best.loops = static_cast<double>(turn_.loops) / ticks;
   best.wall_s = std::ranges::min(series.wall);
   best.wall_median_s = median(series.wall);
   best.cpu_s = std::ranges::min(series.cpu);
   best.cpu_median_s = median(series.cpu);
+  best.serial_share = median(series.serial_share);
 }
 
 double BenchScene::bytes_moved(const System& system) const {

@@ -1,8 +1,9 @@
 #pragma once
-// People with leg muscles, more and more of them in one world, ticked by one thread or by two.
+// People with leg muscles, more and more of them in one world, ticked by any number of threads.
 
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,10 +22,12 @@ LegMuscles bench_reduced_muscles(bool seen);
 LegMuscles bench_paper_muscles();
 
 /// One tick: by the wall's clock, by this process' processor time, and of the latter each system's part in the order of
-/// the schedule; the least of all ticks measured, and the median.
+/// the schedule; the least of all ticks measured, and the median. `serial_share` is the median part of the wall's time
+/// in which the tick's caller worked alone, `loops` how often a tick hands out work.
 struct BenchTick {
   double wall_s = 0, wall_median_s = 0, cpu_s = 0, cpu_median_s = 0;
   std::vector<double> system_s;
+  double serial_share = 0, loops = 0;
 };
 
 class BenchScene {
@@ -51,8 +54,10 @@ class BenchScene {
   /// Bytes of the tables' rows, each.
   double bytes_per_human() const;
 
-  /// By so many threads, one or two. Adds to what was measured before.
+  /// By so many threads, at most as many as the machine has. Adds to what was measured before.
   void measure(int threads, int ticks, BenchTick& best);
+  /// The pool that `measure` works with; of more threads than one.
+  const Threads& pool(int threads);
 
   /// Bytes that a system reads and writes for one human and tick, by its signature, each once (what it looks up of
   /// others not counted); 0 where it has nobody to work on.
@@ -61,23 +66,25 @@ class BenchScene {
   double rows_of(const System& system) const;
 
  private:
-  /// Hands the work on to whoever's turn it is.
+  /// Hands the work on to the pool whose turn it is, or does it where it is nobody's; and how long that takes.
   struct Turn {
-    Threads two{2};
-    bool alone = true;
+    const Threads* now = nullptr;
+    double handed_out_s = 0;
+    std::size_t loops = 0;
   };
   Jobs jobs();
 
   LegMuscles choice_;
+  std::map<int, Threads> pools_;
   Turn turn_;
   Simulation simulation_;
   std::vector<Entity> people_;
   std::size_t drawn_ = 0;
   double spawn_s_ = 0;
   struct Series {
-    std::vector<double> wall, cpu;
+    std::vector<double> wall, cpu, serial_share;
   };
-  Series series_[2];
+  std::map<int, Series> series_;
 };
 
 }  // namespace mobil

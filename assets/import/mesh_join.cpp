@@ -14,7 +14,7 @@ constexpr std::uint32_t no_vertex = ~0U;
 struct PlacedVertex {
   float x, y, z;
   std::uint32_t index;
-  friend auto operator<=>(const PlacedVertex&, const PlacedVertex&) = default;
+  friend auto operator<=>(const PlacedVertex&, const PlacedVertex&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// For each position the first one that is equal. Sorted, not hashed: no file can make it slow.

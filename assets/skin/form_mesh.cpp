@@ -37,8 +37,8 @@ struct Edge {
 };
 
 std::uint64_t packed(const Place& p) {
-  constexpr int bias = 1 << 20;
-  const auto word = [](int v) { return static_cast<std::uint64_t>(v + bias); };
+  constexpr std::uint64_t bias = 1 << 20;
+  const auto word = [](int v) { return static_cast<std::uint64_t>(v) + bias; };
   return word(p.x) | word(p.y) << 21 | word(p.z) << 42;
 }
 struct Hash {

@@ -99,11 +99,12 @@ std::string zsh_option(const Option& option) {
   const std::string help = fmt::format("[{}]", escaped(option.help, "[]:\\"));
   const bool again = std::holds_alternative<std::vector<std::string>*>(option.target);
   const std::string value = takes_value(option) ? fmt::format(":value:{}", zsh_value(option)) : std::string();
+  const std::string others = again ? "*" : fmt::format("({})", fmt::join(names, " "));
+  const std::string_view sign = takes_value(option) ? "=" : "";
   std::vector<std::string> lines;
-  for (const std::string& name : names) {
-    lines.push_back(quoted((again ? "*" : fmt::format("({})", fmt::join(names, " "))) + name +
-                           (takes_value(option) ? "=" : "") + help + value));
-  }
+  lines.reserve(names.size());
+  for (const std::string& name : names)
+    lines.push_back(quoted(fmt::format("{}{}{}{}{}", others, name, sign, help, value)));
   return fmt::format("{}", fmt::join(lines, " "));
 }
 

@@ -132,7 +132,7 @@ Result<void> run_city(const CrowdOptions& asked, Ranks& ranks) {
   CrowdOptions options = asked;
   if (options.cluster.shards == 0) {  // as many as the run had that is gone on with
     const auto saved = ranks.first() ? whole_snapshots(options.cluster.folder) : Result<std::vector<SavedRun>>{};
-    const auto found = ranks.agree(saved ? Result<void>() : tl::unexpected(saved.error()));
+    auto found = ranks.agree(saved ? Result<void>() : tl::unexpected(saved.error()));
     if (!found) return found;
     options.cluster.shards = static_cast<std::uint32_t>(ranks.most(ranks.first() ? saved->front().shards : 0));
   }

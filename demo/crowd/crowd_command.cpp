@@ -12,6 +12,7 @@
 
 #include "assets/files/output_file.h"
 #include "demo/crowd/alive_run.h"
+#include "demo/crowd/city_run.h"
 #include "demo/crowd/crowd_export.h"
 #include "demo/crowd/crowd_options.h"
 #include "demo/crowd/crowd_picture.h"

@@ -94,7 +94,7 @@ Result<void> pulled_apart(Simulation& simulation, Entity human, const Body& body
 Result<void> excited(Simulation& simulation, Entity human, const Body&, int tick) {
   for (const OwnMuscle& own : simulation.muscles(human)) {
     for (const Side side : {Side::right, Side::left}) {
-      const auto done = simulation.set_excitation(human, own.muscle, side, tick % 2 == 0 ? 1.0F : 0.01F);
+      auto done = simulation.set_excitation(human, own.muscle, side, tick % 2 == 0 ? 1.0F : 0.01F);
       if (!done) return done;
     }
   }

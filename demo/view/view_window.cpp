@@ -127,8 +127,9 @@ void ViewWindow::end_frame(const Image& picture, Image* shot) {
                     picture.rgba.data());
   }
   const ImVec2 all = ImGui::GetIO().DisplaySize;
-  ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(parts.texture)),
-                                           {0, 0}, all);  // NOLINT: as ImGui takes it
+  const std::uintptr_t texture = parts.texture;
+  // NOLINTNEXTLINE(performance-no-int-to-ptr): as ImGui takes it
+  ImGui::GetBackgroundDrawList()->AddImage(reinterpret_cast<ImTextureID>(texture), {0, 0}, all);
   ImGui::Render();
   const int w = width(), h = height();
   glViewport(0, 0, w, h);

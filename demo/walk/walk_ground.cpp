@@ -130,10 +130,10 @@ GroundPicture picture_of(const WalkGround& ground, float length_m) {
     return picture;
   }
   constexpr float apart_m = 0.1F;
-  constexpr int columns = static_cast<int>(2 * half_width_m / apart_m + 0.5F);
+  const auto columns = static_cast<std::uint32_t>(std::lround(2 * half_width_m / apart_m));
   const int count = static_cast<int>((length_m + behind_m) / apart_m) + 1;
   for (int row = 0; row <= count; ++row) {
-    for (int column = 0; column <= columns; ++column) {
+    for (std::uint32_t column = 0; column <= columns; ++column) {
       const float x = -half_width_m + apart_m * static_cast<float>(column);
       const float z = -behind_m + apart_m * static_cast<float>(row);
       const TerrainHeight here = ground.at(x, z);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 #include "components/avoidance.h"
 #include "engine/access.h"
@@ -32,7 +33,7 @@ void finish(Claim& claim) {
 }  // namespace
 
 void ClaimBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float radius_h) {
-  every_ticks_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(0.1F / tick_s + 0.5F));
+  every_ticks_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(0.1F / tick_s)));
   instant_ = (tick + every_ticks_) / every_ticks_;  // the first after the tick to come
   first_tick_ = instant_ * every_ticks_ - tick;
   tick_s_ = tick_s;

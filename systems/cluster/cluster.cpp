@@ -107,7 +107,7 @@ Result<void> Cluster::restore() {
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto run = unpack_run(ranks_->share(ranks_->first() ? pack(whole[i]) : std::vector<std::byte>{}));
     if (!run) return tl::unexpected(run.error());
-    const auto done = restore_from(*run);
+    auto done = restore_from(*run);
     if (done) return done;
     if (why.empty()) why = done.error().message;
   }

@@ -41,7 +41,7 @@ class MpiTransport : public Transport {
     MPI_Comm_dup(MPI_COMM_WORLD, &ranks_of_ours_);
     MPI_Comm_rank(ranks_of_ours_, &rank_);
     MPI_Comm_size(ranks_of_ours_, &ranks_);
-    coming_.resize(static_cast<std::size_t>(ranks_ * channel_count));
+    coming_.resize(static_cast<std::size_t>(ranks_) * channel_count);
   }
   /// After an exception nobody can end in order: the others wait for this rank.
   ~MpiTransport() override {
@@ -78,7 +78,7 @@ class MpiTransport : public Transport {
 
   /// A long message comes in while this rank goes on looking: nothing here waits for its sender.
   bool take(int from, Channel channel, std::vector<std::byte>& bytes) override {
-    Coming& coming = coming_[static_cast<std::size_t>(from * channel_count + static_cast<int>(channel))];
+    Coming& coming = coming_[static_cast<std::size_t>(from) * channel_count + static_cast<std::size_t>(channel)];
     for (;;) {
       if (!coming.on_its_way) {
         int there = 0, count = 0;

@@ -140,7 +140,7 @@ Result<void> write_shard(const fs::path& folder, std::uint32_t tick, std::uint32
 
 Result<std::vector<std::byte>> read_shard(const fs::path& folder, std::uint32_t tick, std::uint32_t shard) {
   const fs::path path = shard_file(folder, tick, shard);
-  const auto sealed = read_bytes(path);
+  auto sealed = read_bytes(path);
   if (!sealed) return sealed;
   const auto message = open_message(*sealed, MessageKind::shard);
   if (!message) return fail(fmt::format("{}: {}", path.string(), message.error().message));

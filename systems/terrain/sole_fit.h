@@ -19,6 +19,7 @@ struct SoleGround {
   static constexpr float front_h = static_cast<float>(fraction::ball_forward + fraction::toes_length);
   static constexpr float apart_h = (back_h + front_h) / static_cast<float>(under - 1);
   /// The place nearest to the ankle of a foot that is not moved.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): lround is not constexpr
   static constexpr std::size_t ankle = moves + static_cast<std::size_t>(back_h / apart_h + 0.5F);
   /// Ahead of the ankle, of the walker's height.
   static constexpr float ahead_h(std::size_t place) {

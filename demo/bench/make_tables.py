@@ -55,6 +55,19 @@ TABLES = {
         ("at the door", "avoidance.door.overlap_cm", CM),
         ("choosing, a person and tick, crossing, 1", "avoidance.crossing_1.us_per_human_tick", US),
     ],
+    "threads": [
+        ("serial share of a tick", "threads.unseen.serial_share", PERCENT),
+        ("2 threads against 1", "threads.unseen.2.speedup", TIMES),
+        ("4", "threads.unseen.4.speedup", TIMES),
+        ("8", "threads.unseen.8.speedup", TIMES),
+        ("16", "threads.unseen.16.speedup", TIMES),
+        ("16, as the model predicts", "threads.unseen.16.speedup_predicted", TIMES),
+        ("64, as the model predicts", "threads.unseen.64.speedup_predicted", TIMES),
+        ("everybody compact: serial share of a tick", "threads.compact.serial_share", PERCENT),
+        ("2 threads against 1", "threads.compact.2.speedup", TIMES),
+        ("16", "threads.compact.16.speedup", TIMES),
+        ("16, as the model predicts", "threads.compact.16.speedup_predicted", TIMES),
+    ],
     "muscles": [
         ("a step of 81 nodes, explicit, one stiffness for all", "fem.ecd81.shared.us_per_step", US),
         ("its share of the core's multiply-adds", "fem.ecd81.shared.peak_fraction", PERCENT),
@@ -88,7 +101,8 @@ def machines(folder):
         told = json.loads(file.read_text())
         machine = told["machine"]
         cores = f"{machine['cores']} core" + ("s" if machine["cores"] != 1 else "")
-        heading = f"{machine['cpu']}, {cores}, {machine['target']}"
+        processor = machine["cpu"].replace("(R)", "").replace(" Processor", "")
+        heading = f"{processor}, {cores}, {machine['target']}"
         found.setdefault(heading, {}).update({row["name"]: row["value"] for row in told["results"]})
     return list(found.items())
 

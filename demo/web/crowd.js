@@ -1,8 +1,9 @@
 // A crowd in one draw: 48 matrices a person go to the graphics card as they lie, as rows of a texture; a segment is the
-// ellipsoid that fills the box of its bone. Everybody keeps to a lane, whose people walk at one speed.
+// ellipsoid that fills the box of its bone. Everybody keeps to a lane, whose people walk at one speed; or they go four
+// ways and keep clear of each other.
 import * as THREE from 'three';
 
-const lane_m = 1.1, apart_m = 1.6, length_m = 60;
+const lane_m = 1.1, apart_m = 1.6, length_m = 60, room_m2 = 4;
 const vertexShader = `
 uniform sampler2D poses; uniform vec3 fogColour;
 in float segment; in vec4 look; out vec3 colour;
@@ -39,12 +40,36 @@ function requests(count) {
   return all;
 }
 
+/** As many on a place `length_m` long, with `room_m2` each, who go ahead, back, and to both sides. */
+function requestsAllOver(count, from) {
+  const next = random(7), broad_m = Math.max(20, (count * room_m2) / length_m), all = [];
+  const even = (x) => 2 * Math.ceil(x / 2);  // so that nobody stands in the middle, where the person does
+  const columns = even(Math.sqrt((count * broad_m) / length_m)), rows = even(count / columns);
+  const within = (cell, cells, all_m) => ((cell + 0.3 + 0.4 * next()) / cells - 0.5) * all_m;
+  for (let i = 0; i < count; ++i) {
+    const height = 1.55 + 0.35 * next(), x = within(i % columns, columns, broad_m), z = within(Math.floor(i / columns), rows, length_m);
+    all.push({
+      height_m: height, mass_kg: height * height * (20 + 7 * next()), constitution: Math.floor(4 * next()), speed_m_s: 1.1 + 0.5 * next(),
+      heading_rad: [0, Math.PI, Math.PI / 2, -Math.PI / 2][Math.floor(4 * next())], place: [from.x + x, 0, from.z + z],
+    });
+  }
+  return { all, broad_m };
+}
+
 export class Crowd {
-  /** `figure`: whose bones' boxes everybody's segments are, in proportion to height. */
-  constructor(world, count, figure, height_m, parent) {
+  /** `figure`: whose bones' boxes everybody's segments are, in proportion to height. `clear`: they keep clear of each
+   *  other, and are all round `from`. */
+  constructor(world, count, figure, height_m, parent, clear, from) {
     this.world = world;
-    this.asked = requests(count);
-    this.people = world.spawn(this.asked);
+    this.clear = clear;
+    if (clear) ({ all: this.asked, broad_m: this.broad_m } = requestsAllOver(count, from));
+    else this.asked = requests(count);
+    // Who keeps clear starts from standing: of two who walk already, and meet at once, none could stop in time.
+    this.people = world.spawn(this.asked.map((r) => (clear ? { ...r, speed_m_s: 0 } : r)));
+    if (clear) {
+      world.avoid(this.people);
+      world.want(this.people, this.asked.map((r) => [r.speed_m_s, r.heading_rad]));
+    }
     const { geometry, looks } = this.#geometry(figure, height_m);
     this.looks = looks;
     this.texture = new THREE.DataTexture(new Float32Array(576 * count), 144, count, THREE.RGBAFormat, THREE.FloatType);
@@ -100,20 +125,33 @@ export class Crowd {
       else this.#colour(i, 0.05 + 0.9 * hot, 0.25 * (1 - Math.abs(2 * hot - 1)) + 0.05, 0.9 * (1 - hot) + 0.03);
     }
   }
-  /** Who has fallen behind the walker at `z`, or come too far ahead of him, goes on at the other end of the street. */
-  wrap(z, matrices) {
-    const away = [];
-    for (let i = 0; i < this.people.count; ++i) {
-      const at = matrices[576 * i + 11];
-      if (Math.abs(at - z) > 0.6 * length_m) away.push([i, at - 1.2 * length_m * Math.sign(at - z)]);
+  /** Who has fallen behind the walker at (x, z), or come too far ahead of him, goes on at the other end of the street. Of
+   *  those who keep clear, where nobody is; and who is too far aside turns back. */
+  wrap(x, z, matrices) {
+    const away = [], places = Array.from({ length: this.people.count }, (_, i) => [matrices[576 * i + 3], matrices[576 * i + 11]]);
+    places.forEach((at, i) => {
+      if (Math.abs(at[1] - z) > 0.6 * length_m) away.push([i, at[1] - 1.2 * length_m * Math.sign(at[1] - z)]);
+      if (this.clear && Math.abs(at[0] - x) > 0.5 * this.broad_m) this.#turn(i, at[0] > x ? -Math.PI / 2 : Math.PI / 2);
+    });
+    for (const [i, to] of away) {
+      const { place, heading_rad } = this.asked[i], across = this.clear ? places[i][0] : place[0];
+      // Three metres are what two who meet need to stop.
+      if (this.clear && places.some((at) => Math.hypot(at[0] - across, at[1] - to) < 3)) continue;
+      this.world.place(this.people.slice(i), [across, 0, to], heading_rad);
+      places[i] = [across, to];
     }
-    for (const [i, to] of away) this.world.place(this.people.slice(i), [this.asked[i].place[0], 0, to], this.asked[i].heading_rad);
   }
-  pose(z) {
+  #turn(i, heading_rad) {
+    const asked = this.asked[i];
+    if (asked.heading_rad === heading_rad) return;
+    asked.heading_rad = heading_rad;
+    this.world.want(this.people.slice(i), [[asked.speed_m_s, heading_rad]]);
+  }
+  pose(x, z) {
     const matrices = this.world.matrices(this.people);
     this.texture.image.data = matrices;
     this.texture.needsUpdate = true;
-    this.wrap(z, matrices);
+    this.wrap(x, z, matrices);
   }
   drop() {
     this.mesh.removeFromParent();

@@ -70,7 +70,7 @@ export class Figure {
       bone.matrix.set(...m.subarray(at, at + 12), 0, 0, 0, 1);
       bone.matrixWorldNeedsUpdate = true;
     }
-    const place = { x: m[3], z: m[11] };
+    const place = { x: m[3], y: m[7], z: m[11] };
     this.buffer.array.set(this.surfaces.write(person));
     this.buffer.needsUpdate = true;
     return place;

@@ -33,9 +33,9 @@ function alone(of, first_buffer, shapes = []) {
   return mesh;
 }
 
-/** A stride from now on, on the spot: bones as nodes that move, muscles as shapes between which is blended. The world
- *  is put back to where it was. As bytes. */
-export async function strideAsGlb(world, person, figure, stride_s, shapes = 20) {
+/** A stride from now on, on the spot: bones as nodes that move, muscles as shapes between which is blended. `step` makes
+ *  so many ticks; the world is put back to where it was. As bytes. */
+export async function strideAsGlb(world, person, figure, stride_s, step, shapes = 20) {
   const before = world.save(), ticks = Math.max(1, Math.round(stride_s / world.tick_s / shapes));
   const times = [], flesh = [], matrices = [];
   for (let k = 0; k <= shapes; ++k) {
@@ -44,7 +44,7 @@ export async function strideAsGlb(world, person, figure, stride_s, shapes = 20) 
     flesh.push(figure.surfaces.write(person, from).slice());
     for (let s = 0; s < 48; ++s) for (let i = 0; i < 3; ++i) m[12 * s + 4 * i + 3] -= from[i];
     matrices.push(m);
-    if (k < shapes) world.tick(ticks);
+    if (k < shapes) step(ticks);
   }
   world.restore(before);
 

@@ -4,8 +4,9 @@ import { attempt, choice, slider, toggle } from './controls.js';
 import { Crowd } from './crowd.js';
 import { Figure } from './figure.js';
 import { download, strideAsGlb } from './files.js';
+import { Ground, groundNames } from './ground.js';
 import { drawTrace, drawWays } from './plots.js';
-import { fromAddress, methodNames, request, toAddress, usual } from './scene.js';
+import { fromAddress, methodNames, request, toAddress, usual, wish } from './scene.js';
 import { Stage } from './stage.js';
 import { Trace, groups } from './trace.js';
 
@@ -29,6 +30,7 @@ class Page {
       element('refusal').textContent = `${why}; what is usual is shown instead`;
     }
     this.#controls();  // which hold the scene that is shown
+    this.grounded();
     this.crowded();
     this.chosen();
   }
@@ -57,10 +59,10 @@ class Page {
   /** A new body; all or nothing. */
   respawn() {
     const { world, scene } = this;
-    const at = this.figure ? world.matrices(this.person).slice(0, 12) : [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0];
+    const at = this.#place();
     const muscles = Object.fromEntries(Object.entries(this.#muscles()).filter(([, v]) => v !== undefined));
     // Muscles that follow moments want forces first.
-    const person = world.spawn([{ ...request(scene, this.mobil.style), place: [0, 0, at[11]] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
+    const person = world.spawn([{ ...request(scene, this.mobil.style), place: [scene.clear ? at.x : 0, 0, at.z] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
     try {
       if (scene.forces || scene.pull === 2) world.setForces(person);
       if (scene.pull) world.setMuscles(person, muscles);
@@ -76,12 +78,20 @@ class Page {
       throw error;
     }
     this.person = person;
+    if (scene.clear) this.#keepClear();
+    if (this.ground) world.setOnGround(person);
     this.trace.clear();
     this.#curves();
     if (this.choosing) this.world.manage(this.person);
   }
+  /** Of the person's pelvis. */
+  #place() {
+    const m = this.figure ? this.world.matrices(this.person) : [];
+    return { x: m[3] ?? 0, z: m[11] ?? 0 };
+  }
   walk() {
     this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
+    if (this.scene.clear) this.world.want(this.person, [wish(this.scene)]);
     this.#curves();
   }
   #curves() {
@@ -100,9 +110,31 @@ class Page {
   crowded() {
     if (this.crowd) this.crowd.drop();
     this.crowd = undefined;
-    if (this.scene.crowd > 0) this.crowd = new Crowd(this.world, this.scene.crowd, this.figure, this.scene.height, this.stage.scene);
-    if (this.choosing && this.crowd) this.world.manage(this.crowd.people);
+    const { world, scene } = this;
+    if (scene.crowd > 0) this.crowd = new Crowd(world, scene.crowd, this.figure, scene.height, this.stage.scene, scene.clear, this.#place());
+    if (this.ground && this.crowd) world.setOnGround(this.crowd.people);
+    if (this.choosing && this.crowd) world.manage(this.crowd.people);
   }
+  /** Everybody keeps clear of everybody, or all walk as they are told. */
+  cleared() {
+    this.respawn();
+    this.crowded();
+  }
+  #keepClear() {
+    if (!this.avoiding) this.world.startAvoidance();
+    this.avoiding = true;
+    this.world.avoid(this.person);
+    this.world.want(this.person, [wish(this.scene)]);
+  }
+  grounded() {
+    const { world, scene } = this, before = this.ground;
+    before?.drop();
+    if (!groundNames[scene.ground]) scene.ground = 0;
+    this.ground = scene.ground ? new Ground(groundNames[scene.ground], this.stage) : undefined;
+    if (!before === !this.ground) return;
+    for (const people of [this.person, this.crowd?.people].filter(Boolean)) world.setOnGround(people, !!this.ground);
+  }
+
   /** Methods as the scene calls for, or as they are set. */
   chosen() {
     const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
@@ -133,18 +165,27 @@ class Page {
     const { world } = this, began = performance.now();
     for (let i = 0; i < ticks; ++i) {
       if (this.choosing) this.did = world.choose();
-      world.tick();
+      this.#tick();
       this.trace.sample(world, this.person);
     }
     if (ticks) this.told.tick = soft(this.told.tick, (performance.now() - began) / ticks);
   }
+  #tick(ticks = 1) {
+    for (let i = 0; i < ticks; ++i) {
+      if (this.scene.clear) this.world.steer();
+      if (this.ground) this.world.updateGround(this.ground.heights);
+      this.world.tick();
+    }
+  }
   draw() {
     const began = performance.now();
-    const { x, z } = this.figure.pose(this.person);
-    this.stage.follow(x, z);
+    const { x, y, z } = this.figure.pose(this.person);
+    this.ground?.follow(x, z);
+    // The camera rises with the hips, not with each stair.
+    this.stage.follow(x, this.ground ? y - 0.53 * this.scene.height : 0, z);
     if (this.choosing) this.#lookAt();
     if (this.crowd) {
-      this.crowd.pose(z);
+      this.crowd.pose(x, z);
       if (this.choosing && this.scene.heat) this.crowd.heat();
     }
     if (this.scene.pull) {
@@ -199,12 +240,14 @@ class Page {
       const unit = n.unit === '1' ? '' : ` ${n.unit}`, step = 10 ** Math.floor(Math.log10((n.high - n.low) / 50)), name = n.name.replace(/_(deg|h|m|cycle|n_per_m)$/, '').replaceAll('_', ' ');
       slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step, unit, usual: n.usual, act: walk });
     }
+    choice('walk', { id: 'ground', name: 'ground', title: 'what everybody walks on', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
     choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: anew });
     toggle('muscles', { id: 'inertia', name: 'inertia', title: 'muscles feel gravity and how their bones move', holder: scene, key: 'inertia', act: anew });
     toggle('muscles', { id: 'forces', name: 'forces', title: 'ground reaction and joint moments', holder: scene, key: 'forces', act: () => this.world.setForces(this.person, !!scene.forces || scene.pull === 2) });
     slider('crowd', { id: 'people', name: 'people', holder: scene, key: 'crowd', low: 0, high: 5000, step: 20, act: () => this.crowded() });
+    toggle('crowd', { id: 'clear', name: 'keep clear', title: 'all go their ways, step by step where nobody else is', holder: scene, key: 'clear', act: () => this.cleared() });
     toggle('crowd', { id: 'choose', name: 'choose', title: 'each muscle by the cheapest method that this camera calls for', holder: scene, key: 'choose', act: () => this.chosen() });
     slider('crowd', { id: 'tolerance', name: 'error', title: 'how many pixels a muscle may be off, where methods are chosen', holder: scene, key: 'tolerance', low: 0.25, high: 8, step: 0.25, unit: ' px', act: () => {} });
     slider('crowd', { id: 'budget', name: 'budget', title: 'of muscles a tick; 0: none', holder: scene, key: 'budget', low: 0, high: 10, step: 0.1, unit: ' ms', act: () => {} });
@@ -246,13 +289,13 @@ class Page {
     } catch { /* the address bar has it */ }
   }
   /** One stride, as glTF. */
-  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride()); }
+  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride(), (ticks) => this.#tick(ticks)); }
   // How long the right leg's cycle lasts: until its phase is again what it is.
   #stride() {
     const before = this.world.save(), phase = () => this.world.read(c.MOBIL_FEET, this.person)[18];
     let turned = 0, last = phase(), ticks = 0;
     while (turned < 1 && ticks < 300) {
-      this.world.tick();
+      this.#tick();
       ++ticks;
       const now = phase();
       turned += (now - last + 1) % 1;

@@ -18,6 +18,7 @@ export class Stage {
     this.camera.position.set(2.0, 1.25, 3.7);
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.target.set(0, 0.85, 0);
+    this.level_m = 0;
     this.controls.maxPolarAngle = 1.62;
     this.controls.minDistance = 0.4;
     this.controls.maxDistance = 40;
@@ -38,15 +39,21 @@ export class Stage {
     this.#resize();
   }
 
-  /** The camera keeps its place beside (x, z). */
-  follow(x, z) {
-    const { target } = this.controls, dx = x - target.x, dz = z - target.z;
-    this.camera.position.x += dx;
-    this.camera.position.z += dz;
-    target.x = x;
-    target.z = z;
-    this.light.position.set(x + 2, 5, z + 3);
-    this.light.target.position.set(x, 0.5, z);
+  /** Ground instead of the level plane, or (null) the plane again. */
+  stand(ground) {
+    if (this.uneven) this.scene.remove(this.uneven);
+    this.uneven = ground;
+    if (ground) this.scene.add(ground);
+    this.#paint(matchMedia('(prefers-color-scheme: dark)').matches);
+  }
+  /** The camera keeps its place beside (x, y, z), which is on the ground. */
+  follow(x, y, z) {
+    const { target } = this.controls, moved = new THREE.Vector3(x - target.x, y - this.level_m, z - target.z);
+    this.camera.position.add(moved);
+    target.add(moved);
+    this.level_m = y;
+    this.light.position.set(x + 2, y + 5, z + 3);
+    this.light.target.position.set(x, y + 0.5, z);
     this.ground.position.set(x, 0, z);
     this.grid.position.set(Math.round(x), 0.002, Math.round(z));
   }
@@ -73,6 +80,8 @@ export class Stage {
     this.grid = new THREE.GridHelper(120, 120, line, line);
     this.grid.position.set(Math.round(this.controls.target.x), 0.002, Math.round(this.controls.target.z));
     this.scene.add(this.grid);
+    this.ground.visible = this.grid.visible = !this.uneven;
+    this.uneven?.material.color.set(ground);
   }
   #resize() {
     this.renderer.setSize(innerWidth, innerHeight, false);

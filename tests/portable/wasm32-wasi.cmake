@@ -16,4 +16,4 @@ if(MOBIL_RELAXED_SIMD)
   string(APPEND CMAKE_CXX_FLAGS_INIT " -mrelaxed-simd")
 endif()
 # -O0 as a link option: clang runs any wasm-opt in PATH otherwise, and older ones do not know relaxed SIMD.
-set(CMAKE_EXE_LINKER_FLAGS_INIT "-O0 -lwasi-emulated-getpid -Wl,-z,stack-size=1048576")
+set(CMAKE_EXE_LINKER_FLAGS_INIT "-O0 -lwasi-emulated-getpid -Wl,-z,stack-size=1048576 -Wl,--strip-all,--compress-relocations")

@@ -148,6 +148,43 @@ await test('methods are chosen for the camera, and cost is shown', async () => {
   assert.equal(await set(page, 'heat', false) + await set(page, 'choose', false), '');
   await look(page, 2);
 });
+await test('people climb stairs, kerbs and hills', async () => {
+  const flat = await tiles(page);
+  for (const [ground, rise_m] of [[1, 0.1], [2, 0.08], [3, 0.6]]) {
+    assert.equal(await set(page, 'ground', ground), '');
+    const heights = [];
+    for (let i = 0; i < 30; ++i) heights.push(await page.evaluate(() => { mobilPage.step(20); return mobilPage.world.matrices(mobilPage.person)[7]; }));
+    assert.ok(Math.max(...heights) - Math.min(...heights) > rise_m, `ground ${ground}: hips from ${Math.min(...heights)} to ${Math.max(...heights)} m`);
+    await look(page);
+    await page.screenshot({ path: `${shots}/ground${ground}.png` });
+  }
+  assert.ok(differ(flat, await tiles(page)) > 0.02);
+  assert.equal(await set(page, 'ground', 0), '');
+});
+await test('a crowd keeps clear of each other, and goes its ways', async () => {
+  assert.equal(await set(page, 'people', 120), '');
+  assert.equal(await set(page, 'clear', true), '');
+  const places = () => page.evaluate(() => {
+    const { world, crowd, person } = mobilPage, all = [person, crowd.people], out = [];
+    for (const people of all) {
+      const m = world.matrices(people);
+      for (let i = 0; i < people.count; ++i) out.push([m[576 * i + 3], m[576 * i + 11]]);
+    }
+    return out;
+  });
+  let nearest = 9;
+  const first = await places();
+  for (let t = 0; t < 20; ++t) {
+    await look(page, 15);
+    const now = await places();
+    now.forEach((a, i) => now.slice(0, i).forEach((b) => { nearest = Math.min(nearest, Math.hypot(a[0] - b[0], a[1] - b[1])); }));
+  }
+  const last = await places(), gone = last.map((a, i) => Math.hypot(a[0] - first[i][0], a[1] - first[i][1]));
+  await page.screenshot({ path: `${shots}/clear.png` });
+  console.log(`        nearest ${nearest.toFixed(2)} m, gone ${(gone.reduce((a, b) => a + b) / gone.length).toFixed(1)} m in 5 s`);
+  assert.ok(nearest > 0.4 && gone.filter((d) => d > 3).length > 0.9 * gone.length);
+  assert.equal(await set(page, 'clear', false) + await set(page, 'people', 0), '');
+});
 await test('five thousand people walk', async () => {
   assert.equal(await set(page, 'people', 5000), '');
   await look(page, 3);
@@ -171,7 +208,7 @@ await test('keys step and stop time; every control has a name', async () => {
   await page.keyboard.press(' ');
   assert.equal(await page.textContent('#play'), 'Pause');
   await page.keyboard.press(' ');
-  for (const name of ['height', 'speed', 'hamstrings', 'pull', 'people', 'choose']) assert.equal(await page.getByLabel(name, { exact: true }).count(), 1, name);
+  for (const name of ['height', 'speed', 'hamstrings', 'pull', 'ground', 'people', 'keep clear', 'choose']) assert.equal(await page.getByLabel(name, { exact: true }).count(), 1, name);
   assert.match(await page.getAttribute('#angles', 'aria-label'), /hip -?\d+, knee -?\d+, ankle -?\d+ degrees/);
 });
 await test('a table and a stride are files', async () => {

@@ -1,0 +1,43 @@
+#!/usr/bin/env python3
+"""What the ticks of bench.mjs take natively, on one thread: median and best of 200, µs.
+
+Usage: PYTHONPATH=build/release/python demo/web/bench.py
+"""
+
+import time
+
+import mobil
+
+
+def timed(name, body):
+    times = []
+    for _ in range(200):
+        began = time.perf_counter()
+        body()
+        times.append(1e6 * (time.perf_counter() - began))
+    times.sort()
+    print(f"{name:<44} {times[100]:6.0f} ({times[0]:.0f})")
+
+
+def bench(name, count, muscles):
+    world = mobil.World(threads=1)
+    world.spawn(
+        height_m=[1.6 + 0.3 * (i % 17) / 17 for i in range(count)],
+        mass_kg=70,
+        speed_m_s=[1 + 0.5 * (i % 13) / 13 for i in range(count)],
+        place=[[i % 40, 0, i // 40] for i in range(count)],
+        muscles=muscles,
+    )
+    world.tick(300)
+    timed(name, world.tick)
+
+
+def reduced(points):
+    return mobil.muscles(method="reduced", vectors=12, control_points=points)
+
+
+bench("one person, eight muscles, explicit", 1, mobil.muscles(method="ecd"))
+bench("one person, reduced, control points", 1, reduced(1))
+bench("1000 people, bones", 1000, None)
+bench("1000 people, reduced, unseen", 1000, reduced(0))
+bench("1000 people, reduced, control points", 1000, reduced(1))

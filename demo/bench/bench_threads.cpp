@@ -1,4 +1,4 @@
-// One crowd ticked by 1, 2, 4, … threads, and a model of it whose parameters are measured, for machines of more cores.
+// One crowd ticked by 1, 2, 4, … threads, and a model of it for machines of more cores.
 
 #include <fmt/format.h>
 
@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <string>
+#include <vector>
 
 #include "demo/bench/bench.h"
 #include "demo/bench/bench_crowd_scene.h"
@@ -16,35 +17,43 @@ namespace mobil {
 namespace {
 
 /// T(n) = serial + parallel·cost(n)/n + loops·fork(n). `cost` is what a system takes of all threads' time over what it
-/// takes of one; of more threads than there are cores here it is taken for that of all cores. `fork` is what handing
-/// out takes, and grows as the tree by which threads are woken: in proportion to log₂(n).
+/// takes of one, `fork` what handing a loop out takes; both are measured up to the cores that there are. Beyond, cost
+/// stays and fork grows with log₂(n), as a tree that wakes threads does: speedups there are at most those.
 struct ThreadModel {
-  double serial_s = 0, parallel_s = 0, loops = 0, fork_s = 0;  // fork_s: of two threads
-  std::map<int, double> cost;
+  double serial_s = 0, parallel_s = 0, loops = 0;
+  std::map<int, double> cost, fork_s;  // of two threads and more
 
   double tick_s(int threads) const {
-    if (threads == 1) return serial_s + parallel_s;
-    const auto more = cost.upper_bound(threads);
-    const double shared = more == cost.begin() ? 1 : std::prev(more)->second;
-    return serial_s + parallel_s * shared / threads + loops * fork_s * std::log2(threads);
+    if (threads == 1 || cost.empty()) return serial_s + parallel_s;
+    const auto at = [threads](const std::map<int, double>& measured) {
+      const auto more = measured.upper_bound(threads);
+      return more == measured.begin() ? *more : *std::prev(more);
+    };
+    const auto [most, fork] = at(fork_s);
+    const double deeper = std::log2(threads) / std::log2(most);
+    return serial_s + parallel_s * at(cost).second / threads + loops * fork * deeper;
   }
   double speedup(int threads) const { return tick_s(1) / tick_s(threads); }
 };
 
-/// Seconds that an empty loop takes, the least of many.
+/// Seconds from handing out as many bodies as there are threads until all are done, beyond what a body takes: median.
 double fork_s(const Threads& pool) {
-  constexpr int loops = 200;
+  static constexpr double body_s = 20e-6;
   const Jobs jobs = pool.jobs();
-  double least = 1e9;
-  for (int round = 0; round < 50; ++round) {
+  std::vector<double> beyond;
+  for (int round = 0; round < 500; ++round) {
     const double start_s = wall_now_s();
-    for (int i = 0; i < loops; ++i) {
-      jobs.parallel_for(
-          jobs.user, 4 * jobs.threads, [](void*, std::size_t, std::size_t) {}, nullptr);
-    }
-    least = std::min(least, (wall_now_s() - start_s) / loops);
+    jobs.parallel_for(
+        jobs.user, jobs.threads,
+        [](void*, std::size_t begin, std::size_t end) {
+          const double until_s = wall_now_s() + body_s * static_cast<double>(end - begin);
+          while (wall_now_s() < until_s) {
+          }
+        },
+        nullptr);
+    beyond.push_back(wall_now_s() - start_s - body_s);
   }
-  return least;
+  return median(beyond);
 }
 
 double of_systems(const BenchTick& tick) {
@@ -63,16 +72,21 @@ void measure_scene(BenchRun& run, BenchScene& scene, const std::string& name) {
   ThreadModel model{.serial_s = alone.serial_share * alone.wall_s,
                     .parallel_s = (1 - alone.serial_share) * alone.wall_s,
                     .loops = alone.loops,
-                    .fork_s = cores > 1 ? fork_s(scene.pool(2)) : 0,
-                    .cost = {}};
-  for (const auto& [threads, tick] : ticks) model.cost[threads] = of_systems(tick) / of_systems(alone);
+                    .cost = {},
+                    .fork_s = {}};
+  for (const auto& [threads, tick] : ticks) {
+    if (threads == 1) continue;
+    model.cost[threads] = of_systems(tick) / of_systems(alone);
+    model.fork_s[threads] = fork_s(scene.pool(threads));
+  }
   const auto figure = [&](const std::string& what, double value, const std::string& unit, std::string bound) {
     add_figure(run, fmt::format("threads.{}.{}", name, what), value, unit, std::move(bound));
   };
   figure(
       "serial_share", alone.serial_share, "1",
       fmt::format("of {:.2f} ms by one thread; {:.0f} loops a tick are shared out", alone.wall_s * 1e3, alone.loops));
-  if (cores > 1) figure("fork_us", model.fork_s * 1e6, "us", "an empty loop of two threads");
+  for (const auto& [threads, seconds] : model.fork_s)
+    figure(fmt::format("{}.fork_us", threads), seconds * 1e6, "us", "handing a loop out, and waiting for its end");
   for (const auto& [threads, tick] : ticks) {
     if (threads == 1) continue;
     figure(fmt::format("{}.speedup", threads), alone.wall_s / tick.wall_s, "1",
@@ -81,7 +95,7 @@ void measure_scene(BenchRun& run, BenchScene& scene, const std::string& name) {
   }
   for (const int threads : {2, 16, 64}) {
     figure(fmt::format("{}.speedup_predicted", threads), model.speedup(threads), "1",
-           fmt::format("by the model, where memory keeps up: {:.2f} ms", model.tick_s(threads) * 1e3));
+           fmt::format("at most, by the model: {:.2f} ms", model.tick_s(threads) * 1e3));
   }
 }
 

@@ -33,7 +33,7 @@ function alone(of, first_buffer, shapes = []) {
   return mesh;
 }
 
-/** A stride from now on, on the spot: bones as nodes that move, muscles as shapes between which is blended. `step` makes
+/** A stride from now on, on the spot (and on stairs or hills up or down from there): bones as nodes that move, muscles as shapes between which is blended. `step` makes
  *  so many ticks; the world is put back to where it was. As bytes. */
 export async function strideAsGlb(world, person, figure, stride_s, step, shapes = 20) {
   const before = world.save(), ticks = Math.max(1, Math.round(stride_s / world.tick_s / shapes));

@@ -54,7 +54,8 @@ function squares() {
 }
 
 function geometry({ at, profile, period_x, period_z }) {
-  const past_x = Math.ceil(reach_m / period_x) * period_x, past_z = Math.ceil(reach_m / period_z) * period_z;
+  // The mesh stands up to half a period off.
+  const past = (period_m) => Math.ceil(reach_m / period_m + 0.5) * period_m, past_x = past(period_x), past_z = past(period_z);
   const rows = [];  // [z, height or null where the ground says it]
   if (profile) for (let z = -past_z; z < past_z; z += period_z) rows.push(...profile.corners.map(([from, height]) => [z + from, height]));
   else for (let z = -past_z; z <= past_z; ++z) rows.push([z, null]);

@@ -17,6 +17,7 @@ class Page {
   constructor(mobil, baked) {
     this.mobil = mobil;
     this.scene = fromAddress(location.search);
+    if (!groundNames[this.scene.ground]) this.scene.ground = usual.ground;
     this.world = mobil.world();
     if (baked) this.#takeBaked(baked);
     this.stage = new Stage(element('view'), { still });
@@ -61,8 +62,10 @@ class Page {
     const { world, scene } = this;
     const at = this.#place();
     const muscles = Object.fromEntries(Object.entries(this.#muscles()).filter(([, v]) => v !== undefined));
+    // Who keeps clear starts from standing, so that there is time to see others.
+    const body = request(scene, this.mobil.style), begins = scene.clear ? { ...body, speed_m_s: 0, step_length_m: undefined } : body;
     // Muscles that follow moments want forces first.
-    const person = world.spawn([{ ...request(scene, this.mobil.style), place: [scene.clear ? at.x : 0, 0, at.z] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
+    const person = world.spawn([{ ...begins, place: [scene.clear ? at.x : 0, 0, at.z] }], { ...muscles, activation: c.MOBIL_NO_ACTIVATION });
     try {
       if (scene.forces || scene.pull === 2) world.setForces(person);
       if (scene.pull) world.setMuscles(person, muscles);
@@ -91,7 +94,10 @@ class Page {
   }
   walk() {
     this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
-    if (this.scene.clear) this.world.want(this.person, [wish(this.scene)]);
+    if (this.scene.clear) {  // who is told anew takes steps of the length that is asked now
+      this.world.avoid(this.person, false);
+      this.#keepClear();
+    }
     this.#curves();
   }
   #curves() {
@@ -127,12 +133,13 @@ class Page {
     this.world.want(this.person, [wish(this.scene)]);
   }
   grounded() {
-    const { world, scene } = this, before = this.ground;
-    before?.drop();
-    if (!groundNames[scene.ground]) scene.ground = 0;
+    const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);
+    if (this.ground) {
+      this.ground.drop();
+      for (const people of everybody) world.setOnGround(people, false);
+    }
     this.ground = scene.ground ? new Ground(groundNames[scene.ground], this.stage) : undefined;
-    if (!before === !this.ground) return;
-    for (const people of [this.person, this.crowd?.people].filter(Boolean)) world.setOnGround(people, !!this.ground);
+    if (this.ground) for (const people of everybody) world.setOnGround(people);
   }
 
   /** Methods as the scene calls for, or as they are set. */
@@ -170,9 +177,9 @@ class Page {
     }
     if (ticks) this.told.tick = soft(this.told.tick, (performance.now() - began) / ticks);
   }
-  #tick(ticks = 1) {
+  #tick(ticks = 1, steers = !!this.scene.clear) {
     for (let i = 0; i < ticks; ++i) {
-      if (this.scene.clear) this.world.steer();
+      if (steers) this.world.steer();
       if (this.ground) this.world.updateGround(this.ground.heights);
       this.world.tick();
     }
@@ -289,13 +296,13 @@ class Page {
     } catch { /* the address bar has it */ }
   }
   /** One stride, as glTF. */
-  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride(), (ticks) => this.#tick(ticks)); }
+  glb() { return strideAsGlb(this.world, this.person, this.figure, this.#stride(), (ticks) => this.#tick(ticks, false)); }
   // How long the right leg's cycle lasts: until its phase is again what it is.
   #stride() {
     const before = this.world.save(), phase = () => this.world.read(c.MOBIL_FEET, this.person)[18];
     let turned = 0, last = phase(), ticks = 0;
     while (turned < 1 && ticks < 300) {
-      this.#tick();
+      this.#tick(1, false);
       ++ticks;
       const now = phase();
       turned += (now - last + 1) % 1;

@@ -43,8 +43,11 @@ export class Stage {
   stand(ground) {
     if (this.uneven) this.scene.remove(this.uneven);
     this.uneven = ground;
-    if (ground) this.scene.add(ground);
-    this.#paint(matchMedia('(prefers-color-scheme: dark)').matches);
+    if (ground) {
+      ground.material.color.copy(this.ground.material.color);
+      this.scene.add(ground);
+    }
+    this.ground.visible = this.grid.visible = !ground;
   }
   /** The camera keeps its place beside (x, y, z), which is on the ground. */
   follow(x, y, z) {
@@ -76,11 +79,14 @@ export class Stage {
     this.scene.background = new THREE.Color(sky);
     this.scene.fog.color.set(sky);
     this.ground.material.color.set(ground);
-    if (this.grid) this.scene.remove(this.grid);
+    if (this.grid) {
+      this.scene.remove(this.grid);
+      this.grid.dispose();
+    }
     this.grid = new THREE.GridHelper(120, 120, line, line);
     this.grid.position.set(Math.round(this.controls.target.x), 0.002, Math.round(this.controls.target.z));
     this.scene.add(this.grid);
-    this.ground.visible = this.grid.visible = !this.uneven;
+    this.grid.visible = !this.uneven;
     this.uneven?.material.color.set(ground);
   }
   #resize() {

@@ -18,6 +18,8 @@ constexpr float pi = std::numbers::pi_v<float>;
 constexpr float beside[] = {0, 12 * pi / 180, -12 * pi / 180, 27 * pi / 180, -27 * pi / 180};
 /// The slowest walk, m/s at a leg of leg_m.
 constexpr float slowest = 0.3F;
+/// How long steps are, of the walker's own, where there is no room for those.
+constexpr float short_step = 0.6F;
 /// Nobody turns on the spot for less, rad.
 constexpr float least_turn = 0.1F;
 
@@ -25,6 +27,7 @@ void put(Trials& trials, std::size_t lane, TrialKind kind, const Trial<float>& t
   trials.kind[lane] = kind;
   trials.trial.speed_m_s[lane] = trial.speed_m_s;
   trials.trial.turn_rad[lane] = trial.turn_rad;
+  trials.trial.length_part[lane] = trial.length_part;
   trials.trial.slant_rad[lane] = trial.slant_rad;
   trials.trial.aside_m[lane] = trial.aside_m;
 }
@@ -46,10 +49,11 @@ Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
     const float last = now > last_speed * scale ? std::max(now - most_slower * scale, last_speed * scale) : 0;
     const float wanted = std::max(std::min(course.speed_m_s, now + most_faster * scale), slower);
     const float straight_on = 0.70F * at.advance_m * at.bend_per_m;  // as systems/gait/next_foot-inl.h has it
-    put(trials, claimed, last > 0 ? TrialKind::go : TrialKind::stay, {last, straight_on, 0, 0});
+    put(trials, claimed, last > 0 ? TrialKind::go : TrialKind::stay, {last, straight_on, 1, 0, 0});
     std::size_t lane = 1;
     for (const float speed : {wanted, 0.5F * (wanted + slower), slower}) {
-      for (const float turn : beside) put(trials, lane++, TrialKind::go, {speed, toward + turn, 0, 0});
+      const float length_part = speed < wanted ? short_step : 1;
+      for (const float turn : beside) put(trials, lane++, TrialKind::go, {speed, toward + turn, length_part, 0, 0});
     }
     return trials;
   }
@@ -57,11 +61,11 @@ Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
   std::size_t lane = 1;
   const float wanted = std::clamp(course.speed_m_s, least, first_speed * scale);
   for (const float turn : {beside[0], beside[1], beside[2]})
-    put(trials, lane++, TrialKind::go, {wanted, toward + turn, 0, 0});
+    put(trials, lane++, TrialKind::go, {wanted, toward + turn, short_step, 0, 0});
   for (const float turn : {beside[0], beside[3], beside[4]})
-    put(trials, lane++, TrialKind::go, {least, toward + turn, 0, 0});
-  put(trials, lane++, TrialKind::turn, {0, wish > least_turn ? std::min(wish, most_turn) : most_turn, 0, 0});
-  put(trials, lane++, TrialKind::turn, {0, wish < -least_turn ? std::max(wish, -most_turn) : -most_turn, 0, 0});
+    put(trials, lane++, TrialKind::go, {least, toward + turn, short_step, 0, 0});
+  put(trials, lane++, TrialKind::turn, {0, wish > least_turn ? std::min(wish, most_turn) : most_turn, 1, 0, 0});
+  put(trials, lane++, TrialKind::turn, {0, wish < -least_turn ? std::max(wish, -most_turn) : -most_turn, 1, 0, 0});
   const float longer = leg / aside_leg_m;
   for (const auto& [slant, far] : {std::pair{0.5F, aside_m},
                                    {-0.5F, aside_m},
@@ -70,7 +74,7 @@ Trials make_trials(const StrikePlace<float>& at, const Course<float>& course) {
                                    {0.0F, 0.5F * ahead_m},
                                    {0.25F, ahead_m},
                                    {-0.25F, ahead_m}})
-    put(trials, lane++, TrialKind::aside, {0, 0, slant * pi, far * longer});
+    put(trials, lane++, TrialKind::aside, {0, 0, 1, slant * pi, far * longer});
   return trials;
 }
 

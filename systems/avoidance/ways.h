@@ -35,11 +35,12 @@ struct StrikePlace {
   F chord_before_rad, bend_per_m, bend_before_per_m, shift_m, shift_before_m, lands_left;
 };
 
-/// A step to try: the speed that it leads to, and the heading to ask for, beside the present one. Of who stands and is
-/// to stay there: how far to turn on the spot; or, with `aside_m` above 0, a step aside so far toward `slant_rad`.
+/// A step to try: the speed that it leads to, the heading to ask for, beside the present one, and its length as a part
+/// of the walker's own at that speed. Of who stands and is to stay there: how far to turn on the spot; or, with
+/// `aside_m` above 0, a step aside so far toward `slant_rad`.
 template <class F>
 struct Trial {
-  F speed_m_s, turn_rad;
+  F speed_m_s, turn_rad, length_part;
   F slant_rad, aside_m;
 };
 

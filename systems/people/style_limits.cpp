@@ -98,8 +98,8 @@ struct Break {
   float value;
 };
 
-/// Walkers on the way from the usual style to that asked for: as many as have `lanes_each` lanes of sixteen. Who has
-/// several has several answers foreseen in one look; what is found is the same.
+/// Walkers on the way from the usual style to that asked for: sixteen lanes, `lanes_each` to a walker. With several
+/// lanes several of the next answers are foreseen in one look; what is found is the same.
 class StyleBlock {
  public:
   StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
@@ -261,6 +261,8 @@ class StyleBlock {
         }
       }
       if (!any) break;
+      for (std::size_t l = 0; l < lane_count; ++l)  // lanes without a try settle at once
+        if (l / each_ >= people_ || l % each_ >= count[l / each_]) gait_row_[l].style = usual_;
       look();
       for (std::size_t w = 0; w < people_; ++w) {
         Walker& walker = walkers_[w];

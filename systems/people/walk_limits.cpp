@@ -125,8 +125,8 @@ class WalkLooked {
     std::array<Lanes<float>, 2 * most_parts + 1> up_m{};  // at the last instants
     for (std::uint32_t k = 0; static_cast<float>(k) * instant_s_ <= longest_s; ++k) {
       const float time_s = static_cast<float>(k) * instant_s_;
-      look(
-          [&](std::size_t l) { return std::min(time_s, plan_.duration_s[l]); });  // who has come to the end waits there
+      // Who has come to the end waits at the last instant before it, so that others' longer steps show nothing more.
+      look([&](std::size_t l) { return time_s <= plan_.duration_s[l] ? time_s : state_.time_s[l]; });
       const auto ago = [&](std::uint32_t instants) -> Lanes<float>& { return up_m[(k - instants) % up_m.size()]; };
       ago(0) = bounds_.pelvis_up_m;
       if (k < 2 * lag_) {

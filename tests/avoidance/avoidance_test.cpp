@@ -116,7 +116,9 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   tried_ways(footing, trials.trial, book.instants(), ways, end);
   const auto l = static_cast<std::size_t>(*rc::gen::inRange(1, 16));
   const bool go = trials.kind[l] == TrialKind::go;
-  RC_ASSERT(simulation.change_gait(one, {.speed_m_s = go ? trials.trial.speed_m_s[l] : 0.0F}).has_value());
+  GaitChange change{.speed_m_s = go ? trials.trial.speed_m_s[l] : 0.0F};
+  if (go) change.step_length_m = end.step_length_m[l];
+  RC_ASSERT(simulation.change_gait(one, change).has_value());
   RC_ASSERT(simulation.turn_to(one, footing.heading_rad[0] + trials.trial.turn_rad[l]).has_value());
   if (trials.kind[l] == TrialKind::aside) {
     RC_ASSERT(simulation

@@ -21,6 +21,7 @@
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/people/style_estimate.h"
+#include "systems/people/style_limits.h"
 #include "systems/people/walk_limits.h"
 #include "systems/simulation.h"
 #include "tests/gait/walkers.h"
@@ -308,6 +309,45 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
     EXPECT_TRUE(same_style(alone.gait_request(one)->style, expected));
   }
   EXPECT_GT(moved, 20U);
+}
+
+/// Nor on how many lanes a walker has in a block, which follows from how many threads there are.
+TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
+  Dice dice{std::mt19937(12)};
+  std::size_t moved = 0;
+  for (int round = 0; round < 12; ++round) {
+    constexpr std::size_t together = 64;
+    std::vector<BodySize<float>> sizes;
+    std::vector<Gait<float>> asked;
+    for (unsigned i = 0; i < together; ++i) {
+      const Asked one = anyone(dice, i % 6, i % 4 == 0);
+      const Body body = *make_body(one.body);
+      sizes.push_back(body_size(body));
+      asked.push_back(*resolve_gait(body, one.gait));
+    }
+    const auto kept = [&](std::size_t threads, std::vector<std::vector<StyleChange>>& changes) {
+      Jobs jobs;
+      jobs.threads = threads;
+      StyleWork work;
+      std::vector<Gait<float>> gaits = asked;
+      changes.assign(together, {});
+      keep_walk_limits(jobs, sizes, gaits, work, changes);
+      return gaits;
+    };
+    std::vector<std::vector<StyleChange>> first, changes;
+    const auto expected = kept(1, first);
+    for (const std::size_t threads : {5, 12, 30, 64}) {
+      const auto gaits = kept(threads, changes);
+      for (std::size_t i = 0; i < together; ++i) {
+        EXPECT_TRUE(same_style(gaits[i].style, expected[i].style)) << "round " << round << ", " << i;
+        EXPECT_EQ(gaits[i].step_length_m, expected[i].step_length_m);
+        ASSERT_EQ(changes[i].size(), first[i].size());
+        for (std::size_t c = 0; c < first[i].size(); ++c) EXPECT_EQ(described(changes[i][c]), described(first[i][c]));
+        moved += first[i].size();
+      }
+    }
+  }
+  EXPECT_GT(moved, 500U);
 }
 
 /// Where the estimate says that a style keeps all limits, a walk of it at 240 instants a second keeps them.

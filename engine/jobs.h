@@ -20,7 +20,7 @@ struct Jobs {
   void* user = nullptr;
   void (*parallel_for)(void* user, std::size_t count, Body body, void* context) =
       [](void*, std::size_t count, Body body, void* context) { body(context, 0, count); };
-  std::size_t threads = 1;  // about how many work at once, for memory made ready; more may
+  std::size_t threads = 1;  // about how many work at once, for memory made ready and work cut; more may
 };
 
 /// `work(begin, end)` on parts of [0, count), by jobs.

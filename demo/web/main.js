@@ -94,7 +94,7 @@ class Page {
   }
   walk() {
     this.world.changeWalk(this.person, request(this.scene, this.mobil.style, false));
-    if (this.scene.clear) {  // who is told anew takes steps of the length that is asked now
+    if (this.scene.clear) {  // managed anew: avoidance keeps the length of steps that it found
       this.world.avoid(this.person, false);
       this.#keepClear();
     }
@@ -114,10 +114,10 @@ class Page {
 
   // ---- The crowd
   crowded() {
-    if (this.crowd) this.crowd.drop();
-    this.crowd = undefined;
     const { world, scene } = this;
-    if (scene.crowd > 0) this.crowd = new Crowd(world, scene.crowd, this.figure, scene.height, this.stage.scene, scene.clear, this.#place());
+    const made = scene.crowd > 0 ? new Crowd(world, scene.crowd, this.figure, scene.height, this.stage.scene, scene.clear, this.#place()) : undefined;
+    this.crowd?.drop();
+    this.crowd = made;
     if (this.ground && this.crowd) world.setOnGround(this.crowd.people);
     if (this.choosing && this.crowd) world.manage(this.crowd.people);
   }

@@ -3,6 +3,9 @@
 
 #include <array>
 #include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <vector>
 
 #include "systems/c/mobil.h"
@@ -18,7 +21,7 @@ class WildHost {
     mobil_defaults(MOBIL_OPTIONS, &options, sizeof options);
     char line[512];
     promise(mobil_create(&options, &sim_, line, sizeof line) == MOBIL_OK, "a simulation is made");
-    static const std::vector<unsigned char> baked = bake();
+    static const std::vector<unsigned char> baked = kept_or_baked();
     if (!baked.empty()) mobil_load_baked(sim_, baked.data(), baked.size());
     promise(mobil_start_avoidance(sim_, nullptr) == MOBIL_OK, "avoidance begins");
   }
@@ -37,7 +40,18 @@ class WildHost {
   }
 
  private:
-  /// Meshes and bases, so that not every input waits for them.
+  /// Meshes and bases, so that not every input waits for them. With sanitizers they take minutes: a file named in
+  /// MOBIL_FUZZ_BAKED has them, or gets them.
+  std::vector<unsigned char> kept_or_baked() const {
+    const char* const file = std::getenv("MOBIL_FUZZ_BAKED");
+    if (file == nullptr) return bake();
+    if (std::ifstream kept(file, std::ios::binary); kept)
+      return {std::istreambuf_iterator<char>(kept), std::istreambuf_iterator<char>()};
+    const std::vector<unsigned char> baked = bake();
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(baked.data()), static_cast<std::streamsize>(baked.size()));
+    return baked;
+  }
   std::vector<unsigned char> bake() const {
     mobil_muscles choice;
     mobil_defaults(MOBIL_MUSCLES, &choice, sizeof choice);

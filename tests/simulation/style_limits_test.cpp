@@ -336,7 +336,7 @@ TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
     };
     std::vector<std::vector<StyleChange>> first, changes;
     const auto expected = kept(1, first);
-    for (const std::size_t threads : {5, 12, 30, 64}) {
+    for (const std::size_t threads : {std::size_t{5}, std::size_t{12}, std::size_t{30}, std::size_t{64}}) {
       const auto gaits = kept(threads, changes);
       for (std::size_t i = 0; i < together; ++i) {
         EXPECT_TRUE(same_style(gaits[i].style, expected[i].style)) << "round " << round << ", " << i;

@@ -110,8 +110,8 @@ class FlowScene {
 
   float heading(const Person& one) const {
     if (round()) {
-      constexpr float looks_ahead_m =
-          1.7F;  // steps follow a heading late: with this a lone walker drifts neither out nor in
+      // Steps follow a heading late: with this a lone walker drifts neither out nor in.
+      constexpr float looks_ahead_m = 1.7F;
       const float way = one.back ? -1 : 1;
       const float at = std::atan2(one.z_m, one.x_m) + way * looks_ahead_m / std::hypot(one.x_m, one.z_m);
       return std::atan2(-way * std::sin(at), way * std::cos(at));

@@ -6,7 +6,7 @@ import { Figure } from './figure.js';
 import { download, strideAsGlb } from './files.js';
 import { Ground, groundNames } from './ground.js';
 import { drawTrace, drawWays } from './plots.js';
-import { fromAddress, methodNames, request, toAddress, usual, wish } from './scene.js';
+import { fromAddress, methodNames, request, toAddress, usual } from './scene.js';
 import { Stage } from './stage.js';
 import { Trace, groups } from './trace.js';
 
@@ -130,7 +130,7 @@ class Page {
     if (!this.avoiding) this.world.startAvoidance();
     this.avoiding = true;
     this.world.avoid(this.person);
-    this.world.want(this.person, [wish(this.scene)]);
+    this.world.want(this.person, [[this.scene.speed / 3.6, 0]]);
   }
   grounded() {
     const { world, scene } = this, everybody = [this.person, this.crowd?.people].filter(Boolean);

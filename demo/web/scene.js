@@ -31,9 +31,6 @@ export function toAddress(scene) {
   return query.toString();
 }
 
-/** Where somebody wants to go who keeps clear of others: speed in m/s, heading in rad. */
-export const wish = (scene) => [scene.speed / 3.6, 0];
-
 /** Fields of mobil_person, or of mobil_walk where `bodyToo` is false. `numbers`: mobil.style. */
 export function request(scene, numbers, bodyToo = true) {
   const body = bodyToo ? { height_m: scene.height, mass_kg: scene.mass, constitution: scene.build } : {};

@@ -144,16 +144,16 @@ class StyleBlock {
           [](Walker& walker, float share) { walker.step_share = share; });
     for (Walker& walker : walkers()) walker.style = walker.asked;
     const auto broken = still_broken(Looking::closely);
-    for (std::size_t w = 0; w < people_; ++w) {
-      walkers_[w].moved.fill(broken[w]);
-      walkers_[w].drawn = broken[w] || walkers_[w].step_why;
-    }
+    for (std::size_t w = 0; w < people_; ++w)
+      for (std::size_t p = 0; p < parameter_count; ++p)
+        walkers_[w].moved[p] =
+            broken[w] && walkers_[w].asked.*gait_parameters[p].value != usual_.*gait_parameters[p].value;
     give_back();
     halve([](const Walker& walker) { return walker.is_moved(); },
           [](Walker& walker, float share) { walker.style = walker.at(share); });
   }
 
-  bool is_drawn(std::size_t walker) const { return walkers_[walker].drawn; }
+  bool is_drawn(std::size_t walker) const { return walkers_[walker].step_why || walkers_[walker].is_moved(); }
   const GaitStyle& style(std::size_t walker) const { return walkers_[walker].style; }
   float step_length_m(std::size_t walker) const { return walkers_[walker].length_m(); }
   std::vector<StyleChange> changes(std::size_t walker) const {
@@ -179,7 +179,6 @@ class StyleBlock {
     std::optional<Break> step_why;
     std::array<bool, parameter_count> moved{};
     std::array<Break, parameter_count> why{};
-    bool drawn = false;
 
     bool is_moved() const {
       return std::ranges::any_of(moved, [](bool is) { return is; });
@@ -250,10 +249,8 @@ class StyleBlock {
       for (std::size_t w = 0; w < people_; ++w) {
         Walker walker = walkers_[w];
         for (std::size_t k = next[w]; k < parameter_count && count[w] < each_; ++k) {
-          const auto value = gait_parameters[order[k]].value;
           if (!walker.moved[order[k]]) continue;
           walker.moved[order[k]] = false;
-          if (walker.asked.*value == usual_.*value) continue;
           walker.style = walker.at(0);
           try_in(w * each_ + count[w], walker);
           given[w][count[w]++] = k;
@@ -277,11 +274,6 @@ class StyleBlock {
         }
       }
     }
-    for (Walker& walker : walkers())
-      for (std::size_t p = 0; p < parameter_count; ++p) {
-        const auto value = gait_parameters[p].value;
-        if (walker.asked.*value == usual_.*value) walker.moved[p] = false;
-      }
   }
   /// Shares of what was asked, as large as nothing breaks, from that of 0 on, of whom `of` says; `set` has one tried. A
   /// walker's lanes try what the next halvings may come to: a binary tree, whose node n has the children 2n and 2n + 1.

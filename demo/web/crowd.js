@@ -128,17 +128,22 @@ export class Crowd {
   /** Who has fallen behind the walker at (x, z), or come too far ahead of him, goes on at the other end of the street. Of
    *  those who keep clear, where nobody is; and who is too far aside turns back. */
   wrap(x, z, matrices) {
-    const away = [], places = Array.from({ length: this.people.count }, (_, i) => [matrices[576 * i + 3], matrices[576 * i + 11]]);
-    places.forEach((at, i) => {
-      if (Math.abs(at[1] - z) > 0.6 * length_m) away.push([i, at[1] - 1.2 * length_m * Math.sign(at[1] - z)]);
-      if (this.clear && Math.abs(at[0] - x) > 0.5 * this.broad_m) this.#turn(i, at[0] > x ? -Math.PI / 2 : Math.PI / 2);
-    });
-    for (const [i, to] of away) {
-      const { place, heading_rad } = this.asked[i], across = this.clear ? places[i][0] : place[0];
-      // Three metres are what two who meet need to stop.
-      if (this.clear && places.some((at) => Math.hypot(at[0] - across, at[1] - to) < 3)) continue;
-      this.world.place(this.people.slice(i), [across, 0, to], heading_rad);
-      places[i] = [across, to];
+    const away = [], placed = [], place = (i) => [matrices[576 * i + 3], matrices[576 * i + 11]];
+    for (let i = 0; i < this.people.count; ++i) {
+      const dx = matrices[576 * i + 3] - x, dz = matrices[576 * i + 11] - z;
+      if (Math.abs(dz) > 0.6 * length_m) away.push([i, z + dz - 1.2 * length_m * Math.sign(dz)]);
+      if (this.clear && Math.abs(dx) > 0.5 * this.broad_m) this.#turn(i, dx > 0 ? -Math.PI / 2 : Math.PI / 2);
+    }
+    const isFree = (to) => {  // three metres are what two who meet need to stop
+      const near = (at) => Math.hypot(at[0] - to[0], at[1] - to[1]) < 3;
+      for (let i = 0; i < this.people.count; ++i) if (near(place(i))) return false;
+      return !placed.some(near);
+    };
+    for (const [i, to_z] of away) {
+      const asked = this.asked[i], to = [this.clear ? place(i)[0] : asked.place[0], to_z];
+      if (this.clear && !isFree(to)) continue;
+      this.world.place(this.people.slice(i), [to[0], 0, to[1]], asked.heading_rad);
+      placed.push(to);
     }
   }
   #turn(i, heading_rad) {

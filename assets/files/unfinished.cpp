@@ -1,5 +1,7 @@
 #include "assets/files/unfinished.h"
 
+#include <sys/wait.h>
+
 #include <csignal>
 #include <map>
 #include <set>
@@ -59,8 +61,19 @@ std::unique_lock<std::recursive_mutex> hold_unfinished() {
 
 void remove_unfinished() noexcept {
   unfinished().mutex.lock();
-  for (const pid_t process : unfinished().process) ::kill(process, SIGKILL);
-  for (const auto& [path, made] : unfinished().made_of) remove_with_folders(path, made);
+  for (const pid_t process : unfinished().process) {
+    ::kill(process, SIGKILL);
+    siginfo_t ended{};
+    ::waitid(P_PID, static_cast<id_t>(process), &ended, WEXITED | WNOWAIT);  // until then it may still make files
+  }
+  for (const auto& [path, made] : unfinished().made_of) {
+    // Under another name no thread finds it to make more files in it, which would keep it.
+    auto away = path;
+    away += ".removed";
+    std::error_code error;
+    std::filesystem::rename(path, away, error);
+    remove_with_folders(error ? path : away, made);
+  }
 }
 
 }  // namespace mobil

@@ -152,6 +152,7 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
     if (at == at.parent_path()) break;
   }
   made.inside_ = temporary_in(folder);
+  const auto hold = hold_unfinished();  // once they are taken away, no folder is made any more
   note_unfinished(made.inside_, made.made_);
   if (!error) fs::create_directories(folder, error);
   if (error || !fs::is_directory(folder, error)) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "components/avoidance.h"
 #include "demo/bench/bench.h"
 #include "engine/row_hash.h"
 #include "systems/avoidance/avoidance.h"
@@ -20,7 +21,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr float wide_m = 5, round_m = 100, ring_m = round_m / (2 * pi), square_m = 22, door_m = 1.2F, post_m = 0.2F;
-constexpr float radius_m = 0.22F;
+constexpr float radius_m = 0.22F;  // of shoulders with their arms
 
 enum class Flow : std::uint8_t { one_way, both_ways, crossing, door };
 
@@ -32,7 +33,8 @@ float drawn(std::uint64_t number, std::uint64_t what) {
 /// come in again at the other as soon as there is room.
 class FlowScene {
  public:
-  FlowScene(Flow flow, float people_a_m2) : flow_(flow), avoidance_(simulation_) {
+  FlowScene(Flow flow, float people_a_m2, const AvoidanceOptions& options = {})
+      : flow_(flow), avoidance_(simulation_, options) {
     across_m_ = flow == Flow::crossing ? square_m : wide_m;
     along_m_ = flow == Flow::crossing ? square_m : flow == Flow::door ? 30 : round_m;
     const auto count = static_cast<int>(people_a_m2 * along_m_ * across_m_);
@@ -71,8 +73,9 @@ class FlowScene {
   }
 
   std::size_t people() const { return people_.size(); }
-  double choosing_s = 0, way_m = 0, person_s = 0, stood_s = 0, nearest_m = 0, near = 0, looks = 0;
-  double in_middle = 0;  // of the square: people, summed over ticks
+  double choosing_s = 0, way_m = 0, person_s = 0, stood_s = 0, near = 0, looks = 0;
+  double trunks_m = 0, shoulders_m = 0;  // the most that two overlapped
+  double in_middle = 0;                  // of the square: people, summed over ticks
   std::size_t passed = 0;
 
   void tick(bool counts) {
@@ -104,6 +107,8 @@ class FlowScene {
     double stands_s = 0;
     std::uint32_t came_in = 0;
     bool clear = true;  // of everybody, some time after they came in
+    Course<float> course{};
+    double faces_rad = 0;
   };
 
   bool round() const { return flow_ == Flow::one_way || flow_ == Flow::both_ways; }
@@ -206,22 +211,41 @@ class FlowScene {
     });
   }
 
+  /// Half the breadth of somebody's shoulders toward (x, z): of an ellipse as deep as 0.58 of its breadth.
+  static double shoulders_toward(const Person& one, double x, double z) {
+    const double faces = one.faces_rad + double{one.course.turn_rad};
+    const double ahead = x * std::sin(faces) + z * std::cos(faces), aside = x * std::cos(faces) - z * std::sin(faces);
+    return double{one.course.shoulders_m} * std::hypot(aside, 0.58 * ahead);
+  }
+
   /// Who has come in may have been put where somebody was about to be: they count from when they are clear of everybody
   /// some seconds later.
   void look_who_is_near() {
     constexpr std::uint32_t settled = 300;
     constexpr double counts_m = 0.05;
+    for (std::size_t i = 0; i < people_.size(); ++i) {
+      people_[i].course = *simulation_.get<Course>(people_[i].entity);
+      people_[i].faces_rad = double{roots_[i].heading_rad};
+    }
     for (Person& one : people_) {
-      double overlap = 0, of_all = 0;
+      double trunks = 0, shoulders = 0, of_all = 0;
       for (const Person& other : people_) {
         if (&other == &one) continue;
-        const double apart = std::hypot(double{other.x_m} - double{one.x_m}, double{other.z_m} - double{one.z_m});
-        of_all = std::max(of_all, 2 * double{radius_m} - apart);
-        if (one.clear && other.clear) overlap = std::max(overlap, 2 * double{radius_m} - apart);
+        const double x = double{other.x_m} - double{one.x_m}, z = double{other.z_m} - double{one.z_m};
+        const double apart = std::hypot(x, z);
+        if (apart > 2 * double{radius_m} + 0.1) continue;
+        const double to_x = x / std::max(apart, 1e-6), to_z = z / std::max(apart, 1e-6);
+        const double together = double{one.course.radius_m} + double{other.course.radius_m} - apart;
+        of_all = std::max(of_all, together);
+        if (!one.clear || !other.clear) continue;
+        trunks = std::max(trunks, together);
+        shoulders =
+            std::max(shoulders, shoulders_toward(one, to_x, to_z) + shoulders_toward(other, to_x, to_z) - apart);
       }
       one.clear = one.clear || (of_all <= 0 && one.came_in + settled < simulation_.ticks());
-      nearest_m = std::max(nearest_m, overlap);
-      near += overlap > counts_m ? 1 : 0;
+      trunks_m = std::max(trunks_m, trunks);
+      shoulders_m = std::max(shoulders_m, shoulders);
+      near += std::max(trunks, shoulders) > counts_m ? 1 : 0;
       ++looks;
     }
   }
@@ -245,9 +269,10 @@ void add(BenchRun& run, const std::string& name, double value, const char* unit,
   run.results.push_back(std::move(result));
 }
 
-void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2, int full_s = 90) {
+void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a_m2, int full_s = 90,
+               const AvoidanceOptions& options = {}) {
   const int seconds = run.quick ? 6 : full_s;
-  FlowScene scene(flow, people_a_m2);
+  FlowScene scene(flow, people_a_m2, options);
   for (int tick = 0; tick < seconds * 60; ++tick) scene.tick(tick >= seconds * 20);
   std::string of = fmt::format("{} people, {} s", scene.people(), seconds);
   if (flow == Flow::crossing) {
@@ -260,8 +285,10 @@ void time_flow(BenchRun& run, const std::string& name, Flow flow, float people_a
     add(run, name + ".m_per_s", scene.way_m / scene.person_s, "m/s",
         of + fmt::format("; {:.1f} % of the time somebody stands for over 5 s", 100 * scene.stood_s / scene.person_s));
   }
-  add(run, name + ".overlap_cm", 100 * scene.nearest_m, "cm",
-      fmt::format("the most; {:.2f} % of people by more than 5 cm", 100 * scene.near / std::max(scene.looks, 1.0)));
+  add(run, name + ".overlap_cm", 100 * scene.trunks_m, "cm",
+      fmt::format("of trunks, the most; {:.2f} % of people overlap by more than 5 cm, shoulders counted",
+                  100 * scene.near / std::max(scene.looks, 1.0)));
+  add(run, name + ".shoulders_cm", 100 * scene.shoulders_m, "cm", "of shoulders as they are turned, the most");
   add(run, name + ".us_per_human_tick", 1e6 * scene.choosing_s / (60 * scene.person_s), "us", "choosing steps");
 }
 
@@ -271,6 +298,8 @@ Result<void> bench_avoidance(BenchRun& run) {
   time_flow(run, "avoidance.one_way_0.5", Flow::one_way, 0.5F);
   time_flow(run, "avoidance.one_way_1", Flow::one_way, 1);
   time_flow(run, "avoidance.one_way_2", Flow::one_way, 2);
+  const AvoidanceOptions unturned = {.radius_h = AvoidanceOptions{}.shoulders_h};
+  time_flow(run, "avoidance.one_way_2_unturned", Flow::one_way, 2, 90, unturned);
   time_flow(run, "avoidance.both_ways_0.2", Flow::both_ways, 0.2F);
   time_flow(run, "avoidance.both_ways_0.5", Flow::both_ways, 0.5F);
   time_flow(run, "avoidance.both_ways_1", Flow::both_ways, 1);

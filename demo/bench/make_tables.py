@@ -42,6 +42,7 @@ TABLES = {
         ("one way, 0.5 people a m²", "avoidance.one_way_0.5.m_per_s", SPEED),
         ("one way, 1", "avoidance.one_way_1.m_per_s", SPEED),
         ("one way, 2", "avoidance.one_way_2.m_per_s", SPEED),
+        ("one way, 2, if nobody turned the shoulders", "avoidance.one_way_2_unturned.m_per_s", SPEED),
         ("both ways, 0.2", "avoidance.both_ways_0.2.m_per_s", SPEED),
         ("both ways, 0.5", "avoidance.both_ways_0.5.m_per_s", SPEED),
         ("both ways, 1", "avoidance.both_ways_1.m_per_s", SPEED),
@@ -49,10 +50,13 @@ TABLES = {
         ("crossing, 0.5", "avoidance.crossing_0.5.m_per_s", SPEED),
         ("crossing, 1", "avoidance.crossing_1.m_per_s", SPEED),
         ("through a door of 1.2 m", "avoidance.door.people_per_s", ("people/s", 1)),
-        ("worst overlap one way, 2 people a m²", "avoidance.one_way_2.overlap_cm", CM),
+        ("worst overlap of trunks one way, 2 people a m²", "avoidance.one_way_2.overlap_cm", CM),
         ("both ways, 1, ten minutes", "avoidance.both_ways_1_long.overlap_cm", CM),
         ("crossing, 1", "avoidance.crossing_1.overlap_cm", CM),
         ("at the door", "avoidance.door.overlap_cm", CM),
+        ("worst overlap of shoulders one way, 2 people a m²", "avoidance.one_way_2.shoulders_cm", CM),
+        ("both ways, 1, ten minutes", "avoidance.both_ways_1_long.shoulders_cm", CM),
+        ("at the door", "avoidance.door.shoulders_cm", CM),
         ("choosing, a person and tick, crossing, 1", "avoidance.crossing_1.us_per_human_tick", US),
     ],
     "threads": [
@@ -108,6 +112,8 @@ def machines(folder):
 
 
 def table(name, columns):
+    """Of the machines that have measured any of it."""
+    columns = [(heading, figures) for heading, figures in columns if any(row[1] in figures for row in TABLES[name])]
     lines = ["| | " + " | ".join(heading for heading, _ in columns) + " |", "|---|" + "---|" * len(columns)]
     for text, figure, unit in TABLES[name]:
         values = [shown(figures[figure], unit) if figure in figures else "–" for _, figures in columns]

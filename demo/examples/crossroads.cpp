@@ -17,7 +17,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr std::size_t a_stream = 24;
-constexpr double radius_m = 0.22, overlap_m = 0.06;
+constexpr double radius_m = 0.18, overlap_m = 0.06;  // of trunks: who comes nearer turns the shoulders
 
 }  // namespace
 

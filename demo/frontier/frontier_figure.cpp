@@ -50,6 +50,14 @@ void add_line(const Frontier& frontier, bool loads, bool placed, PlotPanel& pane
   panel.lines.push_back(std::move(line));
 }
 
+/// The number of vectors beside the point that is on the frontier, once a number.
+std::string number_beside(const Frontier& frontier, const FrontierRow& row) {
+  const bool bettered = std::ranges::any_of(frontier.rows, [&](const FrontierRow& other) {
+    return other.loads == row.loads && other.on_frontier && other.vectors == row.vectors && other.error < row.error;
+  });
+  return row.on_frontier && !bettered && std::has_single_bit(row.vectors) ? std::to_string(row.vectors) : "";
+}
+
 void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
   const auto add = [&](std::string_view method, std::string_view label, std::string_view colour,
                        double FrontierRow::*cost, bool numbered) {
@@ -58,7 +66,7 @@ void add_points(const Frontier& frontier, bool loads, PlotPanel& panel) {
       if (row.loads != loads || row.method != method) continue;
       points.x.push_back(row.*cost);
       points.y.push_back(100 * row.error);
-      points.text.push_back(numbered && std::has_single_bit(row.vectors) ? std::to_string(row.vectors) : "");
+      points.text.push_back(numbered ? number_beside(frontier, row) : "");
     }
     if (!points.x.empty()) panel.points.push_back(std::move(points));
   };

@@ -7,8 +7,10 @@
 #include <iterator>
 #include <limits>
 #include <span>
+#include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace mobil {
 namespace {
@@ -207,7 +209,28 @@ void draw_line(Page& page, const PlotLine& line, const Frame& frame) {
            line.width, line.dashed ? R"( stroke-dasharray="4 3")" : "");
 }
 
-void draw_points(Page& page, const PlotPoints& points, const Frame& frame) {
+/// Where texts beside points are already: from, to and the line they stand on.
+struct TextPlace {
+  double left, right, y;
+
+  bool covers(const TextPlace& other) const {
+    constexpr double line_height = 10;
+    return left < other.right && other.left < right && std::abs(y - other.y) < line_height;
+  }
+};
+
+/// Above the point; below it where another text is.
+void draw_point_text(Page& page, double x, double y, bool to_the_left, const std::string& text,
+                     const std::string& colour, std::vector<TextPlace>& taken) {
+  const double from = to_the_left ? x - 6 : x + 6,
+               far = to_the_left ? from - text_width(text) : from + text_width(text);
+  TextPlace place = {std::min(from, far), std::max(from, far), y - 4};
+  if (std::ranges::any_of(taken, [&](const TextPlace& one) { return one.covers(place); })) place.y = y + 12;
+  page.text(from, place.y, to_the_left ? "end" : "start", text, colour, 10);
+  taken.push_back(place);
+}
+
+void draw_points(Page& page, const PlotPoints& points, const Frame& frame, std::vector<TextPlace>& taken) {
   for (std::size_t i = 0; i < std::min(points.x.size(), points.y.size()); ++i) {
     if (!frame.shows(points.x[i], points.y[i])) continue;
     const double x = frame.at_x(points.x[i]), y = frame.at_y(points.y[i]);
@@ -218,7 +241,7 @@ void draw_points(Page& page, const PlotPoints& points, const Frame& frame) {
     page.add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x, y, points.colour);
     if (i < points.text.size() && !points.text[i].empty()) {
       const bool right_half = x > frame.left + 0.7 * frame.width;
-      page.text(right_half ? x - 6 : x + 6, y - 4, right_half ? "end" : "start", points.text[i], points.colour, 10);
+      draw_point_text(page, x, y, right_half, points.text[i], points.colour, taken);
     }
   }
 }
@@ -395,7 +418,8 @@ std::string svg(const PlotFigure& figure) {
     for (const auto& band : panel.bands) draw_band(page, band, frame);
     for (const auto& line : panel.lines) draw_line(page, line, frame);
     page.add("</g>");
-    for (const auto& points : panel.points) draw_points(page, points, frame);
+    std::vector<TextPlace> texts;
+    for (const auto& points : panel.points) draw_points(page, points, frame, texts);
     page.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="none" stroke="#bbb"/>)", left, top,
              frame.width, frame.height);
   }

@@ -10,6 +10,7 @@
 #include "engine/row_hash.h"
 #include "engine/rows.h"
 #include "systems/avoidance/choice.h"
+#include "systems/avoidance/narrow.h"
 #include "systems/gait/gait.h"
 #include "systems/simulation_world.h"
 
@@ -28,7 +29,9 @@ struct Avoidance::Work {
 
 Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
     : simulation_(simulation),
-      options_{std::clamp(options.radius_h, 0.02F, 0.5F), std::clamp(options.overlap_m, 0.0F, 0.2F)},
+      options_{.radius_h = std::clamp(options.radius_h, 0.02F, 0.5F),
+               .shoulders_h = std::clamp(options.shoulders_h, options_.radius_h, 0.5F),
+               .overlap_m = std::clamp(options.overlap_m, 0.0F, 0.2F)},
       work_(std::make_unique<Work>()) {}
 Avoidance::~Avoidance() = default;
 Avoidance::Avoidance(Avoidance&&) noexcept = default;
@@ -49,6 +52,7 @@ Result<void> Avoidance::manage(Entity human) {
   course.heading_rad = gait->heading_rad;
   course.usual = 1;
   course.radius_m = options_.radius_h * height;
+  course.shoulders_m = options_.shoulders_h * height;
   if (gait->speed_m_s > 0) {
     const auto usual = resolve_gait(height, {.speed_m_s = gait->speed_m_s});
     if (usual) course.usual = gait->step_length_m / usual->step_length_m;
@@ -125,7 +129,8 @@ void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overl
       book.near(chosen[i].x_m[0], chosen[i].z_m[0], furthest_m, [&](std::uint32_t other) {
         const std::uint32_t rival = striker_of[other];
         if (rival == nobody || other == claim || !goes_first(other, claim)) return;
-        const float apart = book.claim(claim).radius_m + book.claim(other).radius_m - overlap_m;
+        const Claim &mine = book.claim(claim), &theirs = book.claim(other);
+        const float apart = mine.radius_m + theirs.radius_m - overlap_m;
         if (meet(chosen[i], chosen[rival], apart)) gives_way[i] = 1;
       });
     }
@@ -137,7 +142,7 @@ AvoidanceReport Avoidance::update() {
   const Jobs& jobs = SimulationWorld::jobs(simulation_);
   Work& work = *work_;
   const std::uint32_t tick = simulation_.ticks();
-  work.book.refresh(world, jobs, tick, static_cast<float>(simulation_.tick_s()), options_.radius_h);
+  work.book.refresh(world, jobs, tick, static_cast<float>(simulation_.tick_s()), options_.shoulders_h);
   const std::vector<Striker>& strikers = work.book.strikers();
   const Surroundings around = {work.book, walls_, discs_, options_.overlap_m};
   work.chosen.resize(strikers.size());
@@ -146,6 +151,7 @@ AvoidanceReport Avoidance::update() {
     for (std::size_t i = begin; i < end; ++i) choose_step(around, strikers[i], work.chosen[i]);
   });
   work.give_way(jobs, tick, options_.overlap_m);
+  narrow_shoulders(work.book, jobs, tick);
 
   AvoidanceReport report{.people = work.book.people()};
   for (std::size_t i = 0; i < strikers.size(); ++i) {

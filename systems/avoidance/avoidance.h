@@ -39,8 +39,13 @@ struct WalkWish {
 
 /// How much room people keep. What is out of range is taken as the end that is nearer.
 struct AvoidanceOptions {
-  /// Half the breadth kept clear, of the height: 0.22 m at 1.72 m. 0.02 to 0.5.
-  float radius_h = 0.128F;
+  /// Half the breadth that two people keep clear of each other, of the height: 0.18 m at 1.72 m, which is the trunk's
+  /// and that of shoulders that are turned by 40°. 0.02 to 0.5.
+  float radius_h = 0.105F;
+  /// Half of the shoulders' breadth with the arms, of the height: 0.22 m. It is kept clear of walls, discs and whoever
+  /// avoids nobody; who comes nearer than that to others turns the shoulders. `radius_h` to 0.5: at `radius_h` nobody
+  /// turns them.
+  float shoulders_h = 0.128F;
   /// How far two may overlap who have waited, m: clothes and arms give way. 0 to 0.2.
   float overlap_m = 0.03F;
 };

@@ -3,7 +3,11 @@
 #include <cstdint>
 
 #include "components/avoidance.h"
+#include "components/gait.h"
+#include "components/pose.h"
+#include "engine/schedule.h"
 #include "engine/snapshot.h"
+#include "systems/kinematics/shoulders.h"
 
 namespace mobil {
 namespace {
@@ -12,11 +16,22 @@ bool within(float value, float low, float high) {
   return value >= low && value <= high;  // false where it is not a number
 }
 
+void ease_walkers(const GaitState<Lanes<float>>&, Course<Lanes<float>>& course, float tick_s) {
+  ease_shoulders(course, tick_s);
+}
+
+void turn_walkers(const GaitState<Lanes<float>>&, const Course<Lanes<float>>& course, Pose<Lanes<float>>& pose) {
+  turn_shoulders(course.turn_rad, pose);
+}
+
 bool is_sound(const Course<float>& course) {
   constexpr float fastest_m_s = 10, furthest_rad = 1e4F, longest = 10, broadest_m = 10, for_ever_s = 1e9F;
+  constexpr float round_rad = 1, fastest_rad_s = 100;
   return within(course.speed_m_s, 0, fastest_m_s) && within(course.heading_rad, -furthest_rad, furthest_rad) &&
          within(course.usual, 0, longest) && within(course.radius_m, 0, broadest_m) &&
-         within(course.waits_s, 0, for_ever_s);
+         within(course.shoulders_m, 0, broadest_m) && within(course.waits_s, 0, for_ever_s) &&
+         within(course.turn_rad, -round_rad, round_rad) && within(course.turn_to_rad, -round_rad, round_rad) &&
+         within(course.turn_rad_s, -fastest_rad_s, fastest_rad_s);
 }
 
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
@@ -28,7 +43,14 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 }  // namespace
 
 Module avoidance_module() {
-  return {.name = "avoidance", .parts = {component_part<Course>()}, .check_rows = &check_rows};
+  return {.name = "avoidance",
+          .version = 2,
+          .parts = {component_part<Course>()},
+          .systems =
+              [](ScheduleBuilder& systems) {
+                systems.add("shoulders", &ease_walkers).add("turned shoulders", &turn_walkers).after("kinematics");
+              },
+          .check_rows = &check_rows};
 }
 
 }  // namespace mobil

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "components/avoidance.h"
 #include "engine/each.h"
-#include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "systems/avoidance/lane.h"
 #include "systems/avoidance/preference.h"
@@ -15,9 +15,10 @@
 namespace mobil {
 namespace {
 
-/// How many people are foreseen, the nearest ones, and within what distance.
+/// How many people are foreseen, the nearest ones, and within what distance; where they are looked for at first, as
+/// where many are it is enough.
 constexpr std::size_t most_passers = 12;
-constexpr float sees_m = 6;
+constexpr float sees_m = 6, sees_first_m = 2.5F;
 /// How much narrower gaps may be that somebody who stands starts into, m.
 constexpr float squeezes_m = 0.06F;
 /// How much wider a berth those get who make no room themselves, m.
@@ -34,12 +35,6 @@ constexpr float off_straight_m = 0.1F;
 
 float square(float x) {
   return x * x;
-}
-float sine(float angle) {
-  return static_cast<float>(exact::sin(angle));
-}
-float cosine(float angle) {
-  return static_cast<float>(exact::cos(angle));
 }
 struct Near {
   float distance2;
@@ -64,6 +59,7 @@ class Choice {
         me_(striker.claim),
         from_(from),
         course_(course),
+        wish_(direction(course.heading_rad)),
         trials_(make_trials(from, course)),
         overlap_m_(around.overlap_m * std::min(course.waits_s * (1 / patience_s), 1.0F)) {
     tried_ways(broadcast(from), trials_.trial, around.book.instants(), ways_, end_);
@@ -95,8 +91,9 @@ class Choice {
     gait.heading_rad =
         trial.turn_rad[l] == trials_.wish_rad ? course_.heading_rad : from_.heading_rad + trial.turn_rad[l];
     if (trials_.kind[l] == TrialKind::aside) {
-      gait.left_m = trial.aside_m[l] * sine(trial.slant_rad[l]);
-      gait.ahead_m = trial.aside_m[l] * cosine(trial.slant_rad[l]);
+      const GroundPoint slant = direction(trial.slant_rad[l]);
+      gait.left_m = trial.aside_m[l] * slant.x_m;
+      gait.ahead_m = trial.aside_m[l] * slant.z_m;
     }
     return gait;
   }
@@ -128,13 +125,23 @@ class Choice {
     return box_of({box.low_x_m, box.low_z_m}, {box.high_x_m, box.high_z_m}, off_straight_m);
   }
 
+  /// Trials stay clear of those who are within reach, and the nearest are remembered.
   void look_at_people() {
     box_ = reached();
     const float reach =
         std::max({at_.x_m - box_.low_x_m, box_.high_x_m - at_.x_m, at_.z_m - box_.low_z_m, box_.high_z_m - at_.z_m});
-    std::array<Near, most_passers> near;
     const std::uint32_t instant = around_.book.instant();
-    around_.book.near(at_.x_m, at_.z_m, std::max(reach + 2 * mine_.radius_m, sees_m), [&](std::uint32_t other) {
+    std::array<Near, most_passers> near;
+    const auto remember = [&](std::uint32_t other, const Claim& claim, std::size_t now) {
+      const Near one = {square(claim.x_m[now] - at_.x_m) + square(claim.z_m[now] - at_.z_m), claim.who.index, other};
+      if (one.distance2 > square(sees_m) || (passing_ == most_passers && !(one < near[passing_ - 1]))) return;
+      if (passing_ < most_passers) ++passing_;
+      std::size_t i = passing_ - 1;
+      for (; i > 0 && one < near[i - 1]; --i) near[i] = near[i - 1];
+      near[i] = one;
+    };
+    const float at_first_m = std::max(reach + mine_.radius_m + around_.book.broadest_m(), sees_first_m);
+    around_.book.near(at_.x_m, at_.z_m, at_first_m, [&](std::uint32_t other) {
       if (other == me_) return;
       const Claim& claim = around_.book.claim(other);
       const std::size_t now = claim.at(instant);
@@ -143,13 +150,15 @@ class Choice {
         nearest_approach(ways_, &claim.x_m[now], &claim.z_m[now], least_m2_);
         keep_clear(least_m2_, apart);
       }
-      const Near one = {square(claim.x_m[now] - at_.x_m) + square(claim.z_m[now] - at_.z_m), claim.who.index, other};
-      if (one.distance2 > square(sees_m) || (passing_ == most_passers && !(one < near[passing_ - 1]))) return;
-      if (passing_ < most_passers) ++passing_;
-      std::size_t i = passing_ - 1;
-      for (; i > 0 && one < near[i - 1]; --i) near[i] = near[i - 1];
-      near[i] = one;
+      remember(other, claim, now);
     });
+    if (at_first_m < sees_m && (passing_ < most_passers || near.back().distance2 > square(at_first_m))) {
+      passing_ = 0;
+      around_.book.near(at_.x_m, at_.z_m, sees_m, [&](std::uint32_t other) {
+        const Claim& claim = around_.book.claim(other);
+        if (other != me_) remember(other, claim, claim.at(instant));
+      });
+    }
     for (std::size_t i = 0; i < passing_; ++i) {
       const Claim& claim = around_.book.claim(near[i].claim);
       const std::size_t now = claim.at(instant);
@@ -161,9 +170,9 @@ class Choice {
 
   void look_at_walls() {
     for (const Wall& wall : around_.walls) {
-      if (!box_of(wall.from, wall.to, 0).meets(box_, mine_.radius_m)) continue;
+      if (!box_of(wall.from, wall.to, 0).meets(box_, mine_.shoulders_m)) continue;
       nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, least_m2_);
-      keep_clear(least_m2_, mine_.radius_m - brushes_m);
+      keep_clear(least_m2_, mine_.shoulders_m - brushes_m);
     }
   }
 
@@ -176,7 +185,7 @@ class Choice {
         x[s] = disc.at.x_m + then * disc.x_m_s;
         z[s] = disc.at.z_m + then * disc.z_m_s;
       }
-      const float apart = disc.radius_m + mine_.radius_m;
+      const float apart = disc.radius_m + mine_.shoulders_m;
       if (box_of({x.front(), z.front()}, {x.back(), z.back()}, 0).meets(box_, apart)) {
         nearest_approach(ways_, x.data(), z.data(), least_m2_);
         keep_clear(least_m2_, apart);
@@ -195,19 +204,19 @@ class Choice {
       if (square(disc.at.x_m - at_.x_m) + square(disc.at.z_m - at_.z_m) < square(sees_m + disc.radius_m))
         add_foresight(ways,
                       {disc.at.x_m, disc.at.z_m, disc.x_m_s, disc.z_m_s,
-                       disc.radius_m + mine_.radius_m + all_of_the_way_m - narrower_m},
+                       disc.radius_m + mine_.shoulders_m + all_of_the_way_m - narrower_m},
                       cost);
     constexpr float wall_within_m = 2;
     for (std::size_t i = 0; walls && i < around_.walls.size(); ++i) {
       const GroundPoint at = nearest_of(around_.walls[i], at_);
       if (square(at.x_m - at_.x_m) + square(at.z_m - at_.z_m) < square(wall_within_m))
-        add_foresight(ways, {at.x_m, at.z_m, 0, 0, mine_.radius_m - narrower_m}, cost);
+        add_foresight(ways, {at.x_m, at.z_m, 0, 0, mine_.shoulders_m - narrower_m}, cost);
     }
   }
 
   /// Whether somebody comes from where the walker wants to go.
   bool meets_anybody() const {
-    const float x = sine(course_.heading_rad), z = cosine(course_.heading_rad);
+    const float x = wish_.x_m, z = wish_.z_m;
     constexpr float comes_m_s = 0.3F;
     return std::any_of(
         passer_.begin(), passer_.begin() + static_cast<std::ptrdiff_t>(passing_), [&](const Passer& one) {
@@ -217,7 +226,7 @@ class Choice {
 
   void prefer_walking() {
     const Onward<Lanes<float>> ways = {end_.duration_s, end_.x_m, end_.z_m, end_.speed_m_s, end_.heading_rad};
-    cost_of_ways(ways, course_.speed_m_s, course_.heading_rad, cost_);
+    cost_of_ways(ways, course_.speed_m_s, wish_, cost_);
     foresee(ways, 0, false, cost_);
     const bool meets = meets_anybody();
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -226,8 +235,8 @@ class Choice {
     }
   }
 
-  /// The velocity at which who stands would go, of sixteen directions; none: to stay costs less.
-  GroundPoint wished_start(float pace_m_s) {
+  /// Where who stands would go at that pace, of sixteen headings; none: to stay costs less.
+  std::optional<float> wished_start(float pace_m_s) {
     Onward<Lanes<float>> ways;
     constexpr float apart = 2 * std::numbers::pi_v<float> / lane_count;
     for (std::size_t l = 0; l < lane_count; ++l) {
@@ -237,7 +246,7 @@ class Choice {
       ways.speed_m_s[l] = pace_m_s;
       ways.heading_rad[l] = course_.heading_rad + static_cast<float>(l) * apart;
     }
-    cost_of_ways(ways, course_.speed_m_s, course_.heading_rad, cost_);
+    cost_of_ways(ways, course_.speed_m_s, wish_, cost_);
     foresee(ways, squeezes_m, true, cost_);
     const bool meets = meets_anybody();
     constexpr float most_patience = 2, impatience = 0.5F;  // who has waited would rather go anywhere
@@ -249,19 +258,19 @@ class Choice {
       least = cost;
       best = l;
     }
-    if (best == lane_count) return {0, 0};
-    return {pace_m_s * sine(ways.heading_rad[best]), pace_m_s * cosine(ways.heading_rad[best])};
+    if (best == lane_count) return {};
+    return ways.heading_rad[best];
   }
 
   /// Who stands does what comes nearest to the way that they would go.
   void prefer_standing() {
     const Trial<Lanes<float>>& trial = trials_.trial;
     const float pace = trial.speed_m_s[1];
-    const GroundPoint go = wished_start(pace);
-    const bool goes = go.x_m != 0 || go.z_m != 0;  // else they face where they want to go, and wait
-    const float off =
-        goes ? wrapped(static_cast<float>(exact::atan2(go.x_m, go.z_m)) - from_.heading_rad) : trials_.wish_rad;
-    const bool as_wished = go.x_m * sine(course_.heading_rad) + go.z_m * cosine(course_.heading_rad) > 0.85F * pace;
+    const std::optional<float> there_rad = wished_start(pace);
+    const bool goes = there_rad.has_value();  // else they face where they want to go, and wait
+    const GroundPoint to = direction(there_rad.value_or(0)), go = {goes ? pace * to.x_m : 0, goes ? pace * to.z_m : 0};
+    const float off = goes ? wrapped(*there_rad - from_.heading_rad) : trials_.wish_rad;
+    const bool as_wished = go.x_m * wish_.x_m + go.z_m * wish_.z_m > 0.85F * pace;
     constexpr float of_turning_there = 0.05F, of_turning_little = 0.15F, of_turning_away = 0.2F;
     constexpr float of_turning_on_spot = 0.1F, of_slower = 0.3F;
     constexpr float of_sidling = 0.3F;                    // where the way is open: to turn and walk is faster
@@ -301,6 +310,7 @@ class Choice {
   std::uint32_t me_;
   const StrikePlace<float>& from_;
   const Course<float>& course_;
+  GroundPoint wish_;  // where the walker wants to go, of length 1
   Trials trials_;
   WaySamples<Lanes<float>> ways_;
   StepEnd<Lanes<float>> end_;

@@ -7,7 +7,6 @@
 #include "components/avoidance.h"
 #include "engine/access.h"
 #include "engine/each.h"
-#include "engine/exact_math.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {
@@ -32,7 +31,7 @@ void finish(Claim& claim) {
 
 }  // namespace
 
-void ClaimBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float radius_h) {
+void ClaimBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float shoulders_h) {
   every_ticks_ = std::max<std::uint32_t>(1, static_cast<std::uint32_t>(std::lround(0.1F / tick_s)));
   instant_ = (tick + every_ticks_) / every_ticks_;  // the first after the tick to come
   first_tick_ = instant_ * every_ticks_ - tick;
@@ -40,10 +39,10 @@ void ClaimBook::refresh(World& world, const Jobs& jobs, std::uint32_t tick, floa
   list(world);
   in_parallel(jobs, blocks_.size(), [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;  // as in a tick
-    for (std::size_t b = begin; b < end; ++b) remake(blocks_[b], radius_h);
+    for (std::size_t b = begin; b < end; ++b) remake(blocks_[b], shoulders_h);
   });
   strikers_.clear();
-  for (const BlockOf& at : blocks_) {
+  for (const BlockOfClaims& at : blocks_) {
     for (std::uint32_t lanes = at.striking; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       strikers_.push_back({at.table, at.block, lane, seen_[at.first + lane]});
@@ -79,7 +78,7 @@ void ClaimBook::list(World& world) {
   }
 }
 
-void ClaimBook::remake(BlockOf& at, float radius_h) {
+void ClaimBook::remake(BlockOfClaims& at, float shoulders_h) {
   Table& table = *at.table;
   const auto& size = TableColumn<BodySize>(table).at(table, at.block);
   const auto& plan = TableColumn<StepPlan>(table).at(table, at.block);
@@ -94,7 +93,8 @@ void ClaimBook::remake(BlockOf& at, float radius_h) {
                                   state.line_z_m[l],      state.heading_rad[l],    plan.duration_s[l],
                                   plan.to.speed_m_s[l],   state.bend_next_per_m[l]};
     Claim& claim = claims_[seen_[at.first + l]];
-    claim.radius_m = courses ? courses.at(table, at.block).radius_m[l] : radius_h * size.height_m[l];
+    claim.shoulders_m = courses ? courses.at(table, at.block).shoulders_m[l] : shoulders_h * size.height_m[l];
+    claim.radius_m = courses ? courses.at(table, at.block).radius_m[l] : claim.shoulders_m;
     claim.yields = static_cast<bool>(courses);
     if (courses && units.of(state.time_s[l]) + units.per_tick >= units.step(plan.duration_s[l])) at.striking |= 1U << l;
     // Of who avoids nobody the claim leads straight on from its first instant: it is made anew at each, so that it
@@ -109,6 +109,9 @@ void ClaimBook::remake(BlockOf& at, float radius_h) {
   if (changed == 0) return;
   WaySamples<Lanes<float>> ways;
   claim_ways(size, plan, state, first_tick_, every_ticks_, tick_s_, ways);
+  Lanes<float> heading, faces_x, faces_z;
+  for (std::size_t l = 0; l < lane_count; ++l) heading[l] = state.heading_rad[l] + state.turn_rad[l];
+  directions(heading, faces_x, faces_z);
   for (; changed != 0; changed &= changed - 1) {
     const auto l = static_cast<std::uint32_t>(std::countr_zero(changed));
     Claim& claim = claims_[seen_[at.first + l]];
@@ -116,9 +119,8 @@ void ClaimBook::remake(BlockOf& at, float radius_h) {
       claim.x_m[s] = ways.x_m[s][l];
       claim.z_m[s] = ways.z_m[s][l];
     }
-    const double heading = double{state.heading_rad[l]} + double{state.turn_rad[l]};
-    claim.faces_x = static_cast<float>(exact::sin(heading));
-    claim.faces_z = static_cast<float>(exact::cos(heading));
+    claim.faces_x = faces_x[l];
+    claim.faces_z = faces_z[l];
     claim.x_m_s = plan.to.speed_m_s[l] * claim.faces_x;
     claim.z_m_s = plan.to.speed_m_s[l] * claim.faces_z;
     if (!courses) go_on(instants(), claim);
@@ -131,9 +133,10 @@ void ClaimBook::sort() {
   buckets_ = std::bit_ceil(2 * seen_.size() + 1);
   starts_.assign(buckets_ + 2, 0);
   unsorted_.clear();
-  longest_m_ = 0;
+  longest_m_ = broadest_m_ = 0;
   for (const std::uint32_t number : seen_) {
     const GroundBox& box = claims_[number].box;
+    broadest_m_ = std::max(broadest_m_, claims_[number].radius_m);
     longest_m_ = std::max({longest_m_, 0.5F * (box.high_x_m - box.low_x_m), 0.5F * (box.high_z_m - box.low_z_m)});
     unsorted_.push_back({cell(0.5F * (box.low_x_m + box.high_x_m)), cell(0.5F * (box.low_z_m + box.high_z_m)), number});
     ++starts_[bucket(unsorted_.back().x, unsorted_.back().z) + 2];

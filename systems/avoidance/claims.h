@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "engine/entity.h"
@@ -41,7 +42,7 @@ struct Claim {
   std::uint32_t first;
   Source source;
   GroundBox box;
-  float faces_x, faces_z, x_m_s, z_m_s, radius_m;
+  float faces_x, faces_z, x_m_s, z_m_s, radius_m, shoulders_m;
   bool yields;  // avoids others too
   std::array<float, kept> x_m, z_m;
 
@@ -57,11 +58,17 @@ struct Striker {
   std::uint32_t block, lane, claim;
 };
 
+/// A block of walkers: where their claims' numbers begin in the book; lanes that begin a step in the tick to come.
+struct BlockOfClaims {
+  Table* table;
+  std::uint32_t block, first, striking;
+};
+
 /// The claims of all walkers.
 class ClaimBook {
  public:
   /// Goes over all walkers: makes claims anew where steps have begun since or anything else has changed.
-  void refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float radius_h);
+  void refresh(World& world, const Jobs& jobs, std::uint32_t tick, float tick_s, float shoulders_h);
 
   /// The next instant of claims, all after the tick to come.
   std::uint32_t instant() const { return instant_; }
@@ -72,7 +79,12 @@ class ClaimBook {
   const std::vector<Striker>& strikers() const { return strikers_; }
   std::size_t people() const { return seen_.size(); }
   std::size_t claims() const { return claims_.size(); }
+  /// The greatest radius of any claim, m.
+  float broadest_m() const { return broadest_m_; }
   const Claim& claim(std::uint32_t number) const { return claims_[number]; }
+  /// All walkers' blocks; the claim of somebody in one.
+  std::span<const BlockOfClaims> blocks() const { return blocks_; }
+  std::uint32_t claim_in(const BlockOfClaims& at, std::size_t lane) const { return seen_[at.first + lane]; }
 
   /// `f(number)` for all whose claims come within `reach_m` of a place, and some more. From any thread.
   template <class F>
@@ -97,11 +109,6 @@ class ClaimBook {
   }
 
  private:
-  struct BlockOf {
-    Table* table;
-    std::uint32_t block, first;  // in seen_
-    std::uint32_t striking;      // lanes
-  };
   struct Sorted {
     std::int32_t x, z;
     std::uint32_t claim;
@@ -119,7 +126,7 @@ class ClaimBook {
     return mix64(both) & (buckets_ - 1);
   }
   void list(World& world);
-  void remake(BlockOf& at, float radius_h);
+  void remake(BlockOfClaims& at, float shoulders_h);
   void sort();
 
   std::uint32_t instant_ = 0, first_tick_ = 0, every_ticks_ = 1;  // first_tick_: how many ahead the instant is
@@ -127,9 +134,10 @@ class ClaimBook {
   std::vector<Claim> claims_;
   std::vector<std::uint32_t> claim_of_;  // by entity index
   std::vector<std::uint32_t> seen_;      // claims of all rows, block by block
-  std::vector<BlockOf> blocks_;
+  std::vector<BlockOfClaims> blocks_;
   std::vector<Striker> strikers_;
   float longest_m_ = 0;  // half of the longest side of any box
+  float broadest_m_ = 0;
   std::size_t buckets_ = 1;
   std::vector<std::uint32_t> starts_;
   std::vector<Sorted> sorted_, unsorted_;

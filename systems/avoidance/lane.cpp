@@ -1,6 +1,7 @@
 #include "systems/avoidance/lane.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "engine/exact_math.h"
@@ -23,6 +24,18 @@ constexpr float opposed = 0.2F, many_oncoming = 6;
 /// Sums are of whole numbers, so that the order of people does not matter.
 constexpr float unit = 1.0F / 4096;
 
+/// By how much a heading into a lane is to the left of the way straight on, rad.
+float off_straight(int lane) {
+  static const auto angles = [] {
+    std::array<float, lanes_across> made{};
+    for (int i = 0; i < lanes_across; ++i)
+      made[static_cast<std::size_t>(i)] =
+          static_cast<float>(exact::atan2(lane_apart_m * static_cast<float>(i - lanes_aside), joins_ahead_m));
+    return made;
+  }();
+  return angles[static_cast<std::size_t>(lane)];
+}
+
 float distance2(GroundPoint a, GroundPoint b) {
   return (a.x_m - b.x_m) * (a.x_m - b.x_m) + (a.z_m - b.z_m) * (a.z_m - b.z_m);
 }
@@ -40,8 +53,7 @@ float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint
   const Claim& mine = book.claim(me);
   const std::size_t now_at = mine.at(book.instant());
   const GroundPoint at = {mine.x_m[now_at], mine.z_m[now_at]};
-  const auto ahead_x = static_cast<float>(exact::sin(course.heading_rad));
-  const auto ahead_z = static_cast<float>(exact::cos(course.heading_rad));
+  const auto [ahead_x, ahead_z] = direction(course.heading_rad);
   const float left_x = ahead_z, left_z = -ahead_x;
   std::int64_t weight[lanes_across] = {};  // of oncoming walkers, in units
   int oncoming = 0;
@@ -92,8 +104,7 @@ float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint
     for (const int lane : {lanes_aside - i, lanes_aside + i})
       if (cost[lane] < cost[best]) best = lane;
   if (best == lanes_aside) return course.heading_rad;
-  const float left = lane_apart_m * static_cast<float>(best - lanes_aside);
-  return course.heading_rad + static_cast<float>(exact::atan2(left, joins_ahead_m));
+  return course.heading_rad + off_straight(best);
 }
 
 }  // namespace mobil

@@ -2,7 +2,6 @@
 #define HWY_TARGET_INCLUDE "systems/avoidance/preference.cpp"
 #include <hwy/foreach_target.h>
 
-#include "engine/exact_math.h"
 #include "engine/wide-inl.h"
 #include "systems/avoidance/preference.h"
 
@@ -55,9 +54,8 @@ HWY_EXPORT(cost_block);
 HWY_EXPORT(velocity_block);
 HWY_EXPORT(foresight_block);
 
-void cost_of_ways(const Onward<Lanes<float>>& ways, float speed_m_s, float heading_rad, Lanes<float>& cost) {
-  HWY_DYNAMIC_DISPATCH(cost_block)
-  (ways, speed_m_s, static_cast<float>(exact::sin(heading_rad)), static_cast<float>(exact::cos(heading_rad)), cost);
+void cost_of_ways(const Onward<Lanes<float>>& ways, float speed_m_s, GroundPoint toward, Lanes<float>& cost) {
+  HWY_DYNAMIC_DISPATCH(cost_block)(ways, speed_m_s, toward.x_m, toward.z_m, cost);
 }
 
 void off_velocity(const Lanes<float>& speed_m_s, const Lanes<float>& heading_rad, float x_m_s, float z_m_s,

@@ -16,8 +16,9 @@ struct Passer {
   float x_m, z_m, x_m_s, z_m_s, apart_m;
 };
 
-/// What ways cost that are not as wished, (m/s)²: the velocity that is missed, and facing elsewhere.
-void cost_of_ways(const Onward<Lanes<float>>& ways, float speed_m_s, float heading_rad, Lanes<float>& cost);
+/// What ways cost that are not as wished, (m/s)²: the velocity that is missed, and facing elsewhere. `toward`: of
+/// length 1.
+void cost_of_ways(const Onward<Lanes<float>>& ways, float speed_m_s, GroundPoint toward, Lanes<float>& cost);
 
 /// How far velocities of that speed and heading are from one, squared.
 void off_velocity(const Lanes<float>& speed_m_s, const Lanes<float>& heading_rad, float x_m_s, float z_m_s,

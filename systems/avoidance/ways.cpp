@@ -231,6 +231,13 @@ void tried_block(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>
   stop(at, instants, way.duration, out);
 }
 
+void directions_block(const Lanes<float>& heading, Lanes<float>& x, Lanes<float>& z) {
+  Wide s, c;
+  sin_cos(load(heading), s, c);
+  store(s, x);
+  store(c, z);
+}
+
 void approach_block(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& least_m2) {
   Wide least = wide(1e9F);
   for (std::size_t s = 0; s < way_samples; ++s) {
@@ -281,6 +288,7 @@ float usual_hips(float speed) {
 
 HWY_EXPORT(claim_block);
 HWY_EXPORT(tried_block);
+HWY_EXPORT(directions_block);
 HWY_EXPORT(approach_block);
 HWY_EXPORT(wall_block);
 
@@ -325,6 +333,17 @@ void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end) {
   HWY_DYNAMIC_DISPATCH(tried_block)(from, tried, at, out, end);
+}
+
+void directions(const Lanes<float>& heading_rad, Lanes<float>& x, Lanes<float>& z) {
+  HWY_DYNAMIC_DISPATCH(directions_block)(heading_rad, x, z);
+}
+
+GroundPoint direction(float heading_rad) {
+  Lanes<float> heading{}, x, z;
+  heading[0] = heading_rad;
+  directions(heading, x, z);
+  return {x[0], z[0]};
 }
 
 void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m,

@@ -8,6 +8,7 @@
 
 #include "components/body.h"
 #include "components/gait.h"
+#include "systems/avoidance/obstacles.h"
 
 namespace mobil {
 
@@ -70,6 +71,11 @@ void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 /// step ends.
 void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end);
+
+/// Unit vectors of headings: their sines are the x, their cosines the z. Much faster than engine/exact_math.h, and the
+/// same on all machines.
+void directions(const Lanes<float>& heading_rad, Lanes<float>& x, Lanes<float>& z);
+GroundPoint direction(float heading_rad);
 
 /// The least squared distance of each lane's way from one of somebody else, m²: `x_m` and `z_m` have way_samples.
 void nearest_approach(const WaySamples<Lanes<float>>& ways, const float* x_m, const float* z_m, Lanes<float>& least_m2);

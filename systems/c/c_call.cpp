@@ -282,7 +282,7 @@ mobil_skin_target usual() {
 template <>
 mobil_avoidance usual() {
   const AvoidanceOptions as;
-  return {sizeof(mobil_avoidance), as.radius_h, as.overlap_m};
+  return {sizeof(mobil_avoidance), as.radius_h, as.overlap_m, as.shoulders_h};
 }
 template <>
 mobil_steered usual() {

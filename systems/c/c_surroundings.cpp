@@ -71,9 +71,10 @@ int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options) {
     if (options != nullptr) {
       if (const int code = read_struct(s.line, options, "options", known)) return code;
     }
-    if (!std::isfinite(known.radius_h) || !std::isfinite(known.overlap_m))
-      return s.line.refuse(MOBIL_REFUSED, "radius_h or overlap_m is not finite; mobil_defaults gives the usual ones");
-    Avoidance made(s.world(), {known.radius_h, known.overlap_m});
+    if (!std::isfinite(known.radius_h) || !std::isfinite(known.overlap_m) || !std::isfinite(known.shoulders_h))
+      return s.line.refuse(MOBIL_REFUSED,
+                           "radius_h, overlap_m or shoulders_h is not finite; mobil_defaults gives the usual ones");
+    Avoidance made(s.world(), {known.radius_h, known.shoulders_h, known.overlap_m});
     s.avoidance.emplace(std::move(made));
     return int{MOBIL_OK};
   });

@@ -8,8 +8,11 @@
 /* How much room people keep who avoid each other. What is out of range is taken as the end that is nearer. */
 typedef struct mobil_avoidance {
   size_t size;
-  float radius_h;  /* half the breadth kept clear, of the height, 0.02 to 0.5; usual 0.128: 0.22 m at 1.72 m */
+  float radius_h;  /* half the breadth that two keep clear of each other, of the height, 0.02 to 0.5; usual 0.105: 0.18 m
+                      at 1.72 m, the trunk's and that of turned shoulders */
   float overlap_m; /* how far two may overlap who have waited, 0 to 0.2; usual 0.03 */
+  float shoulders_h; /* half of the shoulders' breadth with the arms, of the height, radius_h to 0.5; usual 0.128: kept
+                        clear of walls and discs; who comes nearer to others turns the shoulders */
 } mobil_avoidance;
 
 /* What mobil_steer did: people looked at; who chose a step; of these who had to keep to what others know of them, and

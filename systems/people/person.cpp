@@ -7,6 +7,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
+#include "components/avoidance.h"
 #include "components/forces.h"
 #include "engine/each.h"
 #include "engine/rows.h"
@@ -172,6 +173,10 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   gait.heading_rad = way.turned(gait.heading_rad);
   world.set(person, state);
   world.set(person, gait);
+  if (auto course = world.get<Course>(person)) {
+    course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
+    world.set(person, *course);
+  }
   auto footing = world.get<Footing>(person);
   if (footing) {
     footing->known = footing_unknown;

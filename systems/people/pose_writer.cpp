@@ -8,6 +8,7 @@
 #include <cstring>
 #include <tuple>
 
+#include "components/avoidance.h"
 #include "components/body.h"
 #include "components/gait.h"
 #include "components/pose.h"
@@ -15,6 +16,7 @@
 #include "engine/geometry.h"
 #include "engine/rows.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/kinematics/shoulders.h"
 #include "systems/people/pose_axes.h"
 #include "systems/people/sleepers.h"
 #include "systems/people/walk_ahead.h"
@@ -24,7 +26,12 @@ namespace {
 
 constexpr std::array<std::size_t, 3> form_floats = {7, 12, 8};
 
-/// A block of walkers where they will be.
+/// As a tick does it after the pose.
+void turn_as_avoided(const Table& table, std::size_t block, Pose<Lanes<float>>& pose) {
+  if (const TableColumn<Course> courses(table); courses) turn_shoulders(courses.at(table, block).turn_rad, pose);
+}
+
+/// A block of walkers where they will be; their shoulders as they are.
 void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<float>>& pose) {
   const auto& size = TableColumn<BodySize>(table).at(table, block);
   const TableColumn<Footing> footing(table);
@@ -34,6 +41,7 @@ void walk_on(const Table& table, std::size_t block, float ahead_s, Pose<Lanes<fl
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   pose_skeleton(size, then.plan(), then.state(), then.footing(), pose, angles, feet);
+  turn_as_avoided(table, block, pose);
 }
 
 /// A block of walkers without a pose of their own.
@@ -42,6 +50,7 @@ void pose_compact(const Table& table, std::size_t block, Pose<Lanes<float>>& pos
   Feet<Lanes<float>> feet;
   pose_skeleton(TableColumn<BodySize>(table).at(table, block), TableColumn<StepPlan>(table).at(table, block),
                 TableColumn<GaitState>(table).at(table, block), nullptr, pose, angles, feet);
+  turn_as_avoided(table, block, pose);
 }
 
 /// Places and quaternions of one segment of sixteen people: x y z, x y z w.

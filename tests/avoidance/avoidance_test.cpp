@@ -16,6 +16,7 @@
 #include "systems/avoidance/trials.h"
 #include "systems/simulation.h"
 #include "systems/simulation_world.h"
+#include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/simulation/reseal.h"
@@ -160,51 +161,6 @@ TEST(Avoidance, TwoWhoMeetPassWithoutStopping) {
   EXPECT_LT(root_of(simulation, b).z_m, -8);
 }
 
-/// People in a closed room, each with places to go to one after the other.
-struct Room {
-  static constexpr std::size_t people = 40;
-  static constexpr float side_m = 8;
-
-  explicit Room(int threads) : simulation({.threads = threads}), avoidance(simulation) {
-    for (std::size_t i = 0; i < people; ++i) {
-      const float x = side_m * ((static_cast<float>(i % 7) + 0.5F) / 7 - 0.5F);
-      const float z = side_m * ((static_cast<float>(i / 7) + 0.5F) / 6 - 0.5F);
-      who.push_back(walker(simulation, 0, x, z, 6 * drawn(i, 1), 1.6F + 0.25F * drawn(i, 2)));
-      EXPECT_TRUE(avoidance.manage(who.back()));
-    }
-    constexpr float h = side_m / 2;
-    const Wall walls[] = {{{-h, -h}, {h, -h}}, {{h, -h}, {h, h}}, {{h, h}, {-h, h}}, {{-h, h}, {-h, -h}}};
-    EXPECT_TRUE(avoidance.set_walls(walls));
-    roots.resize(people);
-  }
-
-  void tick() {
-    const std::uint32_t now = simulation.ticks();
-    if (now % 15 == 0) {
-      EXPECT_TRUE(simulation.roots(who, roots));
-      wishes.clear();
-      for (std::size_t i = 0; i < people; ++i) {
-        const std::uint64_t goal = i * 1000 + (now + 31 * i) / 600;
-        const auto x = static_cast<double>((side_m - 1) * (drawn(goal, 3) - 0.5F));
-        const auto z = static_cast<double>((side_m - 1) * (drawn(goal, 4) - 0.5F));
-        const float heading = static_cast<float>(std::atan2(x - roots[i].x_m, z - roots[i].z_m));
-        const bool there = std::hypot(x - roots[i].x_m, z - roots[i].z_m) < 0.7;
-        wishes.push_back({who[i], there ? 0 : 1.1F + 0.4F * drawn(i, 5), heading});
-      }
-      EXPECT_TRUE(avoidance.want(wishes));
-    }
-    report = avoidance.update();
-    simulation.tick();
-  }
-
-  Simulation simulation;
-  Avoidance avoidance;
-  std::vector<Entity> who;
-  std::vector<Root> roots;
-  std::vector<WalkWish> wishes;
-  AvoidanceReport report;
-};
-
 TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
   Room room(1);
   double walked = 0;
@@ -212,10 +168,10 @@ TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
     const auto before = room.roots;
     room.tick();
     ASSERT_TRUE(room.simulation.roots(room.who, room.roots));
-    for (std::size_t i = 0; i < Room::people; ++i) {
+    for (std::size_t i = 0; i < room.people; ++i) {
       const auto radius = [&](std::size_t p) { return double{room.simulation.get<Course>(room.who[p])->radius_m}; };
       if (k > 0) walked += std::hypot(room.roots[i].x_m - before[i].x_m, room.roots[i].z_m - before[i].z_m);
-      const double wall = Room::side_m / 2 - std::max(std::abs(room.roots[i].x_m), std::abs(room.roots[i].z_m));
+      const double wall = room.side_m / 2 - std::max(std::abs(room.roots[i].x_m), std::abs(room.roots[i].z_m));
       if (k % 5 != 0) continue;
       ASSERT_GT(wall, radius(i) - 0.05);
       for (std::size_t j = 0; j < i; ++j) {
@@ -224,7 +180,7 @@ TEST(Avoidance, NobodyWalksIntoAnybodyInAFullRoom) {
       }
     }
   }
-  EXPECT_GT(walked / Room::people, 6) << "they do get about";
+  EXPECT_GT(walked / static_cast<double>(room.people), 6) << "they do get about";
 }
 
 TEST(Avoidance, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {

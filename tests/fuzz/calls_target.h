@@ -230,6 +230,7 @@ class WildHost {
         mobil_defaults(MOBIL_AVOIDANCE, &options, sizeof options);
         options.radius_h = row[0];
         options.overlap_m = row[1];
+        options.shoulders_h = row[2];
         return mobil_start_avoidance(sim_, &options);
       }
       default:

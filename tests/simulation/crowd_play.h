@@ -13,10 +13,12 @@
 #include <span>
 #include <vector>
 
+#include "components/avoidance.h"
 #include "components/forces.h"
 #include "components/sleep.h"
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
+#include "systems/simulation_world.h"
 #include "systems/terrain/terrain.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
@@ -127,6 +129,7 @@ class Crowd {
 
  private:
   static bool is_posed(int who) { return who % 16 == 11; }
+  static bool turns_shoulders(int who) { return who % 16 == 9; }
   static bool is_on_hills(int who) { return who % 16 == 6; }
   static void hills(std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
     for (std::size_t i = 0; i < at.size(); ++i)
@@ -151,6 +154,11 @@ class Crowd {
     }
     if (is_on_hills(who)) {
       EXPECT_TRUE(terrain_.manage({&*human, 1}));
+    }
+    if (turns_shoulders(who)) {
+      Course<float> course{};
+      course.turn_to_rad = 0.5F;
+      EXPECT_EQ(world_of(simulation_).add(*human, course), Status::ok);
     }
     if (who % 8 == 5) return;  // walks without muscles
     const auto added = simulation_.add_leg_muscles(*human, choice_for(*human, draw(who, -1)));

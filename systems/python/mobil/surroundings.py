@@ -28,16 +28,20 @@ class Steered(NamedTuple):
 class Avoidance:
     """Walkers who keep out of each other's way: one for a world.
 
-    radius_h: half the breadth kept clear, of the height, 0.02 to 0.5. overlap_m: how far two may overlap who have waited,
-    0 to 0.2. Call update() before each tick.
+    radius_h: half the breadth that two keep clear of each other, of the height, 0.02 to 0.5. shoulders_h: half of the
+    shoulders' breadth, radius_h to 0.5: kept clear of walls and discs; who comes nearer to others turns the shoulders.
+    overlap_m: how far two may overlap who have waited, 0 to 0.2. Call update() before each tick.
     """
 
-    def __init__(self, world: World, *, radius_h: float | None = None, overlap_m: float | None = None) -> None:
+    def __init__(self, world: World, *, radius_h: float | None = None, overlap_m: float | None = None,
+                 shoulders_h: float | None = None) -> None:
         options = struct("avoidance")
         if radius_h is not None:
             options.radius_h = radius_h
         if overlap_m is not None:
             options.overlap_m = overlap_m
+        if shoulders_h is not None:
+            options.shoulders_h = shoulders_h
         self._world = world
         world._do(lib.mobil_start_avoidance(world._sim, options))
 

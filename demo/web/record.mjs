@@ -1,0 +1,44 @@
+// The page's pictures: page.webp, a stride of it, and poster.jpg, which is shown where the page cannot run.
+// node record.mjs PLAYWRIGHT PAGE: the folder where tests/web/run installs playwright-core, and the built page.
+import { createRequire } from 'node:module';
+import { spawnSync } from 'node:child_process';
+import { mkdtemp, rm } from 'node:fs/promises';
+import os from 'node:os';
+import path from 'node:path';
+import { serve } from './serve.mjs';
+
+const [modules, built] = process.argv.slice(2).map((folder) => path.resolve(folder));
+if (!built) throw new Error('usage: node record.mjs PLAYWRIGHT PAGE');
+const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
+const { chromium } = createRequire(path.join(modules, 'x.js'))('playwright-core');
+const frames = 32, ticks = 4, width = 760, height = 451;
+
+const ffmpeg = (...args) => {
+  const done = spawnSync('ffmpeg', ['-y', '-v', 'error', ...args], { stdio: 'inherit' });
+  if (done.status !== 0) throw new Error(`ffmpeg failed: ${args.at(-1)}`);
+};
+
+const { port, close } = await serve(built);
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
+});
+const folder = await mkdtemp(path.join(os.tmpdir(), 'record-'));
+try {
+  const page = await browser.newPage({ viewport: { width: 1280, height: 760 } });
+  await page.goto(`http://127.0.0.1:${port}/?still&t=6&pull=1&crowd=120&clear=1`);
+  await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 120000 });
+  for (let i = 0; i < frames; ++i) {
+    for (let k = 0; k < ticks; ++k) await page.keyboard.press('.');
+    await page.screenshot({ path: path.join(folder, `${String(i).padStart(3, '0')}.png`) });
+    process.stdout.write(`\r${i + 1} of ${frames} pictures`);
+  }
+  process.stdout.write('\n');
+} finally {
+  await browser.close();
+  close();
+}
+ffmpeg('-framerate', '15', '-i', path.join(folder, '%03d.png'), '-vf', `scale=${width}:${height}:flags=lanczos`,
+  '-c:v', 'libwebp_anim', '-loop', '0', '-quality', '60', path.join(here, 'page.webp'));
+ffmpeg('-i', path.join(folder, '000.png'), '-q:v', '4', path.join(here, 'poster.jpg'));
+await rm(folder, { recursive: true });

@@ -1,0 +1,142 @@
+#include "systems/avoidance/narrow.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "components/avoidance.h"
+#include "engine/each.h"
+#include "engine/exact_math.h"
+#include "systems/kinematics/shoulders.h"
+
+namespace mobil {
+namespace {
+
+/// How often everybody is looked at, ticks.
+constexpr std::uint32_t every_ticks = 8;
+/// The instants ahead at which it is seen who comes near: what takes half a second to turn is turned by then.
+constexpr std::array<std::size_t, 3> looked_at = {0, 2, 4};
+/// What turns cost: a centimetre that is lacking; a turn; one the other way, for on the way there the shoulders are as
+/// broad as they can be.
+constexpr float of_lacking_per_m = 100, of_turning_per_rad = 1, of_the_other_way = 3;
+
+/// The turns that are weighed: the smaller ones first.
+struct Turn {
+  float rad, sine, cosine;
+};
+const std::array<Turn, 9>& turns() {
+  static const auto all = [] {
+    std::array<Turn, 9> made{};
+    for (std::size_t i = 0; i < made.size(); ++i) {
+      const float size = most_shoulder_turn * static_cast<float>((i + 1) / 2) / static_cast<float>(made.size() / 2);
+      const float turn = i % 2 == 1 ? size : -size;
+      made[i] = {turn, static_cast<float>(exact::sin(double{turn})), static_cast<float>(exact::cos(double{turn}))};
+    }
+    return made;
+  }();
+  return all;
+}
+
+/// Somebody near: toward where, and how much of the gap is the looker's.
+struct Neighbour {
+  float toward_x, toward_z, room_m;
+};
+
+class Narrowing {
+ public:
+  Narrowing(const ClaimBook& book, std::uint32_t me, float turned_rad)
+      : mine_(book.claim(me)), turned_rad_(turned_rad) {
+    const std::uint32_t instant = book.instant();
+    const std::size_t now = mine_.at(instant), then = now + looked_at.back();
+    const GroundBox box = {std::min(mine_.x_m[now], mine_.x_m[then]), std::max(mine_.x_m[now], mine_.x_m[then]),
+                           std::min(mine_.z_m[now], mine_.z_m[then]), std::max(mine_.z_m[now], mine_.z_m[then])};
+    book.near(mine_.x_m[now], mine_.z_m[now], 2 * mine_.shoulders_m, [&](std::uint32_t other) {
+      const Claim& claim = book.claim(other);
+      if (other != me && claim.box.meets(box, mine_.shoulders_m + claim.shoulders_m)) look_at(claim, now, instant);
+    });
+  }
+
+  float best() const {
+    if (count_ == 0) return 0;
+    const Turn* best = nullptr;
+    float least = 0;
+    for (const Turn& turn : turns()) {
+      const float costs = cost(turn);
+      if (best != nullptr && costs >= least) continue;
+      least = costs;
+      best = &turn;
+    }
+    return best->rad;
+  }
+
+ private:
+  void look_at(const Claim& claim, std::size_t now, std::uint32_t instant) {
+    const std::size_t then = claim.at(instant);
+    const float both = mine_.shoulders_m + claim.shoulders_m;
+    float nearest2 = both * both, x = 0, z = 0;
+    for (const std::size_t ahead : looked_at) {
+      const float dx = claim.x_m[then + ahead] - mine_.x_m[now + ahead];
+      const float dz = claim.z_m[then + ahead] - mine_.z_m[now + ahead], squared = dx * dx + dz * dz;
+      if (squared >= nearest2) continue;
+      nearest2 = squared;
+      x = dx;
+      z = dz;
+    }
+    const float nearest = std::sqrt(nearest2);
+    if (nearest >= both || nearest <= 0) return;
+    const Neighbour one = {x / nearest, z / nearest, nearest * mine_.shoulders_m / both};
+    if (count_ < near_.size()) {
+      near_[count_++] = one;
+      return;
+    }
+    const auto furthest = std::max_element(near_.begin(), near_.end(),
+                                           [](const Neighbour& a, const Neighbour& b) { return a.room_m < b.room_m; });
+    if (one.room_m < furthest->room_m) *furthest = one;
+  }
+
+  float cost(const Turn& turn) const {
+    const float faces_x = mine_.faces_x * turn.cosine + mine_.faces_z * turn.sine;
+    const float faces_z = mine_.faces_z * turn.cosine - mine_.faces_x * turn.sine;
+    float lacking = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      const Neighbour& one = near_[i];
+      lacking =
+          std::max(lacking, reach_of(mine_.shoulders_m, faces_x, faces_z, one.toward_x, one.toward_z) - one.room_m);
+    }
+    const bool other_way = turn.rad * turned_rad_ < 0;
+    return of_lacking_per_m * lacking + of_turning_per_rad * std::fabs(turn.rad) + (other_way ? of_the_other_way : 0);
+  }
+
+  const Claim& mine_;
+  float turned_rad_;
+  std::array<Neighbour, 8> near_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
+float reach_of(float shoulders_m, float faces_x, float faces_z, float toward_x, float toward_z) {
+  const float ahead = toward_x * faces_x + toward_z * faces_z, aside = toward_x * faces_z - toward_z * faces_x;
+  return shoulders_m * std::sqrt(aside * aside + depth_part * depth_part * ahead * ahead);
+}
+
+void narrow_shoulders(const ClaimBook& book, const Jobs& jobs, std::uint32_t tick) {
+  const std::span<const BlockOfClaims> blocks = book.blocks();
+  in_parallel(jobs, blocks.size(), [&](std::size_t begin, std::size_t end) {
+    const FlushDenormals flush;  // as in a tick
+    for (const BlockOfClaims& at : blocks.subspan(begin, end - begin)) {
+      const TableColumn<Course> courses(*at.table);
+      if (!courses) continue;
+      auto& course = courses.at(*at.table, at.block);
+      const Entity* const entities = at.table->entities(at.block);
+      for (std::size_t l = 0; l < at.table->live(at.block); ++l) {
+        if ((entities[l].index + tick) % every_ticks != 0) continue;
+        const bool narrows = course.shoulders_m[l] > course.radius_m[l];
+        course.turn_to_rad[l] = narrows ? Narrowing(book, book.claim_in(at, l), course.turn_rad[l]).best() : 0;
+      }
+    }
+  });
+}
+
+}  // namespace mobil

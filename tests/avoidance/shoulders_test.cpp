@@ -1,0 +1,210 @@
+// Shoulders that turn where two pass in a narrow place.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "assets/body/joint_limits.h"
+#include "components/avoidance.h"
+#include "components/body.h"
+#include "components/gait_style.h"
+#include "components/pose.h"
+#include "engine/geometry.h"
+#include "engine/rows.h"
+#include "systems/avoidance/avoidance.h"
+#include "systems/kinematics/shoulders.h"
+#include "systems/simulation.h"
+#include "tests/avoidance/room.h"
+#include "tests/avoidance/walkers.h"
+
+namespace mobil {
+namespace {
+
+using geometry::product;
+using geometry::rotated;
+
+Quat<float> inverse(const Quat<float>& q) {
+  return {-q.x, -q.y, -q.z, q.w};
+}
+
+/// About the vertical, rad; of rotations that are nearly so.
+float yaw(const Quat<float>& q) {
+  return 2 * std::atan2(q.y, q.w);
+}
+
+Pose<float> turned(const Pose<float>& pose, float by_rad) {
+  auto block = broadcast(pose);
+  turn_shoulders(in_every_lane<Lanes<float>>(by_rad), block);
+  return first_lane(block);
+}
+
+TEST(Shoulders, TurnAgainstThePelvisAndTheHeadLooksAhead) {
+  Simulation simulation;
+  const Entity one = walker(simulation, 1.2F, 3, -2, 0.7F);
+  simulation.tick(40);
+  const Pose<float> before = *simulation.get<Pose>(one);
+  for (const float by : {-most_shoulder_turn, -0.1F, 0.02F, 0.3F, most_shoulder_turn}) {
+    const Pose<float> after = turned(before, by);
+    const auto made = [&](Segment s) {
+      return yaw(product(after.rotation[index(s)], inverse(before.rotation[index(s)])));
+    };
+    EXPECT_NEAR(made(Segment::T1), by, 1e-5F);
+    EXPECT_NEAR(made(Segment::hand_left), by, 1e-5F);
+    EXPECT_NEAR(made(Segment::head), 0, 1e-5F);
+    for (std::size_t s = 0; s < segment_count; ++s) {
+      const std::size_t parent = index(segment_parent[s]);
+      if (s == parent) continue;
+      // Each segment keeps its place on its parent.
+      const auto place_on = [&](const Pose<float>& pose) {
+        const Vec3<float>&a = pose.position_m[s], b = pose.position_m[parent];
+        return rotated(inverse(pose.rotation[parent]), {a.x - b.x, a.y - b.y, a.z - b.z});
+      };
+      const Vec3<float> was = place_on(before), is = place_on(after);
+      EXPECT_NEAR(std::hypot(is.x - was.x, is.y - was.y, is.z - was.z), 0, 2e-6F) << s;
+    }
+    for (const Segment legs : {Segment::pelvis, Segment::thigh_left, Segment::foot_right, Segment::toes_left}) {
+      EXPECT_EQ(after.position_m[index(legs)].x, before.position_m[index(legs)].x);
+      EXPECT_EQ(after.rotation[index(legs)].y, before.rotation[index(legs)].y);
+    }
+  }
+}
+
+TEST(Shoulders, NoJointOfTheColumnTurnsFurtherThanItCan) {
+  Simulation simulation;
+  const Entity one = walker(simulation, 0);
+  simulation.tick();
+  const Pose<float> pose = turned(*simulation.get<Pose>(one), most_shoulder_turn);
+  for (std::size_t i = 0; i < vertebra_limits.size(); ++i) {
+    const std::size_t s = index(Segment::L5) + i, parent = index(segment_parent[s]);
+    const float turn = yaw(product(inverse(pose.rotation[parent]), pose.rotation[s]));
+    EXPECT_LT(std::fabs(turn) * 180 / std::numbers::pi, vertebra_limits[i].rotation) << s;
+  }
+}
+
+TEST(Shoulders, EaseThereWhateverTheTick) {
+  const auto after = [](float every_s, float seconds) {
+    Course<Lanes<float>> course{};
+    course.turn_to_rad = in_every_lane<Lanes<float>>(0.6F);
+    for (int k = 0; k < static_cast<int>(std::lround(seconds / every_s)); ++k) ease_shoulders(course, every_s);
+    return course.turn_rad[5];
+  };
+  for (const float seconds : {0.1F, 0.3F, 0.8F}) {
+    EXPECT_NEAR(after(1.0F / 60, seconds), after(1.0F / 240, seconds), 1e-4F);
+    EXPECT_NEAR(after(1.0F / 60, seconds), 0.6 - 0.6 * (1 + 8 * seconds) * std::exp(-8 * seconds), 1e-4);
+  }
+  EXPECT_EQ(after(1.0F / 60, 3), 0.6F) << "there, and still";
+}
+
+/// Half of an ellipse's breadth toward (x, z), of shoulders that face where `faces` says.
+double reach(const Course<float>& course, double faces_rad, double x, double z) {
+  const double ahead = x * std::sin(faces_rad) + z * std::cos(faces_rad);
+  const double aside = x * std::cos(faces_rad) - z * std::sin(faces_rad);
+  return double{course.shoulders_m} * std::hypot(aside, 0.58 * ahead);
+}
+
+TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Wall walls[] = {{{-0.45F, -30}, {-0.45F, 30}}, {{0.45F, -30}, {0.45F, 30}}};
+  ASSERT_TRUE(avoidance.set_walls(walls));
+  const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi)};
+  for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
+  float most = 0;
+  double overlap = 0;
+  for (int k = 0; k < 60 * 30; ++k) {
+    avoidance.update();
+    simulation.tick();
+    Root at[2];
+    ASSERT_TRUE(simulation.roots(who, at));
+    const double x = at[1].x_m - at[0].x_m, z = at[1].z_m - at[0].z_m, apart = std::hypot(x, z);
+    double together = 0;
+    for (int i = 0; i < 2; ++i) {
+      const Course<float> course = *simulation.get<Course>(who[i]);
+      most = std::max(most, std::fabs(course.turn_rad));
+      together += reach(course, double{at[i].heading_rad} + double{course.turn_rad}, x / apart, z / apart);
+    }
+    overlap = std::max(overlap, together - apart);
+  }
+  EXPECT_GT(root_of(simulation, who[0]).z_m, 4) << "they passed";
+  EXPECT_LT(root_of(simulation, who[1]).z_m, -4);
+  EXPECT_GT(most, 0.4F);
+  EXPECT_LT(overlap, 0.05);
+  for (const Entity one : who) EXPECT_EQ(simulation.get<Course>(one)->turn_rad, 0) << "and turned back";
+}
+
+/// A section of a body: its middle, where it faces, half its breadth and depth.
+struct Section {
+  double x_m, z_m, faces_rad, broad_m, deep_m;
+
+  double reach(double x, double z) const {
+    const double ahead = x * std::sin(faces_rad) + z * std::cos(faces_rad);
+    const double aside = x * std::cos(faces_rad) - z * std::sin(faces_rad);
+    return std::hypot(broad_m * aside, deep_m * ahead);
+  }
+};
+
+/// Breadths and depths of chests and hips, of the height: means of the 1986 women of ANSUR II (Gordon et al. 2014).
+TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {
+  Room room(1, 60, 6);
+  const auto section = [&](Entity one, Segment at, double breadth, double depth) {
+    const Pose<float> pose = *room.simulation.get<Pose>(one);
+    const double height = double{room.simulation.get<BodySize>(one)->height_m};
+    return Section{double{pose.position_m[index(at)].x}, double{pose.position_m[index(at)].z},
+                   double{yaw(pose.rotation[index(at)])}, breadth * height / 2, depth * height / 2};
+  };
+  double overlap = 0;
+  for (int k = 0; k < 60 * 60; ++k) {
+    room.tick();
+    if (k % 6 != 0) continue;
+    std::vector<Section> chests, hips;
+    for (const Entity one : room.who) {
+      chests.push_back(section(one, Segment::T8, 0.166, 0.155));
+      hips.push_back(section(one, Segment::pelvis, 0.218, 0.144));
+    }
+    for (const auto* sections : {&chests, &hips}) {
+      for (std::size_t i = 0; i < sections->size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j) {
+          const Section &a = (*sections)[i], &b = (*sections)[j];
+          const double x = b.x_m - a.x_m, z = b.z_m - a.z_m, apart = std::hypot(x, z);
+          if (apart > 1) continue;
+          overlap = std::max(overlap, a.reach(x / apart, z / apart) + b.reach(x / apart, z / apart) - apart);
+        }
+      }
+    }
+  }
+  EXPECT_LT(overlap, 0.05);
+  EXPECT_GT(overlap, -0.1) << "they do come near";
+}
+
+TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
+  Simulation simulation;
+  Avoidance avoidance(simulation, {.radius_h = 0.128F});
+  const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi)};
+  for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
+  for (int k = 0; k < 600; ++k) {
+    avoidance.update();
+    simulation.tick();
+    for (const Entity one : who) ASSERT_EQ(simulation.get<Course>(one)->turn_rad, 0);
+  }
+}
+
+TEST(Shoulders, WhoIsPlacedElsewhereFacesTheirWay) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Entity who[] = {walker(simulation, 0), walker(simulation, 0, 0.36F)};
+  for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
+  for (int k = 0; k < 90; ++k) {
+    avoidance.update();
+    simulation.tick();
+  }
+  ASSERT_GT(std::fabs(simulation.get<Course>(who[0])->turn_rad), 0.4F);
+  ASSERT_TRUE(simulation.place(who[0], 20, 0, 0));
+  EXPECT_EQ(simulation.get<Course>(who[0])->turn_rad, 0);
+  EXPECT_NEAR(yaw(simulation.get<Pose>(who[0])->rotation[index(Segment::T1)]), 0, 0.02F);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -33,7 +33,13 @@ Result<void> append_bone(const BoneSurface& surface, const Eigen::Vector3d& stan
 void append_skin(const SkinnedSurface& surface, FigurePiece& piece) {
   const auto first = static_cast<std::uint32_t>(piece.position.size());
   for (const auto corner : surface.triangle) piece.triangle.push_back(first + corner);
-  append_texture(surface.position, piece);
+  if (surface.texture.empty()) {
+    append_texture(surface.position, piece);
+  } else {
+    for (const auto& [right, down] : surface.texture) piece.texture.push_back({right, down});
+    piece.tangent.insert(piece.tangent.end(), surface.tangent.begin(), surface.tangent.end());
+    piece.atlas = true;
+  }
   piece.joint.insert(piece.joint.end(), surface.joint.begin(), surface.joint.end());
   piece.weight.insert(piece.weight.end(), surface.weight.begin(), surface.weight.end());
   piece.position.insert(piece.position.end(), surface.position.begin(), surface.position.end());
@@ -72,6 +78,7 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
       if (surface.cloth == cloth) append_skin(surface, piece);
     }
     if (piece.triangle.empty()) continue;
+    if (piece.tangent.size() != piece.position.size()) piece.tangent.clear();
     if (piece.normal.size() != piece.position.size()) {
       piece.normal.clear();
       add_normals(piece);

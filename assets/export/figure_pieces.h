@@ -18,11 +18,13 @@ using StandingPlaces = std::array<Eigen::Vector3d, segment_count>;
 struct FigurePiece {
   std::size_t cloth = 0;
   std::vector<Vec3<float>> position, normal;
-  std::vector<TexturePlace> texture;               // folded
+  std::vector<TexturePlace> texture;               // folded; or of an atlas, to the right and down
+  std::vector<std::array<float, 4>> tangent;       // or none
   std::vector<std::array<std::uint8_t, 4>> joint;  // segments that each vertex follows
   std::vector<std::array<float, 4>> weight;        // add up to 1
   std::vector<std::uint32_t> triangle;
-  bool rigid = true;  // each vertex follows its first joint alone
+  bool rigid = true;   // each vertex follows its first joint alone
+  bool atlas = false;  // texture is of one
 };
 
 /// Where a figure stands: as its skin was made, without one as this person's skeleton does.

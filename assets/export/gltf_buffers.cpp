@@ -15,8 +15,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "a GLB holds little-endian numbers");
 
-enum Array : int { vertex_array, texture_array, skin_array, index_array, key_array, bind_array };
-constexpr std::size_t array_count = 6;
+enum Array : int { vertex_array, texture_array, tangent_array, skin_array, index_array, key_array, bind_array };
+constexpr std::size_t array_count = 7;
 
 template <class T>
 std::size_t append(std::vector<unsigned char>& bytes, const T* value, std::size_t count) {
@@ -51,15 +51,17 @@ void set_bounds(tinygltf::Accessor& accessor, const float* value, std::size_t wi
 
 /// Joins the arrays.
 Result<void> pack_buffers(GltfDraft& draft) {
-  const std::array<std::vector<unsigned char>*, array_count> arrays = {&draft.vertices, &draft.texture, &draft.skin,
-                                                                       &draft.indices,  &draft.keys,    &draft.binds};
+  const std::array<std::vector<unsigned char>*, array_count> arrays = {
+      &draft.vertices, &draft.texture, &draft.tangents, &draft.skin, &draft.indices, &draft.keys, &draft.binds};
   constexpr std::array<int, array_count> target = {TINYGLTF_TARGET_ARRAY_BUFFER,
+                                                   TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ARRAY_BUFFER,
                                                    TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER,
                                                    0,
                                                    0};
-  constexpr std::array<std::size_t, array_count> stride = {3 * sizeof(float), 2 * sizeof(float), 4, 0, 0, 0};
+  constexpr std::array<std::size_t, array_count> stride = {
+      3 * sizeof(float), 2 * sizeof(float), 4 * sizeof(float), 4, 0, 0, 0};
   std::array<int, array_count> view_of{};
   std::size_t total = 0;
   for (const auto* array : arrays) total += array->size();
@@ -106,6 +108,11 @@ int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place)
   for (const TexturePlace& p : place) value.insert(value.end(), {p.along, p.around});
   const std::size_t offset = append(draft.texture, value.data(), value.size());
   return add_accessor(draft, texture_array, offset, place.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2);
+}
+
+int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tangent) {
+  const std::size_t offset = append(draft.tangents, tangent.data(), tangent.size());
+  return add_accessor(draft, tangent_array, offset, tangent.size(), TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC4);
 }
 
 SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uint8_t, 4>>& joint,

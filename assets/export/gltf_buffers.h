@@ -19,15 +19,17 @@ namespace mobil {
 /// stride, so that texture places (8 bytes) and joints (4) have arrays of their own.
 struct GltfDraft {
   tinygltf::Model model;
-  std::vector<unsigned char> vertices, texture, skin, indices, keys, binds;
+  std::vector<unsigned char> vertices, texture, tangents, skin, indices, keys, binds;
 };
 
 /// Each adds one accessor and returns its number. Vertices: VEC3 floats; `with_bounds` writes min and max, which
 /// positions (morphed ones too) and key times must have. Indices: 16 bits wide where `vertex_count` allows it.
 int add_vertices(GltfDraft& draft, const Eigen::Matrix3Xf& column, bool with_bounds);
 int add_indices(GltfDraft& draft, const std::vector<std::uint32_t>& triangle, std::size_t vertex_count);
-/// VEC2 floats: along, around.
+/// VEC2 floats: along, around; or of an atlas to the right, down.
 int add_texture_places(GltfDraft& draft, const std::vector<TexturePlace>& place);
+/// VEC4 floats.
+int add_tangents(GltfDraft& draft, const std::vector<std::array<float, 4>>& tangent);
 /// Each vertex follows up to four joints of its skin; weights as bytes, which add up to 255.
 struct SkinAccessors {
   int joints, weights;

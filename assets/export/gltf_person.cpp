@@ -136,6 +136,7 @@ Result<GltfFigure> make_gltf_figure(GltfDraft& draft, const SeenFigure& seen, co
     figure.cloth.push_back(piece.cloth);
     figure.primitive.push_back(primitive(draft, columns(piece.position), columns(piece.normal), piece.texture,
                                          piece.joint, piece.weight, piece.triangle));
+    if (!piece.tangent.empty()) figure.primitive.back().attributes["TANGENT"] = add_tangents(draft, piece.tangent);
   }
   return figure;
 }

@@ -38,9 +38,9 @@ struct ExportReport {
 /// changes. Bones are one mesh, "bones", of which each vertex follows its segment; every muscle is a mesh of its name,
 /// which follows its segment, rests in its mean shape and has as targets the principal components of its displacement
 /// in the segment's frame. Nodes of these meshes stand beside the root, as glTF wants it of skinned ones. TEXCOORD_0 is
-/// along and around each bone or muscle (folded, texture_places.h). No name is there twice. The same recording gives
-/// the same bytes. Errors: no frames, a value that is not finite, a surface that does not fit together, a file that
-/// cannot be written. Format: Khronos glTF 2.0 specification.
+/// along and around each bone or muscle (folded, texture_places.h), of skins in their atlas, with TANGENT. No name is
+/// there twice. The same recording gives the same bytes. Errors: no frames, a value that is not finite, a surface that
+/// does not fit together, a file that cannot be written. Format: Khronos glTF 2.0 specification.
 Result<ExportReport> write_glb(const std::filesystem::path& path, const WalkRecording& recording,
                                const ExportOptions& options = {});
 

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "assets/skin/skin_atlas.h"
+
 namespace mobil {
 namespace {
 
@@ -42,18 +44,22 @@ std::array<Vec3<float>, segment_count> standing_of(const BodySkin& skin) {
 
 std::vector<SkinnedSurface> recorded_skin(const BodySkin& skin, std::size_t first_cloth) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  const SkinAtlas& atlas = skin_atlas(skin.sex, skin.detail);
+  const std::vector<std::array<float, 4>> tangent = skin_tangents(skin);
   std::vector<SkinnedSurface> surfaces;
   for (std::size_t part = 0; part < skin_parts; ++part) {
     SkinnedSurface surface;
     surface.name = part_name[part];
     surface.cloth = first_cloth + part;
-    std::unordered_map<std::uint32_t, std::uint32_t> own;  // vertices of this part
+    std::unordered_map<std::uint32_t, std::uint32_t> own;  // the atlas' points of this part
     for (std::uint32_t i = 3 * mesh.first_triangle[part]; i < 3 * mesh.first_triangle[part + 1]; ++i) {
-      const std::uint32_t v = mesh.triangle[i];
-      const auto [found, is_new] = own.try_emplace(v, static_cast<std::uint32_t>(surface.position.size()));
+      const std::uint32_t point = atlas.triangle[i], v = atlas.vertex[point];
+      const auto [found, is_new] = own.try_emplace(point, static_cast<std::uint32_t>(surface.position.size()));
       if (is_new) {
         surface.position.push_back(skin.rest[v]);
         surface.normal.push_back(skin.normal[v]);
+        surface.texture.push_back({atlas.place[point].right, atlas.place[point].down});
+        surface.tangent.push_back(tangent[point]);
         set_joints(mesh, mesh.vertex[v], surface);
       }
       surface.triangle.push_back(found->second);

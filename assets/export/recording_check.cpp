@@ -97,6 +97,23 @@ Result<void> check_skin(const SkinnedSurface& surface) {
     if (!(std::fabs(sum - 1) < 1e-3F))
       return fail(fmt::format("skin '{}': the weights of vertex {} add up to {}", surface.name, v, sum));
   }
+  if (surface.texture.size() != surface.tangent.size() ||
+      (!surface.texture.empty() && surface.texture.size() != vertices))
+    return fail(fmt::format("skin '{}': {} vertices, {} texture places, {} tangents; give each vertex both, or none",
+                            surface.name, vertices, surface.texture.size(), surface.tangent.size()));
+  for (std::size_t v = 0; v < surface.texture.size(); ++v) {
+    const auto& [right, down] = surface.texture[v];
+    const auto& [x, y, z, up] = surface.tangent[v];
+    constexpr float rounding = 1e-3F;
+    if (!(right >= 0 && right <= 1 && down >= 0 && down <= 1))
+      return fail(fmt::format("skin '{}': vertex {} lies at ({}, {}) of its texture; the range is 0–1", surface.name, v,
+                              right, down));
+    if (!(std::fabs(x * x + y * y + z * z - 1) < rounding && std::fabs(up) == 1))
+      return fail(
+          fmt::format("skin '{}': the tangent of vertex {} is ({}, {}, {}), {}; it must have length 1 and end in "
+                      "1 or -1",
+                      surface.name, v, x, y, z, up));
+  }
   if (surface.cloth >= most_cloths) {
     return fail(fmt::format("skin '{}': cloth {}; the range is 0–{}", surface.name, surface.cloth, most_cloths - 1));
   }

@@ -76,9 +76,10 @@ std::string usd_extent(std::span<const Vec3<float>> points) {
   }
   return usd_points(box);
 }
-std::string usd_texture(std::span<const TexturePlace> places) {
-  return usd_array(places, [](auto out, const TexturePlace& place) {
-    fmt::format_to(out, "({:.4f}, {:.4f})", place.along, place.around);
+/// `atlas`: of places to the right and down from the upper left corner, where USD counts up from the lower left one.
+std::string usd_texture(std::span<const TexturePlace> places, bool atlas = false) {
+  return usd_array(places, [&](auto out, const TexturePlace& place) {
+    fmt::format_to(out, "({:.4f}, {:.4f})", place.along, atlas ? 1 - place.around : place.around);
   });
 }
 std::string usd_colour(const Vec3<float>& c) {
@@ -164,7 +165,7 @@ void add_cloth(UsdText& usd, const FigurePiece& piece) {
   usd.line("point3f[] points = " + usd_points(piece.position));
   usd.line("normal3f[] normals = " + usd_points(piece.normal) + " (interpolation = \"vertex\")");
   usd.line("float3[] extent = " + usd_extent(piece.position));
-  usd.line("texCoord2f[] primvars:st = " + usd_texture(piece.texture) + " (interpolation = \"vertex\")");
+  usd.line("texCoord2f[] primvars:st = " + usd_texture(piece.texture, piece.atlas) + " (interpolation = \"vertex\")");
   const std::size_t joints = piece.rigid ? 1 : 4;
   std::vector<std::uint32_t> joint;
   std::vector<float> weight;

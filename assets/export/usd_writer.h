@@ -17,9 +17,10 @@ namespace mobil {
 ///                      vertex)
 ///     Xform Muscles    a Mesh a muscle, whose points and normals are given a frame, in the world's places
 ///
-/// Meshes have primvars:st (along and around, folded, texture_places.h) and displayColor. Joints are placed within
-/// 10 µm, muscles' vertices within 5 µm. Muscles are text: some 45 bytes a vertex and frame. Errors: those of
-/// check_recording, a file that cannot be written. Format: OpenUSD (usda text; UsdGeom, UsdSkel schemas).
+/// Meshes have primvars:st (along and around, folded, texture_places.h; of skins in their atlas) and displayColor.
+/// Joints are placed within 10 µm, muscles' vertices within 5 µm. Muscles are text: some 45 bytes a vertex and frame.
+/// Errors: those of check_recording, a file that cannot be written. Format: OpenUSD (usda text; UsdGeom, UsdSkel
+/// schemas).
 Result<void> write_usda(const std::filesystem::path& path, const WalkRecording& recording);
 
 /// The same of several people; surfaces of those who share a figure are written once and referred to; each person's

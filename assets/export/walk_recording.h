@@ -33,6 +33,11 @@ struct SkinnedSurface {
   std::vector<std::array<std::uint8_t, 4>> joint;  // Segment, of each vertex
   std::vector<std::array<float, 4>> weight;        // add up to 1; 0 where there are fewer
   std::vector<std::uint32_t> triangle;             // three indices each, wound outwards
+  /// Of each vertex, where it lies in a texture, to the right and down from its upper left corner, 0 to 1, and which
+  /// way on the surface is right there: a unit vector, and 1 where normal × that is up, −1 where it is down. Or none of
+  /// both.
+  std::vector<std::array<float, 2>> texture{};
+  std::vector<std::array<float, 4>> tangent{};
 };
 
 /// Surfaces that follow segments, shared by all people who look like that.

@@ -21,7 +21,9 @@
 #include <string>
 #include <vector>
 
+#include "assets/body/anthropometry.h"
 #include "assets/export/gltf_writer.h"
+#include "assets/export/recorded_skin.h"
 #include "tests/files/export_fixture.h"
 
 namespace mobil::export_test {
@@ -179,6 +181,36 @@ TEST(Export, SeveralPeopleHaveARootEachAndShareWhatTheyLookLike) {
   for (std::size_t v = 0; v < drawn.size(); ++v) {
     ASSERT_LT((drawn[v] - widened(crowd.people[2].muscles[0].position_m[11][v])).norm(), 1e-5);
   }
+}
+
+TEST(Export, ASkinLiesOverItsAtlasAndHasTangents) {
+  const Folder folder;
+  const BodySkin skin = *make_body_skin(*make_body({.sex = Sex::woman}), SkinDetail::distant);
+  CrowdRecording crowd;
+  crowd.figures.push_back({{}, {}, recorded_skin(skin), standing_of(skin)});
+  crowd.people.push_back({"anna", 0, {1, 1, 1}, std::vector<Vec3<float>>(skin_parts), small_walk().frames, {}});
+  const auto report = write_glb(folder.path / "skin.glb", crowd);
+  ASSERT_TRUE(report) << report.error().message;
+  const Viewer viewer(folder.path / "skin.glb");
+  const auto& parts = viewer.model.meshes.at(0).primitives;
+  ASSERT_EQ(parts.size(), crowd.figures[0].skin.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const SkinnedSurface& surface = crowd.figures[0].skin[i];
+    const auto place = viewer.floats(parts[i].attributes.at("TEXCOORD_0"));
+    const auto tangent = viewer.floats(parts[i].attributes.at("TANGENT"));
+    ASSERT_EQ(place.size(), 2 * surface.position.size());
+    ASSERT_EQ(tangent.size(), 4 * surface.position.size());
+    for (std::size_t v = 0; v < surface.position.size(); ++v) {
+      ASSERT_EQ(place[2 * v], surface.texture[v][0]);
+      ASSERT_EQ(place[2 * v + 1], surface.texture[v][1]);
+      for (std::size_t k = 0; k < 4; ++k) ASSERT_EQ(tangent[4 * v + k], surface.tangent[v][k]);
+    }
+  }
+  crowd.figures[0].skin[1].tangent.pop_back();
+  EXPECT_FALSE(write_glb(folder.path / "skin.glb", crowd));
+  crowd.figures[0].skin[1] = recorded_skin(skin)[1];
+  crowd.figures[0].skin[1].texture[3][0] = 1.5F;
+  EXPECT_FALSE(write_glb(folder.path / "skin.glb", crowd));
 }
 
 TEST(Export, WorldPosesComeBackAtEveryKeyAndFixedJointsHaveNoTranslationKeys) {

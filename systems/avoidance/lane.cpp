@@ -53,7 +53,8 @@ float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint
   const Claim& mine = book.claim(me);
   const std::size_t now_at = mine.at(book.instant());
   const GroundPoint at = {mine.x_m[now_at], mine.z_m[now_at]};
-  const auto [ahead_x, ahead_z] = direction(course.heading_rad);
+  const GroundPoint toward = direction(course.heading_rad);
+  const float ahead_x = toward.x_m, ahead_z = toward.z_m;
   const float left_x = ahead_z, left_z = -ahead_x;
   std::int64_t weight[lanes_across] = {};  // of oncoming walkers, in units
   int oncoming = 0;

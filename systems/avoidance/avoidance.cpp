@@ -18,6 +18,7 @@ namespace mobil {
 
 struct Avoidance::Work {
   ClaimBook book;
+  std::vector<BoxedWall> walls;
   std::vector<Chosen> chosen;             // by striker
   std::vector<std::uint32_t> striker_of;  // by claim, of who goes off it
   std::vector<char> gives_way;            // by striker
@@ -93,7 +94,13 @@ Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
         return fail(fmt::format("Avoidance: a wall's end at ({}, {}) m is not within 1000 km", at.x_m, at.z_m));
     }
   }
-  walls_.assign(walls.begin(), walls.end());
+  work_->walls.clear();
+  for (const Wall& wall : walls) {
+    const auto& [from, to] = wall;
+    work_->walls.push_back({wall,
+                            {std::min(from.x_m, to.x_m), std::max(from.x_m, to.x_m), std::min(from.z_m, to.z_m),
+                             std::max(from.z_m, to.z_m)}});
+  }
   return {};
 }
 
@@ -126,8 +133,8 @@ void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overl
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t claim = strikers[i].claim;
       if (striker_of[claim] == nobody) continue;
-      book.near(chosen[i].x_m[0], chosen[i].z_m[0], furthest_m, [&](std::uint32_t other) {
-        const std::uint32_t rival = striker_of[other];
+      book.near(chosen[i].x_m[0], chosen[i].z_m[0], furthest_m, [&](const Nearby& near) {
+        const std::uint32_t other = near.claim, rival = striker_of[other];
         if (rival == nobody || other == claim || !goes_first(other, claim)) return;
         const Claim &mine = book.claim(claim), &theirs = book.claim(other);
         const float apart = mine.radius_m + theirs.radius_m - overlap_m;
@@ -144,7 +151,7 @@ AvoidanceReport Avoidance::update() {
   const std::uint32_t tick = simulation_.ticks();
   work.book.refresh(world, jobs, tick, static_cast<float>(simulation_.tick_s()), options_.shoulders_h);
   const std::vector<Striker>& strikers = work.book.strikers();
-  const Surroundings around = {work.book, walls_, discs_, options_.overlap_m};
+  const Surroundings around = {work.book, work.walls, discs_, options_.overlap_m};
   work.chosen.resize(strikers.size());
   in_parallel(jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
     const FlushDenormals flush;  // as in a tick

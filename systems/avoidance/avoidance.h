@@ -87,7 +87,6 @@ class Avoidance {
   struct Work;
   Simulation& simulation_;
   AvoidanceOptions options_;
-  std::vector<Wall> walls_;
   std::vector<Disc> discs_;
   std::unique_ptr<Work> work_;
 };

@@ -125,6 +125,14 @@ class Choice {
     return box_of({box.low_x_m, box.low_z_m}, {box.high_x_m, box.high_z_m}, off_straight_m);
   }
 
+  void keep_clear_of(const Claim& claim, std::uint32_t instant) {
+    const float apart = mine_.radius_m + claim.radius_m - overlap_m_;
+    if (!claim.box.meets(box_, apart)) return;
+    const std::size_t now = claim.at(instant);
+    nearest_approach(ways_, &claim.x_m[now], &claim.z_m[now], least_m2_);
+    keep_clear(least_m2_, apart);
+  }
+
   /// Trials stay clear of those who are within reach, and the nearest are remembered.
   void look_at_people() {
     box_ = reached();
@@ -132,31 +140,25 @@ class Choice {
         std::max({at_.x_m - box_.low_x_m, box_.high_x_m - at_.x_m, at_.z_m - box_.low_z_m, box_.high_z_m - at_.z_m});
     const std::uint32_t instant = around_.book.instant();
     std::array<Near, most_passers> near;
-    const auto remember = [&](std::uint32_t other, const Claim& claim, std::size_t now) {
-      const Near one = {square(claim.x_m[now] - at_.x_m) + square(claim.z_m[now] - at_.z_m), claim.who.index, other};
+    const auto remember = [&](const Nearby& other) {
+      const Near one = {square(other.x_m - at_.x_m) + square(other.z_m - at_.z_m), other.who, other.claim};
       if (one.distance2 > square(sees_m) || (passing_ == most_passers && !(one < near[passing_ - 1]))) return;
       if (passing_ < most_passers) ++passing_;
       std::size_t i = passing_ - 1;
       for (; i > 0 && one < near[i - 1]; --i) near[i] = near[i - 1];
       near[i] = one;
     };
-    const float at_first_m = std::max(reach + mine_.radius_m + around_.book.broadest_m(), sees_first_m);
-    around_.book.near(at_.x_m, at_.z_m, at_first_m, [&](std::uint32_t other) {
-      if (other == me_) return;
-      const Claim& claim = around_.book.claim(other);
-      const std::size_t now = claim.at(instant);
-      const float apart = mine_.radius_m + claim.radius_m - overlap_m_;
-      if (claim.box.meets(box_, apart)) {
-        nearest_approach(ways_, &claim.x_m[now], &claim.z_m[now], least_m2_);
-        keep_clear(least_m2_, apart);
-      }
-      remember(other, claim, now);
+    const float apart_at_most = mine_.radius_m + around_.book.broadest_m();
+    const float at_first_m = std::max(reach + apart_at_most, sees_first_m);
+    around_.book.near(at_.x_m, at_.z_m, at_first_m, [&](const Nearby& other) {
+      if (other.claim == me_) return;
+      if (other.box.meets(box_, apart_at_most)) keep_clear_of(around_.book.claim(other.claim), instant);
+      remember(other);
     });
     if (at_first_m < sees_m && (passing_ < most_passers || near.back().distance2 > square(at_first_m))) {
       passing_ = 0;
-      around_.book.near(at_.x_m, at_.z_m, sees_m, [&](std::uint32_t other) {
-        const Claim& claim = around_.book.claim(other);
-        if (other != me_) remember(other, claim, claim.at(instant));
+      around_.book.near(at_.x_m, at_.z_m, sees_m, [&](const Nearby& other) {
+        if (other.claim != me_) remember(other);
       });
     }
     for (std::size_t i = 0; i < passing_; ++i) {
@@ -169,8 +171,8 @@ class Choice {
   }
 
   void look_at_walls() {
-    for (const Wall& wall : around_.walls) {
-      if (!box_of(wall.from, wall.to, 0).meets(box_, mine_.shoulders_m)) continue;
+    for (const auto& [wall, box] : around_.walls) {
+      if (!box.meets(box_, mine_.shoulders_m)) continue;
       nearest_to_wall(ways_, wall.from.x_m, wall.from.z_m, wall.to.x_m, wall.to.z_m, least_m2_);
       keep_clear(least_m2_, mine_.shoulders_m - brushes_m);
     }
@@ -208,7 +210,8 @@ class Choice {
                       cost);
     constexpr float wall_within_m = 2;
     for (std::size_t i = 0; walls && i < around_.walls.size(); ++i) {
-      const GroundPoint at = nearest_of(around_.walls[i], at_);
+      if (!around_.walls[i].box.meets({at_.x_m, at_.x_m, at_.z_m, at_.z_m}, wall_within_m)) continue;
+      const GroundPoint at = nearest_of(around_.walls[i].wall, at_);
       if (square(at.x_m - at_.x_m) + square(at.z_m - at_.z_m) < square(wall_within_m))
         add_foresight(ways, {at.x_m, at.z_m, 0, 0, mine_.shoulders_m - narrower_m}, cost);
     }

@@ -15,7 +15,7 @@ namespace mobil {
 /// What a choice looks at. Two may overlap by `overlap_m`: that much claims may come nearer than both radii.
 struct Surroundings {
   const ClaimBook& book;
-  std::span<const Wall> walls;
+  std::span<const BoxedWall> walls;
   std::span<const Disc> discs;
   float overlap_m;
 };

@@ -135,15 +135,18 @@ void ClaimBook::sort() {
   unsorted_.clear();
   longest_m_ = broadest_m_ = 0;
   for (const std::uint32_t number : seen_) {
-    const GroundBox& box = claims_[number].box;
-    broadest_m_ = std::max(broadest_m_, claims_[number].radius_m);
+    const Claim& claim = claims_[number];
+    const GroundBox& box = claim.box;
+    const std::size_t now = claim.at(instant_);
+    broadest_m_ = std::max({broadest_m_, claim.radius_m, claim.shoulders_m});
     longest_m_ = std::max({longest_m_, 0.5F * (box.high_x_m - box.low_x_m), 0.5F * (box.high_z_m - box.low_z_m)});
-    unsorted_.push_back({cell(0.5F * (box.low_x_m + box.high_x_m)), cell(0.5F * (box.low_z_m + box.high_z_m)), number});
-    ++starts_[bucket(unsorted_.back().x, unsorted_.back().z) + 2];
+    unsorted_.push_back({cell(0.5F * (box.low_x_m + box.high_x_m)), cell(0.5F * (box.low_z_m + box.high_z_m)), number,
+                         claim.who.index, box, claim.x_m[now], claim.z_m[now], claim.faces_x, claim.faces_z});
+    ++starts_[bucket(unsorted_.back().cell_x, unsorted_.back().cell_z) + 2];
   }
   for (std::size_t b = 2; b < starts_.size(); ++b) starts_[b] += starts_[b - 1];
   sorted_.resize(seen_.size());
-  for (const Sorted& one : unsorted_) sorted_[starts_[bucket(one.x, one.z) + 1]++] = one;
+  for (const Nearby& one : unsorted_) sorted_[starts_[bucket(one.cell_x, one.cell_z) + 1]++] = one;
 }
 
 }  // namespace mobil

@@ -49,7 +49,8 @@ GroundPoint nearest_of(const Wall& wall, GroundPoint to) {
   return {wall.from.x_m + part * x, wall.from.z_m + part * z};
 }
 
-float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint32_t me, const Course<float>& course) {
+float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std::uint32_t me,
+                   const Course<float>& course) {
   const Claim& mine = book.claim(me);
   const std::size_t now_at = mine.at(book.instant());
   const GroundPoint at = {mine.x_m[now_at], mine.z_m[now_at]};
@@ -59,13 +60,11 @@ float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint
   std::int64_t weight[lanes_across] = {};  // of oncoming walkers, in units
   int oncoming = 0;
   constexpr float half = 0.5F * lanes_ahead_m;
-  book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, half, [&](std::uint32_t other) {
-    const Claim& claim = book.claim(other);
+  book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, half, [&](const Nearby& other) {
     constexpr float least_against = 0.3F;  // a cosine: people who cross do not count
-    const float against = -(claim.faces_x * ahead_x + claim.faces_z * ahead_z) - least_against;
-    if (other == me || !(against > 0)) return;
-    const std::size_t now = claim.at(book.instant());
-    const float x = claim.x_m[now] - at.x_m, z = claim.z_m[now] - at.z_m;
+    const float against = -(other.faces_x * ahead_x + other.faces_z * ahead_z) - least_against;
+    if (other.claim == me || !(against > 0)) return;
+    const float x = other.x_m - at.x_m, z = other.z_m - at.z_m;
     const float ahead = x * ahead_x + z * ahead_z, left = x * left_x + z * left_z;
     if (!(ahead >= 0 && ahead <= lanes_ahead_m)) return;
     ++oncoming;
@@ -85,9 +84,10 @@ float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint
     cost[i] =
         crowded * of_oncoming * unit * static_cast<float>(weight[i]) + of_changing * left * left + keeps_right * left;
   }
-  for (const Wall& wall : walls) {
-    const GroundPoint here = nearest_of(wall, at);
+  for (const auto& [wall, box] : walls) {
     constexpr float reach = tried_ahead_m + lanes_aside * lane_apart_m + wall_clear_m;
+    if (!box.meets({at.x_m, at.x_m, at.z_m, at.z_m}, reach)) continue;
+    const GroundPoint here = nearest_of(wall, at);
     if (distance2(here, at) > reach * reach) continue;
     for (int i = 0; i < lanes_across; ++i) {
       const float left = lane_apart_m * static_cast<float>(i - lanes_aside);

@@ -16,6 +16,7 @@ GroundPoint nearest_of(const Wall& wall, GroundPoint to);
 /// The heading, rad, of the walker whose claim is `me` and who wants to go as `course` says: toward that lane, straight
 /// on or beside it, in which the fewest people come the other way. Where many come, lanes to the right cost less, so
 /// that the two flows part. No lane is behind a wall. From any thread.
-float lane_heading(const ClaimBook& book, std::span<const Wall> walls, std::uint32_t me, const Course<float>& course);
+float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std::uint32_t me,
+                   const Course<float>& course);
 
 }  // namespace mobil

@@ -51,9 +51,9 @@ class Narrowing {
     const std::size_t now = mine_.at(instant), then = now + looked_at.back();
     const GroundBox box = {std::min(mine_.x_m[now], mine_.x_m[then]), std::max(mine_.x_m[now], mine_.x_m[then]),
                            std::min(mine_.z_m[now], mine_.z_m[then]), std::max(mine_.z_m[now], mine_.z_m[then])};
-    book.near(mine_.x_m[now], mine_.z_m[now], 2 * mine_.shoulders_m, [&](std::uint32_t other) {
-      const Claim& claim = book.claim(other);
-      if (other != me && claim.box.meets(box, mine_.shoulders_m + claim.shoulders_m)) look_at(claim, now, instant);
+    const float both_at_most = mine_.shoulders_m + book.broadest_m();
+    book.near(mine_.x_m[now], mine_.z_m[now], both_at_most, [&](const Nearby& other) {
+      if (other.claim != me && other.box.meets(box, both_at_most)) look_at(book.claim(other.claim), now, instant);
     });
   }
 

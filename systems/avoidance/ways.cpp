@@ -53,11 +53,17 @@ struct Instants {
 HWY_NOINLINE void sample(const Way& way, const Instants& instants, const Wide& start, const WideMask& takes,
                          WaySamples<Lanes<float>>& out) {
   const Wide begins = select(takes, start, wide(1e9F)), per_s = 1.0F / way.duration;
+  const Ground end = place_on(way, wide(1.0F));
   for (std::size_t s = 0; s < way_samples; ++s) {
     const Wide since = (instants.first + static_cast<float>(s) * instants.every) * instants.unit_s - begins;
     const WideMask begun = since >= 0.0F;
     if (!any(begun)) continue;
-    const Ground at = place_on(way, clamp(since * per_s, 0.0F, 1.0F));
+    const Wide part = since * per_s;
+    Ground at = end;
+    if (any(begun & (part < 1.0F))) {  // the dearest by far, and half of the steps are over
+      const Ground on = place_on(way, clamp(part, 0.0F, 1.0F));
+      at = {select(part < 1.0F, on.left, end.left), select(part < 1.0F, on.forward, end.forward)};
+    }
     store(select(begun, at.left, load(out.x_m[s])), out.x_m[s]);
     store(select(begun, at.forward, load(out.z_m[s])), out.z_m[s]);
   }

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <numbers>
 #include <vector>
 
+#include "components/avoidance.h"
 #include "systems/avoidance/avoidance.h"
 #include "systems/simulation.h"
 #include "tests/avoidance/walkers.h"
@@ -69,6 +73,87 @@ TEST(Avoidance, WhoStandsBesideAWallGoesAlongIt) {
     EXPECT_LT(root_of(simulation, one).x_m, 0.06);
   }
 }
+
+struct Flow {
+  const char* name;
+  float people_a_m2;
+  bool both_ways;
+};
+
+/// People who go round a ring of 40 m and 5 m breadth, for ten minutes, or for twenty seconds where that is not asked
+/// for: nobody's trunk gets further into another's than clothes give way, and nobody stands for ever.
+class RingFlow : public testing::TestWithParam<Flow> {};
+
+TEST_P(RingFlow, NobodyOverlapsAndNobodyStandsForEver) {
+  const Flow& flow = GetParam();
+  constexpr float round_m = 40, broad_m = 5, ring_m = round_m / (2 * pi);
+  const int seconds = std::getenv("MOBIL_LONG") != nullptr ? 600 : 20;
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  std::vector<Wall> walls;
+  constexpr int sides = 24;
+  for (const float radius : {ring_m - broad_m / 2, ring_m + broad_m / 2}) {
+    const auto corner = [&](int i) {
+      const float angle = 2 * pi * static_cast<float>(i) / sides;
+      return GroundPoint{radius * std::sin(angle), radius * std::cos(angle)};
+    };
+    for (int i = 0; i < sides; ++i) walls.push_back({corner(i), corner(i + 1)});
+  }
+  ASSERT_TRUE(avoidance.set_walls(walls));
+
+  constexpr std::size_t across = 9;
+  const auto many = static_cast<std::size_t>(flow.people_a_m2 * round_m * broad_m);
+  std::vector<Entity> who;
+  std::vector<float> way, radius;
+  for (std::size_t i = 0; i < many; ++i) {
+    const float place = static_cast<float>(i / across) / static_cast<float>((many + across - 1) / across);
+    const float from_middle = (static_cast<float>(i % across) - 0.5F * (across - 1)) * 0.5F;
+    const float angle = 2 * pi * place, at = ring_m + from_middle;
+    way.push_back(flow.both_ways && i % 2 == 1 ? -1 : 1);
+    who.push_back(walker(simulation, 0, at * std::sin(angle), at * std::cos(angle), angle + way.back() * pi / 2,
+                         1.6F + 0.25F * drawn(i, 1)));
+    ASSERT_TRUE(avoidance.manage(who.back()));
+    radius.push_back(simulation.get<Course>(who.back())->radius_m);
+  }
+  std::vector<Root> at(many);
+  std::vector<WalkWish> wishes(many);
+  std::vector<double> walked(many), before(many);
+  double overlap = 0;
+  ASSERT_TRUE(simulation.roots(who, at));
+  for (int tick = 0; tick < 60 * seconds; ++tick) {
+    for (std::size_t i = 0; tick % 6 == 0 && i < many; ++i) {
+      constexpr double ahead_m = 1.7;  // steps follow a heading late
+      const double angle = std::atan2(at[i].x_m, at[i].z_m);
+      const double to = angle + double{way[i]} * ahead_m / std::hypot(at[i].x_m, at[i].z_m);
+      wishes[i] = {who[i], 1.34F + 0.35F * (drawn(i, 2) + drawn(i, 3) - 1), static_cast<float>(to) + way[i] * pi / 2};
+      walked[i] += double{way[i]} * std::remainder(angle - before[i], 2 * std::numbers::pi);
+      before[i] = angle;
+      if (tick <= 30 * seconds) walked[i] = 0;
+    }
+    if (tick % 6 == 0) {
+      ASSERT_TRUE(avoidance.want(wishes));
+    }
+    avoidance.update();
+    simulation.tick();
+    ASSERT_TRUE(simulation.roots(who, at));
+    if (tick % 12 != 0) continue;
+    for (std::size_t i = 0; i < many; ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        const double apart = std::hypot(at[i].x_m - at[j].x_m, at[i].z_m - at[j].z_m);
+        overlap = std::max(overlap, double{radius[i]} + double{radius[j]} - apart);
+      }
+    }
+  }
+  EXPECT_LT(overlap, 0.05);
+  std::size_t stand = 0;
+  for (const double angle : walked) stand += angle * double{ring_m} < 0.5 ? 1 : 0;
+  EXPECT_LE(stand, seconds < 60 ? many / 100 : 0) << "of " << many << " made less than half a metre in the second half";
+}
+
+INSTANTIATE_TEST_SUITE_P(Avoidance, RingFlow,
+                         testing::Values(Flow{"one_way_2", 2, false}, Flow{"both_ways_1", 1, true},
+                                         Flow{"one_way_1", 1, false}),
+                         [](const auto& of) { return of.param.name; });
 
 }  // namespace
 }  // namespace mobil

@@ -11,7 +11,7 @@ const [modules, built] = process.argv.slice(2).map((folder) => path.resolve(fold
 if (!built) throw new Error('usage: node record.mjs PLAYWRIGHT PAGE');
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
 const { chromium } = createRequire(path.join(modules, 'x.js'))('playwright-core');
-const frames = 32, ticks = 4, width = 760, height = 451;
+const before = 300, frames = 32, ticks = 4, width = 760, height = 451;
 
 const ffmpeg = (...args) => {
   const done = spawnSync('ffmpeg', ['-y', '-v', 'error', ...args], { stdio: 'inherit' });
@@ -26,14 +26,18 @@ const browser = await chromium.launch({
 const folder = await mkdtemp(path.join(os.tmpdir(), 'record-'));
 try {
   const page = await browser.newPage({ viewport: { width: 1280, height: 760 } });
-  await page.goto(`http://127.0.0.1:${port}/?still&t=6&pull=1&crowd=120&clear=1`);
+  await page.goto(`http://127.0.0.1:${port}/?pull=1&crowd=120&clear=1`);
   await page.waitForFunction(() => document.body.dataset.ready, null, { timeout: 120000 });
+  const step = async (count) => {
+    for (let k = 0; k < count; ++k) await page.keyboard.press('.');
+    await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+  };
+  await step(before);
   for (let i = 0; i < frames; ++i) {
-    for (let k = 0; k < ticks; ++k) await page.keyboard.press('.');
+    await step(ticks);
     await page.screenshot({ path: path.join(folder, `${String(i).padStart(3, '0')}.png`) });
-    process.stdout.write(`\r${i + 1} of ${frames} pictures`);
+    process.stdout.write(`\r${i + 1} of ${frames} pictures${i + 1 === frames ? '\n' : ''}`);
   }
-  process.stdout.write('\n');
 } finally {
   await browser.close();
   close();

@@ -78,7 +78,10 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
       if (surface.cloth == cloth) append_skin(surface, piece);
     }
     if (piece.triangle.empty()) continue;
-    if (piece.tangent.size() != piece.position.size()) piece.tangent.clear();
+    if (piece.tangent.size() != piece.position.size()) {  // not all of it has an atlas
+      piece.tangent.clear();
+      piece.atlas = false;
+    }
     if (piece.normal.size() != piece.position.size()) {
       piece.normal.clear();
       add_normals(piece);

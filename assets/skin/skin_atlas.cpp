@@ -81,6 +81,10 @@ constexpr ChartForm round(const Barrel& b, double left_m, double top_m, double a
 /// The square's side and what is free between charts, m.
 constexpr double side_m = 2.02, gap_m = 0.014;
 
+constexpr bool is_left(SkinChart chart) {
+  return chart > SkinChart::head && static_cast<int>(chart) % 2 == 1;
+}
+
 /// Legs and arms stand in a row, hands below the arms; feet and soles at the right; trunk and head in the second row.
 constexpr ChartForm form_of(SkinChart chart) {
   constexpr double a_leg = (2 * pi + over_seam_rad) * round_leg.radius + gap_m;
@@ -88,7 +92,7 @@ constexpr ChartForm form_of(SkinChart chart) {
   constexpr double feet = arms + 2 * an_arm, a_trunk = (2 * pi + over_seam_rad) * round_trunk.radius + gap_m;
   constexpr double a_hand = 0.135 + gap_m, hands_top = 0.72, hand_high = 0.26, palm_from = -0.25, back_from = 0.115;
   constexpr double a_sole = 0.14 + gap_m, second_foot = 0.33, soles_top = 0.66, second_row = 1.01;
-  const bool second = chart > SkinChart::head && static_cast<int>(chart) % 2 == 1;  // the left one
+  const bool second = is_left(chart);
   switch (chart) {
     case SkinChart::trunk:
       return round(round_trunk, 0, second_row, 0.25, 0.25);
@@ -118,9 +122,6 @@ constexpr ChartForm form_of(SkinChart chart) {
   return {};
 }
 
-bool is_left(SkinChart chart) {
-  return chart > SkinChart::head && static_cast<int>(chart) % 2 == 1;
-}
 SkinChart on_its_side(SkinChart right, bool left) {
   return static_cast<SkinChart>(static_cast<int>(right) + (left ? 1 : 0));
 }

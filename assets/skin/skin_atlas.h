@@ -33,7 +33,7 @@ enum class SkinChart : std::uint8_t {
 };
 inline constexpr std::size_t skin_charts = 14;
 
-/// Where a chart lies in the square.
+/// Where a chart lies in the square, 0 to 1.
 struct ChartBox {
   float left, top, right, bottom;
 };
@@ -49,7 +49,8 @@ struct SkinAtlas {
 };
 
 /// The same texture fits all details of men and women: a place follows from where on the body it is. One millimetre of
-/// skin is as many pixels everywhere, but for what is bent twice. Made at its first use; safe from any thread.
+/// skin is as many pixels everywhere, on the head 1.4 times as many, but for what is bent twice. Made at its first use;
+/// safe from any thread.
 const SkinAtlas& skin_atlas(Sex sex, SkinDetail detail);
 
 /// Of each point of its atlas, for maps of normals: which way on a body's skin, in the anatomical position, is right in

@@ -80,10 +80,10 @@ try {
   await page.goto(`http://127.0.0.1:${port}/`);
   await page.waitForFunction(() => document.title === 'drawn', null, { timeout: 60000 });
   await page.screenshot({ path: path.join(folder, 'atlas.png') });
+  const made = spawnSync('ffmpeg', ['-y', '-v', 'error', '-i', path.join(folder, 'atlas.png'), '-q:v', '4', picture], { stdio: 'inherit' });
+  if (made.status !== 0) throw new Error('ffmpeg failed');
 } finally {
   await browser.close();
   close();
+  await rm(folder, { recursive: true });
 }
-const made = spawnSync('ffmpeg', ['-y', '-v', 'error', '-i', path.join(folder, 'atlas.png'), '-q:v', '4', picture], { stdio: 'inherit' });
-await rm(folder, { recursive: true });
-if (made.status !== 0) throw new Error('ffmpeg failed');

@@ -38,11 +38,11 @@ try {
     await page.screenshot({ path: path.join(folder, `${String(i).padStart(3, '0')}.png`) });
     process.stdout.write(`\r${i + 1} of ${frames} pictures${i + 1 === frames ? '\n' : ''}`);
   }
+  ffmpeg('-framerate', '15', '-i', path.join(folder, '%03d.png'), '-vf', `scale=${width}:${height}:flags=lanczos`,
+    '-c:v', 'libwebp_anim', '-loop', '0', '-quality', '60', path.join(here, 'page.webp'));
+  ffmpeg('-i', path.join(folder, '000.png'), '-q:v', '4', path.join(here, 'poster.jpg'));
 } finally {
   await browser.close();
   close();
+  await rm(folder, { recursive: true });
 }
-ffmpeg('-framerate', '15', '-i', path.join(folder, '%03d.png'), '-vf', `scale=${width}:${height}:flags=lanczos`,
-  '-c:v', 'libwebp_anim', '-loop', '0', '-quality', '60', path.join(here, 'page.webp'));
-ffmpeg('-i', path.join(folder, '000.png'), '-q:v', '4', path.join(here, 'poster.jpg'));
-await rm(folder, { recursive: true });

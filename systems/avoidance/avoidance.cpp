@@ -31,8 +31,8 @@ struct Avoidance::Work {
 Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
     : simulation_(simulation),
       options_{.radius_h = std::clamp(options.radius_h, 0.02F, 0.5F),
-               .shoulders_h = std::clamp(options.shoulders_h, options_.radius_h, 0.5F),
-               .overlap_m = std::clamp(options.overlap_m, 0.0F, 0.2F)},
+               .overlap_m = std::clamp(options.overlap_m, 0.0F, 0.2F),
+               .shoulders_h = std::clamp(options.shoulders_h, options_.radius_h, 0.5F)},
       work_(std::make_unique<Work>()) {}
 Avoidance::~Avoidance() = default;
 Avoidance::Avoidance(Avoidance&&) noexcept = default;
@@ -58,7 +58,12 @@ Result<void> Avoidance::manage(Entity human) {
     const auto usual = resolve_gait(height, {.speed_m_s = gait->speed_m_s});
     if (usual) course.usual = gait->step_length_m / usual->step_length_m;
   }
-  if (world.has<Course>(human)) return result_of("Avoidance", world.set(human, course));
+  if (const auto before = world.get<Course>(human)) {
+    course.turn_rad = before->turn_rad;
+    course.turn_rad_s = before->turn_rad_s;
+    course.turn_to_rad = before->turn_to_rad;
+    return result_of("Avoidance", world.set(human, course));
+  }
   return result_of("Avoidance", world.add(human, course));
 }
 

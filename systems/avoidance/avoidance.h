@@ -42,12 +42,12 @@ struct AvoidanceOptions {
   /// Half the breadth that two people keep clear of each other, of the height: 0.18 m at 1.72 m, which is the trunk's
   /// and that of shoulders that are turned by 40°. 0.02 to 0.5.
   float radius_h = 0.105F;
+  /// How far two may overlap who have waited, m: clothes and arms give way. 0 to 0.2.
+  float overlap_m = 0.03F;
   /// Half of the shoulders' breadth with the arms, of the height: 0.22 m. It is kept clear of walls, discs and whoever
   /// avoids nobody; who comes nearer than that to others turns the shoulders. `radius_h` to 0.5: at `radius_h` nobody
   /// turns them.
   float shoulders_h = 0.128F;
-  /// How far two may overlap who have waited, m: clothes and arms give way. 0 to 0.2.
-  float overlap_m = 0.03F;
 };
 
 /// What an update did: people looked at; who chose a step; of these who had to keep to their claim, and who gave way to
@@ -69,7 +69,8 @@ class Avoidance {
   /// From now on this walker avoids others, and wants what it was last asked to do. Errors: a stale handle, a posed
   /// person (Status::missing); nothing has changed.
   Result<void> manage(Entity human);
-  /// No more; the walker goes on as it now does. Errors: a stale handle, somebody who is not managed.
+  /// No more; the walker goes on as it now does, and faces their way. Errors: a stale handle, somebody who is not
+  /// managed.
   Result<void> release(Entity human);
   /// All or none. Errors: a stale handle, somebody who is not managed (Status::missing), a speed that their gait cannot
   /// have, a heading not within ±10000; nothing has changed.
@@ -79,7 +80,8 @@ class Avoidance {
   Result<void> set_walls(std::span<const Wall> walls);
   Result<void> set_discs(std::span<const Disc> discs);
 
-  /// Chooses for those whose next step begins in the tick to come. Call it before each tick. Takes memory only as
+  /// Chooses for those whose next step begins in the tick to come, and how far shoulders turn, which they keep to where
+  /// it is called no more. Call it before each tick. Takes memory only as
   /// crowds grow.
   AvoidanceReport update();
 

@@ -26,12 +26,13 @@ void turn_walkers(const GaitState<Lanes<float>>&, const Course<Lanes<float>>& co
 
 bool is_sound(const Course<float>& course) {
   constexpr float fastest_m_s = 10, furthest_rad = 1e4F, longest = 10, broadest_m = 10, for_ever_s = 1e9F;
-  constexpr float round_rad = 1, fastest_rad_s = 100;
+  constexpr float round_rad = 1;
   return within(course.speed_m_s, 0, fastest_m_s) && within(course.heading_rad, -furthest_rad, furthest_rad) &&
          within(course.usual, 0, longest) && within(course.radius_m, 0, broadest_m) &&
          within(course.shoulders_m, 0, broadest_m) && within(course.waits_s, 0, for_ever_s) &&
          within(course.turn_rad, -round_rad, round_rad) && within(course.turn_to_rad, -round_rad, round_rad) &&
-         within(course.turn_rad_s, -fastest_rad_s, fastest_rad_s);
+         // so that it stays within that on its way
+         within(course.turn_rad + course.turn_rad_s / shoulder_spring_per_s, -round_rad, round_rad);
 }
 
 Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {

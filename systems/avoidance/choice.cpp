@@ -125,8 +125,12 @@ class Choice {
     return box_of({box.low_x_m, box.low_z_m}, {box.high_x_m, box.high_z_m}, off_straight_m);
   }
 
+  /// Who avoids nobody turns no shoulders, and I do not for them.
+  float apart_from(const Claim& claim) const {
+    return (claim.yields ? mine_.radius_m : mine_.shoulders_m) + claim.radius_m;
+  }
   void keep_clear_of(const Claim& claim, std::uint32_t instant) {
-    const float apart = mine_.radius_m + claim.radius_m - overlap_m_;
+    const float apart = apart_from(claim) - overlap_m_;
     if (!claim.box.meets(box_, apart)) return;
     const std::size_t now = claim.at(instant);
     nearest_approach(ways_, &claim.x_m[now], &claim.z_m[now], least_m2_);
@@ -148,7 +152,7 @@ class Choice {
       for (; i > 0 && one < near[i - 1]; --i) near[i] = near[i - 1];
       near[i] = one;
     };
-    const float apart_at_most = mine_.radius_m + around_.book.broadest_m();
+    const float apart_at_most = mine_.shoulders_m + around_.book.broadest_m();
     const float at_first_m = std::max(reach + apart_at_most, sees_first_m);
     around_.book.near(at_.x_m, at_.z_m, at_first_m, [&](const Nearby& other) {
       if (other.claim == me_) return;
@@ -166,7 +170,7 @@ class Choice {
       const std::size_t now = claim.at(instant);
       const bool stands = now >= way_samples;
       passer_[i] = {claim.x_m[now], claim.z_m[now], stands ? 0 : claim.x_m_s, stands ? 0 : claim.z_m_s,
-                    mine_.radius_m + claim.radius_m + (claim.yields ? 0 : all_of_the_way_m)};
+                    apart_from(claim) + (claim.yields ? 0 : all_of_the_way_m)};
     }
   }
 

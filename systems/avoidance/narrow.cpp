@@ -17,6 +17,8 @@ namespace {
 constexpr std::uint32_t every_ticks = 8;
 /// The instants ahead at which it is seen who comes near: what takes half a second to turn is turned by then.
 constexpr std::array<std::size_t, 3> looked_at = {0, 2, 4};
+/// The depth of shoulders with the arms, as a part of their breadth.
+constexpr float depth_part = 0.58F;
 /// What turns cost: a centimetre that is lacking; a turn; one the other way, for on the way there the shoulders are as
 /// broad as they can be.
 constexpr float of_lacking_per_m = 100, of_turning_per_rad = 1, of_the_other_way = 3;
@@ -30,7 +32,7 @@ const std::array<Turn, 9>& turns() {
     std::array<Turn, 9> made{};
     for (std::size_t i = 0; i < made.size(); ++i) {
       const float size = most_shoulder_turn * static_cast<float>((i + 1) / 2) / static_cast<float>(made.size() / 2);
-      const float turn = i % 2 == 1 ? size : -size;
+      const float turn = i % 2 == 1 ? size : 0 - size;
       made[i] = {turn, static_cast<float>(exact::sin(double{turn})), static_cast<float>(exact::cos(double{turn}))};
     }
     return made;
@@ -41,7 +43,22 @@ const std::array<Turn, 9>& turns() {
 /// Somebody near: toward where, and how much of the gap is the looker's.
 struct Neighbour {
   float toward_x, toward_z, room_m;
+  std::uint32_t who;
+
+  bool operator<(const Neighbour& other) const {
+    return room_m != other.room_m ? room_m < other.room_m : who < other.who;
+  }
 };
+/// How far shoulders of half that breadth, which face (x, z), reach toward somebody, m: those of an ellipse.
+float reach_of(float shoulders_m, float faces_x, float faces_z, const Neighbour& one) {
+  const float ahead = one.toward_x * faces_x + one.toward_z * faces_z;
+  const float aside = one.toward_x * faces_z - one.toward_z * faces_x;
+  return shoulders_m * std::sqrt(aside * aside + depth_part * depth_part * ahead * ahead);
+}
+/// Who may come nearer than the shoulders are broad, and turns them then.
+bool narrows(const Claim& claim) {
+  return claim.shoulders_m > claim.radius_m;
+}
 
 class Narrowing {
  public:
@@ -52,9 +69,12 @@ class Narrowing {
     const GroundBox box = {std::min(mine_.x_m[now], mine_.x_m[then]), std::max(mine_.x_m[now], mine_.x_m[then]),
                            std::min(mine_.z_m[now], mine_.z_m[then]), std::max(mine_.z_m[now], mine_.z_m[then])};
     const float both_at_most = mine_.shoulders_m + book.broadest_m();
-    book.near(mine_.x_m[now], mine_.z_m[now], both_at_most, [&](const Nearby& other) {
-      if (other.claim != me && other.box.meets(box, both_at_most)) look_at(book.claim(other.claim), now, instant);
-    });
+    const float long_m = std::max(box.high_x_m - box.low_x_m, box.high_z_m - box.low_z_m);
+    book.near(0.5F * (box.low_x_m + box.high_x_m), 0.5F * (box.low_z_m + box.high_z_m), both_at_most + 0.5F * long_m,
+              [&](const Nearby& other) {
+                if (other.claim != me && other.box.meets(box, both_at_most))
+                  look_at(book.claim(other.claim), now, instant);
+              });
   }
 
   float best() const {
@@ -78,21 +98,22 @@ class Narrowing {
     for (const std::size_t ahead : looked_at) {
       const float dx = claim.x_m[then + ahead] - mine_.x_m[now + ahead];
       const float dz = claim.z_m[then + ahead] - mine_.z_m[now + ahead], squared = dx * dx + dz * dz;
-      if (squared >= nearest2) continue;
+      if (!(squared < nearest2)) continue;
       nearest2 = squared;
       x = dx;
       z = dz;
     }
     const float nearest = std::sqrt(nearest2);
     if (nearest >= both || nearest <= 0) return;
-    const Neighbour one = {x / nearest, z / nearest, nearest * mine_.shoulders_m / both};
+    // Both turn, each for their part of the gap; or the one who does.
+    const float room = narrows(claim) ? nearest * mine_.shoulders_m / both : nearest - claim.shoulders_m;
+    const Neighbour one = {x / nearest, z / nearest, room, claim.who.index};
     if (count_ < near_.size()) {
       near_[count_++] = one;
       return;
     }
-    const auto furthest = std::max_element(near_.begin(), near_.end(),
-                                           [](const Neighbour& a, const Neighbour& b) { return a.room_m < b.room_m; });
-    if (one.room_m < furthest->room_m) *furthest = one;
+    const auto furthest = std::max_element(near_.begin(), near_.end());
+    if (one < *furthest) *furthest = one;
   }
 
   float cost(const Turn& turn) const {
@@ -101,8 +122,7 @@ class Narrowing {
     float lacking = 0;
     for (std::size_t i = 0; i < count_; ++i) {
       const Neighbour& one = near_[i];
-      lacking =
-          std::max(lacking, reach_of(mine_.shoulders_m, faces_x, faces_z, one.toward_x, one.toward_z) - one.room_m);
+      lacking = std::max(lacking, reach_of(mine_.shoulders_m, faces_x, faces_z, one) - one.room_m);
     }
     const bool other_way = turn.rad * turned_rad_ < 0;
     return of_lacking_per_m * lacking + of_turning_per_rad * std::fabs(turn.rad) + (other_way ? of_the_other_way : 0);
@@ -116,11 +136,6 @@ class Narrowing {
 
 }  // namespace
 
-float reach_of(float shoulders_m, float faces_x, float faces_z, float toward_x, float toward_z) {
-  const float ahead = toward_x * faces_x + toward_z * faces_z, aside = toward_x * faces_z - toward_z * faces_x;
-  return shoulders_m * std::sqrt(aside * aside + depth_part * depth_part * ahead * ahead);
-}
-
 void narrow_shoulders(const ClaimBook& book, const Jobs& jobs, std::uint32_t tick) {
   const std::span<const BlockOfClaims> blocks = book.blocks();
   in_parallel(jobs, blocks.size(), [&](std::size_t begin, std::size_t end) {
@@ -132,8 +147,8 @@ void narrow_shoulders(const ClaimBook& book, const Jobs& jobs, std::uint32_t tic
       const Entity* const entities = at.table->entities(at.block);
       for (std::size_t l = 0; l < at.table->live(at.block); ++l) {
         if ((entities[l].index + tick) % every_ticks != 0) continue;
-        const bool narrows = course.shoulders_m[l] > course.radius_m[l];
-        course.turn_to_rad[l] = narrows ? Narrowing(book, book.claim_in(at, l), course.turn_rad[l]).best() : 0;
+        const std::uint32_t me = book.claim_in(at, l);
+        course.turn_to_rad[l] = narrows(book.claim(me)) ? Narrowing(book, me, course.turn_rad[l]).best() : 0;
       }
     }
   });

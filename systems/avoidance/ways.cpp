@@ -239,7 +239,8 @@ void tried_block(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>
 
 void directions_block(const Lanes<float>& heading, Lanes<float>& x, Lanes<float>& z) {
   Wide s, c;
-  sin_cos(load(heading), s, c);
+  const Wide rad = load(heading);
+  sin_cos(select(abs(rad) < 1e5F, rad, wide(0.0F)), s, c);
   store(s, x);
   store(c, z);
 }

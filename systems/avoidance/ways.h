@@ -72,8 +72,8 @@ void claim_ways(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
 void tried_ways(const StrikePlace<Lanes<float>>& from, const Trial<Lanes<float>>& tried, const WayInstants& at,
                 WaySamples<Lanes<float>>& out, StepEnd<Lanes<float>>& end);
 
-/// Unit vectors of headings: their sines are the x, their cosines the z. Much faster than engine/exact_math.h, and the
-/// same on all machines.
+/// Unit vectors of headings within ±10⁵ rad, of others that of 0: sines are the x, cosines the z. Much faster than
+/// engine/exact_math.h, and the same on all machines.
 void directions(const Lanes<float>& heading_rad, Lanes<float>& x, Lanes<float>& z);
 GroundPoint direction(float heading_rad);
 

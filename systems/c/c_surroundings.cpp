@@ -74,7 +74,7 @@ int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options) {
     if (!std::isfinite(known.radius_h) || !std::isfinite(known.overlap_m) || !std::isfinite(known.shoulders_h))
       return s.line.refuse(MOBIL_REFUSED,
                            "radius_h, overlap_m or shoulders_h is not finite; mobil_defaults gives the usual ones");
-    Avoidance made(s.world(), {known.radius_h, known.shoulders_h, known.overlap_m});
+    Avoidance made(s.world(), {known.radius_h, known.overlap_m, known.shoulders_h});
     s.avoidance.emplace(std::move(made));
     return int{MOBIL_OK};
   });

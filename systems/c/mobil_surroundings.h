@@ -12,7 +12,7 @@ typedef struct mobil_avoidance {
                       at 1.72 m, the trunk's and that of turned shoulders */
   float overlap_m; /* how far two may overlap who have waited, 0 to 0.2; usual 0.03 */
   float shoulders_h; /* half of the shoulders' breadth with the arms, of the height, radius_h to 0.5; usual 0.128: kept
-                        clear of walls and discs; who comes nearer to others turns the shoulders */
+                        clear of walls, discs and who avoids nobody; who comes nearer to others turns them */
 } mobil_avoidance;
 
 /* What mobil_steer did: people looked at; who chose a step; of these who had to keep to what others know of them, and
@@ -27,7 +27,7 @@ typedef struct mobil_steered {
 MOBIL_API int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options);
 /* From now on these walkers keep out of each other's way, and want what they were last asked to do (who does so
  * already keeps their wish and room); or no more (`on`
- * 0), and go on as they now do. All or none. Who avoids others is asked by mobil_want: what mobil_change_walk asks
+ * 0), and go on as they now do, facing their way. All or none. Who avoids others is asked by mobil_want: what mobil_change_walk asks
  * lasts until the next step. */
 MOBIL_API int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
 /* Where they want to go, all or none: rows of two floats, a speed in m/s (0: to stand) and a heading in rad. */

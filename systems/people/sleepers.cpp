@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "components/avoidance.h"
 #include "engine/each.h"
 #include "engine/rows.h"
 #include "engine/state_hash.h"
@@ -12,8 +13,6 @@
 #include "systems/people/person.h"
 
 namespace mobil {
-namespace {}  // namespace
-
 namespace {
 
 /// Sixteen walkers who may be steady.
@@ -46,6 +45,18 @@ void shift(SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, flo
     walk.anchor_z_m[l] = state.line_z_m[l] - z_m;
   }
   walk.anchor_steps = state.steps;
+}
+
+/// Who is asleep does not turn their shoulders back, and is to wake with them as they are drawn then.
+void face_their_way(World& world, std::span<const Entity> people) {
+  const auto avoids = [](Table& table) { return static_cast<bool>(TableColumn<Course>(table)); };
+  if (std::ranges::none_of(world.tables(), avoids)) return;
+  for (const Entity person : people) {
+    auto course = world.get<Course>(person);
+    if (!course) continue;
+    course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
+    world.set(person, *course);
+  }
 }
 
 }  // namespace
@@ -157,6 +168,7 @@ void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const
   for (const KeyPart& part : more)
     if (count < parts.size()) parts[count++] = {part, nullptr};
   world.remake_many(work.people, std::span(parts).first(count), owned, jobs);
+  face_their_way(world, work.people);
 }
 
 bool is_busy(const World& world, Entity person, const SleepTime& time) {

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <vector>
 
+#include "components/avoidance.h"
 #include "components/body.h"
 #include "components/gait.h"
 #include "components/leg_frames.h"
@@ -12,6 +13,7 @@
 #include "engine/access.h"
 #include "engine/rows.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/kinematics/shoulders.h"
 
 namespace mobil {
 namespace {
@@ -20,6 +22,7 @@ struct PosedBlock {
   BodySize<Lanes<float>> size;
   StepPlan<Lanes<float>> plan;
   GaitState<Lanes<float>> state;
+  Lanes<float> shoulders_rad;
   Pose<Lanes<float>> pose;
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
@@ -29,10 +32,13 @@ struct PosedBlock {
     put_row(*world.get<BodySize>(person), size, lane);
     put_row(*world.get<StepPlan>(person), plan, lane);
     put_row(*world.get<GaitState>(person), state, lane);
+    const auto course = world.get<Course>(person);
+    shoulders_rad[lane] = course ? course->turn_rad : 0;
   }
   void make() {
     const FlushDenormals flush;  // as in a tick
     pose_skeleton(size, plan, state, nullptr, pose, angles, feet);
+    turn_shoulders(shoulders_rad, pose);
     centre_of_mass(size, pose, centre);
   }
 };

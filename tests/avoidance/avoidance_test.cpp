@@ -376,6 +376,26 @@ TEST(Avoidance, MadeUpSnapshotsWithAGoodSealDoNoHarm) {
   ASSERT_TRUE(room.simulation.restore(good));
 }
 
+/// A snapshot may hold any number that is finite.
+TEST(Avoidance, AHeadingThatIsNoneHarmsNobodyElse) {
+  Simulation simulation;
+  Avoidance avoidance(simulation);
+  const Entity one = walker(simulation, 1.2F), other = walker(simulation, 1.2F, 0.3F, 3, pi);
+  for (const Entity each : {one, other}) ASSERT_TRUE(avoidance.manage(each));
+  for (const float turn : {1e11F, -3e30F, 2e5F}) {
+    GaitState<float> state = *simulation.get<GaitState>(other);
+    state.turn_rad = turn;
+    ASSERT_EQ(world_of(simulation).set(other, state), Status::ok);
+    for (int k = 0; k < 120; ++k) {
+      avoidance.update();
+      simulation.tick();
+    }
+  }
+  const Root at = root_of(simulation, one);
+  EXPECT_TRUE(std::isfinite(at.x_m) && std::isfinite(at.z_m) && std::isfinite(at.heading_rad));
+  EXPECT_GT(at.z_m, 2);
+}
+
 TEST(Avoidance, SaysWhatIsWrong) {
   Simulation simulation;
   Avoidance avoidance(simulation);

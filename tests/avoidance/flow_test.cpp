@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <ostream>
 #include <vector>
 
 #include "components/avoidance.h"
@@ -79,6 +80,9 @@ struct Flow {
   float people_a_m2;
   bool both_ways;
 };
+void PrintTo(const Flow& flow, std::ostream* out) {
+  *out << flow.name;
+}
 
 /// People who go round a ring of 40 m and 5 m breadth, for ten minutes, or for twenty seconds where that is not asked
 /// for: nobody's trunk gets further into another's than clothes give way, and nobody stands for ever.

@@ -155,7 +155,7 @@ TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {
     return Section{double{pose.position_m[index(at)].x}, double{pose.position_m[index(at)].z},
                    double{yaw(pose.rotation[index(at)])}, breadth * height / 2, depth * height / 2};
   };
-  double overlap = 0;
+  double overlap = -1;
   for (int k = 0; k < 60 * 60; ++k) {
     room.tick();
     if (k % 6 != 0) continue;
@@ -182,7 +182,8 @@ TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {
 TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
   Simulation simulation;
   Avoidance avoidance(simulation, {.radius_h = 0.128F});
-  const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi)};
+  const Entity who[] = {walker(simulation, 1.2F, 0.1F, -5, 0), walker(simulation, 1.2F, -0.1F, 5, pi),
+                        walker(simulation, 0, 20), walker(simulation, 0, 20.3F)};  // two who stand too near
   for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
   for (int k = 0; k < 600; ++k) {
     avoidance.update();
@@ -191,19 +192,67 @@ TEST(Shoulders, WhoKeepsThemClearTurnsNone) {
   }
 }
 
+/// Two who stand so near that they have turned their shoulders.
+struct NearPair {
+  NearPair() : avoidance(simulation) {
+    for (const Entity one : who) EXPECT_TRUE(avoidance.manage(one));
+    for (int k = 0; k < 90; ++k) {
+      avoidance.update();
+      simulation.tick();
+    }
+    EXPECT_GT(std::fabs(turned_rad()), 0.4F);
+  }
+  float turned_rad() const { return simulation.get<Course>(who[0])->turn_rad; }
+  float chest_rad() const { return yaw(simulation.get<Pose>(who[0])->rotation[index(Segment::T1)]); }
+
+  Simulation simulation;
+  Avoidance avoidance;
+  const Entity who[2] = {walker(simulation, 0), walker(simulation, 0, 0.36F)};
+};
+
 TEST(Shoulders, WhoIsPlacedElsewhereFacesTheirWay) {
+  NearPair pair;
+  ASSERT_TRUE(pair.simulation.place(pair.who[0], 20, 0, 0));
+  EXPECT_EQ(pair.turned_rad(), 0);
+  EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);
+}
+
+TEST(Shoulders, StayTurnedInCompactPeopleAndWhereSomebodyIsManagedAnew) {
+  NearPair pair;
+  const float before = pair.chest_rad();
+  ASSERT_TRUE(pair.simulation.compact({&pair.who[0], 1}));
+  EXPECT_NEAR(pair.chest_rad(), before, 1e-5F);
+  ASSERT_TRUE(pair.simulation.expand({&pair.who[0], 1}));
+  EXPECT_NEAR(pair.chest_rad(), before, 1e-5F);
+  const float turned = pair.turned_rad();
+  ASSERT_TRUE(pair.avoidance.manage(pair.who[0]));
+  EXPECT_EQ(pair.turned_rad(), turned);
+}
+
+TEST(Shoulders, WhoSleepsFacesTheirWayAndWakesSo) {
+  NearPair pair;
+  ASSERT_EQ(pair.simulation.sleep({&pair.who[0], 1}).value(), 1U);
+  pair.simulation.tick(10);
+  ASSERT_TRUE(pair.simulation.wake({&pair.who[0], 1}));
+  EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);
+  pair.simulation.tick();
+  EXPECT_NEAR(pair.chest_rad(), 0, 0.02F);
+}
+
+TEST(Shoulders, WhoAvoidsNobodyIsGivenTheWholeBreadth) {
   Simulation simulation;
   Avoidance avoidance(simulation);
-  const Entity who[] = {walker(simulation, 0), walker(simulation, 0, 0.36F)};
-  for (const Entity one : who) ASSERT_TRUE(avoidance.manage(one));
-  for (int k = 0; k < 90; ++k) {
+  const Entity stands = walker(simulation, 0, 0.05F), comes = walker(simulation, 1.2F, 0, -5);
+  ASSERT_TRUE(avoidance.manage(comes));
+  double nearest = 9;
+  for (int k = 0; k < 900; ++k) {
     avoidance.update();
     simulation.tick();
+    const Root a = root_of(simulation, stands), b = root_of(simulation, comes);
+    nearest = std::min(nearest, std::hypot(a.x_m - b.x_m, a.z_m - b.z_m));
   }
-  ASSERT_GT(std::fabs(simulation.get<Course>(who[0])->turn_rad), 0.4F);
-  ASSERT_TRUE(simulation.place(who[0], 20, 0, 0));
-  EXPECT_EQ(simulation.get<Course>(who[0])->turn_rad, 0);
-  EXPECT_NEAR(yaw(simulation.get<Pose>(who[0])->rotation[index(Segment::T1)]), 0, 0.02F);
+  EXPECT_GT(root_of(simulation, comes).z_m, 3);
+  EXPECT_GT(nearest, 2 * 0.128 * 1.72 - 0.035);
 }
 
 }  // namespace

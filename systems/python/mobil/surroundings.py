@@ -29,7 +29,8 @@ class Avoidance:
     """Walkers who keep out of each other's way: one for a world.
 
     radius_h: half the breadth that two keep clear of each other, of the height, 0.02 to 0.5. shoulders_h: half of the
-    shoulders' breadth, radius_h to 0.5: kept clear of walls and discs; who comes nearer to others turns the shoulders.
+    shoulders' breadth, radius_h to 0.5: kept clear of walls, discs and who avoids nobody; who comes nearer to others
+    turns the shoulders.
     overlap_m: how far two may overlap who have waited, 0 to 0.2. Call update() before each tick.
     """
 

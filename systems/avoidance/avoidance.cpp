@@ -100,12 +100,7 @@ Result<void> Avoidance::set_walls(std::span<const Wall> walls) {
     }
   }
   work_->walls.clear();
-  for (const Wall& wall : walls) {
-    const auto& [from, to] = wall;
-    work_->walls.push_back({wall,
-                            {std::min(from.x_m, to.x_m), std::max(from.x_m, to.x_m), std::min(from.z_m, to.z_m),
-                             std::max(from.z_m, to.z_m)}});
-  }
+  for (const Wall& wall : walls) work_->walls.push_back({wall, box_of(wall.from, wall.to, 0)});
   return {};
 }
 

@@ -44,9 +44,9 @@ struct AvoidanceOptions {
   float radius_h = 0.105F;
   /// How far two may overlap who have waited, m: clothes and arms give way. 0 to 0.2.
   float overlap_m = 0.03F;
-  /// Half of the shoulders' breadth with the arms, of the height: 0.22 m. It is kept clear of walls, discs and whoever
-  /// avoids nobody; who comes nearer than that to others turns the shoulders. `radius_h` to 0.5: at `radius_h` nobody
-  /// turns them.
+  /// Half the breadth of the shoulders with the arms, of the height: 0.22 m. Walkers keep it clear of walls, of discs
+  /// and of people who are not managed. A walker who comes nearer to another managed one turns the shoulders.
+  /// `radius_h` to 0.5: at `radius_h` nobody turns them.
   float shoulders_h = 0.128F;
 };
 

@@ -44,11 +44,6 @@ struct Near {
   }
 };
 
-GroundBox box_of(GroundPoint a, GroundPoint b, float more_m) {
-  return {std::min(a.x_m, b.x_m) - more_m, std::max(a.x_m, b.x_m) + more_m, std::min(a.z_m, b.z_m) - more_m,
-          std::max(a.z_m, b.z_m) + more_m};
-}
-
 /// One choice: what the walker may do, and what each costs.
 class Choice {
  public:

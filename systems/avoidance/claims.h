@@ -1,6 +1,7 @@
 #pragma once
 // Everybody's claim, and who is near whom.
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -25,6 +26,12 @@ struct GroundBox {
            low_z_m <= other.high_z_m + within_m && other.low_z_m <= high_z_m + within_m;
   }
 };
+
+/// The rectangle between two points, and so much more on every side.
+inline GroundBox box_of(GroundPoint a, GroundPoint b, float more_m) {
+  return {std::min(a.x_m, b.x_m) - more_m, std::max(a.x_m, b.x_m) + more_m, std::min(a.z_m, b.z_m) - more_m,
+          std::max(a.z_m, b.z_m) + more_m};
+}
 
 /// A wall and what is round it, by which most are passed over.
 struct BoxedWall {

@@ -63,7 +63,7 @@ float lane_heading(const ClaimBook& book, std::span<const BoxedWall> walls, std:
   book.near(at.x_m + half * ahead_x, at.z_m + half * ahead_z, half, [&](const Nearby& other) {
     constexpr float least_against = 0.3F;  // a cosine: people who cross do not count
     const float against = -(other.faces_x * ahead_x + other.faces_z * ahead_z) - least_against;
-    if (other.claim == me || !(against > 0 && against < 1)) return;  // 1: of headings that are none
+    if (other.claim == me || !(against > 0 && against < 1)) return;  // so that the sum stays small
     const float x = other.x_m - at.x_m, z = other.z_m - at.z_m;
     const float ahead = x * ahead_x + z * ahead_z, left = x * left_x + z * left_z;
     if (!(ahead >= 0 && ahead <= lanes_ahead_m)) return;

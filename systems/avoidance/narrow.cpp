@@ -66,8 +66,7 @@ class Narrowing {
       : mine_(book.claim(me)), turned_rad_(turned_rad) {
     const std::uint32_t instant = book.instant();
     const std::size_t now = mine_.at(instant), then = now + looked_at.back();
-    const GroundBox box = {std::min(mine_.x_m[now], mine_.x_m[then]), std::max(mine_.x_m[now], mine_.x_m[then]),
-                           std::min(mine_.z_m[now], mine_.z_m[then]), std::max(mine_.z_m[now], mine_.z_m[then])};
+    const GroundBox box = box_of({mine_.x_m[now], mine_.z_m[now]}, {mine_.x_m[then], mine_.z_m[then]}, 0);
     const float both_at_most = mine_.shoulders_m + book.broadest_m();
     const float long_m = std::max(box.high_x_m - box.low_x_m, box.high_z_m - box.low_z_m);
     book.near(0.5F * (box.low_x_m + box.high_x_m), 0.5F * (box.low_z_m + box.high_z_m), both_at_most + 0.5F * long_m,

@@ -98,12 +98,16 @@ TEST(Shoulders, EaseThereWhateverTheTick) {
   EXPECT_EQ(after(1.0F / 60, 3), 0.6F) << "there, and still";
 }
 
-/// Half of an ellipse's breadth toward (x, z), of shoulders that face where `faces` says.
-double reach(const Course<float>& course, double faces_rad, double x, double z) {
-  const double ahead = x * std::sin(faces_rad) + z * std::cos(faces_rad);
-  const double aside = x * std::cos(faces_rad) - z * std::sin(faces_rad);
-  return double{course.shoulders_m} * std::hypot(aside, 0.58 * ahead);
-}
+/// A section of a body: its middle, where it faces, half its breadth and depth.
+struct Section {
+  double x_m, z_m, faces_rad, broad_m, deep_m;
+
+  double reach(double x, double z) const {
+    const double ahead = x * std::sin(faces_rad) + z * std::cos(faces_rad);
+    const double aside = x * std::cos(faces_rad) - z * std::sin(faces_rad);
+    return std::hypot(broad_m * aside, deep_m * ahead);
+  }
+};
 
 TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
   Simulation simulation;
@@ -124,7 +128,9 @@ TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
     for (int i = 0; i < 2; ++i) {
       const Course<float> course = *simulation.get<Course>(who[i]);
       most = std::max(most, std::fabs(course.turn_rad));
-      together += reach(course, double{at[i].heading_rad} + double{course.turn_rad}, x / apart, z / apart);
+      const Section shoulders = {at[i].x_m, at[i].z_m, double{at[i].heading_rad} + double{course.turn_rad},
+                                 double{course.shoulders_m}, 0.58 * double{course.shoulders_m}};
+      together += shoulders.reach(x / apart, z / apart);
     }
     overlap = std::max(overlap, together - apart);
   }
@@ -134,17 +140,6 @@ TEST(Shoulders, TwoWhoPassInANarrowPassageTurnThem) {
   EXPECT_LT(overlap, 0.05);
   for (const Entity one : who) EXPECT_EQ(simulation.get<Course>(one)->turn_rad, 0) << "and turned back";
 }
-
-/// A section of a body: its middle, where it faces, half its breadth and depth.
-struct Section {
-  double x_m, z_m, faces_rad, broad_m, deep_m;
-
-  double reach(double x, double z) const {
-    const double ahead = x * std::sin(faces_rad) + z * std::cos(faces_rad);
-    const double aside = x * std::cos(faces_rad) - z * std::sin(faces_rad);
-    return std::hypot(broad_m * aside, deep_m * ahead);
-  }
-};
 
 /// Breadths and depths of chests and hips, of the height: means of the 1986 women of ANSUR II (Gordon et al. 2014).
 TEST(Shoulders, TrunksOfAFullRoomOverlapByLessThanFiveCentimetres) {

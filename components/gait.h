@@ -88,8 +88,8 @@ struct Manner {
 };
 
 /// How a walker is at a heel strike, the instant at which two steps meet. A function of body and gait alone
-/// (systems/gait/strike.h), so it is known before either step is solved. Standing is a strike too, of length 0 and no
-/// speed. m, s, rad.
+/// (systems/gait/strike-inl.h), so it is known before either step is solved. Standing is a strike too, of length 0 and
+/// no speed. m, s, rad.
 template <class F>
 struct Strike {
   F speed_m_s;                // of the gait that it belongs to; 0: standing

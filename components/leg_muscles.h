@@ -53,7 +53,7 @@ inline bool same_method(const MuscleMethod& a, MuscleMethod b) {
   return a.reduced == b.reduced;
 }
 
-/// How leg muscles deform. Every choice is a matter of which parts a muscle has (systems/deformation/muscle_kind.h).
+/// How leg muscles deform. Every choice is a matter of which parts a muscle has (systems/muscles/muscle_parts.h).
 struct LegMuscles {
   /// Which ones: the groups unless a scene comes close (muscle_members()) or calls for few.
   MuscleSet muscles{(1U << muscle_group_count) - 1};

@@ -160,4 +160,7 @@ struct ReducedStatic {};
 struct ReducedTuned {};
 struct ScratchFloats {};
 
+/// What is counted (Tally) of bellies whose numbers were not finite at a tick's end, and which began anew.
+struct RestartedBellies {};
+
 }  // namespace mobil

@@ -11,12 +11,14 @@
 //   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
 //   Scratch<Tag>             memory to work in, as many floats as the table's tag says
+//   Tally<Tag>               adds to a count that is no state, of all blocks and of the tick (Schedule::tally); at most one
 //   Tick, float              the tick; a plain float is its length in s
 //   Rows                     the entities of the block's lanes
 //   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
 //
-// It runs on every block of every table that has all components, fields and tags named (Maybes and Scratch aside).
+// It runs on every block of every table that has all components, fields and tags named (Maybes, Scratch and Tally aside).
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -82,6 +84,22 @@ template <class Tag>
 struct Scratch {
   float* data;
   std::size_t floats;
+};
+
+/// A count that systems add to and the schedule keeps: what is rare and has to be told, and is no state. Sums of whole
+/// numbers: the same in whatever order blocks are worked on.
+template <class Tag>
+class Tally {
+ public:
+  explicit Tally(std::atomic<std::uint64_t>* sum) : sum_(sum) {}
+
+  /// From any thread.
+  void add(std::uint64_t count) const {
+    if (count > 0) sum_->fetch_add(count, std::memory_order_relaxed);
+  }
+
+ private:
+  std::atomic<std::uint64_t>* sum_;
 };
 
 /// Where a column of any entity's row is.
@@ -193,6 +211,7 @@ struct BlockView {
   std::size_t block;
   Tick tick;
   float* scratch = nullptr;
+  std::atomic<std::uint64_t>* tally = nullptr;  // the system's
 };
 
 /// How a parameter of type P is declared (`access`), found in a table (`bind`, false where the table lacks it) and made
@@ -362,6 +381,13 @@ struct Parameter<Scratch<Tag>> : AnywhereParameter {
   }
 };
 
+/// The tag is told as what a parameter accesses, without a mode: no order depends on it.
+template <class Tag>
+struct Parameter<Tally<Tag>> : AnywhereParameter {
+  static constexpr Access access() { return {Access::Mode::none, type_id<Tag>(), type_name<Tag>()}; }
+  static Tally<Tag> make(const BlockView& view, const Bound&) { return Tally<Tag>(view.tally); }
+};
+
 /// Whether a parameter is memory to work in.
 template <class P>
 inline constexpr bool is_scratch = false;
@@ -370,9 +396,17 @@ inline constexpr bool is_scratch<Scratch<Tag>> = true;
 template <class Tag>
 inline constexpr bool is_scratch<const Scratch<Tag>&> = true;
 
+/// Whether a parameter counts.
+template <class P>
+inline constexpr bool is_tally = false;
+template <class Tag>
+inline constexpr bool is_tally<Tally<Tag>> = true;
+template <class Tag>
+inline constexpr bool is_tally<const Tally<Tag>&> = true;
+
 /// Whether a parameter means something only within a tick.
 template <class P>
-inline constexpr bool is_timed = is_scratch<P>;
+inline constexpr bool is_timed = is_scratch<P> || is_tally<P>;
 template <>
 inline constexpr bool is_timed<Tick> = true;
 template <>

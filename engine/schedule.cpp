@@ -27,6 +27,7 @@ struct Schedule::Pass {
   Tick tick;
   double (*clock)();
   std::atomic<std::int64_t>* spent_ns;
+  std::atomic<std::uint64_t>* tally;
   std::span<const ChosenRow> chosen;
   std::uint16_t* chosen_lanes;
   std::size_t packed;    // the system that chooses and is chosen for
@@ -41,11 +42,13 @@ Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memor
     : systems_(std::move(systems)),
       passes_(schedule_passes(systems_)),
       timings_(systems_.size()),
+      counted_(systems_.size()),
       matches_(passes_.size()),
       chosen_lanes_(memory),
       chosen_(memory),
       scratch_floats_(passes_.size()),
       spent_ns_(std::make_unique<std::atomic<std::int64_t>[]>(systems_.size())),
+      tally_(std::make_unique<std::atomic<std::uint64_t>[]>(systems_.size())),
       scratch_(std::make_unique<ScratchPool>(memory)),
       clock_(&steady_now) {}
 
@@ -98,7 +101,8 @@ void Schedule::run_tiles(void* context, std::size_t begin, std::size_t end) {
     for (const Step& step : match.steps) {
       const System& system = pass.systems[step.system];
       for (std::size_t b = first; b < last; ++b) {
-        system.run({pass.world, *match.table, b, pass.tick, scratch.data()}, step.bound.data());
+        system.run({pass.world, *match.table, b, pass.tick, scratch.data(), &pass.tally[step.system]},
+                   step.bound.data());
       }
       const double now = pass.clock();
       pass.spend(step.system, now - before);
@@ -162,6 +166,7 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
   for (std::size_t s = 0; s < systems_.size(); ++s) {
     timings_[s].last_rows = 0;
     spent_ns_[s].store(0, std::memory_order_relaxed);
+    tally_[s].store(0, std::memory_order_relaxed);
   }
   for (std::size_t p = 0; p < passes_.size(); ++p) {
     std::size_t tiles = 0, blocks = 0;
@@ -179,6 +184,7 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
               tick,
               clock_,
               spent_ns_.get(),
+              tally_.get(),
               {},
               nullptr,
               passes_[p].first,
@@ -195,6 +201,8 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     timing.last_seconds = 1e-9 * static_cast<double>(spent_ns_[s].load(std::memory_order_relaxed));
     timing.seconds += timing.last_seconds;
     timing.rows += timing.last_rows;
+    counted_[s].last = tally_[s].load(std::memory_order_relaxed);
+    counted_[s].all += counted_[s].last;
   }
 }
 
@@ -207,21 +215,33 @@ const Timing* Schedule::timing(std::string_view name) const {
 
 void Schedule::reset_timings() {
   std::fill(timings_.begin(), timings_.end(), Timing{});
+  std::fill(counted_.begin(), counted_.end(), Counted{});
+}
+
+Counted Schedule::tally(std::uint64_t tag) const {
+  Counted sum;
+  for (std::size_t s = 0; s < systems_.size(); ++s) {
+    const auto counts = [&](const Access& access) { return access.mode == Access::Mode::none && access.id == tag; };
+    if (std::ranges::none_of(systems_[s].accesses, counts)) continue;
+    sum.last += counted_[s].last;
+    sum.all += counted_[s].all;
+  }
+  return sum;
+}
+
+std::string_view plain_name(std::string_view type) {
+  if (type.ends_with("<float>")) type.remove_suffix(7);
+  const auto colon = type.rfind("::");
+  return colon == std::string_view::npos ? type : type.substr(colon + 2);
 }
 
 namespace {
-/// "mobil::Pose<float>" as people say it: Pose.
-std::string_view short_name(std::string_view name) {
-  if (name.ends_with("<float>")) name.remove_suffix(7);
-  const auto colon = name.rfind("::");
-  return colon == std::string_view::npos ? name : name.substr(colon + 2);
-}
 
 void list(std::string& text, const System& system, Access::Mode mode, std::string_view verb) {
   std::string before = "; " + std::string(verb) + " ";
   for (const Access& access : system.accesses) {
     if (access.mode != mode) continue;
-    text.append(before).append(short_name(access.name));
+    text.append(before).append(plain_name(access.name));
     before = ", ";
   }
 }

@@ -48,6 +48,9 @@ struct System {
   std::size_t chooser_parameters = 0;  // what is bound begins with them
 };
 
+/// A type's name (Access::name) as people say it: "mobil::Pose<float>" is Pose.
+std::string_view plain_name(std::string_view type);
+
 /// Ticks, rows worked on and time of a system in all, and the last tick's. Rows are entities: of a packed system those
 /// chosen. Time is that of all threads together. Where no table is a system's, its code does not run and takes no time.
 struct Timing {
@@ -56,6 +59,11 @@ struct Timing {
   double seconds = 0;
   std::uint64_t last_rows = 0;
   double last_seconds = 0;
+};
+
+/// What systems added to their Tally: in the last tick, and in all since timings were last reset.
+struct Counted {
+  std::uint64_t last = 0, all = 0;
 };
 
 /// Systems that run block by block, one after the other while a block is in a cache, before any other of the order:
@@ -77,7 +85,13 @@ class Schedule {
   std::span<const Timing> timings() const { return timings_; }
   /// Null when there is no system of that name.
   const Timing* timing(std::string_view name) const;
+  /// Sets timings and tallies to zero.
   void reset_timings();
+  /// The sum over all systems that take a Tally<Tag>.
+  template <class Tag>
+  Counted tally() const {
+    return tally(type_id<Tag>());
+  }
   /// What time is read from, s; nullptr: the machine's steady clock. A clock of the calling thread's processor time
   /// says what systems cost while others use the machine.
   void measure_with(double (*clock)());
@@ -109,15 +123,18 @@ class Schedule {
 
   Schedule(std::vector<System> systems, std::pmr::memory_resource* memory);
   void match(World& world);
+  Counted tally(std::uint64_t tag) const;
 
   std::vector<System> systems_;
   std::vector<SystemRange> passes_;
   std::vector<Timing> timings_;
+  std::vector<Counted> counted_;                           // by system
   std::vector<std::vector<Match>> matches_;                // by pass
   std::pmr::vector<std::uint16_t> chosen_lanes_;           // by block of a packed system that runs, kept for its memory
   std::pmr::vector<ChosenRow> chosen_;                     // the same as rows
   std::vector<std::size_t> scratch_floats_;                // by pass, the most that a table of it needs
   std::unique_ptr<std::atomic<std::int64_t>[]> spent_ns_;  // by system, this tick
+  std::unique_ptr<std::atomic<std::uint64_t>[]> tally_;    // the same
   std::unique_ptr<ScratchPool> scratch_;
   double (*clock_)();
   std::size_t tables_seen_ = 0;
@@ -161,6 +178,7 @@ class ScheduleBuilder {
   template <class F, class... P>
   static System erase(std::string name, F function, Parameters<P...>) {
     static_assert((is_scratch<P> + ... + 0) <= 1, "scratch memory once");
+    static_assert((is_tally<P> + ... + 0) <= 1, "one tally");
     System system;
     system.name = std::move(name);
     system.accesses = {Parameter<P>::access()...};
@@ -179,7 +197,8 @@ class ScheduleBuilder {
 
   template <class Choose, class F, class... C, class... P>
   static System erase_packed(std::string name, Choose choose, F function, Parameters<C...>, Parameters<P...>) {
-    static_assert(!(is_scratch<C> || ...), "a chooser has no scratch memory");
+    static_assert(!(is_scratch<C> || ...) && !(is_tally<C> || ...),
+                  "a chooser has no scratch memory and counts nothing");
     System system;
     system.name = std::move(name);
     system.accesses = {Parameter<P>::access()...};

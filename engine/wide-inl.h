@@ -137,6 +137,12 @@ HWY_INLINE bool any(const WideMask& mask) {
   return found;
 }
 
+HWY_INLINE bool all(const WideMask& mask) {
+  bool each = true;
+  for (std::size_t i = 0; i < vector_count; ++i) each &= hn::AllTrue(FloatTag{}, mask.part[i]);
+  return each;
+}
+
 HWY_INLINE Wide operator-(const Wide& a) {
   Wide r;
   for (std::size_t i = 0; i < vector_count; ++i) r.part[i] = hn::Neg(a.part[i]);

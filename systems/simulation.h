@@ -113,6 +113,9 @@ struct SystemReport {
 struct StepReport {
   std::uint32_t ticks = 0;  // run so far
   std::vector<SystemReport> systems;
+  /// Bellies that were not finite at a tick's end and began anew, usually because a system of the host wrote NaN or
+  /// infinity: in the last tick, and in all since timings were last reset.
+  std::uint64_t restarted_bellies = 0, total_restarted_bellies = 0;
 };
 
 struct MuscleWork;    // systems/muscles/change_muscles.h

@@ -48,7 +48,8 @@ std::vector<Entity> read_people(const World& world) {
 }
 
 StepReport read_report(const Schedule& schedule, std::uint32_t ticks) {
-  StepReport report{ticks, {}};
+  const Counted restarted = schedule.tally<RestartedBellies>();
+  StepReport report{ticks, {}, restarted.last, restarted.all};
   const auto systems = schedule.systems();
   const auto timings = schedule.timings();
   report.systems.reserve(systems.size());

@@ -9,10 +9,13 @@ A document has the place of a table as two lines, and what stands between them i
     <!-- figures: muscles -->
     <!-- end -->
 
-Columns are the machines of demo/bench/figures, each a file or several. A row is a line of the tables below.
+Columns are the machines of demo/bench/figures, each a file or several. A row is a line of the tables below. The table of
+README.md has figures of several commands in sentences, those of the machine that measured all of them; errors and costs of
+ways to deform muscles are those of demo/gallery/living.csv, an AMD EPYC's.
 """
 
 import argparse
+import csv
 import difflib
 import json
 import math
@@ -85,6 +88,34 @@ TABLES = {
     ],
 }
 
+# What is told, the figures in the sentence as {name|unit}, and the command that says them. `value|` shows two digits.
+TUNED, PAPERS = "living.reduced-12, tuned, finite shape", "living.ecd, 81 nodes"
+SENTENCES = {
+    "readme": [
+        ("joint angles inside the band of measured walks, five speeds",
+         "{compare.angles_inside.least|%} to {compare.angles_inside.most|%} of the cycle", "mobil compare"),
+        ("vertical and fore-aft forces, moments at the hip against measured ones",
+         "correlate {compare.vertical_correlation|1}, {compare.fore_aft_correlation|1}, "
+         "{compare.hip_moment_correlation|1} and better", ""),
+        ("muscles that pull and are shaken, against nonlinear tissue; linear, as in the paper",
+         f"{{{TUNED}.all_off|%}} off, {{{TUNED}.cost_us|µs}} a tick; {{{PAPERS}.all_off|%}}, {{{PAPERS}.cost_us|µs}}",
+         "mobil frontier --finite"),
+        ("a person's pose for a tick; with eight muscles and forces",
+         "{readme.pose_us|µs}; {walk.us_per_tick|µs} of one core",
+         "mobil bench`, `mobil walk"),
+        ("ten thousand people of eight muscles, the nearest 500 within 1 mm",
+         "{crowd.tick_ms_p50|ms} a tick, median, on {machine.cores|cores} of an {machine.cpu|text}", "mobil crowd --humans 10000"),
+    ],
+}
+IN_SENTENCES = {
+    "%": lambda value: f"{100 * value:.0f} %",
+    "1": lambda value: f"{math.floor(100 * value) / 100:.2f}",  # least values: never better than they are
+    "µs": lambda value: shown(value, US),
+    "text": str,
+    "ms": lambda value: shown(value, ("ms", 1)),
+    "cores": lambda value: {1: "one core", 2: "two cores"}.get(value, f"{value} cores"),
+}
+
 MARKED = re.compile(r"(<!-- figures: (\w+) -->\n)(.*?)(<!-- end -->)", re.DOTALL)
 
 
@@ -107,8 +138,32 @@ def machines(folder):
         cores = f"{machine['cores']} core" + ("s" if machine["cores"] != 1 else "")
         processor = machine["cpu"].replace("(R)", "").replace(" Processor", "")
         heading = f"{processor}, {cores}, {machine['target']}"
-        found.setdefault(heading, {}).update({row["name"]: row["value"] for row in told["results"]})
+        figures = found.setdefault(heading, {"machine.cores": machine["cores"], "machine.cpu": processor})
+        figures.update({row["name"]: row["value"] for row in told["results"]})
     return list(found.items())
+
+
+def living(file):
+    """Errors and costs of ways to deform muscles that pull, of all muscles together (mobil frontier --finite)."""
+    if not file.exists():
+        return {}
+    with file.open() as lines:
+        rows = [row for row in csv.DictReader(lines) if row["muscle"] == "all"]
+    return {f"living.{row['way']}.{name}": float(row[name]) for row in rows for name in ("all_off", "cost_us")}
+
+
+def sentences(name, columns, where):
+    """Of the first machine that has measured all of it."""
+    lines = ["| | | |", "|---|---|---|"]
+    names = re.findall(r"\{([^|{}]+)\|", " ".join(template for _, template, _ in SENTENCES[name]))
+    for _, figures in columns:
+        if any(figure not in figures for figure in names):
+            continue
+        for text, template, command in SENTENCES[name]:
+            said = re.sub(r"\{([^|{}]+)\|([^}]+)\}", lambda of: IN_SENTENCES[of[2]](figures[of[1]]), template)
+            lines.append(f"| {text} | {said} | " + (f"`{command}` |" if command else "|"))
+        return "\n".join(lines) + "\n"
+    sys.exit(f"{where}: no machine has measured all of '{name}'; demo/bench/measure_readme.py does")
 
 
 def table(name, columns):
@@ -123,8 +178,10 @@ def table(name, columns):
 
 def remade(text, columns, where):
     def fill(marked):
+        if marked[2] in SENTENCES:
+            return marked[1] + sentences(marked[2], columns, where) + marked[4]
         if marked[2] not in TABLES:
-            sys.exit(f"{where}: there is no table '{marked[2]}'; there are: {', '.join(TABLES)}")
+            sys.exit(f"{where}: there is no table '{marked[2]}'; there are: {', '.join([*TABLES, *SENTENCES])}")
         return marked[1] + table(marked[2], columns) + marked[4]
 
     return MARKED.sub(fill, text)
@@ -143,7 +200,8 @@ def main():
     parser.add_argument("--check", action="store_true", help="change nothing; status 1 where a document differs")
     parser.add_argument("--root", type=pathlib.Path, default=here, help="the project's folder")
     asked = parser.parse_args()
-    columns = machines(asked.root / "demo/bench/figures")
+    errors = living(asked.root / "demo/gallery/living.csv")
+    columns = [(heading, figures | errors) for heading, figures in machines(asked.root / "demo/bench/figures")]
     if not columns:
         sys.exit("demo/bench/figures has no file; mobil bench --json demo/bench/figures/MACHINE.json writes one")
     differ = False

@@ -4,16 +4,14 @@
 //   node demo/gallery/atlas.mjs MODULES crowd.glb assets/skin/atlas.jpg
 //
 // MODULES: the folder where tests/web/run installs three and playwright-core.
-import { spawnSync } from 'node:child_process';
 import { copyFile, mkdtemp, rm, symlink, writeFile } from 'node:fs/promises';
-import { createRequire } from 'node:module';
 import os from 'node:os';
 import path from 'node:path';
+import { ffmpeg, launch } from '../web/chromium.mjs';
 import { serve } from '../web/serve.mjs';
 
 const [modules, scene, picture] = process.argv.slice(2).map((name) => path.resolve(name));
 if (!picture) throw new Error('usage: node atlas.mjs MODULES CROWD.glb PICTURE.jpg');
-const { chromium } = createRequire(path.join(modules, 'x.js'))('playwright-core');
 const folder = await mkdtemp(path.join(os.tmpdir(), 'atlas-'));
 await copyFile(scene, path.join(folder, 'crowd.glb'));
 await symlink(path.join(modules, 'three'), path.join(folder, 'three'));
@@ -70,18 +68,14 @@ document.body.append(renderer.domElement);
 document.title = 'drawn';
 </script>`);
 const { port, close } = await serve(folder);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-});
+const browser = await launch(modules);
 try {
   const page = await browser.newPage({ viewport: { width: 1120, height: 900 } });
   page.on('pageerror', (error) => console.error(String(error)));
   await page.goto(`http://127.0.0.1:${port}/`);
   await page.waitForFunction(() => document.title === 'drawn', null, { timeout: 60000 });
   await page.screenshot({ path: path.join(folder, 'atlas.png') });
-  const made = spawnSync('ffmpeg', ['-y', '-v', 'error', '-i', path.join(folder, 'atlas.png'), '-q:v', '4', picture], { stdio: 'inherit' });
-  if (made.status !== 0) throw new Error('ffmpeg failed');
+  ffmpeg('-i', path.join(folder, 'atlas.png'), '-q:v', '4', picture);
 } finally {
   await browser.close();
   close();

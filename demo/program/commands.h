@@ -40,6 +40,7 @@ Subcommand stress_command();
 Subcommand paper_command();
 Subcommand frontier_command();
 Subcommand effects_command();
+Subcommand schedule_command();
 Subcommand crowd_command();
 Subcommand town_command();
 Subcommand view_command();

@@ -19,8 +19,8 @@ Program mobil_program() {
       .options = {{"--quiet", &quiet, "Say nothing of progress and of what was written; errors stay"}},
       .commands = {walk_command(), muscle_command(), body_command(), anatomy_command(), bench_command(),
                    compare_command(), stress_command(), paper_command(), frontier_command(), effects_command(),
-                   crowd_command(), town_command(), view_command(), bake_command(), gait_fit_command(),
-                   completion_command()}};
+                   schedule_command(), crowd_command(), town_command(), view_command(), bake_command(),
+                   gait_fit_command(), completion_command()}};
   program.commands.push_back(man_command(names_of(program.commands)));
   return program;
 }

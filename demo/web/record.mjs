@@ -1,28 +1,18 @@
 // The page's pictures: page.webp, a stride of it, and poster.jpg, which is shown where the page cannot run.
 // node record.mjs PLAYWRIGHT PAGE: the folder where tests/web/run installs playwright-core, and the built page.
-import { createRequire } from 'node:module';
-import { spawnSync } from 'node:child_process';
 import { mkdtemp, rm } from 'node:fs/promises';
 import os from 'node:os';
 import path from 'node:path';
+import { ffmpeg, launch } from './chromium.mjs';
 import { serve } from './serve.mjs';
 
 const [modules, built] = process.argv.slice(2).map((folder) => path.resolve(folder));
 if (!built) throw new Error('usage: node record.mjs PLAYWRIGHT PAGE');
 const here = import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname);
-const { chromium } = createRequire(path.join(modules, 'x.js'))('playwright-core');
 const before = 300, frames = 32, ticks = 4, width = 760, height = 451;
 
-const ffmpeg = (...args) => {
-  const done = spawnSync('ffmpeg', ['-y', '-v', 'error', ...args], { stdio: 'inherit' });
-  if (done.status !== 0) throw new Error(`ffmpeg failed: ${args.at(-1)}`);
-};
-
 const { port, close } = await serve(built);
-const browser = await chromium.launch({
-  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-});
+const browser = await launch(modules);
 const folder = await mkdtemp(path.join(os.tmpdir(), 'record-'));
 try {
   const page = await browser.newPage({ viewport: { width: 1280, height: 760 } });

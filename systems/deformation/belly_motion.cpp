@@ -120,13 +120,14 @@ std::vector<float> fade_between(const BellyMotion& before, const BellyMotion& af
   constexpr float top = 4.0F / 27;  // of x(1 − x)²
   const std::size_t width = before.displacement.size();
   std::vector<float> fade(2 * width);
-  bool seen = false;
+  bool seen = false, finite = true;
   for (std::size_t i = 0; i < width; ++i) {
     fade[i] = before.displacement[i] - after.displacement[i];
     fade[width + i] = before.velocity[i] - after.velocity[i];
+    finite = finite && std::isfinite(fade[i]) && std::isfinite(fade[width + i]);
     seen = seen || std::abs(fade[i]) > least_m || top * fade_s * std::abs(fade[width + i]) > least_m;
   }
-  if (!seen) fade.clear();
+  if (!seen || !finite) fade.clear();
   return fade;
 }
 

@@ -8,6 +8,7 @@
 
 #include "assets/reduction/reduced_bellies.h"
 #include "systems/deformation/reduced.h"
+#include "systems/deformation/restart.h"
 
 namespace mobil {
 namespace {
@@ -15,11 +16,14 @@ namespace of_reduced {
 
 void move(const Table& table, Shared<ReducedBasis> basis, float tick_s, const BellyScale<Lanes<float>>& scale,
           const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame, Maybe<Activation> activation,
-          Field<const ReducedMotion> motion, Field<ReducedState> state) {
+          Field<const ReducedMotion> motion, Field<ReducedState> state, const Rows& rows,
+          Tally<RestartedBellies> restarted) {
   const ReducedBlock block{*basis, scale, state.data, motion.data, frame.block, state.next, motion.next};
   const FarFaceDrive drive(basis->options.far_end, end);
-  if (find_part(table.key(), type_id<ReducedTuned>()) == nullptr) return deform_reduced(block, drive, tick_s);
-  deform_tuned(block, drive, activation.block->activation, tick_s);
+  const bool tuned = find_part(table.key(), type_id<ReducedTuned>()) != nullptr;
+  restarted.add(count_rows(
+      tuned ? deform_tuned(block, drive, activation.block->activation, tick_s) : deform_reduced(block, drive, tick_s),
+      rows));
 }
 
 /// A block whose state is only read here.

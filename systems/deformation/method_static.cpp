@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/restart.h"
 
 namespace mobil {
 namespace {
@@ -11,9 +12,11 @@ namespace of_static {
 /// There is no velocity; what stands in for it is not touched.
 void settle(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<StaticSteps>, float tick_s,
             Scratch<ScratchFloats> scratch, const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end,
-            Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report) {
+            Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, BellyReport<Lanes<float>>& report,
+            const Rows& rows, Tally<RestartedBellies> restarted) {
   deform_implicit({*shape, scale, displacement.data, displacement.data, report, Stiffness::individual, frame.block},
                   *solver, {shape->options.far_end, end}, 1, tick_s, scratch.data);
+  restarted.add(restart_bellies(*shape, rows, end, tick_s, report, displacement.data, nullptr));
 }
 
 Module static_module() {

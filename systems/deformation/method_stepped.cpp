@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/restart.h"
 
 namespace mobil {
 namespace {
@@ -10,18 +11,21 @@ namespace of_stepped {
 
 void deform(Shared<MuscleTemplate> shape, TagValue<Substeps> substeps, float tick_s, Scratch<ScratchFloats> scratch,
             const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
-            Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity, BellyReport<Lanes<float>>& report) {
+            Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity, BellyReport<Lanes<float>>& report,
+            const Rows& rows, Tally<RestartedBellies> restarted) {
   deform_explicit({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
                   {shape->options.far_end, end}, static_cast<std::uint32_t>(substeps.value), tick_s, scratch.data);
+  restarted.add(restart_bellies(*shape, rows, end, tick_s, report, displacement.data, velocity.data));
 }
 
 void solve(Shared<MuscleTemplate> shape, Shared<BellySolver> solver, TagValue<SolvedSteps> steps, float tick_s,
            Scratch<ScratchFloats> scratch, const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end,
            Maybe<FrameLoad> frame, Field<NodalDisplacement> displacement, Field<NodalVelocity> velocity,
-           BellyReport<Lanes<float>>& report) {
+           BellyReport<Lanes<float>>& report, const Rows& rows, Tally<RestartedBellies> restarted) {
   deform_implicit({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
                   *solver, {shape->options.far_end, end}, static_cast<std::uint32_t>(steps.value), tick_s,
                   scratch.data);
+  restarted.add(restart_bellies(*shape, rows, end, tick_s, report, displacement.data, velocity.data));
 }
 
 void stepped_parts(const MuscleKind& kind, std::vector<KeyPart>& parts) {

@@ -17,16 +17,47 @@ HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace {
 
-/// One motion over a tick in which its s grows at `rate`.
-HWY_INLINE void swing(float* state, const float* motion, const Wide& rate) {
+/// X² + W²: not finite where one of them is not, or is beyond 1.8e19.
+HWY_INLINE Wide squares(const Wide& x, const Wide& w) {
+  return fma(x, x, w * w);
+}
+
+/// One motion over a tick in which its s grows at `rate`; the squares of its state.
+HWY_INLINE Wide swing(float* state, const float* motion, const Wide& rate) {
   const Wide a = load(motion), b = load(motion + lane_count), g = load(motion + 2 * lane_count);
   const Wide y = fma(g, rate, load(state)), v = load(state + lane_count) - rate;
   const Wide next_y = fma(a, y, b * v), next_v = fnma(b, y, fnma(g, b, a) * v);
-  store(fnma(g, rate, next_y), state);
-  store(next_v + rate, state + lane_count);
+  const Wide x = fnma(g, rate, next_y), w = next_v + rate;
+  store(x, state);
+  store(w, state + lane_count);
+  return squares(x, w);
 }
 
-void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
+/// Who of a block is not finite: sums of 0 · squares, which are 0 of all others.
+class Health {
+ public:
+  HWY_INLINE Health() : sum_(wide(0.0F)) {}
+  HWY_INLINE void add(const Wide& squares) { sum_ = fma(squares, wide(0.0F), sum_); }
+
+  /// Those lanes begin at rest; which they are, as bits.
+  HWY_INLINE std::uint32_t restart(std::size_t vectors, float* state) const {
+    if (all(sum_ >= 0.0F)) return 0;
+    Lanes<float> sum;
+    store(sum_, sum);
+    std::uint32_t lanes = 0;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if (sum[lane] == 0) continue;
+      lanes |= 1U << lane;
+      for (std::size_t row = 0; row < 2 * vectors; ++row) state[row * lane_count + lane] = 0;
+    }
+    return lanes;
+  }
+
+ private:
+  Wide sum_;
+};
+
+std::uint32_t deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
   const ReducedInputs inputs = reduced_inputs(end, block.frame);
   const std::size_t vectors = block.basis.vectors;
   const float per_s = 1.0F / tick_s;
@@ -34,6 +65,7 @@ void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_
   for (std::size_t i = 0; i < inputs.count; ++i) rate[i] = (load(*inputs.to[i]) - load(*inputs.from[i])) * per_s;
   float* state = block.state;
   const float* motion = block.motion;
+  Health health;
   const std::size_t full = full_inputs(inputs.count);
   const std::size_t width = reduced_motion_width(1, static_cast<std::uint32_t>(inputs.count));
   Ahead states(block.next_state, vectors, 2, 2), motions(block.next_motion, vectors, width, width);
@@ -41,9 +73,9 @@ void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_
     for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count) {
       states.fetch_some(2);
       motions.fetch_some(width);
-      swing(state, motion, rate[0]);
+      health.add(swing(state, motion, rate[0]));
     }
-    return;
+    return health.restart(vectors, block.state);
   }
   for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count) {
     states.fetch_some(2);
@@ -56,16 +88,19 @@ void deform_tick(const ReducedBlock& block, const FarFaceDrive& end, float tick_
       const WidePair pair = load_pair(participation);
       sum = fma(pair.odd, rate[i + 1], fma(pair.even, rate[i], sum));
     }
-    swing(state, motion, sum);
+    health.add(swing(state, motion, sum));
     motion = participation;
   }
+  return health.restart(vectors, block.state);
 }
 
-void swing_all(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s, float* state,
-               const float* motion) {
+std::uint32_t swing_all(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s,
+                        float* state, const float* motion) {
   const Wide rate = (load(to) - load(from)) * (1.0F / tick_s);
-  for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += 3 * lane_count)
-    swing(state, motion, rate);
+  Health health;
+  for (std::size_t j = 0; j < vectors; ++j, motion += 3 * lane_count)
+    health.add(swing(state + 2 * j * lane_count, motion, rate));
+  return health.restart(vectors, state);
 }
 
 /// Activation, and what all motions of a tuned belly have of it in this tick.
@@ -90,8 +125,8 @@ HWY_INLINE Tuning tuning(const float* motion, std::size_t vectors, std::size_t w
 }
 
 /// One tuned motion over a tick in which the end's displacement has its place in rest move by `end_moved`, and the
-/// frame's loads would have it at `from` and `to` without what tension adds.
-HWY_INLINE void swing_tuned(float* state, const float* motion, const Tuning& tuning, float tick_s,
+/// frame's loads would have it at `from` and `to` without what tension adds; the squares of its state.
+HWY_INLINE Wide swing_tuned(float* state, const float* motion, const Tuning& tuning, float tick_s,
                             const Wide& end_moved, const Wide& from, const Wide& to) {
   const Wide inverse = load(motion), square = tuned_square(motion, tuning.activation);
   const Wide own =
@@ -106,24 +141,27 @@ HWY_INLINE void swing_tuned(float* state, const float* motion, const Tuning& tun
   const Wide lag = 2.0F * tuning.half * flexibility * rate;
   const Wide y = fma(held, from, fma(inverse, load(state), lag)), v = load(state + lane_count) - rate;
   const Wide next_y = fma(a, y, sine * v), next_v = fnma(square * sine, y, fnma(2.0F * tuning.half, sine, a) * v);
-  store(own * inverse * fnma(held, to, next_y - lag), state);
-  store(next_v + rate, state + lane_count);
+  const Wide x = own * inverse * fnma(held, to, next_y - lag), w = next_v + rate;
+  store(x, state);
+  store(w, state + lane_count);
+  return squares(x, w);
 }
 
-void tuned_tick(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& active, float tick_s) {
+std::uint32_t tuned_tick(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& active, float tick_s) {
   const ReducedInputs inputs = reduced_inputs(end, block.frame);
   const std::size_t vectors = block.basis.vectors, full = full_inputs(inputs.count);
   const std::size_t width = reduced_motion_width(1, static_cast<std::uint32_t>(inputs.count));
   float* state = block.state;
   const float* motion = block.motion;
   const Tuning all = tuning(motion, vectors, width, load(active), tick_s);
+  Health health;
   const Wide none = wide(0.0F), first_moved = load(*inputs.to[0]) - load(*inputs.from[0]);
   Ahead states(block.next_state, vectors, 2, 2), motions(block.next_motion, vectors, width, width);
   for (std::size_t j = 0; j < vectors; ++j, state += 2 * lane_count, motion += width * lane_count) {
     states.fetch_some(2);
     motions.fetch_some(width);
     if (inputs.count == 1) {
-      swing_tuned(state, motion, all, tick_s, first_moved, none, none);
+      health.add(swing_tuned(state, motion, all, tick_s, first_moved, none, none));
       continue;
     }
     const float* participation = motion + 3 * lane_count;
@@ -137,8 +175,9 @@ void tuned_tick(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<
       from = fma(pair.odd, load(*inputs.from[i + 1]), fma(pair.even, load(*inputs.from[i]), from));
       to = fma(pair.odd, load(*inputs.to[i + 1]), fma(pair.even, load(*inputs.to[i]), to));
     }
-    swing_tuned(state, motion, all, tick_s, end_moved, from, to);
+    health.add(swing_tuned(state, motion, all, tick_s, end_moved, from, to));
   }
+  return health.restart(vectors, block.state);
 }
 
 template <bool streamed>
@@ -255,17 +294,18 @@ HWY_EXPORT(place_moving);
 HWY_EXPORT(place_at_rest);
 }  // namespace
 
-void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
-  HWY_DYNAMIC_DISPATCH(deform_tick)(block, end, tick_s);
+std::uint32_t deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s) {
+  return HWY_DYNAMIC_DISPATCH(deform_tick)(block, end, tick_s);
 }
 
-void swing_reduced(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s, float* state,
-                   const float* motion) {
-  HWY_DYNAMIC_DISPATCH(swing_all)(vectors, from, to, tick_s, state, motion);
+std::uint32_t swing_reduced(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s,
+                            float* state, const float* motion) {
+  return HWY_DYNAMIC_DISPATCH(swing_all)(vectors, from, to, tick_s, state, motion);
 }
 
-void deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation, float tick_s) {
-  HWY_DYNAMIC_DISPATCH(tuned_tick)(block, end, activation, tick_s);
+std::uint32_t deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation,
+                           float tick_s) {
+  return HWY_DYNAMIC_DISPATCH(tuned_tick)(block, end, activation, tick_s);
 }
 
 void place_control_points(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end) {

@@ -44,13 +44,14 @@ struct ReducedBlock {
   const float *next_state = nullptr, *next_motion = nullptr;
 };
 
-/// One tick of a block. A lane's NaN stays in its lane. No heap.
-void deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
+/// One tick of a block. A lane's NaN stays in its lane. A belly whose state is not finite, or beyond 1.8e19, at the tick's
+/// end begins at rest, and its lane is one of the bits returned. No heap.
+std::uint32_t deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
 
 /// The same of bellies of so many vectors that the end's displacement alone moves, from and to: `state` and `motion` as
 /// in a ReducedBlock with one input.
-void swing_reduced(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s, float* state,
-                   const float* motion);
+std::uint32_t swing_reduced(std::size_t vectors, const Lanes<float>& from, const Lanes<float>& to, float tick_s,
+                            float* state, const float* motion);
 
 /// α of tuned bellies, 1/s, where no motion is so slow that it would creep.
 constexpr double tuned_damping_per_s(double activation) {
@@ -58,7 +59,8 @@ constexpr double tuned_damping_per_s(double activation) {
 }
 
 /// The same of a block of tuned bellies, which pull as hard as `activation` says, 0.01 to 1.
-void deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation, float tick_s);
+std::uint32_t deform_tuned(const ReducedBlock& block, const FarFaceDrive& end, const Lanes<float>& activation,
+                           float tick_s);
 
 /// Where the control points are at the tick's end: `displacement`, three a node in m, muscle's frame, as in BellyBlock
 /// (the origin face's are written too: zero).

@@ -77,15 +77,16 @@ HWY_NOINLINE Wide pose_leg(const StepNow& now, const Origin& origin, const WideQ
     sloped = atan2(fma(rise.left, s, rise.forward * c), wide(1.0F));
     outward = tilt_of(rise.left, rise.forward) * outward;
   }
+  const Wide pitch = held_pitch(foot, shank_angle - sloped);
   const Ground ankle = turned(at.ankle.left, at.ankle.forward, origin.sine, origin.cosine);
-  const WideQuat sole = outward * turn_x(-foot.pitch), toe_rotation = outward * turn_x(-(foot.pitch + foot.toes));
+  const WideQuat sole = outward * turn_x(-pitch), toe_rotation = outward * turn_x(-(pitch + foot.toes));
   const WideVec ankle_at = origin.position + WideVec{ankle.left, foot.ankle_up, ankle.forward};
   skeleton.put(foot_segment, ankle_at, sole);
   skeleton.hang(toes, toe_rotation);
 
   store(thigh_angle + now.motion.tilt, angles.hip_flexion[side]);
   store(flexion, angles.knee_flexion[side]);
-  store(foot.pitch + sloped - shank_angle, angles.ankle_dorsiflexion[side]);
+  store(pitch + sloped - shank_angle, angles.ankle_dorsiflexion[side]);
   constexpr auto tall = static_cast<float>(fraction::ankle_height);
   store(ankle_at + rotate(sole, scaled({0, -tall, -unit_foot::back}, height)), feet.heel_m[side]);
   store(skeleton.position(toes) + rotate(toe_rotation, scaled({0, -unit_foot::joint, 0}, height)), feet.toe_m[side]);

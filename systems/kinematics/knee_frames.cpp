@@ -76,7 +76,13 @@ HWY_NOINLINE void knee_frame(const StepNow& now, const WideVec (&pelvis)[3], std
   const FootMotion& foot = now.foot[side];
   const SineCosine yaw =
       sine_cosine(now.at[side].heading - now.pelvis.heading + foot.toe_out * (side == Side::left ? 1.0F : -1.0F));
-  const SineCosine pitch = sine_cosine(-foot.pitch);
+  SineCosine pitch = sine_cosine(-foot.pitch);
+  const SineCosine shank = {fnma(ahead.cosine, below.sine, ahead.sine * below.cosine),
+                            fma(ahead.cosine, below.cosine, ahead.sine * below.sine)};
+  // An ankle that does not come near its limit, 29 degrees up, is not held, and its shank's angle need not be known.
+  constexpr float near = 0.49F;
+  const Wide ankle_sine = -fma(pitch.sine, shank.cosine, pitch.cosine * shank.sine);
+  if (any(ankle_sine > near)) pitch = sine_cosine(-held_pitch(foot, atan2(shank.sine, shank.cosine)));
   store(into.x_axis({yaw.cosine, wide(0.0F), -yaw.sine}), frame.foot[0]);
   store(into.place({yaw.sine * pitch.sine, pitch.cosine, yaw.cosine * pitch.sine}), frame.foot[1]);
   store(into.place({yaw.sine * pitch.cosine, -pitch.sine, yaw.cosine * pitch.cosine}), frame.foot[2]);

@@ -41,13 +41,14 @@ HWY_NOINLINE Wide lowest_point(const FootMotion& foot, const Wide& height) {
 
 /// Returns the forward angle of the line from hip to ankle.
 HWY_NOINLINE Wide leg_bounds(const StepNow& now, std::size_t side, const Wide& height, const Furthest& furthest) {
-  const FootMotion& foot = now.foot[side];
+  FootMotion foot = now.foot[side];
   const LegPlane leg = leg_plane(now, side, height);
   const WideVec& d = leg.to_ankle;
   const float out = side == Side::left ? 1.0F : -1.0F;
   const Wide direction = atan2(d.z, sqrt(leg.across2)), aside = atan2(d.x, -d.y);
   const Wide thigh = direction + atan2(leg.bulge, leg.near);
   const Wide shank = direction - atan2(leg.bulge, leg.distance - leg.near);
+  foot.pitch = held_pitch(foot, shank);
   furthest.note(WalkBound::under_ground, -lowest_point(foot, height));
   furthest.note(WalkBound::hip_back, WalkBound::hip_forward,
                 thigh + now.motion.tilt - static_cast<float>(neutral_tilt));

@@ -232,6 +232,14 @@ HWY_INLINE LegPlane leg_plane(const StepNow& now, std::size_t side, const Wide& 
   return leg;
 }
 
+/// The pitch of a foot in the air whose ankle would bend up too far: smoothly less. Ankles of usual walks do not come
+/// near. `shank`: forward angle of the shank, from where the ground is level.
+HWY_INLINE Wide held_pitch(const FootMotion& foot, const Wide& shank) {
+  constexpr float most = 0.61F, width = 0.09F;  // 35 and 5 degrees
+  const Wide ankle = foot.pitch - shank;
+  return foot.pitch - smooth(4.0F * foot.in_the_air) * (ankle - lower_of(ankle, wide(most), wide(width)));
+}
+
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

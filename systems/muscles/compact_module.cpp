@@ -6,11 +6,13 @@
 #include "components/compact.h"
 #include "components/gait.h"
 #include "components/leg_muscles.h"
+#include "components/muscle.h"
 #include "components/pose.h"
 #include "engine/fetch_ahead.h"
 #include "engine/schedule.h"
 #include "engine/snapshot.h"
 #include "systems/deformation/reduced.h"
+#include "systems/deformation/restart.h"
 #include "systems/kinematics/knee_frames.h"
 #include "systems/lines/elongations.h"
 #include "systems/muscles/compact_codes.h"
@@ -21,7 +23,8 @@ namespace {
 /// All of a person's muscles that move, right and left, over a tick.
 void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                   Ahead<StepPlan> next, const GaitState<Lanes<float>>& gait, Shared<LegMuscles> choice,
-                  TagValue<CompactMuscles> codes, Field<const CompactMotion> motion, Field<CompactState> state) {
+                  TagValue<CompactMuscles> codes, Field<const CompactMotion> motion, Field<CompactState> state,
+                  const Rows& rows, Tally<RestartedBellies> restarted) {
   FetchAhead plans(next.block);
   FetchAhead motions(motion.next, std::size_t{motion.words} * sizeof(Lanes<float>));
   FetchAhead states(state.next, std::size_t{state.words} * sizeof(Lanes<float>));
@@ -58,7 +61,9 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
       const auto& [vectors, from] = moving[i];
       float* const own = state.data + lane_count * (from.state + side * (1 + 2 * vectors));
       auto& before = *reinterpret_cast<Lanes<float>*>(own);
-      swing_reduced(vectors, before, now[i], tick_s, own + lane_count, motion.data + lane_count * (from.motion + 1));
+      restarted.add(count_rows(swing_reduced(vectors, before, now[i], tick_s, own + lane_count,
+                                             motion.data + lane_count * (from.motion + 1)),
+                               rows));
       before = now[i];
     }
   }

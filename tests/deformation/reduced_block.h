@@ -143,7 +143,8 @@ struct ReducedBodies {
     return block;
   }
 
-  void tick(const ReducedDrive& drive, double tick_s);
+  /// Which lanes began at rest.
+  std::uint32_t tick(const ReducedDrive& drive, double tick_s);
   BellyReport<Lanes<float>> report(const ReducedDrive& drive, const MuscleTemplate& control, double tick_s);
   void place(const ReducedDrive& drive, bool at_rest);
   std::vector<Sum> expected_displacement(const ReducedDrive& drive, std::size_t l, bool at_rest) const;
@@ -205,10 +206,12 @@ struct ReducedDrive {
   }
 };
 
-inline void ReducedBodies::tick(const ReducedDrive& drive, double tick_s) {
+inline std::uint32_t ReducedBodies::tick(const ReducedDrive& drive, double tick_s) {
+  std::uint32_t restarted = 0;
   drive.give([&](const FarFaceDrive& end, const FrameLoad<Lanes<float>>& frame) {
-    deform_reduced(block(frame), end, static_cast<float>(tick_s));
+    restarted = deform_reduced(block(frame), end, static_cast<float>(tick_s));
   });
+  return restarted;
 }
 
 inline void ReducedBodies::place(const ReducedDrive& drive, bool at_rest) {

@@ -387,4 +387,30 @@ TEST(EngineSchedule, RunsEveryBlockOnce) {
     for (const Entity e : all) ASSERT_EQ(world.get<A>(e)->x, static_cast<float>(i));
   }
 }
+
+struct Odd {};
+struct Never {};
+
+TEST(EngineSchedule, TalliesAreSumsOfTheTickAndOfAll) {
+  World world;
+  for (unsigned i = 0; i < 1000; ++i) {
+    i % 7 == 0 ? world.create(A<float>{1}, B<float>{}) : world.create(A<float>{static_cast<float>(i % 2)});
+  }
+  const auto odd = [](const LA& a, const Rows& rows, Tally<Odd> count) {
+    for (std::size_t lane = 0; lane < rows.live; ++lane) count.add(a.x[lane] == 1 ? 1 : 0);
+  };
+  const auto more = [](const LB&, const Rows& rows, Tally<Odd> count) { count.add(10 * rows.live); };
+  auto schedule = ScheduleBuilder().add("odd", odd).add("more", more).add("never", [](LC&, Tally<Never>) {}).build();
+  ASSERT_TRUE(schedule);
+  const std::uint64_t expected = 143 + 429 + 10 * 143;  // every seventh of 0 … 999; the others' odd ones
+  const Threads threads(2);
+  for (std::uint64_t i = 1; i <= 20; ++i) {
+    schedule->run(world, {}, threads.jobs());
+    EXPECT_EQ(schedule->tally<Odd>().last, expected);
+    EXPECT_EQ(schedule->tally<Odd>().all, i * expected);
+    EXPECT_EQ(schedule->tally<Never>().all, 0U);
+  }
+  schedule->reset_timings();
+  EXPECT_EQ(schedule->tally<Odd>().all, 0U);
+}
 }  // namespace mobil::engine_schedule_test

@@ -265,6 +265,76 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
   RC_ASSERT(walk({asked}, 2).front().keeps_limits());
 }
 
+/// People who stop, stand, start again, turn, slow down and speed up, as a crowd's do; each phase by itself.
+template <class Look>
+void play(const std::vector<Asked>& asked, Look look) {
+  Simulation simulation({.tick_s = tick});
+  std::vector<SpawnRequest> requests;
+  for (const Asked& one : asked) requests.push_back({.body = one.body, .gait = one.gait});
+  std::vector<Entity> people(asked.size());
+  ASSERT_TRUE(simulation.spawn(requests, people));
+  const auto at_speed = [&](float part) {
+    for (std::size_t i = 0; i < people.size(); ++i) {
+      const float speed = *asked[i].gait.speed_m_s, least = std::min(speed, 0.5F);
+      const auto done = simulation.change_gait(people[i], {.speed_m_s = part == 0 ? 0 : std::max(part * speed, least)});
+      ASSERT_TRUE(done) << done.error().message;
+    }
+  };
+  const auto phase = [&](const char* name, double seconds) {
+    for (double t = 0; t < seconds; t += tick) {
+      simulation.tick();
+      for (std::size_t i = 0; i < people.size(); ++i) look(simulation, people[i], i, name);
+    }
+  };
+  phase("walks", 2);
+  at_speed(0);
+  phase("stops", 3.5);
+  at_speed(1);
+  phase("starts", 2.5);
+  for (std::size_t i = 0; i < people.size(); ++i)
+    ASSERT_TRUE(simulation.turn_to(people[i], i % 2 == 0 ? 1.05F : -1.05F));
+  phase("turns", 3);
+  at_speed(0.6F);
+  phase("slows down", 2.5);
+  at_speed(1);
+  phase("speeds up", 2.5);
+}
+
+TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
+  Dice dice{std::mt19937(5)};
+  std::vector<Asked> asked;
+  for (int i = 0; i < 160; ++i) {
+    asked.push_back(anyone(dice, 0, false));
+    asked.back().gait = {.speed_m_s = asked.back().gait.speed_m_s};
+  }
+  std::vector<Walked> walked(asked.size());
+  std::vector<std::unique_ptr<Watch>> watches(asked.size());
+  play(asked, [&](const Simulation& simulation, Entity person, std::size_t i, const char* name) {
+    if (watches[i] == nullptr) watches[i] = std::make_unique<Watch>(simulation, person);
+    watches[i]->look(walked[i]);
+    ASSERT_TRUE(walked[i].keeps_limits()) << name << ": " << told(asked[i], walked[i]);
+  });
+}
+
+/// Of any style no foot in the air is bent up far, whatever its walker does.
+TEST(StyleLimits, FeetInTheAirAreNotBentUp) {
+  Dice dice{std::mt19937(6)};
+  std::vector<Asked> asked;
+  for (unsigned i = 0; i < 240; ++i) asked.push_back(anyone(dice, i % 6, false));
+  float furthest = 0;
+  play(asked, [&](const Simulation& simulation, Entity person, std::size_t i, const char* name) {
+    const auto state = *simulation.get<GaitState>(person);
+    const auto plan = *simulation.get<StepPlan>(person);
+    const float phase = state.time_s / plan.duration_s;
+    if (phase < plan.double_support || phase > plan.landing) return;
+    const auto other = state.stance_side == Side::right ? Side::left : Side::right;
+    const float ankle = simulation.get<JointAngles>(person)->ankle_dorsiflexion[other];
+    furthest = std::max(furthest, ankle);
+    ASSERT_LT(ankle, 44 * degree) << name << ": " << told(asked[i], {});
+  });
+  EXPECT_GT(furthest, 33 * degree);  // else nobody came near
+}
+
 /// The reported style is the one that is walked. It does not depend on who else is spawned, in which order, on which
 /// thread.
 TEST(StyleLimits, AreTheSameForOneAndForMany) {
@@ -315,7 +385,7 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
 TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
   Dice dice{std::mt19937(12)};
   std::size_t moved = 0;
-  for (int round = 0; round < 12; ++round) {
+  for (int round = 0; round < 4; ++round) {
     constexpr std::size_t together = 64;
     std::vector<BodySize<float>> sizes;
     std::vector<Gait<float>> asked;
@@ -347,7 +417,7 @@ TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
       }
     }
   }
-  EXPECT_GT(moved, 500U);
+  EXPECT_GT(moved, 150U);
 }
 
 /// Where the estimate says that a style keeps all limits, a walk of it at 240 instants a second keeps them.

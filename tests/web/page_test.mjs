@@ -2,18 +2,15 @@
 // Usage: node page_test.mjs NODE_MODULES PAGE SCREENSHOTS. Exit status 1: something is wrong.
 import assert from 'node:assert/strict';
 import { mkdirSync, readFileSync, writeFileSync } from 'node:fs';
-import { createRequire } from 'node:module';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { launch } from '../../demo/web/chromium.mjs';
 import { serve } from '../../demo/web/serve.mjs';
 
 const [, , modules, folder, shots] = process.argv;
 const here = path.dirname(fileURLToPath(import.meta.url));
-const { chromium } = createRequire(path.resolve(modules, 'x.js'))('playwright-core');
 const { port, close } = await serve(folder);
-const browser = await chromium.launch({
-  executablePath: '/usr/bin/chromium', args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--ignore-gpu-blocklist'],
-});
+const browser = await launch(modules);
 const said = [];
 let passed = 0, failed = 0;
 

@@ -1,0 +1,178 @@
+// A belly that is not finite begins anew, is counted, and ends where it would have been; nobody else is touched.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "engine/schedule.h"
+#include "systems/simulation.h"
+#include "systems/simulation_world.h"
+
+namespace mobil {
+namespace {
+namespace restart {
+
+/// A muscle's end is driven for one tick by what is here, unless that is 0.
+template <class F>
+struct Poison {
+  F value;
+};
+
+void poison(Poison<Lanes<float>>& poison, EndDrive<Lanes<float>>& end) {
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if (poison.value[lane] == 0) continue;
+    end.to[lane] = poison.value[lane];
+    poison.value[lane] = 0;
+  }
+}
+
+Module poisoning() {
+  return {.name = "poisoning", .parts = {component_part<Poison>()}, .systems = [](ScheduleBuilder& systems) {
+            systems.add("poison", &poison).after("lines of action").after("activation");
+          }};
+}
+
+struct Way {
+  std::string name;
+  LegMuscles choice;
+};
+
+std::vector<Way> ways() {
+  LegMuscles plain;
+  plain.muscles = MuscleSet{3};
+  std::vector<Way> all;
+  for (const Method method : {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced}) {
+    LegMuscles choice = plain;
+    choice.method = method;
+    all.push_back({std::string(method_name[static_cast<std::size_t>(method)]), choice});
+    choice.inertia = true;
+    choice.activation = ExcitationSource::phase;
+    all.push_back({all.back().name + ", inertia and activation", choice});
+  }
+  LegMuscles pulled = plain;
+  pulled.method = Method::ecd;
+  pulled.drive = Drive::force;
+  all.push_back({"ecd, pulled", pulled});
+  LegMuscles tuned = plain;
+  tuned.method = Method::reduced;
+  tuned.reduced.tuned = true;
+  tuned.activation = ExcitationSource::phase;
+  all.push_back({"reduced, tuned", tuned});
+  return all;
+}
+
+/// Three people alike, so that their muscles share blocks; a muscle of the first alone is ever poisoned.
+struct Scene {
+  Simulation simulation{SimulationOptions{.threads = 2, .modules = {poisoning()}}};
+  std::vector<Entity> people;
+
+  explicit Scene(const LegMuscles& choice) {
+    for (int i = 0; i < 3; ++i) {
+      people.push_back(*simulation.spawn({.height_m = 1.8F, .mass_kg = 80}));
+      const auto added = simulation.add_leg_muscles(people.back(), choice);
+      EXPECT_TRUE(added) << added.error().message;
+      for (const OwnMuscle& own : simulation.muscles(people.back()))
+        for (const Entity one : own.entity) EXPECT_EQ(simulation.add(one, Poison<float>{0}), Status::ok);
+    }
+    for (int i = 0; i < 30; ++i) simulation.tick();
+  }
+
+  Entity muscle() const { return simulation.muscle(people[0], Muscle::quadriceps, Side::right); }
+
+  std::vector<float> shown(Entity muscle) const {
+    std::vector<float> all;
+    const NodalView view = simulation.nodal_displacement(muscle);
+    for (std::size_t i = 0; view.first != nullptr && i < 3 * view.nodes; ++i) all.push_back(view.first[i * lane_count]);
+    EXPECT_EQ(all.size(), 3 * 81U);
+    return all;
+  }
+
+  std::vector<float> shown_of_others() const {
+    std::vector<float> all;
+    for (const Entity person : people) {
+      for (const OwnMuscle& own : simulation.muscles(person)) {
+        for (const Entity one : own.entity) {
+          if (one == muscle()) continue;
+          const std::vector<float> points = shown(one);
+          all.insert(all.end(), points.begin(), points.end());
+        }
+      }
+    }
+    return all;
+  }
+};
+
+bool finite(const std::vector<float>& numbers) {
+  return std::ranges::all_of(numbers, [](float x) { return std::isfinite(x); });
+}
+
+float largest_difference(const std::vector<float>& a, const std::vector<float>& b) {
+  float most = a.size() == b.size() ? 0 : std::numeric_limits<float>::infinity();
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) most = std::max(most, std::fabs(a[i] - b[i]));
+  return most;
+}
+
+/// One number of the belly's state, away from its faces.
+template <class Tag>
+void write_state(Scene& scene, std::mt19937& random, float value) {
+  const auto width = scene.simulation.world().get<Tag>(scene.muscle());
+  ASSERT_TRUE(width);
+  std::vector<float> words(*width);
+  ASSERT_EQ(scene.simulation.world().template get_field<Tag>(scene.muscle(), words), Status::ok);
+  words[words.size() / 4 + random() % (words.size() / 2)] = value;
+  ASSERT_EQ(world_of(scene.simulation).template set_field<Tag>(scene.muscle(), words), Status::ok);
+}
+
+constexpr float no_numbers[] = {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(),
+                                3e38F};
+
+/// Within three ticks all is finite, and it was counted; in three seconds the belly comes to where its twin is.
+void expect_restarted(Scene& scene, Scene& twin, const std::string& what) {
+  const std::uint64_t before = scene.simulation.report().total_restarted_bellies;
+  for (int i = 0; i < 3; ++i) {
+    scene.simulation.tick();
+    twin.simulation.tick();
+    EXPECT_EQ(scene.shown_of_others(), twin.shown_of_others()) << what;
+  }
+  EXPECT_TRUE(finite(scene.shown(scene.muscle()))) << what;
+  EXPECT_EQ(scene.simulation.report().restarted_bellies, 0U) << what;
+  const std::uint64_t counted = scene.simulation.report().total_restarted_bellies - before;
+  EXPECT_GE(counted, 1U) << what;
+  EXPECT_LE(counted, 2U) << what;
+  for (int i = 0; i < 180; ++i) {
+    scene.simulation.tick();
+    twin.simulation.tick();
+  }
+  EXPECT_LT(largest_difference(scene.shown(scene.muscle()), twin.shown(twin.muscle())), 2e-3F) << what;
+  EXPECT_EQ(twin.simulation.report().total_restarted_bellies, 0U);
+}
+
+/// A number of its state is none; then its end is driven by none.
+TEST(Restart, ABellyThatIsNotFiniteBeginsAnew) {
+  std::mt19937 random(1);
+  for (const Way& way : ways()) {
+    Scene scene(way.choice), twin(way.choice);
+    for (const float value : no_numbers) {
+      const std::string what = way.name + ", " + std::to_string(value);
+      if (way.choice.method == Method::reduced) {
+        write_state<ReducedState>(scene, random, value);
+      } else if (way.choice.method == Method::statics || random() % 2 == 0) {
+        write_state<NodalDisplacement>(scene, random, value);
+      } else {
+        write_state<NodalVelocity>(scene, random, value);
+      }
+      expect_restarted(scene, twin, what);
+      ASSERT_TRUE(scene.simulation.set(scene.muscle(), Poison<float>{value}));
+      expect_restarted(scene, twin, what + " at its end");
+    }
+  }
+}
+
+}  // namespace restart
+}  // namespace
+}  // namespace mobil

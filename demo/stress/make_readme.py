@@ -24,7 +24,7 @@ def margin(row):
     ratio = bound / value if row["promise"] == "at most" and value else value / bound if row["promise"] == "at least" else None
     if ratio is None or ratio <= 0:
         return "–"
-    return f"{ratio:.2g}" if ratio < 1000 else "> 1000"
+    return f"{ratio:.2g}" if ratio < 10 else f"{ratio:.0f}" if ratio < 1000 else "> 1000"
 
 
 def main():

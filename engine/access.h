@@ -11,12 +11,12 @@
 //   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
 //   TagValue<Tag>, Shared<T> the table's tag or shared resource
 //   Scratch<Tag>             memory to work in, as many floats as the table's tag says
-//   Tally<Tag>               adds to a count that is no state, of all blocks and of the tick (Schedule::tally); at most one
+//   Tally<Tag>               adds to a count of the tick, which is no state (Schedule::tally); one a system
 //   Tick, float              the tick; a plain float is its length in s
 //   Rows                     the entities of the block's lanes
 //   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
 //
-// It runs on every block of every table that has all components, fields and tags named (Maybes, Scratch and Tally aside).
+// It runs on every block of every table that has all components, fields and tags named (Maybes, Scratch, Tally aside).
 
 #include <atomic>
 #include <cstddef>
@@ -381,28 +381,26 @@ struct Parameter<Scratch<Tag>> : AnywhereParameter {
   }
 };
 
-/// The tag is told as what a parameter accesses, without a mode: no order depends on it.
+/// A tally's tag stands among its system's accesses, with mode `none`: the order of systems does not depend on it.
 template <class Tag>
 struct Parameter<Tally<Tag>> : AnywhereParameter {
   static constexpr Access access() { return {Access::Mode::none, type_id<Tag>(), type_name<Tag>()}; }
   static Tally<Tag> make(const BlockView& view, const Bound&) { return Tally<Tag>(view.tally); }
 };
 
-/// Whether a parameter is memory to work in.
+/// Whether a parameter is an Of of some tag, by value or by reference.
+template <template <class> class Of, class P>
+inline constexpr bool is_tagged = false;
+template <template <class> class Of, class Tag>
+inline constexpr bool is_tagged<Of, Of<Tag>> = true;
+template <template <class> class Of, class Tag>
+inline constexpr bool is_tagged<Of, const Of<Tag>&> = true;
+/// Whether it is memory to work in.
 template <class P>
-inline constexpr bool is_scratch = false;
-template <class Tag>
-inline constexpr bool is_scratch<Scratch<Tag>> = true;
-template <class Tag>
-inline constexpr bool is_scratch<const Scratch<Tag>&> = true;
-
-/// Whether a parameter counts.
+inline constexpr bool is_scratch = is_tagged<Scratch, P>;
+/// Whether it counts.
 template <class P>
-inline constexpr bool is_tally = false;
-template <class Tag>
-inline constexpr bool is_tally<Tally<Tag>> = true;
-template <class Tag>
-inline constexpr bool is_tally<const Tally<Tag>&> = true;
+inline constexpr bool is_tally = is_tagged<Tally, P>;
 
 /// Whether a parameter means something only within a tick.
 template <class P>

@@ -88,7 +88,7 @@ TABLES = {
     ],
 }
 
-# What is told, the figures in the sentence as {name|unit}, and the command that says them. `value|` shows two digits.
+# What is told, a sentence with its figures as {name|how it is shown}, and the command that says them.
 TUNED, PAPERS = "living.reduced-12, tuned, finite shape", "living.ecd, 81 nodes"
 SENTENCES = {
     "readme": [

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures what README.md says of accuracy and speed, on a machine that does nothing else: some two minutes.
+"""Measures what README.md says of accuracy and speed, on a machine that does nothing else: half a minute.
 
     demo/bench/measure_readme.py build/release/mobil demo/bench/figures/PROCESSOR.readme.json
     demo/bench/make_tables.py

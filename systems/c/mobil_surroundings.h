@@ -25,10 +25,9 @@ typedef struct mobil_steered {
 /* Begins, or begins anew with other options and without walls and discs; `options` null: usual ones. Who avoids others
  * already goes on to. */
 MOBIL_API int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options);
-/* From now on these walkers keep out of each other's way, and want what they were last asked to do (who does so
- * already keeps their wish and room); or no more (`on`
- * 0), and go on as they now do, facing their way. All or none. Who avoids others is asked by mobil_want: what mobil_change_walk asks
- * lasts until the next step. */
+/* From now on these walkers keep out of each other's way, and want what they were last asked to do (who does so already
+ * keeps their wish and room); or no more (`on` 0), and go on as they now do, facing their way. All or none. Who avoids
+ * others is asked by mobil_want: what mobil_change_walk asks lasts until the next step. */
 MOBIL_API int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
 /* Where they want to go, all or none: rows of two floats, a speed in m/s (0: to stand) and a heading in rad. */
 MOBIL_API int mobil_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride);

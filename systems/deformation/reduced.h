@@ -44,8 +44,8 @@ struct ReducedBlock {
   const float *next_state = nullptr, *next_motion = nullptr;
 };
 
-/// One tick of a block. A lane's NaN stays in its lane. A belly whose state is not finite, or beyond 1.8e19, at the tick's
-/// end begins at rest, and its lane is one of the bits returned. No heap.
+/// One tick of a block. A lane's NaN stays in its lane. A belly whose state is not finite, or beyond 1.8e19, at the end
+/// begins at rest, and its lane is one of the bits returned. No heap.
 std::uint32_t deform_reduced(const ReducedBlock& block, const FarFaceDrive& end, float tick_s);
 
 /// The same of bellies of so many vectors that the end's displacement alone moves, from and to: `state` and `motion` as

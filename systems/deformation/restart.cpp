@@ -8,7 +8,7 @@
 namespace mobil {
 namespace {
 
-/// Lanes as bits whose report is not finite: nor is at least one of their displacements or velocities.
+/// Which lanes' reports are not finite, as bits: sums over all displacements and velocities.
 std::uint32_t ill_lanes(const BellyReport<Lanes<float>>& report) {
   std::array<std::uint32_t, lane_count> not_zero;  // x - x is 0, or NaN where x is not finite
   std::uint32_t any = 0;
@@ -23,17 +23,20 @@ std::uint32_t ill_lanes(const BellyReport<Lanes<float>>& report) {
   return lanes;
 }
 
+float finite_or_zero(float x) {
+  return std::isfinite(x) ? x : 0;
+}
+
 void draw_out(std::uint32_t lanes, const MuscleTemplate& shape, const EndDrive<Lanes<float>>& end, float tick_s,
               float* displacement, float* velocity) {
   const Cells& cells = shape.mesh.cells;
   const float* const rest = shape.kernel.rest_m.data();
+  const bool held = shape.options.far_end == FarEnd::held;
   const float far = rest[3 * std::size_t{first_insertion_node(cells)} + 2];
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
-    float elongation = shape.options.far_end == FarEnd::held ? end.to[lane] : 0.0F;
-    float speed = (elongation - end.from[lane]) / tick_s;
-    if (!std::isfinite(elongation)) elongation = 0;
-    if (!std::isfinite(speed) || shape.options.far_end != FarEnd::held) speed = 0;
+    const float elongation = held ? finite_or_zero(end.to[lane]) : 0;
+    const float speed = held ? finite_or_zero((end.to[lane] - end.from[lane]) / tick_s) : 0;
     for (std::size_t n = plane_nodes(cells); n < node_count(cells); ++n) {
       const float share = rest[3 * n + 2] / far;
       for (std::size_t axis = 0; axis < 3; ++axis) {

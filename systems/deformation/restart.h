@@ -1,6 +1,6 @@
 #pragma once
-// A belly that is not finite at a tick's end begins anew. Usually a host's own system wrote NaN or infinity. What is here
-// is for bellies whose displacements are the state; reduced ones do so themselves (systems/deformation/reduced.h).
+// A belly that is not finite at a tick's end begins anew. Usually a host's own system wrote NaN or infinity. Here are
+// bellies whose displacements are the state; reduced ones do so themselves (systems/deformation/reduced.h).
 
 #include <cstdint>
 

@@ -203,12 +203,17 @@ class Watch {
   Feet<float> feet_;
 };
 
-std::vector<Walked> walk(const std::vector<Asked>& asked, double seconds) {
-  Simulation simulation({.tick_s = tick});
+std::vector<Entity> spawn(Simulation& simulation, const std::vector<Asked>& asked) {
   std::vector<SpawnRequest> requests;
   for (const Asked& one : asked) requests.push_back({.body = one.body, .gait = one.gait});
   std::vector<Entity> people(asked.size());
   if (const auto done = simulation.spawn(requests, people); !done) throw std::runtime_error(done.error().message);
+  return people;
+}
+
+std::vector<Walked> walk(const std::vector<Asked>& asked, double seconds) {
+  Simulation simulation({.tick_s = tick});
+  const std::vector<Entity> people = spawn(simulation, asked);
   std::vector<Watch> watches;
   for (const Entity person : people) watches.emplace_back(simulation, person);
   std::vector<Walked> walked(asked.size());
@@ -269,10 +274,7 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
 template <class Look>
 void play(const std::vector<Asked>& asked, Look look) {
   Simulation simulation({.tick_s = tick});
-  std::vector<SpawnRequest> requests;
-  for (const Asked& one : asked) requests.push_back({.body = one.body, .gait = one.gait});
-  std::vector<Entity> people(asked.size());
-  ASSERT_TRUE(simulation.spawn(requests, people));
+  const std::vector<Entity> people = spawn(simulation, asked);
   const auto at_speed = [&](float part) {
     for (std::size_t i = 0; i < people.size(); ++i) {
       const float speed = *asked[i].gait.speed_m_s, least = std::min(speed, 0.5F);

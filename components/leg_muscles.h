@@ -53,6 +53,9 @@ inline bool same_method(const MuscleMethod& a, MuscleMethod b) {
   return a.reduced == b.reduced;
 }
 
+/// Cells for close-ups, with all nodes of the paper's {2, 2, 8}.
+inline constexpr Cells close_up_cells = {4, 4, 16};
+
 /// How leg muscles deform. Every choice is a matter of which parts a muscle has (systems/muscles/muscle_parts.h).
 struct LegMuscles {
   /// Which ones: the groups unless a scene comes close (muscle_members()) or calls for few.
@@ -61,27 +64,29 @@ struct LegMuscles {
   Method method = Method::ecd;
   ReducedChoice reduced{};  // of Method::reduced
   Material material{};
-  Element element = Element::full;
-  Mass mass = Mass::lumped;        // of CAA; ECD's is lumped, ICD's consistent, static has none
-  double damping_per_s = 8;        // Rayleigh's α, 0–1000
-  double stiffness_damping_s = 0;  // Rayleigh's β, 0–1
-  bool inertia = false;            // gravity and the acceleration of the muscle's frame
-  bool line_motion = false;        // lengthening speed and moment arms: component LineMotion
+  Element element = Element::full;  // but of Method::finite, whose elements have one point
+  Mass mass = Mass::lumped;         // of CAA; ECD's is lumped, ICD's consistent, static has none
+  double damping_per_s = 8;         // Rayleigh's α, 0–1000; not of what is tuned, or finite with activation
+  double stiffness_damping_s = 0;   // Rayleigh's β, 0–1
+  bool inertia = false;             // gravity and the acceleration of the muscle's frame
+  bool line_motion = false;         // lengthening speed and moment arms: component LineMotion
   /// Muscles that pull: components Activation, Musculotendon. The tendon stretches, and the belly gets what it leaves.
   /// ExcitationSource::moments needs the person's forces (add_forces), and gives its row MomentReserve.
   ExcitationSource activation = ExcitationSource::none;
   /// Control points are where tissue at finite strain has them (nearly incompressible, short and thick where it pulls),
   /// not where linear statics do; the method's vibration goes on about that. Left out: where there is activation.
+  /// Method::finite needs none, and takes none.
   std::optional<bool> finite_shape{};
   /// Fascia and neighbours as an elastic foundation sideways, (2πf)² times the mass, 0–1000 Hz. Left out: of single
   /// muscles that are drawn by displacement 7 Hz, on the shank 12, for what is long, thin and bent bows aside like a
   /// strut without; of groups that pull the same; of others 7 Hz with inertia, where a belly would sag by its own
   /// length, and none otherwise.
   std::optional<double> foundation_hz{};
-  /// 81 nodes, the paper's choice for real time; meshes of {4, 4, 16}, {8, 8, 32} … have all its nodes.
+  /// 81 nodes, the paper's choice for real time; meshes of {4, 4, 16}, {8, 8, 32} … have all its nodes. Method::finite
+  /// wants close_up_cells: on 81 nodes it shows no better shape than finite_shape on a linear method.
   Cells cells = {2, 2, 8};
-  /// Longest step; a tick is cut into equal ones no longer than that. Left out: of ECD and ICD 0.9 of each individual's
-  /// own critical step, of CAA the tick. Static has no steps.
+  /// Longest step; a tick is cut into equal ones no longer than that. Left out: of ECD, ICD and finite 0.9 of each
+  /// individual's own critical step, of CAA the tick. Static has no steps.
   std::optional<double> dt_s{};
 
   friend bool operator==(const LegMuscles&, const LegMuscles&) = default;
@@ -105,10 +110,11 @@ constexpr bool has_activation(const LegMuscles& choice) {
 constexpr bool is_tuned(const LegMuscles& choice) {
   return is_tuned(MuscleMethod{choice.method, choice.reduced});
 }
-/// Whether its control points are those of finite strain.
+/// Whether its control points are those of finite strain on top of a linear method.
 constexpr bool has_finite_shape(const LegMuscles& choice) {
   const bool linear = choice.method == Method::reduced && choice.reduced.linear_shape;
-  return has_control_points(choice) && !linear && choice.finite_shape.value_or(has_activation(choice));
+  return has_control_points(choice) && !linear && choice.method != Method::finite &&
+         choice.finite_shape.value_or(has_activation(choice));
 }
 /// What the far end of its belly may do: held or sliding.
 constexpr FarEnd far_end_of(const LegMuscles& choice) {

@@ -40,12 +40,17 @@ struct Material {
 enum class Element : std::uint8_t { full, bbar, one_point };
 inline constexpr std::array<std::string_view, 3> element_name = {"full", "bbar", "one-point"};
 
+/// What stiffness is: small strains, K·u; or finite strain with fibres that pull (assets/fem/finite_kernel.h).
+enum class Strain : std::uint8_t { small, finite };
+
 /// How a belly's motion follows from its loads (section 6.3 of the paper): K·u = f; explicit central differences with
 /// the lumped mass (ECD); implicit central differences, that is with the consistent mass (ICD); constant average
-/// acceleration (CAA); a few vectors of a finer mesh, each of whose motions is integrated exactly (reduced); or not at
-/// all (none: the line of action alone).
-enum class Method : std::uint8_t { statics, ecd, icd, caa, reduced, none };
-inline constexpr std::array<std::string_view, 6> method_name = {"static", "ecd", "icd", "caa", "reduced", "none"};
+/// acceleration (CAA); a few vectors of a finer mesh, each of whose motions is integrated exactly (reduced); not at
+/// all (none: the line of action alone); or central differences at finite strain (finite), for close-ups.
+enum class Method : std::uint8_t { statics, ecd, icd, caa, reduced, none, finite };
+inline constexpr std::array<std::string_view, 7> method_name = {"static",  "ecd",  "icd",   "caa",
+                                                                "reduced", "none", "finite"};
+inline constexpr Method last_method = Method::finite;
 
 /// Mass matrix: lumped at the nodes (diagonal), or consistent with the shape functions.
 enum class Mass : std::uint8_t { lumped, consistent };
@@ -132,15 +137,16 @@ struct FrameHistory {
 
 /// What a deforming belly did, written once a tick. Elongation: mean displacement of the far face along z. Reaction:
 /// elastic force along z at the far face, positive in tension. Volume over that at rest. Energies belong together: in
-/// free undamped motion their sum is constant to rounding (kinetic at the last half step, strain across it).
+/// free undamped motion their sum is constant to rounding (kinetic at the last half step, strain across it; at finite
+/// strain at its end, so that the sum swings about a constant).
 template <class F>
 struct BellyReport {
   F elongation_m, reaction_n, volume_ratio, kinetic_energy_j, strain_energy_j;
 };
 
 /// Run-time sized columns (three floats a node, node-major: x0 y0 z0 x1 …) of a table of one mesh template:
-/// displacement from the rest position in m, and velocity in m/s (of ECD and ICD half a step back), in the muscle's
-/// frame.
+/// displacement from the rest position in m, and velocity in m/s (of ECD, ICD and finite half a step back), in the
+/// muscle's frame.
 struct NodalDisplacement {};
 struct NodalVelocity {};
 
@@ -150,10 +156,11 @@ struct ReducedState {};
 struct ReducedMotion {};
 struct ReducedShape {};
 
-/// Tags of muscle tables: the number of equal steps that a tick is cut into, of who steps explicitly, solves, and
-/// settles to the static answer; reduced bellies that show the static answer alone; and floats that one block is worked
-/// on with.
+/// Tags of muscle tables: the number of equal steps that a tick is cut into, of who steps explicitly, does so at finite
+/// strain, solves, and settles to the static answer; reduced bellies that show the static answer alone; and floats that
+/// one block is worked on with.
 struct Substeps {};
+struct FiniteSteps {};
 struct SolvedSteps {};
 struct StaticSteps {};
 struct ReducedStatic {};

@@ -170,7 +170,8 @@ void write_mass_sums(const MuscleTemplate& muscle, BellySolver& solver) {
 }
 
 Result<void> check(const MuscleTemplate& muscle, Method method, double dt_s, double across, double along) {
-  if (method == Method::ecd || method > Method::caa) return fail("only static, icd and caa solve with a factor: take one of those");
+  if (method == Method::ecd || method > Method::caa)
+    return fail("only static, icd and caa solve with a factor: take one of those");
   if (method != Method::statics && !(dt_s >= 1e-9 && dt_s <= 100)) {
     return fail(fmt::format("a solver's step of {} s must lie between 1e-9 and 100", dt_s));
   }
@@ -218,6 +219,7 @@ Result<BellySolver> make_belly_solver(const MuscleTemplate& muscle, Method metho
     case Method::ecd:
     case Method::reduced:
     case Method::none:
+    case Method::finite:
       break;
     case Method::statics:
       what = {{sideways, sideways, 0}, 1};

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/fem/critical_step.h"
+#include "assets/fem/finite_kernel.h"
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/fem/kernel_arrays.h"
 #include "assets/fem/stiffness_terms.h"
@@ -17,8 +18,8 @@ namespace mobil {
 
 /// Damping is Rayleigh's, C = α·M + β·K: `damping_per_s` is α (0–1000), `stiffness_damping_s` β (0–1). Fascia and
 /// neighbours hold a belly sideways as an elastic foundation (2π·`foundation_hz`)²·M in x and y (0–1000 Hz). The
-/// critical step, that of `mass`, is tabulated for individuals with across / along between `lowest_ratio` and
-/// `highest_ratio` (0.1–10).
+/// critical step, that of `mass` and `strain`, is tabulated for individuals with across / along between `lowest_ratio`
+/// and `highest_ratio` (0.1–10).
 struct MuscleOptions {
   FarEnd far_end = FarEnd::held;
   double damping_per_s = 8;
@@ -27,6 +28,7 @@ struct MuscleOptions {
   Mass mass = Mass::lumped;  // for which the critical step is
   double stiffness_damping_s = 0;
   double foundation_hz = 0;
+  Strain strain = Strain::small;
 };
 
 struct MuscleTemplate {
@@ -36,6 +38,7 @@ struct MuscleTemplate {
   StiffnessTerms terms;
   CriticalSteps critical_steps;
   KernelArrays kernel;
+  FiniteKernel finite;  // of Strain::finite, else without elements
 };
 
 /// What a template's critical step depends on.

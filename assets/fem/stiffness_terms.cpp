@@ -2,58 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include "assets/fem/hexahedron_points.h"
 
 namespace mobil {
 namespace {
-
-constexpr std::array<std::array<int, 3>, 8> corner = {
-    {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}}};
-
-using Matrix3 = std::array<std::array<double, 3>, 3>;
-
-/// Shape functions at one Gauss point: values, gradients in space, and the volume the point stands for.
-struct GaussPoint {
-  std::array<double, 8> value;
-  std::array<std::array<double, 3>, 8> gradient;
-  double volume_m3;
-};
-
-GaussPoint gauss_point(const HexahedralMesh& mesh, const Hexahedron& h, std::size_t point) {
-  const double g = 1 / std::sqrt(3.0);
-  const double xi[3] = {corner[point][0] * g, corner[point][1] * g, corner[point][2] * g};
-  GaussPoint q{};
-  double local[8][3];
-  Matrix3 jacobian{};  // row: reference direction, column: space
-  for (std::size_t a = 0; a < 8; ++a) {
-    double factor[3];
-    for (std::size_t d = 0; d < 3; ++d) factor[d] = 0.5 * (1 + corner[a][d] * xi[d]);
-    q.value[a] = factor[0] * factor[1] * factor[2];
-    for (std::size_t d = 0; d < 3; ++d) {
-      local[a][d] = 0.5 * corner[a][d] * factor[(d + 1) % 3] * factor[(d + 2) % 3];
-      const auto& p = mesh.node[h[a]];
-      jacobian[d][0] += local[a][d] * p.x;
-      jacobian[d][1] += local[a][d] * p.y;
-      jacobian[d][2] += local[a][d] * p.z;
-    }
-  }
-  Matrix3 cofactor;
-  for (std::size_t r = 0; r < 3; ++r) {
-    const auto& u = jacobian[(r + 1) % 3];
-    const auto& v = jacobian[(r + 2) % 3];
-    cofactor[r] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
-  }
-  q.volume_m3 = jacobian[0][0] * cofactor[0][0] + jacobian[0][1] * cofactor[0][1] + jacobian[0][2] * cofactor[0][2];
-  for (std::size_t a = 0; a < 8; ++a) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      q.gradient[a][c] =
-          (local[a][0] * cofactor[0][c] + local[a][1] * cofactor[1][c] + local[a][2] * cofactor[2][c]) / q.volume_m3;
-    }
-  }
-  return q;
-}
-
-using Gradient = std::array<double, 3>;
 
 /// Adds ∫(λ·div u·div v + 2μ·ε(u):ε(v)) of shape functions with the gradients g and h, volume inside λ and μ.
 void add(StencilPair& p, const Gradient& g, const Gradient& h, double lambda, double mu) {
@@ -71,50 +23,6 @@ void add(StencilPair& p, const Gradient& g, const Gradient& h, double lambda, do
   p.c_xx += mu * along;
   p.c_yy += mu * along;
   p.c_zz += (lambda + 2 * mu) * along;
-}
-
-/// The shape functions' mean gradients over an element and its volume (exact: their integrands are within the reach of
-/// 2×2×2 points).
-struct MeanGradient {
-  std::array<Gradient, 8> gradient{};
-  double volume_m3 = 0;
-};
-
-MeanGradient mean_gradient(const std::array<GaussPoint, 8>& points) {
-  MeanGradient mean;
-  for (const GaussPoint& q : points) {
-    mean.volume_m3 += q.volume_m3;
-    for (std::size_t a = 0; a < 8; ++a) {
-      for (std::size_t d = 0; d < 3; ++d) mean.gradient[a][d] += q.volume_m3 * q.gradient[a][d];
-    }
-  }
-  for (auto& g : mean.gradient) {
-    for (double& x : g) x /= mean.volume_m3;
-  }
-  return mean;
-}
-
-/// Flanagan and Belytschko's γ = h − Σ(h·xᵢ)·∂N/∂xᵢ of the four hourglass patterns: orthogonal to every linear
-/// displacement, and the same however the element is stretched along the axes.
-std::array<std::array<double, 8>, 4> hourglass_patterns(const HexahedralMesh& mesh, const Hexahedron& h,
-                                                        const MeanGradient& mean) {
-  std::array<std::array<double, 8>, 4> patterns;
-  for (std::size_t p = 0; p < 4; ++p) {
-    double moment[3] = {};
-    for (std::size_t a = 0; a < 8; ++a) {
-      const auto [x, y, z] = corner[a];
-      const int pattern[4] = {y * z, z * x, x * y, x * y * z};
-      patterns[p][a] = pattern[p];
-      const auto& at = mesh.node[h[a]];
-      moment[0] += pattern[p] * at.x;
-      moment[1] += pattern[p] * at.y;
-      moment[2] += pattern[p] * at.z;
-    }
-    for (std::size_t a = 0; a < 8; ++a) {
-      for (std::size_t d = 0; d < 3; ++d) patterns[p][a] -= moment[d] * mean.gradient[a][d];
-    }
-  }
-  return patterns;
 }
 
 /// Couplings of an element's eight corners, [a][b].
@@ -151,20 +59,15 @@ ElementTerms one_point_element(const std::array<GaussPoint, 8>& points, const He
   ElementTerms terms{};
   const MeanGradient mean = mean_gradient(points);
   const auto patterns = hourglass_patterns(mesh, h, mean);
-  double across = 0, along = 0;  // of Σ|∇N|²
-  for (const Gradient& g : mean.gradient) {
-    across += g[0] * g[0] + g[1] * g[1];
-    along += g[2] * g[2];
-  }
-  const double stiffness = hourglass_share * 4 * mu * mean.volume_m3 / 8;
+  const HourglassStiffness hourglass = hourglass_stiffness(mean, mu);
   for (std::size_t a = 0; a < 8; ++a) {
     for (std::size_t b = 0; b < 8; ++b) {
       StencilPair& pair = terms[a][b];
       add(pair, mean.gradient[a], mean.gradient[b], lambda * mean.volume_m3, mu * mean.volume_m3);
       double shared = 0;
       for (const auto& pattern : patterns) shared += pattern[a] * pattern[b];
-      for (double* entry : {&pair.a_xx, &pair.a_yy, &pair.a_zz}) *entry += stiffness * across * shared;
-      for (double* entry : {&pair.c_xx, &pair.c_yy, &pair.c_zz}) *entry += stiffness * along * shared;
+      for (double* entry : {&pair.a_xx, &pair.a_yy, &pair.a_zz}) *entry += hourglass.across * shared;
+      for (double* entry : {&pair.c_xx, &pair.c_yy, &pair.c_zz}) *entry += hourglass.along * shared;
     }
   }
   return terms;
@@ -176,12 +79,12 @@ void accumulate(StencilPair& sum, const StencilPair& p) {
   sum.c_xx += p.c_xx, sum.c_yy += p.c_yy, sum.c_zz += p.c_zz;
 }
 
-std::size_t slot_between(std::size_t a, std::size_t b) {
-  const auto step = [&](std::size_t d) { return (corner[b][d] - corner[a][d]) / 2; };
+}  // namespace
+
+std::size_t slot_between_corners(std::size_t a, std::size_t b) {
+  const auto step = [&](std::size_t d) { return (hexahedron_corner[b][d] - hexahedron_corner[a][d]) / 2; };
   return stencil_slot(step(0), step(1), step(2));
 }
-
-}  // namespace
 
 Result<void> check_material(const Material& m) {
   if (!(m.density_kg_m3 > 0 && m.density_kg_m3 <= 1e6)) {
@@ -219,7 +122,7 @@ Result<StiffnessTerms> assemble(const HexahedralMesh& mesh, const Material& mate
                                                           : one_point_element(points, mesh, h, lambda, mu);
     for (std::size_t a = 0; a < 8; ++a) {
       for (std::size_t b = 0; b < 8; ++b) {
-        const std::size_t at = h[a] * stencil_size + slot_between(a, b);
+        const std::size_t at = h[a] * stencil_size + slot_between_corners(a, b);
         accumulate(terms.pair[at], local[a][b]);
         for (const GaussPoint& q : points) {
           terms.consistent_mass_kg[at] += material.density_kg_m3 * q.volume_m3 * q.value[a] * q.value[b];

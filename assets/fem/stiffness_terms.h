@@ -33,6 +33,9 @@ constexpr std::size_t stencil_slot(int dx, int dy, int dz) {
   return static_cast<std::size_t>(slot);
 }
 
+/// That of an element's corner b as seen from its corner a.
+std::size_t slot_between_corners(std::size_t a, std::size_t b);
+
 /// Unconstrained operators of a template. `pair[27·node + slot]` and `consistent_mass_kg[27·node + slot]` couple a node
 /// to its neighbour at that slot (zero where there is none); `lumped_mass_kg[node]` is the row sum, whose total is
 /// exactly density × volume.

@@ -4,9 +4,11 @@
 #include <utility>
 
 #include "assets/body/anthropometry.h"
+#include "assets/finite/control_points.h"
 #include "assets/muscles/muscle_plan.h"
 #include "demo/measure/measure.h"
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/finite.h"
 #include "systems/deformation/finite_shape.h"
 #include "systems/deformation/reduced.h"
 
@@ -39,7 +41,7 @@ class LivingBellies {
       : belly_(belly),
         choice_(choice),
         length_m_(belly.shape->shape->mesh.node.back().z - belly.shape->shape->mesh.node.front().z),
-        points_(nodal_width(living_points)),
+        points_(nodal_width(choice.cells)),
         shown_(points_.size()) {
     set_lanes(scale_.across, 1), set_lanes(scale_.along, 1);
     if (choice.method == Method::reduced) {
@@ -85,17 +87,21 @@ class LivingBellies {
                              Stiffness::individual,
                              &frame_,
                              false};
-      deform_explicit(block, drive, belly_.steps, tick_s, scratch_[0].lane);
+      if (choice_.method == Method::finite) {
+        deform_finite(block, drive, &activation_, belly_.steps, tick_s, scratch_[0].lane);
+      } else {
+        deform_explicit(block, drive, belly_.steps, tick_s, scratch_[0].lane);
+      }
     }
-    if (belly_.finite == nullptr) return;
+    if (!has_finite_shape(choice_)) return;
     const ShapeBlock block{*belly_.finite, scale_, end_.to, &activation_};
     add_shape(block, blend_of(block), true, points_[0].lane, shown_[0].lane);
   }
 
   std::vector<double> shown() const {
     std::vector<double> points;
-    for (const auto& u : belly_.finite == nullptr ? points_ : shown_) points.push_back(double{u[0]});
-    return points;
+    for (const auto& u : has_finite_shape(choice_) ? shown_ : points_) points.push_back(double{u[0]});
+    return choice_.cells == living_points ? points : sampled_points(choice_.cells, living_points, points);
   }
 
  private:
@@ -139,6 +145,10 @@ std::vector<LivingWay> living_ways() {
     ways.back().choice.finite_shape = true;
     ways.back().name += ", finite shape";
   }
+  choice.method = Method::finite;
+  ways.push_back({"finite, 81 nodes", choice});
+  choice.cells = close_up_cells;
+  ways.push_back({"finite, 425 nodes", choice});
   return ways;
 }
 

@@ -23,7 +23,9 @@ namespace {
 constexpr double longest_run_steps = 2e6;
 
 constexpr std::array<std::string_view, 2> precisions = {"single", "double"};
-const auto moving_methods = std::span(method_name).first(static_cast<std::size_t>(Method::none));
+constexpr std::array<std::string_view, 6> moving_methods = {"static", "ecd", "icd", "caa", "reduced", "finite"};
+constexpr std::array moving_method = {Method::statics, Method::ecd,     Method::icd,
+                                      Method::caa,     Method::reduced, Method::finite};
 
 std::vector<std::string> muscle_words() {
   std::vector<std::string> names;
@@ -82,10 +84,10 @@ Result<Mass> choose_mass(Method method, const std::string& text) {
   if (text.empty()) return own;
   auto mass = choose<Mass>("--mass", text, mass_name);
   if (!mass) return mass;
-  if (method == Method::ecd && *mass == Mass::consistent) {
+  if ((method == Method::ecd || method == Method::finite) && *mass == Mass::consistent) {
     return fail(
-        "--mass consistent would need a solve at every explicit step, which is --method icd; --method ecd takes --mass "
-        "lumped");
+        "--mass consistent would need a solve at every explicit step, which is --method icd; --method ecd and finite "
+        "take --mass lumped");
   }
   if (method == Method::icd && *mass == Mass::lumped) {
     return fail(
@@ -103,8 +105,9 @@ struct Choices {
 };
 
 Result<Choices> read_choices(const MuscleText& text) {
-  const auto method = choose<Method>("--method", text.method, moving_methods);
-  if (!method) return tl::unexpected(method.error());
+  const auto chosen = choose<std::size_t>("--method", text.method, moving_methods);
+  if (!chosen) return tl::unexpected(chosen.error());
+  const Result<Method> method = moving_method[*chosen];
   const auto mass = choose_mass(*method, text.mass);
   if (!mass) return tl::unexpected(mass.error());
   const auto element = choose<Element>("--element", text.element, element_name);
@@ -114,6 +117,10 @@ Result<Choices> read_choices(const MuscleText& text) {
   if (*method == Method::reduced && *precision == 1) {
     return fail("--precision double has no reduced method; its steps are exact, leave the option out");
   }
+  if (*method == Method::finite && *element == Element::bbar)
+    return fail("--method finite has elements of one point; leave --element bbar out, or take another method");
+  if (*method == Method::finite && *precision == 1)
+    return fail("--precision double has no finite method; leave the option out, or take ecd, icd, caa or static");
   if (*method != Method::reduced && !text.glb.empty()) {
     return fail("--glb writes the vectors of --method reduced; add that, or leave --glb out");
   }
@@ -122,7 +129,8 @@ Result<Choices> read_choices(const MuscleText& text) {
 
 /// Whether a factorised operator is needed.
 bool solves(const Choices& choices) {
-  return !choices.in_double && choices.method != Method::ecd && choices.method != Method::reduced;
+  return !choices.in_double && choices.method != Method::ecd && choices.method != Method::reduced &&
+         choices.method != Method::finite;
 }
 
 Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choices) {
@@ -145,6 +153,8 @@ Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choi
   if (!damping) return tl::unexpected(damping.error());
   const auto stiffness_damping = read_value("--stiffness-damping", text.stiffness_damping, Quantity::time, 0, 1);
   if (!stiffness_damping) return tl::unexpected(stiffness_damping.error());
+  if (choices.method == Method::finite && *stiffness_damping > 0)
+    return fail("--method finite is damped by --damping alone; leave --stiffness-damping out, or take --method ecd");
   const auto foundation = read_value("--foundation", text.foundation, Quantity::frequency, 0, 1000);
   if (!foundation) return tl::unexpected(foundation.error());
   const auto grading = parse_grading(text.grading);
@@ -159,11 +169,16 @@ Result<MuscleTemplate> make_template(const MuscleText& text, const Choices& choi
   options.mass = choices.mass;
   options.stiffness_damping_s = *stiffness_damping;
   options.foundation_hz = *foundation;
+  if (choices.method == Method::finite) {
+    options.strain = Strain::finite;
+    options.element = Element::one_point;
+  }
   return make_muscle_template(std::move(*mesh), Material{*density, *young, *poisson}, options);
 }
 
 double limit_of(const MuscleTemplate& muscle) {
   const MuscleOptions& o = muscle.options;
+  if (o.strain == Strain::finite) return critical_step(muscle.critical_steps, 1, 1).value();
   return critical_step(muscle.terms, 1, 1,
                        StepCase{FarEnd::free, o.mass, o.stiffness_damping_s, 2 * std::numbers::pi * o.foundation_hz});
 }
@@ -195,7 +210,7 @@ Result<Stepping> choose_step(const MuscleText& text, const MuscleTemplate& muscl
   }
   std::optional<double> limit;
   double longest = method == Method::statics ? static_step_s : caa_step_s;
-  if (method == Method::ecd || method == Method::icd) {
+  if (method == Method::ecd || method == Method::icd || method == Method::finite) {
     limit = limit_of(muscle);
     longest = 0.9 * *limit;
     if (dt && *dt > *limit) {
@@ -238,18 +253,24 @@ std::vector<Option> muscle_options(MuscleText& text) {
       {"--grading", &text.grading,
        "How long elements in the middle are against those at the edges and ends: across,along, 0.01 to 100 each",
        block},
-      {"--method", &text.method, "static, ecd, icd, caa or reduced, see below", time, {}, {}, words_of(moving_methods)},
+      {"--method",
+       &text.method,
+       "static, ecd, icd, caa, reduced or finite, see below",
+       time,
+       {},
+       {},
+       words_of(moving_methods)},
       {"--vectors", &text.vectors, "Of reduced: how many of the block's own vectors move, 1 to 32", time},
       {"--mass",
        &text.mass,
-       "lumped or consistent: ecd is lumped, icd consistent, caa either (default: consistent)",
+       "lumped or consistent: ecd and finite are lumped, icd consistent, caa either (default: consistent)",
        time,
        {},
        {},
        words_of(mass_name)},
       {"--dt", &text.dt,
-       "Step, s; ecd and icd refuse one above the critical step (default: just within 0.9 of it; caa and reduced "
-       "1/480, static 1/60)",
+       "Step, s; ecd, icd and finite refuse one above the critical step (default: just within 0.9 of it; caa and "
+       "reduced 1/480, static 1/60)",
        time},
       {"--seconds", &text.seconds, "How long, up to 3600 s", time},
       {"--damping", &text.damping, "alpha of C = alpha M + beta K, 0 to 1000 1/s: damps slow motion most", time},
@@ -340,9 +361,14 @@ Result<MuscleRequest> read_muscle_request(const MuscleText& text) {
 }
 
 std::string describe_method(const MuscleRequest& request) {
-  static constexpr std::array<std::string_view, 5> long_name = {
-      "static solution", "explicit central differences", "implicit central differences",
-      "constant average acceleration", "a few vectors, each integrated exactly"};
+  static constexpr std::array<std::string_view, method_name.size()> long_name = {
+      "static solution",
+      "explicit central differences",
+      "implicit central differences",
+      "constant average acceleration",
+      "a few vectors, each integrated exactly",
+      "nothing",
+      "explicit central differences at finite strain"};
   const auto at = static_cast<std::size_t>(request.method);
   const MuscleOptions& o = request.muscle.options;
   return fmt::format("{}: {}{}, {} elements, {} precision", method_name[at], long_name[at],

@@ -13,6 +13,7 @@
 #include "assets/reduction/reduced_basis.h"
 #include "demo/program/progress.h"
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/finite.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/reference.h"
 
@@ -32,8 +33,10 @@ class Belly {
 
 Result<ReferenceBelly> make_reference(const MuscleRequest& request) {
   const MuscleOptions& o = request.muscle.options;
+  // At rest finite strain has no elastic force either, so that it begins as ECD does.
+  const Method method = request.method == Method::finite ? Method::ecd : request.method;
   return ReferenceBelly::make(request.muscle.mesh, request.muscle.terms,
-                              {request.method, o.mass, o.far_end, request.dt_s, o.damping_per_s, o.stiffness_damping_s,
+                              {method, o.mass, o.far_end, request.dt_s, o.damping_per_s, o.stiffness_damping_s,
                                2 * std::numbers::pi * o.foundation_hz});
 }
 
@@ -95,6 +98,8 @@ class SingleBelly : public Belly {
     float* const scratch = scratch_.empty() ? nullptr : scratch_.data()->lane;
     if (request_.solver) {
       deform_implicit(block, *request_.solver, traction, 1, dt, scratch);
+    } else if (request_.method == Method::finite) {
+      deform_finite(block, traction, nullptr, 1, dt, scratch);
     } else {
       deform_explicit(block, traction, 1, dt, scratch);
     }
@@ -203,7 +208,9 @@ bool loaded_at_start(const MuscleRequest& request) {
 Result<void> start_at_rest(const MuscleRequest& request, SingleBelly& belly) {
   const auto force = force_at(request.load, 0);
   if (request.method == Method::statics) belly.step(force, force);
-  if ((request.method != Method::ecd && request.method != Method::icd) || !loaded_at_start(request)) return {};
+  const bool half_a_step_back =
+      request.method == Method::ecd || request.method == Method::icd || request.method == Method::finite;
+  if (!half_a_step_back || !loaded_at_start(request)) return {};
   auto reference = make_reference(request);
   if (!reference) return tl::unexpected(reference.error());
   reference->start({force, request.gravity_m_s2, {}});

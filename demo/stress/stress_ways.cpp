@@ -34,6 +34,7 @@ std::vector<Way> ways() {
                                 Kind{"ecd", Method::ecd, true, false},
                                 Kind{"icd", Method::icd, true, false},
                                 Kind{"caa", Method::caa, true, false},
+                                Kind{"finite", Method::finite, true, false},
                                 Kind{"reduced", Method::reduced, true, false},
                                 Kind{"reduced, not moving", Method::reduced, false, false},
                                 Kind{"reduced and tuned", Method::reduced, true, true}};

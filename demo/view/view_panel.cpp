@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::array<const char*, view_groups> group_name = {"hamstrings", "quadriceps", "triceps surae",
                                                              "tibialis anterior"};
-constexpr std::array<Method, 6> methods = {Method::ecd,     Method::icd,     Method::caa,
-                                           Method::statics, Method::reduced, Method::none};
+constexpr std::array methods = {Method::ecd,     Method::icd,    Method::caa, Method::statics,
+                                Method::reduced, Method::finite, Method::none};
 
 void slide(const char* name, float& value, float low, float high, const char* format) {
   ImGui::SliderFloat(name, &value, low, high, format, ImGuiSliderFlags_AlwaysClamp);

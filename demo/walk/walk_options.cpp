@@ -49,6 +49,7 @@ const char* const walk_muscles_help =
     "cheapest\n"
     "    that vibrates; none: lines of action alone, no belly is simulated or drawn. summary.json tells the steps "
     "taken.\n"
+    "    finite: for close-ups; tissue that keeps its volume, whose fibres pull (--activation phase), on 425 nodes.\n"
     "  --activation phase: muscles are excited as measured in walking people, at any speed; a fibre and a tendon in "
     "line\n"
     "    share each one's length, and the belly gets what the tendon leaves; muscles.csv has them. moments: excited "
@@ -87,7 +88,7 @@ std::vector<Option> walk_options(WalkText& text) {
        words_of(drives)},
       {"--method",
        &text.method,
-       "How muscles move: ecd, icd, caa, static, reduced or none, see below",
+       "How muscles move: ecd, icd, caa, static, reduced, finite or none, see below",
        muscles,
        {},
        {},
@@ -206,6 +207,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto method = choose<Method>("--method", text.method, method_name);
   if (!method) return tl::unexpected(method.error());
   options.muscles.method = *method;
+  if (*method == Method::finite) options.muscles.cells = close_up_cells;
   const auto element = choose<Element>("--element", text.element, element_name);
   if (!element) return tl::unexpected(element.error());
   options.muscles.element = *element;

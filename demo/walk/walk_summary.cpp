@@ -28,10 +28,12 @@ Json muscles_json(const Simulation& simulation, const Human& human) {
       const auto line = simulation.get<LineOfAction>(entity);
       if (!line) continue;
       const Method method = own.method.method;
-      const bool stepped = method == Method::ecd || method == Method::icd || method == Method::caa;
-      const bool limited = method == Method::ecd || method == Method::icd;
-      const std::uint64_t steps =
-          simulation.world().get<Substeps>(entity).value_or(simulation.world().get<SolvedSteps>(entity).value_or(1));
+      const bool stepped =
+          method == Method::ecd || method == Method::icd || method == Method::caa || method == Method::finite;
+      const bool limited = stepped && method != Method::caa;
+      const World& world = simulation.world();
+      const std::uint64_t steps = world.get<Substeps>(entity).value_or(
+          world.get<SolvedSteps>(entity).value_or(world.get<FiniteSteps>(entity).value_or(1)));
       const double critical = limited ? critical_step(shape->critical_steps, static_cast<double>(scale.across),
                                                       static_cast<double>(scale.along))
                                             .value_or(0.0)

@@ -15,7 +15,7 @@ namespace {
 /// What mobil_method and mobil_muscles both say of a method.
 template <class S>
 int method_of(Line& line, const S& given, MuscleMethod& to) {
-  if (const int code = one_of(line, given.method, Method::none, "method", to.method)) return code;
+  if (const int code = one_of(line, given.method, last_method, "method", to.method)) return code;
   if (given.vectors < 0) return line.refuse(MOBIL_REFUSED, fmt::format("{} vectors; choose 1 to 32", given.vectors));
   to.reduced = {static_cast<std::uint32_t>(given.vectors),
                 given.moving != 0,

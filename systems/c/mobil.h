@@ -235,11 +235,19 @@ MOBIL_API int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count
 
 /* ---- Muscles --------------------------------------------------------------------------------------------------- */
 
-enum { MOBIL_STATIC, MOBIL_ECD, MOBIL_ICD, MOBIL_CAA, MOBIL_REDUCED, MOBIL_NONE }; /* method */
-enum { MOBIL_FULL, MOBIL_BBAR, MOBIL_ONE_POINT };                                  /* element */
-enum { MOBIL_LUMPED, MOBIL_CONSISTENT };                                           /* mass */
-enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };                                    /* drive */
-enum { MOBIL_NO_ACTIVATION, MOBIL_BY_PHASE, MOBIL_BY_HOST, MOBIL_BY_MOMENTS };     /* activation */
+enum {
+  MOBIL_STATIC,
+  MOBIL_ECD,
+  MOBIL_ICD,
+  MOBIL_CAA,
+  MOBIL_REDUCED,
+  MOBIL_NONE,
+  MOBIL_FINITE
+};                                                /* method; the last wants cells of 4, 4, 16 */
+enum { MOBIL_FULL, MOBIL_BBAR, MOBIL_ONE_POINT }; /* element */
+enum { MOBIL_LUMPED, MOBIL_CONSISTENT };          /* mass */
+enum { MOBIL_BY_DISPLACEMENT, MOBIL_BY_FORCE };   /* drive */
+enum { MOBIL_NO_ACTIVATION, MOBIL_BY_PHASE, MOBIL_BY_HOST, MOBIL_BY_MOMENTS }; /* activation */
 enum {
   MOBIL_HAMSTRINGS,
   MOBIL_QUADRICEPS,

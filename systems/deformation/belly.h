@@ -36,7 +36,7 @@ struct SharedBelly {
   std::shared_ptr<const BellySolver> solver;   // of ICD, CAA and static
   std::shared_ptr<const BellySolver> resting;  // of the shape that a belly with inertia begins with; else null
   std::shared_ptr<const ReducedBasis> basis;   // of reduced
-  std::shared_ptr<const FiniteShape> finite;   // of who shows finite strain
+  std::shared_ptr<const FiniteShape> finite;   // of who shows finite strain, or steps it and pulls
 
   friend bool operator==(const SharedBelly&, const SharedBelly&) = default;
 };

@@ -44,7 +44,7 @@ struct FarFaceDrive {
 
 /// Sixteen bellies of one template.
 ///
-/// `displacement` (from rest, m) and `velocity` (m/s; of ECD and ICD half a step back; unused by static) hold
+/// `displacement` (from rest, m) and `velocity` (m/s; of ECD, ICD and finite half a step back; unused by static) hold
 /// `nodal_width(cells)` × 16 floats each in the muscle's frame, node-major (x0 y0 z0 x1 …), sixteen lanes at each,
 /// aligned to 64 bytes. All zero is a belly at rest; the origin face's are never touched.
 struct BellyBlock {
@@ -58,7 +58,7 @@ struct BellyBlock {
 };
 
 /// Floats of scratch memory (aligned to 64 bytes) that one block takes while it is worked on: by ECD only with
-/// stiffness damping.
+/// stiffness damping, by finite two planes of nodes.
 std::size_t scratch_floats(const MuscleTemplate& muscle, Method method);
 
 /// One tick of a block by ECD in `substeps` equal steps. A lane's NaN stays in its lane. No heap, no state of its own.

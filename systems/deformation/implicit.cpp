@@ -308,6 +308,7 @@ HWY_EXPORT(implicit_tick);
 std::size_t scratch_floats(const MuscleTemplate& muscle, Method method) {
   const std::size_t column = nodal_width(muscle.mesh.cells) * lane_count;
   if (method == Method::ecd) return muscle.options.stiffness_damping_s > 0 ? column : 0;
+  if (method == Method::finite) return 2 * 3 * std::size_t{plane_nodes(muscle.mesh.cells)} * lane_count;
   return 3 * column;
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 
+#include "systems/deformation/method_finite.h"
 #include "systems/deformation/method_reduced.h"
 #include "systems/deformation/method_static.h"
 #include "systems/deformation/method_stepped.h"
@@ -9,7 +10,8 @@
 namespace mobil {
 
 std::span<const DeformationMethod> deformation_methods() {
-  static const std::array all = {explicit_method, implicit_method, newmark_method, static_method, reduced_method};
+  static const std::array all = {explicit_method, implicit_method, newmark_method,
+                                 static_method,   reduced_method,  finite_method};
   return all;
 }
 

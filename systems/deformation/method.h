@@ -1,6 +1,6 @@
 #pragma once
 // A way to deform bellies as one value: what it puts on a muscle's row, how a belly begins and goes on in it, and its
-// systems. Each has a file of its own here (method_stepped, method_static, method_reduced) and a row in
+// systems. Each has a file of its own here (method_stepped, method_static, method_reduced, method_finite) and a row in
 // `deformation_methods`. What all muscles have whatever their method is systems/muscles/muscle_parts.h.
 
 #include <cstdint>
@@ -44,8 +44,8 @@ struct NextBelly {
 };
 
 /// What a muscle was: what its method computed, what it showed, and whether its control points were placed. `apart`:
-/// what it showed was no motion of the belly, for a change before this one still faded, or the shape of finite strain
-/// or the end's place came or went. Handed over as motion that would ring, and grow from change to change.
+/// what it showed was no motion of the belly, for a change before this one still faded, or finite strain or the end's
+/// place came or went. Handed over as motion that would ring, and grow from change to change.
 struct PastBelly {
   BellyMotion computed, shown;
   bool seen = false, apart = false;

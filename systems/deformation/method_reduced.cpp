@@ -85,11 +85,11 @@ Module reduced_module() {
           .systems = [](ScheduleBuilder& systems) {
             systems.add("deformation, reduced", &move)
                 .add("control points", &place)
-                .after("deformation, static")
+                .after("deformation, finite strain")
                 .add("control points, static", &place_still)
                 .after("control points")
                 .add("reports", &report)
-                .after("deformation, static");
+                .after("deformation, finite strain");
           }};
 }
 

@@ -169,6 +169,7 @@ ReferenceBelly::State::State(const HexahedralMesh& m, const StiffnessTerms& term
       break;
     case Method::reduced:
     case Method::none:
+    case Method::finite:
       break;
   }
   u = v = before = Vector::Zero(mass.rows());
@@ -270,6 +271,7 @@ void ReferenceBelly::start(const ReferenceLoad& load) {
     case Method::caa:
     case Method::reduced:
     case Method::none:
+    case Method::finite:
       break;
   }
 }
@@ -287,6 +289,7 @@ void ReferenceBelly::step(const ReferenceLoad& now, const ReferenceLoad& next) {
       return s.step_by_mean_acceleration(now, next);
     case Method::reduced:
     case Method::none:
+    case Method::finite:
       break;
   }
 }

@@ -4,7 +4,7 @@ import { constants as c, structs } from './interface.js';
 import { MobilError } from './library.js';
 import { Surfaces } from './surfaces.js';
 
-export const METHODS = { static: c.MOBIL_STATIC, ecd: c.MOBIL_ECD, icd: c.MOBIL_ICD, caa: c.MOBIL_CAA, reduced: c.MOBIL_REDUCED, none: c.MOBIL_NONE };
+export const METHODS = { static: c.MOBIL_STATIC, ecd: c.MOBIL_ECD, icd: c.MOBIL_ICD, caa: c.MOBIL_CAA, reduced: c.MOBIL_REDUCED, none: c.MOBIL_NONE, finite: c.MOBIL_FINITE };
 export const AXES = { yUp: c.MOBIL_AXES_Y_UP, unity: c.MOBIL_AXES_UNITY, unreal: c.MOBIL_AXES_UNREAL, godot: c.MOBIL_AXES_GODOT, zUp: c.MOBIL_AXES_Z_UP };
 export const CONSTITUTIONS = ['thin', 'average', 'athletic', 'heavy'];
 const given = { speed_m_s: c.MOBIL_SPEED, step_length_m: c.MOBIL_STEP_LENGTH, step_frequency_hz: c.MOBIL_STEP_FREQUENCY, heading_rad: c.MOBIL_HEADING };

@@ -23,6 +23,10 @@ Mass stepped_mass(const LegMuscles& choice) {
   return choice.method == Method::icd ? Mass::consistent : Mass::lumped;
 }
 
+Strain strain_of(const LegMuscles& choice) {
+  return choice.method == Method::finite ? Strain::finite : Strain::small;
+}
+
 /// A member of a group, on its own: what is long and thin.
 bool is_single(Muscle muscle) {
   return static_cast<std::size_t>(muscle) >= muscle_group_count;
@@ -30,8 +34,8 @@ bool is_single(Muscle muscle) {
 
 bool same_template(const LegMuscles& a, const LegMuscles& b, Muscle muscle) {
   return same_tissue(a, b) && a.drive == b.drive && stepped_mass(a) == stepped_mass(b) &&
-         a.damping_per_s == b.damping_per_s && a.stiffness_damping_s == b.stiffness_damping_s &&
-         foundation_of(a, muscle) == foundation_of(b, muscle);
+         strain_of(a) == strain_of(b) && a.damping_per_s == b.damping_per_s &&
+         a.stiffness_damping_s == b.stiffness_damping_s && foundation_of(a, muscle) == foundation_of(b, muscle);
 }
 
 /// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
@@ -59,7 +63,7 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
 }  // namespace
 
 Result<void> check_choice(const LegMuscles& choice, double tick_s) {
-  if (choice.drive > Drive::force || choice.method > Method::none || choice.element > Element::one_point ||
+  if (choice.drive > Drive::force || choice.method > last_method || choice.element > Element::one_point ||
       choice.mass > Mass::consistent || choice.activation > ExcitationSource::moments) {
     return fail(
         "a drive, method, element, mass or activation is none of those named; take one of the enumerations' values");
@@ -68,6 +72,8 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
     return fail("activation draws the belly's end to a place; take Drive::displacement, or no activation");
   if (has_finite_shape(choice) && choice.drive == Drive::force)
     return fail("finite shapes are those of a belly whose end is held; take Drive::displacement, or no finite_shape");
+  if (choice.method == Method::finite && choice.stiffness_damping_s > 0)
+    return fail("Method::finite is damped by damping_per_s alone; leave stiffness_damping_s at 0, or take ecd or caa");
   if (is_tuned(choice) && !has_activation(choice)) {
     return fail(
         "tuned bellies are as stiff as their muscle pulls: choose LegMuscles::activation too, or leave tuned out");
@@ -130,6 +136,7 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
   options.highest_ratio = highest_ratio;
   options.element = choice.element;
   options.mass = stepped_mass(choice);
+  options.strain = strain_of(choice);
   options.stiffness_damping_s = choice.stiffness_damping_s;
   options.foundation_hz = foundation_of(choice, muscle);
   std::optional<CriticalSteps> steps;
@@ -236,7 +243,8 @@ Result<SharedBelly> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice
   if (!made) return tl::unexpected(made.error());
   belly.shape = *made;
   if (choice.method == Method::none) return belly;
-  if (has_finite_shape(choice)) belly.finite = finite_shape(**made);
+  if (has_finite_shape(choice) || (choice.method == Method::finite && has_activation(choice)))
+    belly.finite = finite_shape(**made);
   if (choice.method == Method::reduced) {
     auto along = basis(muscle, choice, scale);
     if (!along) return tl::unexpected(along.error());
@@ -252,7 +260,7 @@ Result<SharedBelly> BellyLibrary::shared(Muscle muscle, const LegMuscles& choice
     to = std::move(*found);
     return {};
   };
-  if (choice.method != Method::ecd) {
+  if (choice.method != Method::ecd && choice.method != Method::finite) {
     if (auto ok = solve_with(choice.method, belly.solver); !ok) return tl::unexpected(ok.error());
   }
   if (choice.inertia) {

@@ -175,6 +175,11 @@ std::uint64_t BellyLibrary::find_maker() {
   }
   LegMuscles small;
   small.cells = {1, 1, 2};
+  LegMuscles finite = small;
+  finite.method = Method::finite;
+  if (const auto shape = make_shape(Muscle{}, finite, nullptr)) {
+    for (const double top : (*shape)->shape->critical_steps.top) out.put(top);
+  }
   if (const auto shape = make_shape(Muscle{}, small, nullptr)) {
     const BellyTemplate& made = **shape;
     write(out, made.muscle, made.choice);

@@ -86,7 +86,7 @@ Result<void> BellyLibrary::prepare(const LegMuscles& choice, double tick_s, cons
 /// A body that a fixed step is too long for has its own refusal.
 void BellyLibrary::prepare_solvers(Muscle muscle, const LegMuscles& choice, double tick_s) {
   const bool solves = choice.method == Method::statics || choice.method == Method::icd || choice.method == Method::caa;
-  const bool rests = choice.inertia && (solves || choice.method == Method::ecd);
+  const bool rests = choice.inertia && (solves || choice.method == Method::ecd || choice.method == Method::finite);
   if (!solves && !rests) return;
   constexpr double step = 1.05;  // no range of sizes is narrower
   MusclePlan plan;

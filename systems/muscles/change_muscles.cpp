@@ -7,6 +7,7 @@
 
 #include "components/fade.h"
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/method_finite.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
@@ -70,7 +71,7 @@ BellyMotion shown_motion(const World& world, const OneChange& change, const Musc
                          const BellyMotion& computed) {
   BellyMotion shown = computed;
   const auto tick_s = static_cast<float>(change.time.tick_s);
-  if (was.finite.resource != nullptr && next.belly.finite != nullptr) {
+  if (was.finite.resource != nullptr && has_finite_shape(next.choice)) {
     const auto pulls = world.get<Activation>(change.muscle);
     const BellyMotion offset = shape_offset(next, pulls ? pulls->activation : 0);
     for (std::size_t i = 0; i < shown.velocity.size(); ++i) shown.velocity[i] += offset.velocity[i];
@@ -89,9 +90,28 @@ void move_end(const World& world, const OneChange& change, const NextBelly& next
   if (!was || next.load.far_end != FarEnd::held) return;
   BellyLoad jump = next.load;
   jump.frame.reset();
+  jump.activation = 0;  // only what moves
   jump.from = jump.to = next.load.to - was->to;
   const BellyMotion moved = deformation_method(next.choice.method)->at_rest({next.belly, next.choice, next.line, jump});
   for (std::size_t i = 0; i < motion.displacement.size(); ++i) motion.displacement[i] += moved.displacement[i];
+}
+
+/// Linear and finite strain have a belly at rest in different places, which `motion` goes from and to: what moved about
+/// the one goes on about the other.
+void change_strain(const World& world, const OneChange& change, const NextBelly& next, BellyMotion& motion) {
+  BellyLoad load = next.load;  // with the end where it was, and pulling as it did
+  if (const auto end = world.get<EndDrive>(change.muscle)) {
+    load.from = end->from;
+    load.to = end->to;
+  }
+  const auto pulls = world.get<Activation>(change.muscle);
+  load.activation = pulls ? pulls->activation : 0;
+  const BellyMotion more = finite_less_linear({next.belly, next.choice, next.line, load});
+  const float sign = next.choice.method == Method::finite ? 1.0F : -1.0F;
+  for (std::size_t i = 0; i < motion.displacement.size(); ++i) {
+    motion.displacement[i] += sign * more.displacement[i];
+    motion.velocity[i] += sign * more.velocity[i];
+  }
 }
 
 /// What the belly begins with; `offset`: what it will show beside what its method computes, or nothing. Empty
@@ -105,8 +125,9 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   const auto cells = was ? cells_of(*was) : std::nullopt;
   if (!cells || *cells != next.choice.cells) return method->begin(next, change.goes_on);
   const bool end_changes = (was->activation != ExcitationSource::none) != has_activation(next.choice);
-  const bool finite_changes = (was->finite.resource == nullptr) != (next.belly.finite == nullptr);
-  const bool same_sight = !was->fading && !end_changes && !finite_changes;
+  const bool finite_changes = (was->finite.resource != nullptr) != has_finite_shape(next.choice);
+  const bool strain_changes = (was->method.method == Method::finite) != (next.choice.method == Method::finite);
+  const bool same_sight = !was->fading && !end_changes && !finite_changes && !strain_changes;
   if (!change.goes_on && same_sight && is_full(next.choice.method) && is_full(was->method.method)) return {};
   auto computed = deformation_method(was->method.method)->computed(world, change.muscle, tick_s, work.last);
   if (!computed) return method->begin(next, true);
@@ -114,7 +135,8 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   past.shown = shown_motion(world, change, *was, next, *computed);
   past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(change.muscle);
-  past.apart = was->fading || finite_changes || end_changes;
+  past.apart = !same_sight;
+  if (strain_changes) change_strain(world, change, next, past.computed);
   if (end_changes) move_end(world, change, next, past.computed);
   for (std::size_t i = 0; i < offset.displacement.size(); ++i) {
     past.shown.displacement[i] -= offset.displacement[i];

@@ -26,7 +26,7 @@ constexpr Drive last_of(Drive) {
   return Drive::force;
 }
 constexpr Method last_of(Method) {
-  return Method::none;
+  return last_method;
 }
 constexpr Element last_of(Element) {
   return Element::one_point;

@@ -163,7 +163,7 @@ MuscleKind kind_of(World& world, BellyLibrary& library, Muscle muscle, const Leg
   if (has_control_points(choice)) kind.shape = world.share(belly.shape->shape);
   if (belly.solver != nullptr) kind.solver = world.share(belly.solver);
   if (belly.basis != nullptr) kind.basis = world.share(belly.basis);
-  if (belly.finite != nullptr) kind.finite = world.share(belly.finite);
+  if (belly.finite != nullptr && has_finite_shape(choice)) kind.finite = world.share(belly.finite);
   return kind;
 }
 

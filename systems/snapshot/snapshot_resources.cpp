@@ -56,6 +56,16 @@ std::uint64_t fingerprint(const MuscleTemplate& shape) {
        {&k.individual, &k.shared, &k.consistent_mass_kg, &k.mass_kg, &k.inverse_mass, &k.far_share, &k.rest_m}) {
     print.add(*values);
   }
+  const FiniteTissue& tissue = shape.finite.tissue;
+  if (shape.finite.element.empty()) return print.hash();
+  for (const double number : {tissue.shear_pa, tissue.bulk_over_shear, tissue.active_pa, tissue.passive_pa,
+                              tissue.rest_over_optimal, tissue.force_slope, tissue.least_share, tissue.slack_tone}) {
+    print.add(number);
+  }
+  for (const FiniteKernelElement& e : shape.finite.element) {
+    for (const float number : {e.fibre[0], e.fibre[1], e.fibre_volume_m3, e.hourglass_across, e.rise})
+      print.add(static_cast<double>(number));
+  }
   return print.hash();
 }
 
@@ -129,7 +139,8 @@ Recipe recipe_of(ResourceKind kind, Muscle muscle, const LegMuscles& choice) {
 Recipe shape_recipe(ResourceKind kind, const BellyTemplate& made) {
   LegMuscles alike = driven(made.choice, made.muscle);
   alike.stiffness_damping_s = made.choice.stiffness_damping_s;
-  alike.method = made.choice.method == Method::icd ? Method::icd : Method::ecd;  // whose critical step it tells
+  const Method method = made.choice.method;  // whose critical step it tells
+  alike.method = method == Method::icd || method == Method::finite ? method : Method::ecd;
   return recipe_of(kind, made.muscle, alike);
 }
 

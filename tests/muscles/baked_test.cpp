@@ -24,7 +24,8 @@ std::vector<LegMuscles> choices() {
   one.reduced.cells = {2, 2, 4};
   one.reduced.vectors = 4;
   std::vector<LegMuscles> all;
-  for (const Method method : {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced}) {
+  for (const Method method :
+       {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
     for (const bool inertia : {false, true}) {
       LegMuscles next = one;
       next.method = method;

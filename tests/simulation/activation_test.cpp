@@ -47,7 +47,8 @@ TEST(Activation, WhoDoesNotAskIsAsBefore) {
 
 /// The mesh's end is where the tendon leaves it, by every method.
 TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
-  for (const Method method : {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced}) {
+  for (const Method method :
+       {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
     Simulation simulation;
     const Entity human = join_with(simulation, person(3), pulling(ExcitationSource::phase, method));
     float apart = 0, by_tendon = 0;

@@ -148,9 +148,10 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
   choice.muscles = MuscleSet(3);
   const Entity human = join_with(simulation, person(6), choice);
   run(simulation, 40);
-  const std::array changes = {method(Method::reduced, true),  method(Method::statics, true),
-                              method(Method::reduced, false), method(Method::caa, true),
-                              method(Method::ecd, true),      method(Method::reduced, true)};
+  const std::array changes = {
+      method(Method::reduced, true), method(Method::statics, true), method(Method::reduced, false),
+      method(Method::caa, true),     method(Method::finite, true),  method(Method::reduced, true),
+      method(Method::finite, true),  method(Method::ecd, true),     method(Method::reduced, true)};
   const Entity muscle = simulation.muscle(human, Muscle::quadriceps, Side::right);
   for (const MuscleMethod& to : changes) {
     run(simulation, 7);
@@ -166,7 +167,7 @@ TEST(FiniteShape, NothingJumpsWhenMethodsChange) {
     double step = 0;
     for (std::size_t i = 0; i < before.size(); ++i)
       step = std::max(step, std::abs(static_cast<double>(after[i] - before[i])));
-    EXPECT_LT(step, 0.006) << name(to.method) << ": a tick's way";
+    EXPECT_LT(step, 0.007) << name(to.method) << ": a tick's way";
   }
 }
 
@@ -199,12 +200,15 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
   MuscleMethod unseen = seen;
   unseen.reduced.vectors = 4;
   unseen.reduced.control_points = unseen.reduced.reported = false;
-  for (const MuscleMethod& to : {seen, MuscleMethod{Method::ecd}, MuscleMethod{Method::caa}}) {
+  for (const MuscleMethod& to :
+       {seen, MuscleMethod{Method::ecd}, MuscleMethod{Method::caa}, MuscleMethod{Method::finite}}) {
     Simulation simulation;
     const Entity human = *simulation.spawn_posed({});
     LegMuscles choice = finite(Method::reduced, ExcitationSource::host);
     choice.reduced = unseen.reduced;
     choice.muscles = MuscleSet(1U << static_cast<unsigned>(Muscle::triceps_surae));
+    const bool stepped = to.method == Method::finite;  // which is as far from the table as its mesh is
+    if (stepped) choice.cells = close_up_cells;
     ASSERT_TRUE(simulation.add_leg_muscles(human, choice));
     ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, 0.8F));
     run(simulation, 240);
@@ -218,13 +222,13 @@ TEST(FiniteShape, DoesNotRingWhereItComesAndGoes) {
       for (std::size_t i = 0; i < now.size(); ++i)
         most = std::max(most, std::abs(static_cast<double>(now[i] - at_once[i])));
     }
-    EXPECT_LT(most, 6e-4) << name(to.method);
+    EXPECT_LT(most, stepped ? 1.6e-3 : 6e-4) << name(to.method);
   }
 }
 
 /// Turned on and off under way, for all methods.
 TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
-  for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced}) {
+  for (const Method method : {Method::ecd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
     Simulation simulation;
     LegMuscles pulls = finite(method);
     pulls.muscles = MuscleSet(4);

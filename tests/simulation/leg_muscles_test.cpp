@@ -143,11 +143,14 @@ TEST(Methods, OtherCellsDampingAndMassWalkToo) {
 TEST(Steps, AreTheLongestThatStayWithinNineTenthsOfEachLimit) {
   Simulation simulation;
   for (const LegMuscles& choice :
-       {LegMuscles{}, LegMuscles{.method = Method::icd}, LegMuscles{.stiffness_damping_s = 0.002, .inertia = true}}) {
+       {LegMuscles{}, LegMuscles{.method = Method::icd}, LegMuscles{.method = Method::finite},
+        LegMuscles{.stiffness_damping_s = 0.002, .inertia = true}}) {
     const Entity human = join_with(simulation, person(4), choice);
     for (const Entity muscle : muscles_of(simulation, human)) {
       const auto& world = simulation.world();
-      const auto n = choice.method == Method::ecd ? *world.get<Substeps>(muscle) : *world.get<SolvedSteps>(muscle);
+      const auto n = choice.method == Method::ecd      ? *world.get<Substeps>(muscle)
+                     : choice.method == Method::finite ? *world.get<FiniteSteps>(muscle)
+                                                       : *world.get<SolvedSteps>(muscle);
       const double limit = 0.9 * limit_of(simulation, muscle), tick = simulation.tick_s();
       EXPECT_LE(tick / static_cast<double>(n), limit * (1 + 1e-9));
       if (n > 1) {

@@ -46,7 +46,8 @@ std::vector<Way> ways() {
   LegMuscles plain;
   plain.muscles = MuscleSet{3};
   std::vector<Way> all;
-  for (const Method method : {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced}) {
+  for (const Method method :
+       {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
     LegMuscles choice = plain;
     choice.method = method;
     all.push_back({std::string(method_name[static_cast<std::size_t>(method)]), choice});

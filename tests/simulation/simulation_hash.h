@@ -21,7 +21,8 @@ inline std::uint64_t hash_row(const World& world, Entity entity, std::uint64_t h
   const auto place = world.find(entity);
   if (!place) return fnv(hash, 0xdead);
   for (const KeyPart& part : place.table->key()) {
-    const bool steps = part.id == type_id<Substeps>() || part.id == type_id<SolvedSteps>();
+    const bool steps =
+        part.id == type_id<Substeps>() || part.id == type_id<SolvedSteps>() || part.id == type_id<FiniteSteps>();
     if (steps) hash = fnv(hash, static_cast<std::uint32_t>(part.value));
     if (!has_column(part.kind) || part.id == type_id<MuscleOwner<float>>()) continue;
     std::vector<std::uint32_t> words(part.value);

@@ -35,6 +35,7 @@ const std::vector<MuscleMethod> every_method = {{Method::ecd},
                                                 reduced(12, true, false),
                                                 reduced(12, false, true),
                                                 reduced(8, false, false),
+                                                {Method::finite},
                                                 {Method::none}};
 
 std::string text(const MuscleMethod& method) {
@@ -442,7 +443,8 @@ TEST(Cost, OfAMuscleThatNobodyLooksAtIsFewBytes) {
 TEST(Switching, InEveryTickStaysStable) {
   Simulation simulation;
   const Entity human = join_with(simulation, person(2), {.reduced = {.cells = {2, 2, 8}}});
-  constexpr std::array order = {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced};
+  constexpr std::array order = {Method::ecd,     Method::icd,     Method::caa,
+                                Method::statics, Method::reduced, Method::finite};
   for (int tick = 0; tick < 240; ++tick) {
     for (std::size_t g = 0; g < muscle_group_count; ++g) {
       const Method to = order[(static_cast<std::size_t>(tick) + g) % order.size()];

@@ -103,7 +103,8 @@ std::vector<LegMuscles> every_choice(Method method) {
 
 /// At the ends of what joints allow and between, at rest.
 TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
-  for (const Method method : {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced}) {
+  for (const Method method :
+       {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced, Method::finite}) {
     for (const LegMuscles& choice : every_choice(method)) {
       Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
       Farthest farthest;
@@ -134,7 +135,7 @@ TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
 
 /// In a walk, where they swing as well.
 TEST(Stray, NoMuscleLeavesItsLineInAWalk) {
-  for (const Method method : {Method::ecd, Method::reduced}) {
+  for (const Method method : {Method::ecd, Method::reduced, Method::finite}) {
     for (const LegMuscles& choice : every_choice(method)) {
       Shown shown(choice), lines({.muscles = choice.muscles, .method = Method::none});
       const Entity person = *shown.simulation.spawn(somebody, {.speed_m_s = 1.4F});

@@ -125,7 +125,8 @@ TEST(SurfaceWriter, PositionsAreTheFormulasOnEveryBody) {
 }
 
 TEST(SurfaceWriter, PositionsAreTheFormulasWithEveryMethodAndMesh) {
-  for (const Method method : {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced}) {
+  for (const Method method :
+       {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced, Method::finite}) {
     Simulation simulation;
     LegMuscles muscles;
     muscles.method = method;

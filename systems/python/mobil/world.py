@@ -85,8 +85,8 @@ def _fill(kind: str, given: Mapping[str, Any]) -> Any:
 def muscles(**fields: Any) -> Any:
     """How leg muscles deform: muscles(method="reduced", vectors=8, activation="phase").
 
-    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "ecd", "icd", "caa", "reduced" or
-    "none"; all other fields are those of mobil_muscles in mobil.h, in SI units.
+    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "ecd", "icd", "caa", "reduced",
+    "none" or "finite"; all other fields are those of mobil_muscles in mobil.h, in SI units.
     """
     return _fill("muscles", fields)
 

@@ -1,0 +1,142 @@
+// Muscles at finite strain in people who walk: volume, where they are shown, fibres, limits, snapshots.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "assets/fem/finite_element.h"
+#include "components/activation.h"
+#include "tests/simulation/leg_muscles.h"
+
+namespace mobil::finite_method_test {
+namespace {
+
+LegMuscles close_up(ExcitationSource source = ExcitationSource::phase) {
+  LegMuscles choice;
+  choice.method = Method::finite;
+  choice.cells = close_up_cells;
+  choice.activation = source;
+  choice.inertia = true;
+  choice.muscles = MuscleSet(0b0110);  // quadriceps and triceps surae: making what a muscle shares takes a second
+  return choice;
+}
+
+/// Three people, the heaviest of whom takes the longest steps: two seconds of walking.
+TEST(FiniteMethod, KeepsVolumeAndItsLineInAWalk) {
+  Simulation simulation;
+  std::vector<Entity> people;
+  for (int i = 0; i < 3; ++i) people.push_back(join_with(simulation, person(i), close_up()));
+  float least = 1, most = 1, farthest = 0;
+  for (int tick = 0; tick < 120; ++tick) {
+    simulation.tick();
+    for (const Entity human : people) {
+      for (const Entity muscle : muscles_of(simulation, human)) {
+        const BellyReport<float> report = *simulation.get<BellyReport>(muscle);
+        least = std::min(least, report.volume_ratio), most = std::max(most, report.volume_ratio);
+        const auto u = displacement(simulation, muscle);
+        for (std::size_t i = 0; i < u.size(); ++i) {
+          if (i % 3 != 2) farthest = std::max(farthest, std::abs(u[i]));
+        }
+      }
+    }
+  }
+  EXPECT_EQ(simulation.report().total_restarted_bellies, 0U);
+  EXPECT_GT(least, 0.96F);
+  EXPECT_LT(most, 1.04F);
+  EXPECT_LT(farthest, 0.025F) << "sideways";
+}
+
+/// Beside the tables of finite shapes, which are of statics: standing, relaxed and pulling, once it is still.
+TEST(FiniteMethod, StandsAsTheTablesSay) {
+  for (const float pull : {0.02F, 0.5F}) {
+    Simulation simulation;
+    std::vector<Entity> people;
+    for (const Method method : {Method::finite, Method::reduced}) {
+      people.push_back(*simulation.spawn_posed({}));
+      LegMuscles choice = close_up(ExcitationSource::host);
+      choice.inertia = false;
+      choice.method = method;
+      ASSERT_TRUE(simulation.add_leg_muscles(people.back(), choice));
+      for (const OwnMuscle& own : simulation.muscles(people.back())) {
+        for (const Side side : {Side::right, Side::left})
+          ASSERT_TRUE(simulation.set_excitation(people.back(), own.muscle, side, pull));
+      }
+    }
+    simulation.tick(150);
+    const auto finite = muscles_of(simulation, people[0]), tabled = muscles_of(simulation, people[1]);
+    for (std::size_t m = 0; m < finite.size(); ++m) {
+      const auto one = displacement(simulation, finite[m]), other = displacement(simulation, tabled[m]);
+      ASSERT_EQ(one.size(), other.size());
+      double off = 0, all = 0;
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        off += std::pow(double{one[i]} - double{other[i]}, 2) / static_cast<double>(one.size());
+        all += std::pow(double{other[i]}, 2) / static_cast<double>(one.size());
+      }
+      EXPECT_LT(std::sqrt(off), 5e-4 + 0.1 * std::sqrt(all)) << "muscle " << m << " pulling " << pull;
+      if (pull > 0.1F) {
+        EXPECT_GT(std::sqrt(all), 5e-4) << "muscle " << m;
+      }
+    }
+  }
+}
+
+/// Area of its middle section, seen along it, m².
+double middle_area(const Simulation& simulation, Entity muscle) {
+  const auto& shape = *simulation.world().shared<MuscleTemplate>(muscle);
+  const auto u = displacement(simulation, muscle);
+  const HexahedralMesh own = scaled(shape.mesh, *simulation.get<BellyScale>(muscle));
+  return section_areas(own, {u.begin(), u.end()})[own.cells[2] / 2];
+}
+
+TEST(FiniteMethod, FibresThatPullAreFeltAtTheEndAndThicken) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn_posed({});
+  ASSERT_TRUE(simulation.add_leg_muscles(human, close_up(ExcitationSource::host)));
+  const Entity muscle = simulation.muscle(human, Muscle::triceps_surae, Side::right);
+  const auto pull = [&](float how_hard) {
+    ASSERT_TRUE(simulation.set_excitation(human, Muscle::triceps_surae, Side::right, how_hard));
+    simulation.tick(120);
+  };
+  pull(0.01F);
+  const float slack_n = simulation.get<BellyReport>(muscle)->reaction_n;
+  const double slack_m2 = middle_area(simulation, muscle);
+  pull(0.8F);
+  EXPECT_GT(simulation.get<BellyReport>(muscle)->reaction_n, slack_n + 10);
+  EXPECT_GT(middle_area(simulation, muscle), 1.01 * slack_m2);
+}
+
+TEST(FiniteMethod, RefusesWhatItCannotDo) {
+  Simulation simulation;
+  const Entity human = *simulation.spawn_posed({});
+  LegMuscles choice = close_up();
+  choice.stiffness_damping_s = 1e-3;
+  const auto damped = simulation.add_leg_muscles(human, choice);
+  ASSERT_FALSE(damped);
+  EXPECT_NE(damped.error().message.find("stiffness_damping_s"), std::string::npos) << damped.error().message;
+  choice = close_up();
+  choice.dt_s = 0.004;
+  const auto slow = simulation.add_leg_muscles(human, choice);
+  ASSERT_FALSE(slow);
+  EXPECT_NE(slow.error().message.find("critical step"), std::string::npos) << slow.error().message;
+  EXPECT_TRUE(simulation.muscles(human).empty());
+}
+
+TEST(FiniteMethod, GoesOnFromASnapshotWithTheSameBits) {
+  Simulation simulation;
+  join_with(simulation, person(1), close_up());
+  simulation.tick(20);
+  std::vector<std::byte> saved(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(saved));
+  simulation.tick(20);
+  Simulation other;
+  const auto restored = other.restore(saved, RestoreLimits::none());
+  ASSERT_TRUE(restored) << restored.error().message;
+  other.tick(20);
+  EXPECT_EQ(simulation.state_hash(), other.state_hash());
+}
+
+}  // namespace
+}  // namespace mobil::finite_method_test

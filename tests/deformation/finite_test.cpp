@@ -374,6 +374,7 @@ TEST(FiniteEnergy, StaysThroughRandomKicks) {
 }
 
 TEST(FiniteLanes, HoldTheSameBitsOnEveryInstructionSet) {
+  if (!has_fused_multiply_add()) GTEST_SKIP() << "this machine has no fused multiply-add";
   std::vector<Lanes<float>> first;
   for_each_fused_instruction_set([&] {
     Bellies bellies(make(spindle({2, 2, 8}), FarEnd::held, 8, 7));

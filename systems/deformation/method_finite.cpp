@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -24,6 +25,12 @@ void deform(Shared<MuscleTemplate> shape, TagValue<FiniteSteps> steps, float tic
   deform_finite({*shape, scale, displacement.data, velocity.data, report, Stiffness::individual, frame.block},
                 {shape->options.far_end, end}, activation.block == nullptr ? nullptr : &activation.block->activation,
                 static_cast<std::uint32_t>(steps.value), tick_s, scratch.data);
+  // Thrown that far a belly may come to rest turned inside out.
+  constexpr float least_volume = 0.5F, most_volume = 2.0F;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    float& volume = report.volume_ratio[lane];
+    if (!(volume > least_volume && volume < most_volume)) volume = std::numeric_limits<float>::quiet_NaN();
+  }
   restarted.add(restart_bellies(*shape, rows, end, tick_s, report, displacement.data, velocity.data));
 }
 

@@ -22,6 +22,16 @@ const DeformationMethod* deformation_method(Method method) {
   return nullptr;
 }
 
+std::optional<BellyMotion> nodal_motion(const World& world, Entity muscle, float, LastReducedBelly&) {
+  return BellyMotion{field_of<NodalDisplacement>(world, muscle), field_of<NodalVelocity>(world, muscle)};
+}
+
+Beginning go_on_as_nodes(const NextBelly&, const PastBelly& past, bool) {
+  Beginning from{past.motion().displacement, past.motion().velocity, {}, {}};
+  if (past.apart && past.seen) from.fade = fade_between(past.shown, past.computed);
+  return from;
+}
+
 BellyMotion stretched_at_rest(const NextBelly& next) {
   BellyMotion motion = stretched(next.belly, next.line, next.load);
   if (next.belly.finite == nullptr) return motion;

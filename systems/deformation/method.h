@@ -82,6 +82,10 @@ struct DeformationMethod {
 /// replaces.
 BellyMotion stretched_at_rest(const NextBelly& next);
 
+/// `computed` and `go_on` of methods whose state is how their nodes move.
+std::optional<BellyMotion> nodal_motion(const World& world, Entity muscle, float tick_s, LastReducedBelly& last);
+Beginning go_on_as_nodes(const NextBelly& next, const PastBelly& past, bool keeps);
+
 /// One a Method, but for Method::none.
 std::span<const DeformationMethod> deformation_methods();
 /// Null for Method::none.

@@ -56,10 +56,6 @@ bool recognise(const TableKey& key, MuscleKind& kind) {
   return kind.steps == steps->value;
 }
 
-std::optional<BellyMotion> computed(const World& world, Entity muscle, float, LastReducedBelly&) {
-  return BellyMotion{field_of<NodalDisplacement>(world, muscle), field_of<NodalVelocity>(world, muscle)};
-}
-
 /// Mean over the nodes of a plane, by axis.
 std::array<float, 3> plane_mean(std::span<const float> three_a_node, std::size_t plane, std::size_t nodes) {
   std::array<float, 3> mean{};
@@ -129,12 +125,6 @@ Beginning begin(const NextBelly& next, bool moves) {
   return {std::move(motion.displacement), std::move(motion.velocity), {}, {}};
 }
 
-Beginning go_on(const NextBelly&, const PastBelly& past, bool) {
-  Beginning from{past.motion().displacement, past.motion().velocity, {}, {}};
-  if (past.apart && past.seen) from.fade = fade_between(past.shown, past.computed);
-  return from;
-}
-
 }  // namespace of_finite
 }  // namespace
 
@@ -153,8 +143,8 @@ BellyMotion finite_less_linear(const NextBelly& next) {
   return more;
 }
 
-constinit const DeformationMethod finite_method = {Method::finite,        &of_finite::module,   &of_finite::parts,
-                                                   &of_finite::recognise, &of_finite::computed, &of_finite::begin,
-                                                   &of_finite::at_rest,   &of_finite::go_on};
+constinit const DeformationMethod finite_method = {Method::finite,        &of_finite::module, &of_finite::parts,
+                                                   &of_finite::recognise, &nodal_motion,      &of_finite::begin,
+                                                   &of_finite::at_rest,   &go_on_as_nodes};
 
 }  // namespace mobil

@@ -51,10 +51,6 @@ bool recognise(const TableKey& key, MuscleKind& kind) {
   return kind.steps == steps->value;
 }
 
-std::optional<BellyMotion> computed(const World& world, Entity muscle, float, LastReducedBelly&) {
-  return BellyMotion{field_of<NodalDisplacement>(world, muscle), field_of<NodalVelocity>(world, muscle)};
-}
-
 Beginning begin(const NextBelly& next, bool moves) {
   BellyMotion motion = stretched(next.belly, next.line, next.load);
   if (next.choice.inertia) {
@@ -63,12 +59,6 @@ Beginning begin(const NextBelly& next, bool moves) {
   }
   if (!moves) std::fill(motion.velocity.begin(), motion.velocity.end(), 0.0F);
   return {std::move(motion.displacement), std::move(motion.velocity), {}, {}};
-}
-
-Beginning go_on(const NextBelly&, const PastBelly& past, bool) {
-  Beginning from{past.motion().displacement, past.motion().velocity, {}, {}};
-  if (past.apart && past.seen) from.fade = fade_between(past.shown, past.computed);
-  return from;
 }
 
 Module explicit_module() {
@@ -86,29 +76,19 @@ Module implicit_module() {
 }  // namespace of_stepped
 }  // namespace
 
-constinit const DeformationMethod explicit_method = {Method::ecd,
-                                                     &of_stepped::explicit_module,
-                                                     &of_stepped::stepped_parts,
-                                                     &of_stepped::recognise<Method::ecd>,
-                                                     &of_stepped::computed,
-                                                     &of_stepped::begin,
-                                                     &stretched_at_rest,
-                                                     &of_stepped::go_on};
-constinit const DeformationMethod implicit_method = {Method::icd,
-                                                     &of_stepped::implicit_module,
-                                                     &of_stepped::stepped_parts,
-                                                     &of_stepped::recognise<Method::icd>,
-                                                     &of_stepped::computed,
-                                                     &of_stepped::begin,
-                                                     &stretched_at_rest,
-                                                     &of_stepped::go_on};
+constinit const DeformationMethod explicit_method = {
+    Method::ecd,   &of_stepped::explicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::ecd>,
+    &nodal_motion, &of_stepped::begin,           &stretched_at_rest,         &go_on_as_nodes};
+constinit const DeformationMethod implicit_method = {
+    Method::icd,   &of_stepped::implicit_module, &of_stepped::stepped_parts, &of_stepped::recognise<Method::icd>,
+    &nodal_motion, &of_stepped::begin,           &stretched_at_rest,         &go_on_as_nodes};
 constinit const DeformationMethod newmark_method = {Method::caa,
                                                     nullptr,
                                                     &of_stepped::stepped_parts,
                                                     &of_stepped::recognise<Method::caa>,
-                                                    &of_stepped::computed,
+                                                    &nodal_motion,
                                                     &of_stepped::begin,
                                                     &stretched_at_rest,
-                                                    &of_stepped::go_on};
+                                                    &go_on_as_nodes};
 
 }  // namespace mobil

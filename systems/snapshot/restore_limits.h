@@ -14,13 +14,14 @@ struct RestoreLimits {
   /// Nodes of any one mesh that must be made, because no muscle here has it yet. 0: nothing is made that this
   /// simulation has not prepared (Simulation::prepare, load_baked).
   std::size_t mesh_nodes = 500;
-  double seconds = 10;  // after which no further mesh, solver or basis is made
-  bool numbers = true;  // whether every number is looked at: one that is not finite is refused
+  double seconds = 10;       // after which no further mesh, solver or basis is made
+  std::size_t steps = 2000;  // that any one muscle may take in a tick
+  bool numbers = true;       // whether every number is looked at: one that is not finite is refused
 
   /// For bytes that this program has made itself.
   static constexpr RestoreLimits none() {
     constexpr std::size_t any = std::numeric_limits<std::size_t>::max();
-    return {any, any, std::numeric_limits<double>::infinity(), false};
+    return {any, any, std::numeric_limits<double>::infinity(), any, false};
   }
 };
 

@@ -159,7 +159,11 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
     if (!number) return tl::unexpected(number.error());
     work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
   }
-  const auto check = [&](const TableKey& key) { return check_key(key, scene.world, work.resources, scene.modules); };
+  const double tick_s = std::ldexp(static_cast<double>(header.tick_units), -50);
+  const auto check = [&](const TableKey& key) -> Result<void> {
+    if (auto ok = check_key(key, scene.world, work.resources, scene.modules); !ok) return ok;
+    return check_steps(key, scene.world, tick_s, limits.steps);
+  };
   if (auto ok = work.world.prepare(scene.world, *world, work.parts, work.shared, check); !ok)
     return tl::unexpected(ok.error());
   work.world.commit(scene.world, *world, scene.jobs);  // nothing fails from here on

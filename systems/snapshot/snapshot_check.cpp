@@ -1,13 +1,18 @@
 #include "systems/snapshot/snapshot_check.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "components/leg_muscles.h"
 #include "components/muscle.h"
+#include "systems/muscles/muscle_parts.h"
 
 namespace mobil {
 namespace {
@@ -119,6 +124,20 @@ Result<void> check_key(const TableKey& key, const World& world, const ResourceLi
     if (auto ok = module.check_key(key, world); !ok) return ok;
   }
   return {};
+}
+
+Result<void> check_steps(const TableKey& key, const World& world, double tick_s, std::size_t most) {
+  const auto kind = muscle_kind(key, world);
+  double steps = kind ? kind->steps : 0;
+  if (const KeyPart* const part = find_part(key, type_id<LegMuscles>())) {
+    const auto& choice = *static_cast<const LegMuscles*>(world.resource(part->value));
+    if (choice.dt_s) steps = std::max(steps, std::ceil(tick_s / *choice.dt_s));
+  }
+  if (steps <= static_cast<double>(most)) return {};
+  return fail(
+      fmt::format("a muscle of the snapshot takes {:.0f} steps a tick, and at most {} are allowed; raise"
+                  " RestoreLimits::steps",
+                  steps, most));
 }
 
 }  // namespace mobil

@@ -19,5 +19,7 @@ Result<void> check_numbers(const SavedWorld& world, std::span<const Module> modu
 /// A table's shared resources are those of one muscle; and what its modules make sure of.
 Result<void> check_key(const TableKey& key, const World& world, const ResourceList& resources,
                        std::span<const Module> modules);
+/// A muscle takes at most so many steps in a tick: as its table says, and as a choice says that later muscles follow.
+Result<void> check_steps(const TableKey& key, const World& world, double tick_s, std::size_t most);
 
 }  // namespace mobil

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 
@@ -169,12 +170,19 @@ bool sound(double size) {
   return size >= 1e-2 && size <= 1e2;
 }
 
-/// Of the mesh that it takes to make this; none of a choice.
+/// Whether a choice's bases have the usual mesh, as those do that say nothing of bases.
+bool has_usual_basis(const LegMuscles& choice) {
+  return choice.reduced.cells == ReducedChoice{}.cells;
+}
+
+/// Of the mesh that it takes to make this, or what a choice leads to later.
 std::size_t nodes_of(const Recipe& recipe) {
   const auto choice = choice_of(recipe.choice);
-  if (!choice || recipe.kind == ResourceKind::choice) return 0;
-  return recipe.kind == ResourceKind::basis ? std::max(node_count(choice->cells), node_count(choice->reduced.cells))
-                                            : node_count(choice->cells);
+  if (!choice) return 0;
+  const bool with_basis =
+      recipe.kind == ResourceKind::basis || (recipe.kind == ResourceKind::choice && !has_usual_basis(*choice));
+  return with_basis ? std::max(node_count(choice->cells), node_count(choice->reduced.cells))
+                    : node_count(choice->cells);
 }
 
 }  // namespace
@@ -286,6 +294,12 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::s
 
 bool ResourceList::is_there(const Recipe& recipe, BellyLibrary& library) {
   const auto choice = choice_of(recipe.choice);
+  if (choice && recipe.kind == ResourceKind::choice) {
+    const auto has_mesh = [&](const auto& made) { return made->choice.cells == choice->cells; };
+    const auto has_basis = [&](const auto& made) { return made.choice.reduced.cells == choice->reduced.cells; };
+    return std::ranges::any_of(library.templates_, has_mesh) &&
+           (has_usual_basis(*choice) || std::ranges::any_of(library.bases_, has_basis));
+  }
   if (!choice || recipe.muscle >= muscles().size()) return false;
   const auto muscle = static_cast<Muscle>(recipe.muscle);
   const double across = number(recipe.across), along = number(recipe.along);

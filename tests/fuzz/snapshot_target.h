@@ -76,7 +76,7 @@ inline void fuzz_snapshot(Input input) {
   }
   (void)reseal_snapshot(bytes);
   Simulation& simulation = world.simulation;
-  const RestoreLimits limits{.rows = 1000, .mesh_nodes = 0, .seconds = 1};
+  const RestoreLimits limits{.rows = 1000, .mesh_nodes = 0, .seconds = 1, .steps = 200};
   if (held(simulation.restore(bytes, limits))) {
     for (int i = 0; i < 3; ++i) simulation.tick();
     for (const Entity human : simulation.people()) {

@@ -32,16 +32,17 @@ inline ReducedChoice reduced(std::uint32_t vectors, bool moving, bool seen) {
   return {.vectors = vectors, .moving = moving, .cells = coarse, .control_points = seen};
 }
 
-inline const std::array<MuscleMethod, 9>& every_method() {
-  static const std::array<MuscleMethod, 9> all = {{{Method::ecd},
-                                                   {Method::icd},
-                                                   {Method::caa},
-                                                   {Method::statics},
-                                                   {Method::reduced, reduced(12, true, true)},
-                                                   {Method::reduced, reduced(12, true, false)},
-                                                   {Method::reduced, reduced(5, true, true)},
-                                                   {Method::reduced, reduced(8, false, true)},
-                                                   {Method::none}}};
+inline const std::array<MuscleMethod, 10>& every_method() {
+  static const std::array<MuscleMethod, 10> all = {{{Method::ecd},
+                                                    {Method::icd},
+                                                    {Method::caa},
+                                                    {Method::statics},
+                                                    {Method::reduced, reduced(12, true, true)},
+                                                    {Method::reduced, reduced(12, true, false)},
+                                                    {Method::reduced, reduced(5, true, true)},
+                                                    {Method::reduced, reduced(8, false, true)},
+                                                    {Method::finite},
+                                                    {Method::none}}};
   return all;
 }
 
@@ -53,10 +54,10 @@ inline std::uint64_t mixed(std::uint64_t seed, std::uint64_t who, std::uint64_t 
 /// Up to three of the groups, by any method, with each effect now and then. Few templates serve them all.
 inline LegMuscles choice_of(std::uint64_t draw) {
   LegMuscles choice;
-  choice.method = every_method()[draw % 9].method;
-  choice.reduced = every_method()[draw % 9].reduced;
+  choice.method = every_method()[draw % every_method().size()].method;
+  choice.reduced = every_method()[draw % every_method().size()].reduced;
   choice.reduced.cells = coarse;
-  draw /= 9;
+  draw /= every_method().size();
   choice.line_motion = draw % 2 == 0;
   choice.muscles = 0;
   choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
@@ -238,7 +239,7 @@ class Crowd {
     } else if (what == 1) {
       EXPECT_TRUE(simulation_.change_leg_muscles(human, choice_for(human, how)));
     } else {
-      EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % 9]));
+      EXPECT_TRUE(simulation_.set_method(human, Muscle::hamstrings, every_method()[how % every_method().size()]));
       if (simulation_.get<ExcitationSource>(hamstrings) == static_cast<std::uint64_t>(ExcitationSource::host)) {
         const float level = static_cast<float>(how % 100) * 0.01F;
         EXPECT_TRUE(simulation_.set_excitation(human, Muscle::hamstrings, Side::right, level));

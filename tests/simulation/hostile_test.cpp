@@ -84,6 +84,29 @@ TEST(RestoreLimitsOf, MeshesThatAreNotThereAreNotMadeBeyondThem) {
   ASSERT_TRUE(third.restore(bytes, {.mesh_nodes = 525, .seconds = any_time}));
 }
 
+TEST(RestoreLimitsOf, StepsOfATickAreCounted) {
+  Simulation simulation, other;
+  const std::uint64_t before = other.state_hash();
+  LegMuscles choice;
+  choice.muscles.reset();
+  choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings));
+  choice.method = Method::ecd;
+  choice.dt_s = simulation.tick_s() / 3000;
+  const auto human = simulation.spawn({.height_m = 1.8F, .mass_kg = 80});
+  ASSERT_TRUE(simulation.add_leg_muscles(*human, choice));
+  const Bytes bytes = saved(simulation);
+  expect_refused(other.restore(bytes, {.seconds = any_time}), "3000 steps a tick");
+  EXPECT_EQ(other.state_hash(), before);
+  ASSERT_TRUE(other.restore(bytes, {.seconds = any_time, .steps = 3000}));
+  // the choice that somebody compact keeps, by which their muscles may be stepped later
+  choice.method = Method::reduced;
+  choice.reduced.control_points = false;
+  ASSERT_TRUE(simulation.change_leg_muscles(*human, choice));
+  ASSERT_TRUE(simulation.compact({&*human, 1}));
+  EXPECT_TRUE(simulation.muscles(*human).empty());
+  expect_refused(other.restore(saved(simulation), {.seconds = any_time}), "3000 steps a tick");
+}
+
 /// Sealed anew, any float of a row may be no number.
 TEST(RestoreLimitsOf, NumbersThatAreNotFiniteAreRefused) {
   Simulation simulation;

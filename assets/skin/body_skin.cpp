@@ -54,11 +54,15 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
   const Body body = *make_body(skin_body(sex));
   const BodyForm form(body);
   const SurfaceMesh surface = mesh_form(form);
-  constexpr std::array<double, skin_details> share = {1, 0.22, 0.05, 0.012}, coarseness = {1, 1.8, 3.5, 6};
+  constexpr std::array<double, skin_details> share = {1, 0.14, 0.035, 0.012}, coarseness = {1, 1.8, 3.5, 6};
+  // Flat skin is bent, too: a coarser mesh must not have edges from the knee to the middle of the thigh.
+  constexpr std::array<double, skin_details> longest_m = {1, 0.042, 0.07, 1};
   std::array<SkinMesh, skin_details> mesh;
-  for (std::size_t d = 0; d < skin_details; ++d)
-    mesh[d] = make_mesh(form, body, can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]),
-                        static_cast<SkinDetail>(d));
+  for (std::size_t d = 0; d < skin_details; ++d) {
+    SurfaceMesh light = can_be_coarser() ? coarser(surface, share[d]) : mesh_form(form, coarseness[d]);
+    split_long_edges(form, light, longest_m[d]);
+    mesh[d] = make_mesh(form, body, std::move(light), static_cast<SkinDetail>(d));
+  }
   return mesh;
 }
 

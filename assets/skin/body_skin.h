@@ -23,8 +23,8 @@ inline constexpr std::size_t skin_details = 4;
 struct SkinMesh {
   std::vector<std::uint32_t> triangle;  // three corners each, wound outwards; part by part
   std::array<std::uint32_t, skin_parts + 1>
-      first_triangle{};  // of each SkinPart, in triangles; the last is their count
-  std::vector<SkinFrame> frame;
+      first_triangle{};          // of each SkinPart, in triangles; the last is their count
+  std::vector<SkinFrame> frame;  // those between the same two segments one after the other
   std::vector<SkinVertex> vertex;
   std::vector<LegPlace> leg;        // of each vertex
   std::vector<Vec3<double>> place;  // of `skin_body`, in the pose that is meshed

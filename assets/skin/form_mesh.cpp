@@ -4,8 +4,11 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <map>
+#include <optional>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "engine/row_hash.h"
@@ -257,6 +260,40 @@ SurfaceMesh mesh_form(const BodyForm& body, double coarseness) {
   mesh.name = "skin";
   relax(body, mesh);
   return mesh;
+}
+
+void split_long_edges(const BodyForm& body, SurfaceMesh& mesh, double longest_m) {
+  constexpr int most_rounds = 6;
+  for (int round = 0; round < most_rounds; ++round) {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle;  // of an edge, by its ends
+    const auto middle_of = [&](std::uint32_t a, std::uint32_t b) -> std::optional<std::uint32_t> {
+      const Vec p = to_double(mesh.position[a]), q = to_double(mesh.position[b]);
+      if (length(q - p) <= longest_m) return std::nullopt;
+      const auto [found, is_new] =
+          middle.try_emplace(std::minmax(a, b), static_cast<std::uint32_t>(mesh.position.size()));
+      if (is_new) mesh.position.push_back(to_float(onto_surface(body, 0.5 * (p + q), 3)));
+      return found->second;
+    };
+    std::vector<std::uint32_t> finer;
+    for (std::size_t t = 0; t < mesh.triangle.size(); t += 3) {
+      std::vector<std::uint32_t> corner;  // with the middles of edges that are too long
+      std::size_t split = 3;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = mesh.triangle[t + k], b = mesh.triangle[t + (k + 1) % 3];
+        corner.push_back(a);
+        if (const auto m = middle_of(a, b)) {
+          corner.push_back(*m);
+          if (split == 3) split = corner.size() - 1;
+        }
+      }
+      // A fan about the first middle; about a corner where there is none.
+      const std::size_t n = corner.size(), first = n == 3 ? 0 : split;
+      for (std::size_t k = 1; k + 1 < n; ++k)
+        finer.insert(finer.end(), {corner[first], corner[(first + k) % n], corner[(first + k + 1) % n]});
+    }
+    mesh.triangle = std::move(finer);
+    if (middle.empty()) return;
+  }
 }
 
 }  // namespace mobil

@@ -17,6 +17,10 @@ namespace mobil {
 /// triangles. Takes about a second. `coarseness`: times as wide cells, from 1 on.
 SurfaceMesh mesh_form(const form::BodyForm& body, double coarseness = 1);
 
+/// Splits the edges of a mesh of the body that are longer than `longest_m`, their middles moved onto the surface; all
+/// but a few, of triangles that are split again and again. Closed meshes stay closed.
+void split_long_edges(const form::BodyForm& body, SurfaceMesh& mesh, double longest_m);
+
 /// The middle of each place's neighbours in these triangles; where there are none, the place itself.
 std::vector<form::Vec> neighbour_means(std::span<const std::uint32_t> triangle, std::span<const form::Vec> place);
 

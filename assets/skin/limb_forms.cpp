@@ -78,10 +78,12 @@ double LegForm::distance(const Vec& p) const {
     d = from_line - r * std::sqrt(1 - top * top);
   }
   constexpr double into_foot_m = 0.06;
-  if (const double below = y(LegProfile::last_s) - p.y; below > into_foot_m) {
-    d = std::hypot(std::max(from_line - 0.7 * r, 0.0), below - into_foot_m);
-  } else if (below > 0) {
-    d = from_line - r * (1 - 0.3 * below / into_foot_m);
+  if (const double below = y(LegProfile::last_s) - p.y; below > 0) {
+    // But for where tendons go straight on, to the heel and to the instep.
+    const double behind = smoothstep(0.6, 0.95, -std::cos(turn)), before = smoothstep(0.6, 0.95, std::cos(turn));
+    const double narrower = 0.3 - 0.45 * behind - 0.2 * before;
+    d = from_line - r * (1 - narrower * std::min(below / into_foot_m, 1.0));
+    if (below > into_foot_m) d = std::hypot(std::max(d, 0.0), below - into_foot_m);
   }
   if (p.y > 0.25) return d;
   // Ankle bones, the outer one lower and further back.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <tuple>
 
 #include "assets/body/anthropometry.h"
@@ -58,6 +59,7 @@ class Binder {
 
   SkinBinding bind(const std::vector<Vec>& place) {
     for (const Vec& p : place) bind(p);
+    sort_frames();
     return std::move(binding_);
   }
 
@@ -141,8 +143,10 @@ class Binder {
   void add_leg(double weight, double thigh, const Vec& r, std::size_t side) {
     const std::size_t upper = index(on_side(thigh_right, side)), lower = index(on_side(shank_right, side)),
                       foot = index(on_side(foot_right, side)), toes = index(on_side(toes_right, side));
+    // Behind the ankle skin bends lower than in front: it lies over the tendon, which stays straight as the heel rises.
+    const double behind = smoothstep(0, 0.035 * form_.size(), origin(foot_right).z - r.z);
     const double knee = bent(origin(shank_right).y - r.y, knee_bend_m, knee_bend_m),
-                 ankle = bent(origin(foot_right).y - r.y, 0.09, 0.02);
+                 ankle = bent(origin(foot_right).y - r.y, 0.09 - 0.06 * behind, 0.02 - 0.01 * behind);
     if (thigh < 1) return add(weight, index(pelvis), upper, thigh);
     if (knee < 1) return add(weight, upper, lower, knee);
     if (ankle < 1) return add(weight, lower, foot, ankle);
@@ -161,6 +165,22 @@ class Binder {
     }
     binding_.vertex.push_back(vertex);
     binding_.rest.push_back(r);
+  }
+
+  void sort_frames() {
+    const std::vector<SkinFrame> unsorted = binding_.frame;
+    std::vector<std::uint16_t> order(unsorted.size()), place(unsorted.size());
+    std::iota(order.begin(), order.end(), std::uint16_t{0});
+    std::ranges::sort(order, {},
+                      [&](std::uint16_t i) { return std::tuple(unsorted[i].from, unsorted[i].to, unsorted[i].turn); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      binding_.frame[i] = unsorted[order[i]];
+      place[order[i]] = static_cast<std::uint16_t>(i);
+    }
+    for (SkinVertex& vertex : binding_.vertex) {
+      for (std::size_t k = 0; k < SkinVertex::most_frames; ++k)
+        if (vertex.weight[k] != 0) vertex.frame[k] = place[vertex.frame[k]];
+    }
   }
 
   struct Taken {

@@ -39,7 +39,7 @@ struct SkinVertex {
 };
 
 struct SkinBinding {
-  std::vector<SkinFrame> frame;
+  std::vector<SkinFrame> frame;  // those between the same two segments one after the other
   std::vector<SkinVertex> vertex;
   std::vector<Vec3<double>> rest;  // in the anatomical position, m
 };

@@ -1,119 +1,202 @@
 #include "systems/skinning/place_skin.h"
 
-#include <array>
-#include <cmath>
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "systems/skinning/place_skin.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 #include <numbers>
 
 #include "components/segments.h"
-#include "engine/geometry.h"
+#include "engine/fused-inl.h"
+#include "systems/skinning/vertex_rows-inl.h"
 
-namespace mobil {
+HWY_BEFORE_NAMESPACE();
+namespace mobil::HWY_NAMESPACE {
 namespace {
 
-using namespace geometry;
+using FourTag = hn::CappedTag<float, 4>;
+using FourVector = hn::Vec<FourTag>;
+using IntTag = hn::RebindToSigned<EightTag>;
+using IntVector = hn::Vec<IntTag>;
 
-Quat<float> of_length_1(const Quat<float>& q) {
-  const float scale = 1 / std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w);
-  return {scale * q.x, scale * q.y, scale * q.z, scale * q.w};
-}
-
-/// The forearm without its turn about its own length (y): the rest of the way from the upper arm.
-Quat<float> untwisted(const Quat<float>& upper_arm, const Quat<float>& forearm) {
-  const Quat<float> elbow = product(conjugate(upper_arm), forearm);
-  if (elbow.y * elbow.y + elbow.w * elbow.w < 1e-8F) return forearm;  // folded back on itself
-  return product(forearm, conjugate(of_length_1({0, elbow.y, 0, elbow.w})));
-}
-
-struct RestPoint {
-  Vec3<float> place, normal;
+/// A group of vertices as they are read; of the last group, copies.
+struct SkinGroup {
+  const SkinVertex* vertex;
+  const LegPlace* leg;
+  const Vec3<float>*rest, *normal;
 };
 
-/// A vertex at rest, moved away from its leg's line; its normal tilts as what lifts it slopes.
-RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegPlace& leg, const RestPoint& rest) {
-  const std::size_t side = rest.place.x > 0 ? Side::left : Side::right;
-  const std::array<float, leg_grid_points>& grid = cover.lift_m[side];
-  const auto i = static_cast<std::size_t>(leg.along), j = static_cast<std::size_t>(leg.round) % leg_angles;
-  const std::size_t k = (j + 1) % leg_angles;
-  const float u = leg.along - static_cast<float>(i), v = leg.round - std::floor(leg.round);
-  const float *row = &grid[i * leg_angles], *next = row + leg_angles;
-  const float above = (1 - v) * row[j] + v * row[k], below = (1 - v) * next[j] + v * next[k];
-  const float lift = leg.amount * ((1 - u) * above + u * below);
-  const float a_station = leg.amount * (below - above);
-  const float an_angle = leg.amount * ((1 - u) * (row[k] - row[j]) + u * (next[k] - next[j]));
-
-  const auto at = [&](Segment s) { return skin.standing.position_m[index(on_side(s, side))]; };
-  const Vec3<float> hip = at(Segment::thigh_right), knee = at(Segment::shank_right);
-  const float x = rest.place.x - hip.x, z = rest.place.z - hip.z, away = std::sqrt(x * x + z * z);
-  if (away < 0.01F) return rest;
-  constexpr float stations = (leg_stations - 1) / static_cast<float>(LegProfile::last_s - LegProfile::first_s);
-  const float down = stations / (rest.place.y > knee.y ? hip.y - knee.y : knee.y - at(Segment::foot_right).y);
-  const float turn = an_angle * leg_angles / (2 * std::numbers::pi_v<float> * away);
-  const float out = side == Side::right ? 1.0F : -1.0F;  // angles grow to the inner side
-  const Vec3<float> normal{rest.normal.x - turn * out * z / away, rest.normal.y + a_station * down,
-                           rest.normal.z + turn * out * x / away};
-  return {{rest.place.x + lift * x / away, rest.place.y, rest.place.z + lift * z / away}, normal};
+struct SkinPoints {
+  EightVector x, y, z;
+};
+HWY_INLINE SkinPoints load_points(const Vec3<float>* p) {
+  SkinPoints r;
+  hn::LoadInterleaved3(eight, &p->x, r.x, r.y, r.z);
+  return r;
 }
 
-/// Three floats to wherever they are to lie.
-void put(std::byte* to, const Vec3<float>& v) {
-  std::memcpy(to, &v, sizeof v);
+/// One of two numbers of each lane, as it is on the right or the left.
+HWY_INLINE EightVector by_side(const hn::Mask<EightTag>& is_left, float right, float left) {
+  return hn::IfThenElse(is_left, hn::Set(eight, left), hn::Set(eight, right));
+}
+
+/// Vertices at rest, moved away from their legs' lines; their normals tilt as what lifts them slopes.
+HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGroup& group, Vec3<float>* places,
+                     Vec3<float>* normals) {
+  constexpr IntTag whole;
+  constexpr auto round = static_cast<std::int32_t>(leg_angles);
+  const auto all = [](float s) HWY_ATTR { return hn::Set(eight, s); };
+  SkinPoints rest = load_points(group.rest), normal = load_points(group.normal);
+  EightVector along, angle, amount;
+  hn::LoadInterleaved3(eight, &group.leg->along, along, angle, amount);
+  const auto is_left = hn::Gt(rest.x, hn::Zero(eight));
+  const IntVector station =
+      hn::Min(hn::ConvertTo(whole, along), hn::Set(whole, static_cast<std::int32_t>(leg_stations) - 2));
+  const IntVector turn = hn::ConvertTo(whole, angle);
+  const EightVector u = hn::Sub(along, hn::ConvertTo(eight, station)), v = hn::Sub(angle, hn::ConvertTo(eight, turn));
+  const IntVector last = hn::Set(whole, round - 1);
+  const IntVector of_side =
+      hn::IfThenElseZero(hn::RebindMask(whole, is_left), hn::Set(whole, static_cast<std::int32_t>(leg_grid_points)));
+  const IntVector row = hn::Add(of_side, hn::Mul(station, hn::Set(whole, round))),
+                  next = hn::Add(row, hn::Set(whole, round));
+  const IntVector j = hn::And(turn, last), k = hn::And(hn::Add(turn, hn::Set(whole, 1)), last);
+  const float* const grid = cover.lift_m[0].data();
+  const auto at = [&](const IntVector& a, const IntVector& b)
+                      HWY_ATTR { return hn::GatherIndex(eight, grid, hn::Add(a, b)); };
+  const EightVector here = at(row, j), beyond = at(row, k), below = at(next, j), aslant = at(next, k);
+  const EightVector across = hn::Sub(beyond, here), across_below = hn::Sub(aslant, below);
+  const EightVector upper = mul_add(v, across, here), slope = hn::Sub(mul_add(v, across_below, below), upper);
+  const EightVector by = hn::Mul(amount, mul_add(u, slope, upper));
+  const EightVector an_angle = hn::Mul(amount, mul_add(u, hn::Sub(across_below, across), across));
+
+  const EightVector x = hn::Sub(rest.x, by_side(is_left, lines.hip[0].x, lines.hip[1].x)),
+                    z = hn::Sub(rest.z, by_side(is_left, lines.hip[0].z, lines.hip[1].z));
+  const EightVector away = hn::Sqrt(mul_add(z, z, hn::Mul(x, x)));
+  const auto lifted = hn::And(hn::Gt(amount, hn::Zero(eight)), hn::Ge(away, all(0.01F)));
+  const EightVector knee = by_side(is_left, lines.knee_y[0], lines.knee_y[1]);
+  const auto is_thigh = hn::Gt(rest.y, knee);
+  const EightVector length = hn::IfThenElse(is_thigh, hn::Sub(by_side(is_left, lines.hip[0].y, lines.hip[1].y), knee),
+                                            hn::Sub(knee, by_side(is_left, lines.ankle_y[0], lines.ankle_y[1])));
+  constexpr float stations = (leg_stations - 1) / static_cast<float>(LegProfile::last_s - LegProfile::first_s);
+  const EightVector one = hn::Div(all(1), away), out_x = hn::Mul(x, one), out_z = hn::Mul(z, one);
+  // Angles grow to the inner side.
+  const EightVector tilt = hn::Mul(hn::Mul(an_angle, one), by_side(is_left, round / (2 * std::numbers::pi_v<float>),
+                                                                   -round / (2 * std::numbers::pi_v<float>)));
+  const EightVector a_metre = hn::Div(hn::Mul(hn::Mul(amount, slope), all(stations)), length);
+  const auto put = [&](EightVector& number, const EightVector& moved)
+                       HWY_ATTR { number = hn::IfThenElse(lifted, moved, number); };
+  put(rest.x, mul_add(by, out_x, rest.x));
+  put(rest.z, mul_add(by, out_z, rest.z));
+  put(normal.x, neg_mul_add(tilt, out_z, normal.x));
+  put(normal.y, hn::Add(normal.y, a_metre));
+  put(normal.z, mul_add(tilt, out_x, normal.z));
+  hn::StoreInterleaved3(rest.x, rest.y, rest.z, eight, &places->x);
+  hn::StoreInterleaved3(normal.x, normal.y, normal.z, eight, &normals->x);
+}
+
+/// A vertex and its normal (x y z z) where its frames carry them.
+struct Carried {
+  FourVector position, normal;
+};
+HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const Vec3<float>& r, const Vec3<float>& n) {
+  constexpr FourTag four;
+  const FrameMap& first = maps[vertex.frame[0]];
+  FourVector x = hn::Load(four, first.column[0]), y = hn::Load(four, first.column[1]),
+             z = hn::Load(four, first.column[2]), from = hn::Load(four, first.column[3]);
+  if (vertex.weight[1] != 0) {
+    const FourVector part = hn::Set(four, vertex.weight[0]);
+    x = hn::Mul(part, x), y = hn::Mul(part, y), z = hn::Mul(part, z), from = hn::Mul(part, from);
+    for (std::size_t k = 1; k < SkinVertex::most_frames && vertex.weight[k] != 0; ++k) {
+      const FrameMap& other = maps[vertex.frame[k]];
+      const FourVector more = hn::Set(four, vertex.weight[k]);
+      x = mul_add(more, hn::Load(four, other.column[0]), x);
+      y = mul_add(more, hn::Load(four, other.column[1]), y);
+      z = mul_add(more, hn::Load(four, other.column[2]), z);
+      from = mul_add(more, hn::Load(four, other.column[3]), from);
+    }
+  }
+  const auto all = [](float s) HWY_ATTR { return hn::Set(FourTag{}, s); };
+  return {mul_add(all(r.z), z, mul_add(all(r.y), y, mul_add(all(r.x), x, from))),
+          mul_add(all(n.z), z, mul_add(all(n.y), y, hn::Mul(all(n.x), x)))};
+}
+
+/// A row of two vertices; the second counts with eight lanes alone.
+template <class Tag>
+HWY_INLINE hn::Vec<Tag> of_two(Tag tag, const FourVector& first, [[maybe_unused]] const FourVector& second) {
+  if constexpr (hn::MaxLanes(Tag{}) == 8) {
+    return hn::Combine(tag, second, first);
+  } else {
+    return first;
+  }
+}
+
+/// A group of vertices, of which `count` are wanted.
+HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, SkinGroup group, const FrameMap* maps,
+                            std::size_t first, std::size_t count, bool packed, const VertexTarget& out) {
+  Vec3<float> places[group_vertices], normals[group_vertices];
+  if (cover != nullptr &&
+      std::any_of(group.leg, group.leg + group_vertices, [](const LegPlace& leg) { return leg.amount > 0; })) {
+    lift(lines, *cover, group, places, normals);
+    group.rest = places;
+    group.normal = normals;
+  }
+  Rows position, normal;
+  for (std::size_t v = 0; v < 4; ++v) {
+    const auto own = [&](std::size_t i)
+                         HWY_ATTR { return carried(group.vertex[i], maps, group.rest[i], group.normal[i]); };
+    const Carried low = own(v), high = group_vertices == 8 ? own(v + 4) : low;
+    position.row[v] = of_two(eight, low.position, high.position);
+    normal.row[v] = hn::Shuffle2103(of_two(eight, low.normal, high.normal));
+  }
+  if (out.normal == nullptr) return put_positions(position, first, count, out);
+  normalise(1, normal);
+  put(position, normal, first, count, packed, out, [](std::size_t) { return RigidAlong{}; });
+}
+
+void place(const SkinMesh& mesh, const BodySkin& skin, const LegLines& lines, const FrameMap* maps,
+           const SkinCover* cover, const VertexTarget& out) {
+  const bool packed = is_packed(out);
+  const std::size_t vertices = mesh.vertex.size();
+  std::size_t first = 0;
+  for (; first + group_vertices <= vertices; first += group_vertices) {
+    place_group(lines, cover, {&mesh.vertex[first], &mesh.leg[first], &skin.rest[first], &skin.normal[first]}, maps,
+                first, group_vertices, packed, out);
+  }
+  if (first == vertices) return;
+  SkinVertex vertex[group_vertices];
+  LegPlace leg[group_vertices];
+  Vec3<float> rest[group_vertices], normal[group_vertices];
+  for (std::size_t i = 0; i < group_vertices; ++i) {
+    const std::size_t v = std::min(first + i, vertices - 1);
+    vertex[i] = mesh.vertex[v], leg[i] = mesh.leg[v], rest[i] = skin.rest[v], normal[i] = skin.normal[v];
+  }
+  place_group(lines, cover, {vertex, leg, rest, normal}, maps, first, vertices - first, packed, out);
 }
 
 }  // namespace
+}  // namespace mobil::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
 
-void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
-                const Vec3<float>& origin_m, std::span<FrameMap> maps) {
-  struct Bone {
-    Quat<float> rotation;
-    Vec3<float> now, rest;
-  };
-  std::array<Bone, skin_segments> bone;
-  for (std::size_t s = 0; s < segment_count; ++s)
-    bone[s] = {pose.rotation[s], pose.position_m[s] - origin_m, skin.standing.position_m[s]};
-  for (std::size_t side = 0; side < 2; ++side) {
-    const Bone& forearm = bone[index(on_side(Segment::forearm_right, side))];
-    const Bone& arm = bone[index(on_side(Segment::upper_arm_right, side))];
-    bone[untwisted_forearm(side)] = {untwisted(arm.rotation, forearm.rotation), forearm.now, forearm.rest};
-  }
-  for (std::size_t i = 0; i < mesh.frame.size(); ++i) {
-    const SkinFrame& frame = mesh.frame[i];
-    const Bone& to = bone[frame.to];
-    const Quat<float> q = frame.turn == 0 ? to.rotation : blended(bone[frame.from].rotation, to.rotation, frame.turn);
-    const auto [x, y, z] = columns(q);
-    FrameMap& map = maps[i];
-    map.x = lengths * x;
-    map.y = lengths * y;
-    map.z = lengths * z;
-    map.from = to.now - (to.rest.x * map.x + to.rest.y * map.y + to.rest.z * map.z);
-  }
+#if HWY_ONCE
+namespace mobil {
+namespace {
+HWY_EXPORT(place);
 }
 
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
                 const VertexTarget& out) {
-  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
-    const SkinVertex& vertex = mesh.vertex[v];
-    FrameMap map = maps[vertex.frame[0]];
-    if (vertex.weight[1] != 0) {
-      const float first = vertex.weight[0];
-      map = {first * map.x, first * map.y, first * map.z, first * map.from};
-      for (std::size_t k = 1; k < SkinVertex::most_frames && vertex.weight[k] != 0; ++k) {
-        const FrameMap& other = maps[vertex.frame[k]];
-        const float weight = vertex.weight[k];
-        map.x = map.x + weight * other.x;
-        map.y = map.y + weight * other.y;
-        map.z = map.z + weight * other.z;
-        map.from = map.from + weight * other.from;
-      }
-    }
-    RestPoint rest{skin.rest[v], skin.normal[v]};
-    if (const LegPlace& leg = mesh.leg[v]; cover != nullptr && leg.amount > 0) rest = lifted(skin, *cover, leg, rest);
-    const Vec3<float>&r = rest.place, &n = rest.normal;
-    put(out.position + v * out.position_stride, map.from + r.x * map.x + (r.y * map.y + r.z * map.z));
-    if (out.normal == nullptr) continue;
-    const Vec3<float> turned = n.x * map.x + n.y * map.y + n.z * map.z;
-    put(out.normal + v * out.normal_stride, normalised(turned));
+  LegLines lines{};
+  for (const Side side : {Side::right, Side::left}) {
+    const auto at = [&](Segment s) { return skin.standing.position_m[index(on_side(s, side))]; };
+    lines.hip[side] = at(Segment::thigh_right);
+    lines.knee_y[side] = at(Segment::shank_right).y;
+    lines.ankle_y[side] = at(Segment::foot_right).y;
   }
+  HWY_DYNAMIC_DISPATCH(place)(mesh, skin, lines, maps.data(), cover, out);
 }
 
 void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
@@ -132,3 +215,4 @@ void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, con
 }
 
 }  // namespace mobil
+#endif

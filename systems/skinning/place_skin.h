@@ -7,22 +7,20 @@
 #include "assets/skin/body_skin.h"
 #include "components/pose.h"
 #include "systems/skinning/cover_muscles.h"
+#include "systems/skinning/skin_frames.h"
 #include "systems/skinning/write_vertices.h"
 
 namespace mobil {
 
-/// How a frame of the skin carries a point from the anatomical position: along x, y and z, and from the origin.
-struct FrameMap {
-  Vec3<float> x, y, z, from;
+/// Where the legs' lines are in the anatomical position, m; by Side.
+struct LegLines {
+  std::array<Vec3<float>, 2> hip;
+  std::array<float, 2> knee_y, ankle_y;
 };
 
-/// The frames of a mesh as a pose has them, `lengths` times as large as the skin at rest, seen from `origin_m`.
-/// maps.size() is mesh.frame.size().
-void frame_maps(const SkinMesh& mesh, const BodySkin& skin, const Pose<float>& pose, float lengths,
-                const Vec3<float>& origin_m, std::span<FrameMap> maps);
-
 /// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned, and
-/// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing.
+/// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing. The same bits on every
+/// instruction set with fused multiply-add.
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
                 const VertexTarget& out);
 

@@ -20,27 +20,12 @@
 #include "systems/skinning/place_skin.h"
 #include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
+#include "tests/surfaces/skin_placed.h"
 
 namespace mobil::skin_test {
 using namespace geometry;
 
 constexpr std::array details = {SkinDetail::hero, SkinDetail::near, SkinDetail::far, SkinDetail::distant};
-
-struct Placed {
-  std::vector<Vec3<float>> position, normal;
-};
-
-Placed place(const BodySkin& skin, const Pose<float>& pose, const SkinCover* cover = nullptr) {
-  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
-  Placed to{std::vector<Vec3<float>>(skin.rest.size()), std::vector<Vec3<float>>(skin.rest.size())};
-  std::vector<FrameMap> maps(mesh.frame.size());
-  frame_maps(mesh, skin, pose, 1, {0, 0, 0}, maps);
-  constexpr std::size_t stride = sizeof(Vec3<float>);
-  place_skin(mesh, skin, maps, cover,
-             {std::as_writable_bytes(std::span(to.position)).data(),
-              std::as_writable_bytes(std::span(to.normal)).data(), stride, stride});
-  return to;
-}
 
 double volume(const BodySkin& skin, const std::vector<Vec3<float>>& position) {
   std::vector<Vec> place;

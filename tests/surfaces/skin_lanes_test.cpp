@@ -1,0 +1,96 @@
+// Skin in lanes: what plain code comes to, and the same bits on every instruction set.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "engine/geometry.h"
+#include "systems/simulation.h"
+#include "systems/surfaces/surfaces.h"
+#include "tests/engine/instruction_sets.h"
+#include "tests/surfaces/skin_oracle.h"
+#include "tests/surfaces/skin_placed.h"
+
+namespace mobil::skin_test {
+using namespace geometry;
+namespace {
+
+double length_of(const Vec3<double>& v) {
+  return std::sqrt(dot(v, v));
+}
+
+TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
+  Simulation simulation;
+  const Entity one = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.6F});
+  ASSERT_TRUE(simulation.add_leg_muscles(one));
+  const Human human = *simulation.human(one);
+  const auto bound = bind_surfaces(human.body, {.bones = false, .sides = {true, false}, .detail = 0.1});
+  ASSERT_TRUE(bound);
+  std::vector<SurfaceMuscle> muscles;
+  for (const HumanMuscle& own : human.muscles) muscles.push_back({own.plan.muscle, own.entity});
+  std::vector<Vec3<float>> drawn(bound->vertices);
+  SurfaceRequest wanted{one, muscles, &*bound};
+  wanted.positions.bytes = std::as_writable_bytes(std::span(drawn));
+  SurfaceWriter writer;
+  double most_lift = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    simulation.tick();
+    if (tick % 20 != 19) continue;
+    ASSERT_TRUE(writer.write(simulation.world(), {&wanted, 1}));
+    const Pose<float> pose = *simulation.get<Pose>(one);
+    for (const SkinDetail detail : {SkinDetail::near, SkinDetail::distant}) {
+      const BodySkin skin = *make_body_skin(human.body, detail);
+      SkinCover cover, plain;
+      for (std::size_t count : {drawn.size(), drawn.size() - 3}) {
+        cover_muscles(skin, pose, 1, Side::right, std::span(drawn).first(count), cover.lift_m[Side::right]);
+        skin_oracle::cover(skin, pose, 1, Side::right, std::span(drawn).first(count), plain.lift_m[Side::right]);
+        for (std::size_t n = 0; n < leg_grid_points; ++n) {
+          ASSERT_NEAR(cover.lift_m[Side::right][n], plain.lift_m[Side::right][n], 1e-5) << n;
+          most_lift = std::max(most_lift, static_cast<double>(cover.lift_m[Side::right][n]));
+        }
+      }
+      for (const SkinCover* over : {static_cast<const SkinCover*>(nullptr), static_cast<const SkinCover*>(&cover)}) {
+        const Placed now = place(skin, pose, over);
+        const auto exact = skin_oracle::place(skin, pose, over);
+        for (std::size_t v = 0; v < exact.size(); ++v) {
+          ASSERT_LT(length_of(to_double(now.position[v]) - exact[v][0]), 2e-6) << v;
+          ASSERT_LT(length_of(to_double(now.normal[v]) - exact[v][1]), 1e-5) << v;
+        }
+      }
+    }
+  }
+  EXPECT_GT(most_lift, 0.005);
+}
+
+TEST(SkinLanes, HoldsTheSameBitsOnEveryInstructionSet) {
+  Simulation simulation;
+  const Entity one = *simulation.spawn({});
+  simulation.advance(0.4);
+  const Pose<float> pose = *simulation.get<Pose>(one);
+  const BodySkin skin = *make_body_skin(simulation.human(one)->body, SkinDetail::far);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<float> near(-0.15F, 0.15F);
+  std::vector<Vec3<float>> cloud(501);  // round the shank and the knee
+  for (Vec3<float>& p : cloud)
+    p = pose.position_m[index(Segment::shank_right)] + Vec3<float>{near(random), 2 * near(random), near(random)};
+  std::vector<Placed> all;
+  for_each_fused_instruction_set([&] {
+    SkinCover cover;
+    cover_muscles(skin, pose, 1, Side::right, cloud, cover.lift_m[Side::right]);
+    all.push_back(place(skin, pose, &cover));
+  });
+  ASSERT_FALSE(all.empty());
+  for (const Placed& other : all) {
+    EXPECT_EQ(std::memcmp(other.position.data(), all[0].position.data(), other.position.size() * sizeof(Vec3<float>)),
+              0);
+    EXPECT_EQ(std::memcmp(other.normal.data(), all[0].normal.data(), other.normal.size() * sizeof(Vec3<float>)), 0);
+  }
+}
+
+}  // namespace
+}  // namespace mobil::skin_test

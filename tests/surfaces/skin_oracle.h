@@ -1,0 +1,258 @@
+#pragma once
+// Skin one vertex at a time, as plain code: what the kernels of systems/skinning are held to.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/skin/body_skin.h"
+#include "components/pose.h"
+#include "components/segments.h"
+#include "engine/geometry.h"
+#include "systems/skinning/cover_muscles.h"
+
+namespace mobil::skin_oracle {
+using namespace geometry;
+
+constexpr float tau = 2 * std::numbers::pi_v<float>;
+constexpr std::size_t steps = 16;
+
+inline float eased(float t) {
+  t = std::clamp(t, 0.0F, 1.0F);
+  return t * t * (3 - 2 * t);
+}
+
+/// The angle of (x, z) from the z axis towards the x axis in turns, 0 to 1, to 10⁻⁴ of one.
+inline float turn_of(float x, float z) {
+  const float ax = std::abs(x), az = std::abs(z);
+  const float r = std::min(ax, az) / std::max({ax, az, 1e-20F}), s = r * r;
+  float angle = r * (1 + s * (-0.327622764F + s * (0.15931422F - s * 0.0464964749F)));
+  if (ax > az) angle = 0.25F * tau - angle;
+  if (z < 0) angle = 0.5F * tau - angle;
+  return (x < 0 ? tau - angle : angle) / tau;
+}
+
+/// The leg as its skin has it: straight above and below the knee, turning evenly between.
+class Rings {
+ public:
+  Rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side) {
+    const std::size_t thigh = index(on_side(Segment::thigh_right, side)),
+                      shank = index(on_side(Segment::shank_right, side)),
+                      foot = index(on_side(Segment::foot_right, side));
+    knee_ = pose.position_m[shank];
+    thigh_m_ = lengths * (skin.standing.position_m[thigh].y - skin.standing.position_m[shank].y);
+    shank_m_ = lengths * (skin.standing.position_m[shank].y - skin.standing.position_m[foot].y);
+    bend_ = static_cast<float>(knee_bend_m / 1.75) * lengths * height_m(skin);
+    out_ = side == Side::right ? 1.0F : -1.0F;
+    for (std::size_t k = 0; k <= steps; ++k)
+      axes_[k] = columns(blended(pose.rotation[shank], pose.rotation[thigh], eased(part(k))));
+    const Quat<float> relative = product(conjugate(pose.rotation[thigh]), pose.rotation[shank]);
+    angle_ = std::max(0.0F, 2 * std::atan2(relative.w < 0 ? -relative.x : relative.x, std::abs(relative.w)));
+  }
+
+  struct Place {
+    float along, round, radius;  // stations, angles, m
+  };
+  Place place(const Vec3<float>& p) const {
+    const Vec3<float> from = p - knee_;
+    const float high = dot(axes_[steps][1], from), low = dot(axes_[0][1], from);
+    std::size_t ring = 0;
+    float y = low;
+    if (high >= bend_) {
+      ring = steps;
+      y = high;
+    } else if (low > -bend_) {
+      // The ring that the point lies in: where its height over the knee is the ring's own.
+      ring = 1;
+      while (ring < steps && dot(axes_[ring][1], from) > height(ring)) ++ring;
+      y = std::clamp(dot(axes_[ring][1], from), -bend_, bend_);
+    }
+    const float x = out_ * dot(axes_[ring][0], from), z = dot(axes_[ring][2], from);
+    const float s = y > 0 ? 1 - y / thigh_m_ : 1 - y / shank_m_;
+    constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
+    return {(s - first) / (last - first) * (leg_stations - 1), turn_of(x, z) * leg_angles, std::sqrt(x * x + z * z)};
+  }
+
+  /// How far from the line a bent knee has room for skin, m, at a station and an angle; large elsewhere.
+  float room(std::size_t station, std::size_t angle) const {
+    constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
+    const float s = first + (last - first) * static_cast<float>(station) / (leg_stations - 1);
+    const float y = s < 1 ? (1 - s) * thigh_m_ : (1 - s) * shank_m_, t = 0.5F * (y / bend_ + 1);
+    const float inner = -std::cos(tau * static_cast<float>(angle) / leg_angles);
+    const float curved = t <= 0 || t >= 1 ? 0 : angle_ * 6 * t * (1 - t) / (2 * bend_);
+    return inner > 0.05F && curved > 0.1F ? 0.92F / (curved * inner) : 1;
+  }
+
+ private:
+  static float height_m(const BodySkin& skin) {
+    return skin.standing.position_m[index(Segment::pelvis)].y / static_cast<float>(fraction::hip_height);
+  }
+  static float part(std::size_t k) { return static_cast<float>(k) / steps; }
+  float height(std::size_t k) const { return bend_ * (2 * part(k) - 1); }
+
+  Vec3<float> knee_;
+  float thigh_m_, shank_m_, bend_, out_, angle_;
+  std::array<std::array<Vec3<float>, 3>, steps + 1> axes_;  // from the shank's to the thigh's
+};
+
+/// Each point a little nearer to the mean of its four neighbours.
+inline void smooth(std::array<float, leg_grid_points>& grid, int rounds) {
+  std::array<float, leg_grid_points> next;
+  for (int round = 0; round < rounds; ++round) {
+    for (std::size_t i = 0; i < leg_stations; ++i) {
+      const float* here = &grid[i * leg_angles];
+      const float* above = &grid[(i == 0 ? 0 : i - 1) * leg_angles];
+      const float* below = &grid[std::min(i + 1, leg_stations - 1) * leg_angles];
+      for (std::size_t j = 0; j < leg_angles; ++j) {
+        next[i * leg_angles + j] = 0.5F * here[j] + 0.125F * (above[j] + below[j] + here[(j + 1) % leg_angles] +
+                                                              here[(j + leg_angles - 1) % leg_angles]);
+      }
+    }
+    grid = next;
+  }
+}
+
+/// The larger, rounded over where they differ by less than w (C¹).
+inline float rounded_max(float a, float b, float w) {
+  const float d = a - b;
+  if (d >= w) return a;
+  if (d <= -w) return b;
+  return b + (d + w) * (d + w) / (4 * w);
+}
+
+/// The larger of each point and its eight neighbours.
+inline std::array<float, leg_grid_points> spread(const std::array<float, leg_grid_points>& grid) {
+  std::array<float, leg_grid_points> wide{};
+  for (std::size_t i = 0; i < leg_stations; ++i) {
+    for (std::size_t j = 0; j < leg_angles; ++j) {
+      float most = 0;
+      for (std::size_t a = i == 0 ? 0 : i - 1; a <= std::min(i + 1, leg_stations - 1); ++a) {
+        for (const std::size_t b : {j, (j + 1) % leg_angles, (j + leg_angles - 1) % leg_angles})
+          most = std::max(most, grid[a * leg_angles + b]);
+      }
+      wide[i * leg_angles + j] = most;
+    }
+  }
+  return wide;
+}
+
+inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side,
+                  std::span<const Vec3<float>> muscles, std::array<float, leg_grid_points>& lift_m) {
+  const Rings rings(skin, pose, lengths, side);
+  // How far muscles reach at each point; those beside it count for less, so that nothing jumps as they pass.
+  constexpr float beside_m = 0.004F;
+  std::array<float, leg_grid_points> reach{};
+  for (const Vec3<float>& p : muscles) {
+    const Rings::Place at = rings.place(p);
+    if (!(at.along >= 0 && at.along <= leg_stations - 1)) continue;  // nor NaN
+    const auto i = static_cast<std::size_t>(at.along);
+    const auto j = static_cast<std::size_t>(at.round);
+    for (std::size_t a = i; a <= std::min(i + 1, leg_stations - 1); ++a) {
+      for (std::size_t b = j; b <= j + 1; ++b) {
+        const float u = at.along - static_cast<float>(a), v = at.round - static_cast<float>(b);
+        float& most = reach[a * leg_angles + b % leg_angles];
+        most = std::max(most, at.radius - beside_m * (u * u + v * v));
+      }
+    }
+  }
+  constexpr float round_m = 0.004F, thin_m = 0.004F, least_m = 0.0005F;
+  const LegGrid& grid = skin.leg;
+  // Over the skin without muscles.
+  std::array<float, leg_grid_points> excess, floor;
+  for (std::size_t n = 0; n < leg_grid_points; ++n) {
+    const float base = lengths * grid.base[n], fat = lengths * grid.fat[n];
+    excess[n] = reach[n] > 0 ? rounded_max(base, reach[n] + fat, round_m) - base : 0;
+    floor[n] = reach[n] > 0 ? reach[n] + 0.5F * std::min(fat, thin_m) + least_m - base : -base;
+  }
+  smooth(excess, 4);
+  for (int round = 0; round < 3; ++round) {
+    std::array<float, leg_grid_points> lacking;
+    for (std::size_t n = 0; n < leg_grid_points; ++n) lacking[n] = std::max(0.0F, floor[n] - excess[n]);
+    lacking = spread(lacking);
+    smooth(lacking, 3);
+    for (std::size_t n = 0; n < leg_grid_points; ++n) excess[n] += lacking[n];
+  }
+  for (std::size_t n = 0; n < leg_grid_points; ++n) {
+    float h = lengths * grid.base[n] + std::max(excess[n], floor[n]);
+    const float room = rings.room(n / leg_angles, n % leg_angles), most = 0.8F * room;
+    if (h > most) {
+      const float beyond = (h - most) / (0.2F * room);
+      h = most + 0.2F * room * beyond / (1 + beyond);
+    }
+    // As of the skin at rest, which `lengths` makes larger.
+    lift_m[n] = h / lengths - grid.base[n];
+  }
+}
+
+struct RestPoint {
+  Vec3<float> place, normal;
+};
+
+/// A vertex at rest, moved away from its leg's line; its normal tilts as what lifts it slopes.
+inline RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegPlace& leg, const RestPoint& rest) {
+  const std::size_t side = rest.place.x > 0 ? Side::left : Side::right;
+  const std::array<float, leg_grid_points>& grid = cover.lift_m[side];
+  const auto i = static_cast<std::size_t>(leg.along), j = static_cast<std::size_t>(leg.round) % leg_angles;
+  const std::size_t k = (j + 1) % leg_angles;
+  const float u = leg.along - static_cast<float>(i), v = leg.round - std::floor(leg.round);
+  const float *row = &grid[i * leg_angles], *next = row + leg_angles;
+  const float above = (1 - v) * row[j] + v * row[k], below = (1 - v) * next[j] + v * next[k];
+  const float lift = leg.amount * ((1 - u) * above + u * below);
+  const float a_station = leg.amount * (below - above);
+  const float an_angle = leg.amount * ((1 - u) * (row[k] - row[j]) + u * (next[k] - next[j]));
+
+  const auto at = [&](Segment s) { return skin.standing.position_m[index(on_side(s, side))]; };
+  const Vec3<float> hip = at(Segment::thigh_right), knee = at(Segment::shank_right);
+  const float x = rest.place.x - hip.x, z = rest.place.z - hip.z, away = std::sqrt(x * x + z * z);
+  if (away < 0.01F) return rest;
+  constexpr float stations = (leg_stations - 1) / static_cast<float>(LegProfile::last_s - LegProfile::first_s);
+  const float down = stations / (rest.place.y > knee.y ? hip.y - knee.y : knee.y - at(Segment::foot_right).y);
+  const float turn = an_angle * leg_angles / (2 * std::numbers::pi_v<float> * away);
+  const float out = side == Side::right ? 1.0F : -1.0F;  // angles grow to the inner side
+  const Vec3<float> normal{rest.normal.x - turn * out * z / away, rest.normal.y + a_station * down,
+                           rest.normal.z + turn * out * x / away};
+  return {{rest.place.x + lift * x / away, rest.place.y, rest.place.z + lift * z / away}, normal};
+}
+
+/// Where each vertex is, and its unit normal: frames and their mean in double precision.
+inline std::vector<std::array<Vec3<double>, 2>> place(const BodySkin& skin, const Pose<float>& pose,
+                                                      const SkinCover* cover) {
+  const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
+  const auto exact = [](const Quat<float>& q) {
+    return Quat<double>{static_cast<double>(q.x), static_cast<double>(q.y), static_cast<double>(q.z),
+                        static_cast<double>(q.w)};
+  };
+  const auto rotation = [&](std::uint8_t s) {
+    const Quat<double> own = exact(pose.rotation[segment_of(s)]);
+    if (s < segment_count) return own;
+    // the forearm without its turn about its own length
+    const Quat<double> arm = exact(pose.rotation[index(on_side(Segment::upper_arm_right, s - segment_count))]);
+    const Quat<double> elbow = product(conjugate(arm), own);
+    const double n = std::sqrt(elbow.y * elbow.y + elbow.w * elbow.w);
+    return product(own, conjugate(Quat<double>{0, elbow.y / n, 0, elbow.w / n}));
+  };
+  std::vector<std::array<Vec3<double>, 2>> all;
+  for (std::size_t v = 0; v < mesh.vertex.size(); ++v) {
+    RestPoint rest{skin.rest[v], skin.normal[v]};
+    if (cover != nullptr && mesh.leg[v].amount > 0) rest = lifted(skin, *cover, mesh.leg[v], rest);
+    Vec3<double> at{0, 0, 0}, normal{0, 0, 0};
+    for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+      const auto weight = static_cast<double>(mesh.vertex[v].weight[k]);
+      if (weight == 0) continue;
+      const SkinFrame& frame = mesh.frame[mesh.vertex[v].frame[k]];
+      const std::size_t bone = segment_of(frame.to);
+      const Quat<double> q = blended(rotation(frame.from), rotation(frame.to), static_cast<double>(frame.turn));
+      at = at + weight * (to_double(pose.position_m[bone]) +
+                          rotated(q, to_double(rest.place) - to_double(skin.standing.position_m[bone])));
+      normal = normal + weight * rotated(q, to_double(rest.normal));
+    }
+    all.push_back({at, normalised(normal)});
+  }
+  return all;
+}
+
+}  // namespace mobil::skin_oracle

@@ -39,7 +39,7 @@ LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
 
 LegPlace leg_place(const form::LegForm& leg, const Vec& rest, double share) {
   const double s = leg.s(rest.y);
-  const double amount = share * smoothstep(0.12, 0.24, s) * (1 - smoothstep(1.87, 1.95, s));
+  const double amount = share * smoothstep(0.10, 0.17, s) * (1 - smoothstep(1.87, 1.95, s));
   if (amount <= 0) return {};
   double round = std::atan2(rest.x - leg.hip().x, rest.z - leg.hip().z) / tau;
   if (round < 0) round += 1;

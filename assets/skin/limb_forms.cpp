@@ -81,7 +81,7 @@ double LegForm::distance(const Vec& p) const {
   if (const double below = y(LegProfile::last_s) - p.y; below > 0) {
     // But for where tendons go straight on, to the heel and to the instep.
     const double behind = smoothstep(0.6, 0.95, -std::cos(turn)), before = smoothstep(0.6, 0.95, std::cos(turn));
-    const double narrower = 0.3 - 0.45 * behind - 0.2 * before;
+    const double narrower = 0.3 - 0.5 * behind - 0.4 * before;
     d = from_line - r * (1 - narrower * std::min(below / into_foot_m, 1.0));
     if (below > into_foot_m) d = std::hypot(std::max(d, 0.0), below - into_foot_m);
   }

@@ -34,7 +34,7 @@ Share share_of(const form::BodyForm& form, const Vec& p) {
     if (share.arm < 1e-3) share.arm = 0;
   }
   share.left = smoothstep(-0.03 * size, 0.03 * size, p.x);
-  share.thigh = smoothstep(-0.12 * size, 0.20 * size, form.leg().hip().y - form.in_leg(q).y);
+  share.thigh = smoothstep(-hip_bend.above_m * size, hip_bend.below_m * size, form.leg().hip().y - form.in_leg(q).y);
   return share;
 }
 
@@ -145,8 +145,9 @@ class Binder {
                       foot = index(on_side(foot_right, side)), toes = index(on_side(toes_right, side));
     // Behind the ankle skin bends lower than in front: it lies over the tendon, which stays straight as the heel rises.
     const double behind = smoothstep(0, 0.035 * form_.size(), origin(foot_right).z - r.z);
-    const double knee = bent(origin(shank_right).y - r.y, knee_bend_m, knee_bend_m),
-                 ankle = bent(origin(foot_right).y - r.y, 0.09 - 0.06 * behind, 0.02 - 0.01 * behind);
+    const double knee = bent(origin(shank_right).y - r.y, knee_bend.above_m, knee_bend.below_m),
+                 ankle = bent(origin(foot_right).y - r.y, ankle_bend.above_m - 0.06 * behind,
+                              ankle_bend.below_m - 0.01 * behind);
     if (thigh < 1) return add(weight, index(pelvis), upper, thigh);
     if (knee < 1) return add(weight, upper, lower, knee);
     if (ankle < 1) return add(weight, lower, foot, ankle);

@@ -28,8 +28,11 @@ inline constexpr std::size_t skin_segments = segment_count + 2;
 constexpr std::size_t segment_of(std::uint8_t s) {
   return s < segment_count ? s : index(on_side(Segment::forearm_right, s - segment_count));
 }
-/// How far above and below the knee its skin bends, m of a body of 1.75 m.
-inline constexpr double knee_bend_m = 0.10;
+/// How far above and below a joint of the leg its skin bends, m of a body of 1.75 m; at the ankle, in front.
+struct SkinBend {
+  double above_m, below_m;
+};
+inline constexpr SkinBend hip_bend{0.12, 0.20}, knee_bend{0.10, 0.10}, ankle_bend{0.09, 0.02};
 
 /// Weights add up to 1; frames that are not used weigh 0.
 struct SkinVertex {

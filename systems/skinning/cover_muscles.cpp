@@ -40,46 +40,87 @@ HWY_INLINE V turn_of(const V& x, const V& z) {
   return hn::IfThenElse(hn::Lt(x, hn::Zero(tag)), hn::Sub(set(1), angle), angle);
 }
 
-/// A vector's part along an axis of a ring.
-HWY_INLINE V along_axis(const LegRings& rings, std::size_t axis, std::size_t ring, const V& x, const V& y, const V& z) {
-  const auto of = [&](std::size_t c) HWY_ATTR { return set(rings.axis[axis][c][ring]); };
-  return mul_add(z, of(2), mul_add(y, of(1), hn::Mul(x, of(0))));
-}
-
-struct InRing {
-  V x, y, z;  // to the side, over the knee, to the front, m
+struct CoverPoint {
+  V x, y, z;
 };
 
-/// Where vertices are in the rings that they lie in: of the thigh, of the shank, or of the bend between.
-HWY_INLINE InRing in_ring(const LegRings& rings, const V& x, const V& y, const V& z) {
-  constexpr std::size_t thigh = bend_rings;
-  const V high = along_axis(rings, 1, thigh, x, y, z), low = along_axis(rings, 1, 0, x, y, z);
-  const V bend = set(rings.bend_m);
-  const auto above = hn::Ge(high, bend);
-  const auto between = hn::AndNot(above, hn::Gt(low, hn::Neg(bend)));
-  const auto of = [&](std::size_t axis) HWY_ATTR {
-    return hn::IfThenElse(above, along_axis(rings, axis, thigh, x, y, z), along_axis(rings, axis, 0, x, y, z));
-  };
-  InRing in{of(0), hn::IfThenElse(above, high, low), of(2)};
-  if (HWY_LIKELY(hn::AllFalse(tag, between))) return in;
-  // The ring that a vertex lies in: the first where its height over the knee is not above the ring's own.
+/// A vector's part along an axis of a ring.
+HWY_INLINE V along_axis(const LegBend& bend, std::size_t axis, std::size_t ring, const CoverPoint& p) {
+  const auto of = [&](std::size_t c) HWY_ATTR { return set(bend.axis[axis][c][ring]); };
+  return mul_add(p.z, of(2), mul_add(p.y, of(1), hn::Mul(p.x, of(0))));
+}
+
+/// From a joint's centre.
+HWY_INLINE CoverPoint from_centre(const LegBend& bend, const CoverPoint& p) {
+  const Vec3<float>& c = bend.centre_m;
+  return {hn::Sub(p.x, set(c.x)), hn::Sub(p.y, set(c.y)), hn::Sub(p.z, set(c.z))};
+}
+
+/// Where points from a joint's centre are in the ring that they lie in: the first where their height is not above the
+/// ring's own.
+HWY_INLINE CoverPoint in_bend(const LegBend& bend, const hn::Mask<EightTag>& there, const CoverPoint& p) {
   constexpr IntTag whole;
-  hn::Vec<IntTag> ring = hn::Set(whole, 1);
-  auto below = between;
-  for (std::size_t k = 1; k < bend_rings; ++k) {
-    below = hn::And(below, hn::Gt(along_axis(rings, 1, k, x, y, z), set(rings.height_m(k))));
-    if (hn::AllFalse(tag, below)) break;
-    ring = hn::IfThenElse(hn::RebindMask(whole, below), hn::Set(whole, static_cast<std::int32_t>(k) + 1), ring);
-  }
-  const auto bent = [&](std::size_t axis) HWY_ATTR {
-    const auto gathered = [&](std::size_t c)
-                              HWY_ATTR { return hn::GatherIndex(tag, rings.axis[axis][c].data(), ring); };
-    return mul_add(z, gathered(2), mul_add(y, gathered(1), hn::Mul(x, gathered(0))));
+  const auto above_ring = [&](std::size_t k) HWY_ATTR {
+    return hn::And(there, hn::Gt(along_axis(bend, 1, k, p), set(bend.height_m(k))));
   };
-  in.x = hn::IfThenElse(between, bent(0), in.x);
-  in.y = hn::IfThenElse(between, hn::Max(hn::Neg(bend), hn::Min(bend, bent(1))), in.y);
-  in.z = hn::IfThenElse(between, bent(2), in.z);
-  return in;
+  // Vertices side by side lie in rings side by side: all are often above the first ones.
+  std::size_t first = 1;
+  for (const std::size_t k : {bend_rings / 4, bend_rings / 2, 3 * bend_rings / 4}) {
+    if (!hn::AllTrue(tag, hn::Or(hn::Not(there), above_ring(k)))) break;
+    first = k + 1;
+  }
+  hn::Vec<IntTag> ring = hn::Set(whole, static_cast<std::int32_t>(first));
+  for (std::size_t k = first; k < bend_rings; ++k) {
+    const auto above = above_ring(k);
+    if (hn::AllFalse(tag, above)) break;
+    ring = hn::IfThenElse(hn::RebindMask(whole, above), hn::Set(whole, static_cast<std::int32_t>(k) + 1), ring);
+  }
+  const auto along = [&](std::size_t axis) HWY_ATTR {
+    const auto of = [&](std::size_t c) HWY_ATTR { return hn::GatherIndex(tag, bend.axis[axis][c].data(), ring); };
+    return mul_add(p.z, of(2), mul_add(p.y, of(1), hn::Mul(p.x, of(0))));
+  };
+  return {along(0), hn::Max(set(bend.low_m), hn::Min(set(bend.high_m), along(1))), along(2)};
+}
+
+HWY_INLINE CoverPoint choose(const hn::Mask<EightTag>& which, const CoverPoint& yes, const CoverPoint& no) {
+  return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y), hn::IfThenElse(which, yes.z, no.z)};
+}
+
+/// Where vertices are on the leg: x to the side and z to the front of its line (m), y how far down it (s).
+HWY_INLINE CoverPoint on_leg(const LegRings& rings, const CoverPoint& p) {
+  constexpr std::size_t above = bend_rings, below = 0;
+  const LegBend& knee = rings.knee;
+  const CoverPoint from = from_centre(knee, p);
+  const auto straight = [&](std::size_t ring, const V& y) HWY_ATTR {
+    return CoverPoint{along_axis(knee, 0, ring, from), y, along_axis(knee, 2, ring, from)};
+  };
+  const auto down = [&](float joint_s, const V& y, float length_m)
+                        HWY_ATTR { return neg_mul_add(y, set(1 / length_m), set(joint_s)); };
+  const V high = along_axis(knee, 1, above, from), low = along_axis(knee, 1, below, from);
+  const auto is_thigh = hn::Ge(high, set(knee.high_m)), is_shank = hn::AndNot(is_thigh, hn::Le(low, set(knee.low_m)));
+  CoverPoint at =
+      choose(is_thigh, straight(above, down(1, high, rings.thigh_m)), straight(below, down(1, low, rings.shank_m)));
+  if (const auto is_knee = hn::Not(hn::Or(is_thigh, is_shank)); HWY_UNLIKELY(!hn::AllFalse(tag, is_knee))) {
+    CoverPoint bent = in_bend(knee, is_knee, from);
+    bent.y =
+        hn::IfThenElse(hn::Gt(bent.y, hn::Zero(tag)), down(1, bent.y, rings.thigh_m), down(1, bent.y, rings.shank_m));
+    at = choose(is_knee, bent, at);
+  }
+  if (const auto is_hip = hn::And(is_thigh, hn::Gt(high, set(rings.thigh_m + rings.hip.low_m)));
+      HWY_UNLIKELY(!hn::AllFalse(tag, is_hip))) {
+    CoverPoint bent = in_bend(rings.hip, is_hip, from_centre(rings.hip, p));
+    bent.y = down(0, bent.y, rings.thigh_m);
+    at = choose(is_hip, bent, at);
+  }
+  // Behind the ankle skin bends below the grid.
+  if (const auto is_ankle =
+          hn::And(hn::And(is_shank, hn::Lt(low, set(rings.ankle.high_m - rings.shank_m))), hn::Gt(at.z, hn::Zero(tag)));
+      HWY_UNLIKELY(!hn::AllFalse(tag, is_ankle))) {
+    CoverPoint bent = in_bend(rings.ankle, is_ankle, from_centre(rings.ankle, p));
+    bent.y = down(2, bent.y, rings.shank_m);
+    at = choose(is_ankle, bent, at);
+  }
+  return at;
 }
 
 // A grid with room on either side of each station for the neighbours of its first and last angle.
@@ -139,9 +180,12 @@ void spread(WideGrid& grid, WideGrid& work) {
   });
 }
 
-/// Of a grid whose rings begin anew behind their last angle, and one station that is never read.
-constexpr std::size_t reach_angles = leg_angles + 2;
-using Reach = std::array<float, (leg_stations + 1) * reach_angles>;
+/// Of a grid whose rings begin anew behind their last angle, and one station that is never read. Vertices side by side
+/// raise the same numbers: they take turns with several such grids, so that none waits for the one before.
+constexpr std::size_t reach_angles = leg_angles + 2, reaches = 4;
+struct Reach {
+  std::array<float, (leg_stations + 1) * reach_angles> most[reaches];
+};
 
 /// Two numbers to no less than two others.
 HWY_INLINE void raise(float* to, const float* least) {
@@ -153,7 +197,7 @@ HWY_INLINE void raise(float* to, const float* least) {
 void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, Reach& reach) {
   constexpr float beside_m = 0.004F;
   constexpr IntTag whole;
-  reach.fill(0);
+  for (auto& most : reach.most) most.fill(0);
   for (std::size_t first = 0; first < muscles.size(); first += eight_lanes) {
     V x, y, z;
     if (first + eight_lanes <= muscles.size()) {
@@ -163,11 +207,8 @@ void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, Rea
       for (std::size_t i = 0; i < eight_lanes; ++i) last[i] = muscles[std::min(first + i, muscles.size() - 1)];
       hn::LoadInterleaved3(tag, &last->x, x, y, z);
     }
-    const InRing at = in_ring(rings, hn::Sub(x, set(rings.knee_m.x)), hn::Sub(y, set(rings.knee_m.y)),
-                              hn::Sub(z, set(rings.knee_m.z)));
-    const V out = hn::Mul(set(rings.out), at.x);
-    const auto is_thigh = hn::Gt(at.y, hn::Zero(tag));
-    const V s = neg_mul_add(at.y, hn::IfThenElse(is_thigh, set(1 / rings.thigh_m), set(1 / rings.shank_m)), set(1));
+    const CoverPoint at = on_leg(rings, {x, y, z});
+    const V out = hn::Mul(set(rings.out), at.x), s = at.y;
     constexpr auto first_s = static_cast<float>(LegProfile::first_s), last_s = static_cast<float>(LegProfile::last_s);
     constexpr float stations = (leg_stations - 1) / (last_s - first_s);
     const V along = hn::Mul(hn::Sub(s, set(first_s)), set(stations));
@@ -188,15 +229,21 @@ void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, Rea
     for (std::size_t k = 0; k < 4; ++k) store_vertices(tag, rows.row[k], value + 4 * k, 4);
     hn::Store(hn::Add(hn::Mul(i, hn::Set(whole, static_cast<std::int32_t>(reach_angles))), j), whole, to);
     for (std::size_t lane = 0; lane < eight_lanes; ++lane) {
-      float* const here = &reach[static_cast<std::size_t>(to[lane])];
+      float* const here = &reach.most[lane % reaches][static_cast<std::size_t>(to[lane])];
       raise(here, value + 4 * lane);
       raise(here + reach_angles, value + 4 * lane + 2);
     }
   }
+  auto& all = reach.most[0];
   for (std::size_t i = 0; i < leg_stations; ++i) {
-    float* const row = &reach[i * reach_angles];
-    row[0] = std::max(row[0], row[leg_angles]);
-    row[1] = std::max(row[1], row[leg_angles + 1]);
+    float* const row = &all[i * reach_angles];
+    for (std::size_t k = 1; k < reaches; ++k) {
+      const float* const other = &reach.most[k][i * reach_angles];
+      for (std::size_t j = 0; j < leg_angles; j += eight_lanes)
+        hn::StoreU(hn::Max(hn::LoadU(tag, row + j), hn::LoadU(tag, other + j)), tag, row + j);
+      raise(row + leg_angles, other + leg_angles);
+    }
+    raise(row, row + leg_angles);
   }
 }
 
@@ -218,7 +265,7 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
   each_angle([&](std::size_t i, std::size_t j) HWY_ATTR {
     const std::size_t n = i * leg_angles + j;
     const V base = hn::Mul(scale, hn::LoadU(tag, &grid.base[n])), fat = hn::Mul(scale, hn::LoadU(tag, &grid.fat[n])),
-            most = hn::LoadU(tag, &reach[i * reach_angles + j]);
+            most = hn::LoadU(tag, &reach.most[0][i * reach_angles + j]);
     const auto reached = hn::Gt(most, hn::Zero(tag));
     const V over = hn::Sub(rounded_max(base, hn::Add(most, fat), round_m), base);
     const V least = hn::Sub(hn::Add(mul_add(set(0.5F), hn::Min(fat, set(thin_m)), set(least_m)), most), base);
@@ -243,14 +290,14 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
     const std::size_t n = i * leg_angles + j;
     const V base = hn::LoadU(tag, &grid.base[n]);
     V h = mul_add(scale, base, hn::Max(hn::Load(tag, excess.station(i) + j), hn::Load(tag, floor.station(i) + j)));
-    if (rings.curved[i] > 0.1F) {
-      // How far from the line a bent knee has room for skin.
+    if (std::abs(rings.curved[i]) > 0.1F) {
+      // How far from the line a bent joint has room for skin.
       const V inner = hn::LoadU(tag, &rings.inner[j]);
-      const V room = hn::Div(set(0.92F), hn::Mul(set(rings.curved[i]), inner));
+      const V hollow = hn::Mul(set(rings.curved[i]), inner), room = hn::Div(set(0.92F), hollow);
       const V most = hn::Mul(set(0.8F), room), last = hn::Mul(set(0.2F), room);
       const V beyond = hn::Div(hn::Sub(h, most), last);
       const V squeezed = mul_add(last, hn::Div(beyond, hn::Add(set(1), beyond)), most);
-      h = hn::IfThenElse(hn::And(hn::Gt(inner, set(0.05F)), hn::Gt(h, most)), squeezed, h);
+      h = hn::IfThenElse(hn::And(hn::Gt(hollow, set(0.05F)), hn::Gt(h, most)), squeezed, h);
     }
     // As of the skin at rest, which `lengths` makes larger.
     hn::StoreU(hn::Sub(hn::Mul(h, smaller), base), tag, &lift_m[n]);

@@ -25,36 +25,59 @@ std::array<float, leg_angles> inner_side() {
   return inner;
 }
 
-}  // namespace
-
-LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side) {
-  const std::size_t thigh = index(on_side(Segment::thigh_right, side)),
-                    shank = index(on_side(Segment::shank_right, side)),
-                    foot = index(on_side(Segment::foot_right, side));
-  const auto& standing = skin.standing.position_m;
-  LegRings rings;
-  rings.knee_m = pose.position_m[shank];
-  rings.thigh_m = lengths * (standing[thigh].y - standing[shank].y);
-  rings.shank_m = lengths * (standing[shank].y - standing[foot].y);
-  const float height_m = standing[index(Segment::pelvis)].y / static_cast<float>(fraction::hip_height);
-  rings.bend_m = static_cast<float>(knee_bend_m / 1.75) * lengths * height_m;
-  rings.out = side == Side::right ? 1.0F : -1.0F;
+/// `size`: over that of a body of 1.75 m.
+LegBend bend_of(const Quat<float>& above, const Quat<float>& below, const Vec3<float>& centre_m, const SkinBend& bend,
+                float size) {
+  LegBend rings;
+  rings.centre_m = centre_m;
+  rings.low_m = -size * static_cast<float>(bend.below_m);
+  rings.high_m = size * static_cast<float>(bend.above_m);
   for (std::size_t k = 0; k <= bend_rings; ++k) {
-    const float part = eased(static_cast<float>(k) / bend_rings);
-    const auto axes = columns(blended(pose.rotation[shank], pose.rotation[thigh], part));
+    const auto axes = columns(blended(below, above, eased(static_cast<float>(k) / bend_rings)));
     for (std::size_t a = 0; a < 3; ++a) {
       rings.axis[a][0][k] = axes[a].x;
       rings.axis[a][1][k] = axes[a].y;
       rings.axis[a][2][k] = axes[a].z;
     }
   }
-  const Quat<float> knee = product(conjugate(pose.rotation[thigh]), pose.rotation[shank]);
-  const float angle = std::max(0.0F, 2 * std::atan2(knee.w < 0 ? -knee.x : knee.x, std::abs(knee.w)));
+  return rings;
+}
+
+/// How far a joint is bent about its x axis, rad; backwards above 0.
+float bent_back(const Quat<float>& above, const Quat<float>& below) {
+  const Quat<float> joint = product(conjugate(above), below);
+  return 2 * std::atan2(joint.w < 0 ? -joint.x : joint.x, std::abs(joint.w));
+}
+
+/// By how much the line bends at a height over a joint that is bent by `angle`.
+float curved_at(float y, float angle, const LegBend& bend) {
+  const float wide = bend.high_m - bend.low_m, t = (y - bend.low_m) / wide;
+  return t <= 0 || t >= 1 ? 0 : angle * 6 * t * (1 - t) / wide;
+}
+
+}  // namespace
+
+LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side) {
+  const std::size_t pelvis = index(Segment::pelvis), thigh = index(on_side(Segment::thigh_right, side)),
+                    shank = index(on_side(Segment::shank_right, side)),
+                    foot = index(on_side(Segment::foot_right, side));
+  const auto& standing = skin.standing.position_m;
+  const auto& turned = pose.rotation;
+  const float size = lengths * standing[pelvis].y / static_cast<float>(1.75 * fraction::hip_height);
+  LegRings rings;
+  rings.thigh_m = lengths * (standing[thigh].y - standing[shank].y);
+  rings.shank_m = lengths * (standing[shank].y - standing[foot].y);
+  rings.hip = bend_of(turned[pelvis], turned[thigh], pose.position_m[thigh], hip_bend, size);
+  rings.knee = bend_of(turned[thigh], turned[shank], pose.position_m[shank], knee_bend, size);
+  rings.ankle = bend_of(turned[shank], turned[foot], pose.position_m[foot], ankle_bend, size);
+  rings.out = side == Side::right ? 1.0F : -1.0F;
+  const float hip = bent_back(turned[pelvis], turned[thigh]), knee = bent_back(turned[thigh], turned[shank]);
   constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const float s = first + (last - first) * static_cast<float>(i) / (leg_stations - 1);
-    const float y = s < 1 ? (1 - s) * rings.thigh_m : (1 - s) * rings.shank_m, t = 0.5F * (y / rings.bend_m + 1);
-    rings.curved[i] = t <= 0 || t >= 1 ? 0 : angle * 6 * t * (1 - t) / (2 * rings.bend_m);
+    const float over_knee = s < 1 ? (1 - s) * rings.thigh_m : (1 - s) * rings.shank_m;
+    rings.curved[i] =
+        curved_at(over_knee, std::max(0.0F, knee), rings.knee) + curved_at(-s * rings.thigh_m, hip, rings.hip);
   }
   static const std::array<float, leg_angles> inner = inner_side();
   rings.inner = inner;

@@ -1,5 +1,5 @@
 #pragma once
-// The leg as its skin has it: straight above and below the knee, turning evenly between.
+// The leg as its skin has it: straight along thigh and shank, turning step by step at hip, knee and ankle.
 
 #include <array>
 #include <cstddef>
@@ -9,23 +9,27 @@
 
 namespace mobil {
 
-/// Steps of the bend of a knee.
+/// Steps of a joint's bend.
 inline constexpr std::size_t bend_rings = 16;
 
-struct LegRings {
-  Vec3<float> knee_m;
-  float thigh_m, shank_m;
-  float bend_m;  // above and below the knee
-  float out;     // 1 on the right, −1 on the left: where a leg's angles grow to
-  /// x, y and z of the rings' axes (to the left, up, to the front): of the shank's first, of the thigh's last.
+/// The rings of one joint, each turned about its centre: the first as the segment below, the last as the one above.
+struct LegBend {
+  Vec3<float> centre_m;
+  float low_m, high_m;  // the first and the last ring's height over the centre
+  /// x, y and z of the rings' axes (to the left, up, to the front).
   std::array<std::array<std::array<float, bend_rings + 1>, 3>, 3> axis;
-  std::array<float, leg_stations> curved;  // by how much the line bends there, rad/m
-  std::array<float, leg_angles> inner;     // 1 in the hollow of the knee, −1 at its front
 
-  /// How high above the knee a ring lies.
   float height_m(std::size_t ring) const {
-    return bend_m * (2 * static_cast<float>(ring) / static_cast<float>(bend_rings) - 1);
+    return low_m + (high_m - low_m) * static_cast<float>(ring) / static_cast<float>(bend_rings);
   }
+};
+
+struct LegRings {
+  LegBend hip, knee, ankle;  // the ankle's as its skin bends in front
+  float thigh_m, shank_m;
+  float out;                               // 1 on the right, −1 on the left: where a leg's angles grow to
+  std::array<float, leg_stations> curved;  // by how much the line bends there, rad/m; below 0 towards the front
+  std::array<float, leg_angles> inner;     // 1 behind the leg, −1 at its front
 };
 
 /// Of one leg in a pose (world, m); `lengths`: as of SkinShape.

@@ -36,67 +36,101 @@ inline float turn_of(float x, float z) {
   return (x < 0 ? tau - angle : angle) / tau;
 }
 
-/// The leg as its skin has it: straight above and below the knee, turning evenly between.
+/// A joint's rings: the first as the segment below, the last as the one above.
+struct Bend {
+  Vec3<float> centre;
+  float low, high, angle;
+  std::array<std::array<Vec3<float>, 3>, steps + 1> axes;
+
+  Bend(const Pose<float>& pose, std::size_t above, std::size_t below, const SkinBend& bend, float size)
+      : centre(pose.position_m[below]),
+        low(-size * static_cast<float>(bend.below_m)),
+        high(size * static_cast<float>(bend.above_m)) {
+    const Quat<float>&upper = pose.rotation[above], &lower = pose.rotation[below];
+    for (std::size_t k = 0; k <= steps; ++k)
+      axes[k] = columns(blended(lower, upper, eased(static_cast<float>(k) / steps)));
+    const Quat<float> joint = product(conjugate(upper), lower);
+    angle = 2 * std::atan2(joint.w < 0 ? -joint.x : joint.x, std::abs(joint.w));
+  }
+  float height(std::size_t k) const { return low + (high - low) * static_cast<float>(k) / steps; }
+  float curved(float y) const {
+    const float t = (y - low) / (high - low);
+    return t <= 0 || t >= 1 ? 0 : angle * 6 * t * (1 - t) / (high - low);
+  }
+  /// A point in one ring: to the left, up, to the front.
+  Vec3<float> in(std::size_t k, const Vec3<float>& p) const {
+    return {dot(axes[k][0], p - centre), dot(axes[k][1], p - centre), dot(axes[k][2], p - centre)};
+  }
+  /// In the first ring where its height is not above the ring's own.
+  Vec3<float> in(const Vec3<float>& p) const {
+    std::size_t k = 1;
+    while (k < steps && in(k, p).y > height(k)) ++k;
+    Vec3<float> at = in(k, p);
+    at.y = std::clamp(at.y, low, high);
+    return at;
+  }
+};
+
+/// The leg as its skin has it: straight along thigh and shank, turning at its joints.
 class Rings {
  public:
-  Rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side) {
-    const std::size_t thigh = index(on_side(Segment::thigh_right, side)),
-                      shank = index(on_side(Segment::shank_right, side)),
-                      foot = index(on_side(Segment::foot_right, side));
-    knee_ = pose.position_m[shank];
-    thigh_m_ = lengths * (skin.standing.position_m[thigh].y - skin.standing.position_m[shank].y);
-    shank_m_ = lengths * (skin.standing.position_m[shank].y - skin.standing.position_m[foot].y);
-    bend_ = static_cast<float>(knee_bend_m / 1.75) * lengths * height_m(skin);
+  Rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side)
+      : Rings(skin, pose, lengths, on_side(Segment::thigh_right, side), on_side(Segment::shank_right, side),
+              on_side(Segment::foot_right, side)) {
     out_ = side == Side::right ? 1.0F : -1.0F;
-    for (std::size_t k = 0; k <= steps; ++k)
-      axes_[k] = columns(blended(pose.rotation[shank], pose.rotation[thigh], eased(part(k))));
-    const Quat<float> relative = product(conjugate(pose.rotation[thigh]), pose.rotation[shank]);
-    angle_ = std::max(0.0F, 2 * std::atan2(relative.w < 0 ? -relative.x : relative.x, std::abs(relative.w)));
   }
 
   struct Place {
     float along, round, radius;  // stations, angles, m
   };
   Place place(const Vec3<float>& p) const {
-    const Vec3<float> from = p - knee_;
-    const float high = dot(axes_[steps][1], from), low = dot(axes_[0][1], from);
-    std::size_t ring = 0;
-    float y = low;
-    if (high >= bend_) {
-      ring = steps;
-      y = high;
-    } else if (low > -bend_) {
-      // The ring that the point lies in: where its height over the knee is the ring's own.
-      ring = 1;
-      while (ring < steps && dot(axes_[ring][1], from) > height(ring)) ++ring;
-      y = std::clamp(dot(axes_[ring][1], from), -bend_, bend_);
+    const Vec3<float> high = knee_.in(steps, p), low = knee_.in(std::size_t{0}, p);
+    const auto over_knee = [&](float y) { return y > 0 ? 1 - y / thigh_m_ : 1 - y / shank_m_; };
+    if (high.y >= knee_.high) {
+      if (high.y <= thigh_m_ + hip_.low) return place(high, over_knee(high.y));
+      const Vec3<float> at = hip_.in(p);
+      return place(at, -at.y / thigh_m_);
     }
-    const float x = out_ * dot(axes_[ring][0], from), z = dot(axes_[ring][2], from);
-    const float s = y > 0 ? 1 - y / thigh_m_ : 1 - y / shank_m_;
-    constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
-    return {(s - first) / (last - first) * (leg_stations - 1), turn_of(x, z) * leg_angles, std::sqrt(x * x + z * z)};
+    if (low.y > knee_.low) {
+      const Vec3<float> at = knee_.in(p);
+      return place(at, over_knee(at.y));
+    }
+    if (low.y >= ankle_.high - shank_m_ || low.z <= 0) return place(low, over_knee(low.y));
+    const Vec3<float> at = ankle_.in(p);
+    return place(at, 2 - at.y / shank_m_);
   }
 
-  /// How far from the line a bent knee has room for skin, m, at a station and an angle; large elsewhere.
+  /// How far from the line a bent joint has room for skin, m, at a station and an angle; large elsewhere.
   float room(std::size_t station, std::size_t angle) const {
     constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
     const float s = first + (last - first) * static_cast<float>(station) / (leg_stations - 1);
-    const float y = s < 1 ? (1 - s) * thigh_m_ : (1 - s) * shank_m_, t = 0.5F * (y / bend_ + 1);
-    const float inner = -std::cos(tau * static_cast<float>(angle) / leg_angles);
-    const float curved = t <= 0 || t >= 1 ? 0 : angle_ * 6 * t * (1 - t) / (2 * bend_);
-    return inner > 0.05F && curved > 0.1F ? 0.92F / (curved * inner) : 1;
+    const float y = s < 1 ? (1 - s) * thigh_m_ : (1 - s) * shank_m_;
+    const float curved = (knee_.angle > 0 ? knee_.curved(y) : 0) + hip_.curved(-s * thigh_m_);
+    const float hollow = -curved * std::cos(tau * static_cast<float>(angle) / leg_angles);
+    return hollow > 0.05F && std::abs(curved) > 0.1F ? 0.92F / hollow : 1;
   }
 
  private:
-  static float height_m(const BodySkin& skin) {
-    return skin.standing.position_m[index(Segment::pelvis)].y / static_cast<float>(fraction::hip_height);
+  Rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Segment thigh, Segment shank, Segment foot)
+      : hip_(pose, index(Segment::pelvis), index(thigh), hip_bend, lengths * size_of(skin)),
+        knee_(pose, index(thigh), index(shank), knee_bend, lengths * size_of(skin)),
+        ankle_(pose, index(shank), index(foot), ankle_bend, lengths * size_of(skin)) {
+    const auto y = [&](Segment s) { return skin.standing.position_m[index(s)].y; };
+    thigh_m_ = lengths * (y(thigh) - y(shank));
+    shank_m_ = lengths * (y(shank) - y(foot));
   }
-  static float part(std::size_t k) { return static_cast<float>(k) / steps; }
-  float height(std::size_t k) const { return bend_ * (2 * part(k) - 1); }
+  static float size_of(const BodySkin& skin) {
+    return skin.standing.position_m[index(Segment::pelvis)].y / static_cast<float>(1.75 * fraction::hip_height);
+  }
+  Place place(const Vec3<float>& at, float s) const {
+    constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
+    const float x = out_ * at.x;
+    return {(s - first) / (last - first) * (leg_stations - 1), turn_of(x, at.z) * leg_angles,
+            std::sqrt(x * x + at.z * at.z)};
+  }
 
-  Vec3<float> knee_;
-  float thigh_m_, shank_m_, bend_, out_, angle_;
-  std::array<std::array<Vec3<float>, 3>, steps + 1> axes_;  // from the shank's to the thigh's
+  Bend hip_, knee_, ankle_;
+  float thigh_m_, shank_m_, out_ = 1;
 };
 
 /// Each point a little nearer to the mean of its four neighbours.

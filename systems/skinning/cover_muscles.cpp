@@ -97,9 +97,15 @@ HWY_INLINE CoverPoint on_leg(const LegRings& rings, const CoverPoint& p) {
   const auto down = [&](float joint_s, const V& y, float length_m)
                         HWY_ATTR { return neg_mul_add(y, set(1 / length_m), set(joint_s)); };
   const V high = along_axis(knee, 1, above, from), low = along_axis(knee, 1, below, from);
-  const auto is_thigh = hn::Ge(high, set(knee.high_m)), is_shank = hn::AndNot(is_thigh, hn::Le(low, set(knee.low_m)));
-  CoverPoint at =
-      choose(is_thigh, straight(above, down(1, high, rings.thigh_m)), straight(below, down(1, low, rings.shank_m)));
+  const CoverPoint thigh = straight(above, down(1, high, rings.thigh_m)),
+                   shank = straight(below, down(1, low, rings.shank_m));
+  // Where a knee is bent beyond a right angle, the one whose line is nearer.
+  const auto square = [](const CoverPoint& at) HWY_ATTR { return mul_add(at.z, at.z, hn::Mul(at.x, at.x)); };
+  const auto may_be_shank = hn::Le(low, set(knee.low_m));
+  const auto is_thigh =
+      hn::AndNot(hn::And(may_be_shank, hn::Lt(square(shank), square(thigh))), hn::Ge(high, set(knee.high_m)));
+  const auto is_shank = hn::AndNot(is_thigh, may_be_shank);
+  CoverPoint at = choose(is_thigh, thigh, shank);
   if (const auto is_knee = hn::Not(hn::Or(is_thigh, is_shank)); HWY_UNLIKELY(!hn::AllFalse(tag, is_knee))) {
     CoverPoint bent = in_bend(knee, is_knee, from);
     bent.y =

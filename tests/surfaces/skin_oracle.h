@@ -86,7 +86,8 @@ class Rings {
   Place place(const Vec3<float>& p) const {
     const Vec3<float> high = knee_.in(steps, p), low = knee_.in(std::size_t{0}, p);
     const auto over_knee = [&](float y) { return y > 0 ? 1 - y / thigh_m_ : 1 - y / shank_m_; };
-    if (high.y >= knee_.high) {
+    const auto square = [](const Vec3<float>& at) { return at.x * at.x + at.z * at.z; };
+    if (high.y >= knee_.high && !(low.y <= knee_.low && square(low) < square(high))) {
       if (high.y <= thigh_m_ + hip_.low) return place(high, over_knee(high.y));
       const Vec3<float> at = hip_.in(p);
       return place(at, -at.y / thigh_m_);

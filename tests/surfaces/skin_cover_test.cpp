@@ -1,0 +1,265 @@
+// Skin over muscles that move: nothing comes through, in walks and in any pose that joints allow.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/skin/body_skin.h"
+#include "engine/geometry.h"
+#include "systems/simulation.h"
+#include "systems/surfaces/surfaces.h"
+#include "tests/surfaces/skin_placed.h"
+
+namespace mobil::skin_cover_test {
+namespace {
+
+using namespace geometry;
+using skin_test::place;
+using skin_test::Placed;
+
+struct Somebody {
+  float height_m, mass_kg;
+  Sex sex;
+
+  BodyRequest body() const {
+    BodyRequest request{.height_m = height_m, .mass_kg = mass_kg};
+    request.sex = sex;
+    return request;
+  }
+};
+/// The thin man's muscles are as large as they would be under more fat.
+constexpr std::array<Somebody, 6> people = {{{1.75F, 75, Sex::man},
+                                             {1.65F, 62, Sex::woman},
+                                             {1.90F, 90, Sex::man},
+                                             {1.60F, 70, Sex::woman},
+                                             {1.75F, 58, Sex::man},
+                                             {1.70F, 95, Sex::man}}};
+
+/// Which triangles of a closed surface a ray along x may meet.
+class Rays {
+ public:
+  Rays(const std::vector<Vec3<float>>& position, const std::vector<std::uint32_t>& triangle)
+      : position_(position), triangle_(triangle) {
+    for (std::uint32_t t = 0; t < triangle.size(); t += 3) {
+      int low_y = 1 << 30, low_z = 1 << 30, high_y = -low_y, high_z = -low_z;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [y, z] = cell(position[triangle[t + k]]);
+        low_y = std::min(low_y, y), high_y = std::max(high_y, y), low_z = std::min(low_z, z),
+        high_z = std::max(high_z, z);
+      }
+      for (int y = low_y; y <= high_y; ++y) {
+        for (int z = low_z; z <= high_z; ++z) bucket_[{y, z}].push_back(t);
+      }
+    }
+  }
+  bool inside(const Vec3<float>& p) const {
+    const auto found = bucket_.find(cell(p));
+    if (found == bucket_.end()) return false;
+    int crossings = 0;
+    for (const std::uint32_t t : found->second) {
+      const Vec3<float> a = position_[triangle_[t]] - p, b = position_[triangle_[t + 1]] - p,
+                        c = position_[triangle_[t + 2]] - p;
+      const auto turn = [](const Vec3<float>& u, const Vec3<float>& v) { return u.y * v.z - u.z * v.y; };
+      const float ab = turn(a, b), bc = turn(b, c), ca = turn(c, a), all = ab + bc + ca;
+      if ((ab < 0) != (bc < 0) || (bc < 0) != (ca < 0) || all == 0) continue;
+      if ((bc * a.x + ca * b.x + ab * c.x) / all > 0) crossings += all > 0 ? 1 : -1;
+    }
+    return crossings != 0;
+  }
+
+  /// How far a point is from the surface, m; 0.05 where it is farther.
+  double distance(const Vec3<float>& p) const {
+    constexpr double far = 0.05;
+    double nearest = far;
+    for (std::size_t t = 0; t < triangle_.size(); t += 3) {
+      const Vec a = to_double(position_[triangle_[t]]) - to_double(p);
+      if (dot(a, a) > 4 * far * far) continue;
+      const Vec b = to_double(position_[triangle_[t + 1]]) - to_double(p),
+                c = to_double(position_[triangle_[t + 2]]) - to_double(p);
+      nearest = std::min(nearest, from_origin(a, b, c));
+    }
+    return nearest;
+  }
+
+ private:
+  /// How far the origin is from a triangle: from its plane if it lies over it, else from its nearest edge.
+  static double from_origin(const Vec& a, const Vec& b, const Vec& c) {
+    const Vec n = cross(b - a, c - a);
+    const double area = length(n);
+    if (area > 0 && dot(cross(a, b), n) >= 0 && dot(cross(b, c), n) >= 0 && dot(cross(c, a), n) >= 0)
+      return std::abs(dot(a, n)) / area;
+    double nearest = 1;
+    for (const auto& [p, q] : {std::pair(a, b), std::pair(b, c), std::pair(c, a)}) {
+      const Vec edge = q - p;
+      const double along = std::clamp(-dot(p, edge) / std::max(dot(edge, edge), 1e-20), 0.0, 1.0);
+      nearest = std::min(nearest, length(p + along * edge));
+    }
+    return nearest;
+  }
+  static std::pair<int, int> cell(const Vec3<float>& p) {
+    return {static_cast<int>(std::floor(p.y * 50)), static_cast<int>(std::floor(p.z * 50))};
+  }
+  const std::vector<Vec3<float>>& position_;
+  const std::vector<std::uint32_t>& triangle_;
+  std::map<std::pair<int, int>, std::vector<std::uint32_t>> bucket_;
+};
+
+/// How much of a person's muscles is outside of their skin.
+struct Outside {
+  std::size_t all = 0, without = 0, outside = 0, beyond = 0;  // vertices; without cover, with it, by more than 2 mm
+  double worst_m = 0, most_lift_m = 0;
+
+  void print(const char* what, const Somebody& of) const {
+    const auto part = [&](std::size_t n) { return 100.0 * static_cast<double>(n) / static_cast<double>(all); };
+    std::printf(
+        "[ cover ] %s %.2f m %.0f kg: of muscle outside %.2f %% without cover, %.3f %% with, by more than 2 mm"
+        " %.3f %%, worst %.1f mm; lifted by %.1f mm\n",
+        what, static_cast<double>(of.height_m), static_cast<double>(of.mass_kg), part(without), part(outside),
+        part(beyond), 1e3 * worst_m, 1e3 * most_lift_m);
+  }
+};
+
+/// One person's muscles as they are drawn, and the skin over them.
+class Watched {
+ public:
+  Watched(Simulation& simulation, Entity person, double detail)
+      : simulation_(simulation),
+        person_(person),
+        body_(simulation.human(person)->body),
+        bound_(*bind_surfaces(body_, {.bones = false, .detail = detail})),
+        skin_(*make_body_skin(body_, SkinDetail::near, {.dressed = false})),
+        vertex_(bound_.vertices) {
+    for (const BodySurfaces::Driver& driver : bound_.driver) {
+      muscles_.push_back({driver.muscle,
+                          {simulation.muscle(person, driver.muscle, Side::right),
+                           simulation.muscle(person, driver.muscle, Side::left)}});
+    }
+  }
+  const Body& body() const { return body_; }
+
+  void look(Outside& found) {
+    SurfaceRequest wanted{person_, muscles_, &bound_};
+    wanted.positions.bytes = std::as_writable_bytes(std::span(vertex_));
+    ASSERT_TRUE(writer_.write(simulation_.world(), {&wanted, 1}));
+    const Pose<float> pose = *simulation_.get<Pose>(person_);
+    SkinCover cover;
+    for (const Side side : {Side::right, Side::left}) {
+      std::vector<Vec3<float>> of_side;
+      for (const SurfacePart& part : bound_.part) {
+        if (part.side != side) continue;
+        of_side.insert(of_side.end(), vertex_.begin() + part.first_vertex,
+                       vertex_.begin() + part.first_vertex + part.vertices);
+      }
+      cover_muscles(skin_, pose, 1, side, of_side, cover.lift_m[side]);
+      for (const float lift : cover.lift_m[side])
+        found.most_lift_m = std::max(found.most_lift_m, static_cast<double>(lift));
+    }
+    const std::vector<std::uint32_t>& triangle = skin_mesh(skin_.sex, skin_.detail).triangle;
+    const Placed bare = place(skin_, pose), covered = place(skin_, pose, &cover);
+    const Rays without(bare.position, triangle), with(covered.position, triangle);
+    for (const Vec3<float>& p : vertex_) {
+      ++found.all;
+      found.without += without.inside(p) ? 0 : 1;
+      if (with.inside(p)) continue;
+      ++found.outside;
+      const double off = with.distance(p);
+      found.beyond += off > 0.002 ? 1 : 0;
+      found.worst_m = std::max(found.worst_m, off);
+    }
+  }
+
+ private:
+  const Simulation& simulation_;
+  Entity person_;
+  Body body_;
+  BodySurfaces bound_;
+  BodySkin skin_;
+  std::vector<Vec3<float>> vertex_;
+  std::vector<SurfaceMuscle> muscles_;
+  SurfaceWriter writer_;
+};
+
+void expect_covered(const Outside& found, double most_beyond, double most_m, double most_lift_m) {
+  const auto all = static_cast<double>(found.all);
+  EXPECT_LT(static_cast<double>(found.beyond), most_beyond * all);
+  EXPECT_LT(static_cast<double>(found.outside), 8e-3 * all);
+  EXPECT_LT(found.outside, found.without);
+  EXPECT_LT(found.worst_m, most_m);
+  EXPECT_LT(found.most_lift_m, most_lift_m);
+}
+
+TEST(SkinCover, HoldsTheMusclesThroughAStride) {
+  for (const Somebody& somebody : people) {
+    Simulation simulation;
+    SpawnRequest walker;
+    walker.body = somebody.body();
+    std::array<Entity, 1> one{};
+    ASSERT_TRUE(simulation.spawn({&walker, 1}, one));
+    ASSERT_TRUE(simulation.add_leg_muscles(one[0]));
+    Watched watched(simulation, one[0], 0.5);
+    Outside found;
+    for (int tick = 0; tick < 130; ++tick) {
+      simulation.tick();
+      if (tick >= 60 && tick % 6 == 0) watched.look(found);
+    }
+    found.print("walk", somebody);
+    expect_covered(found, 2e-4, 0.006, 0.04);
+  }
+}
+
+/// Both legs bent alike, degrees.
+Pose<float> bent(const Body& body, float hip, float knee, float ankle) {
+  using enum Segment;
+  Pose<float> pose = standing_pose(body);
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const std::size_t parent = index(segment_parent[s]);
+    if (s == parent) continue;
+    const auto is = [s](Segment r) {
+      return s == index(on_side(r, Side::right)) || s == index(on_side(r, Side::left));
+    };
+    const float by = is(thigh_right)     ? -hip
+                     : is(shank_right)   ? knee
+                     : is(patella_right) ? 0.9F * knee
+                     : is(foot_right)    ? -ankle
+                                         : 0.0F;
+    const float half = 0.5F * 0.0174532925F * by;
+    pose.rotation[s] = product(pose.rotation[parent], {std::sin(half), 0, 0, std::cos(half)});
+    pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
+  }
+  return pose;
+}
+
+/// A thousand poses with MOBIL_LONG=1.
+TEST(SkinCover, HoldsTheMusclesInAnyPose) {
+  const int poses = std::getenv("MOBIL_LONG") != nullptr ? 167 : 12;  // each
+  std::mt19937 random(4);
+  const auto within = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+  for (const Somebody& somebody : people) {
+    Simulation simulation;
+    const Entity one = *simulation.spawn_posed(somebody.body());
+    LegMuscles choice;
+    choice.method = Method::statics;
+    ASSERT_TRUE(simulation.add_leg_muscles(one, choice));
+    Watched watched(simulation, one, 0.2);
+    Outside found;
+    for (int i = 0; i < poses; ++i) {
+      const float hip = within(-20, 90), knee = within(0, 110), ankle = within(-40, 20);
+      ASSERT_EQ(simulation.set_pose(one, bent(watched.body(), hip, knee, ankle)), Status::ok);
+      for (int tick = 0; tick < 2; ++tick) simulation.tick();
+      watched.look(found);
+    }
+    found.print("poses", somebody);
+    expect_covered(found, somebody.mass_kg < 60 ? 2e-3 : 1e-3, 0.012, 0.06);
+  }
+}
+
+}  // namespace
+}  // namespace mobil::skin_cover_test

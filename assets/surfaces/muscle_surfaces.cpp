@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
+#include "assets/skin/leg_profile.h"
 #include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
@@ -102,6 +104,17 @@ double belly(const LegSection& s, double largest_area) {
   return smoothstep(0.08, 0.45, area(s) / largest_area);
 }
 
+/// The area of a muscle's section at a level over that of its largest.
+double relative_area(std::span<const LegSection> sections, double level) {
+  double largest = 0;
+  for (const LegSection& s : sections) largest = std::max(largest, area(s));
+  std::size_t i = 0;
+  while (i + 2 < sections.size() && level > static_cast<double>(sections[i + 1].level)) ++i;
+  const auto from = static_cast<double>(sections[i].level), to = static_cast<double>(sections[i + 1].level);
+  const double w = std::clamp((level - from) / (to - from), 0.0, 1.0);
+  return ((1 - w) * area(sections[i]) + w * area(sections[i + 1])) / largest;
+}
+
 /// The bone that a muscle grows away from at a level.
 Point bone_centre(const std::array<Bone, 3>& bones, double level) {
   const auto& sections = bones[level < 1.06 ? 0 : 1].sections;
@@ -111,9 +124,13 @@ Point bone_centre(const std::array<Bone, 3>& bones, double level) {
 }
 
 /// A muscle's sections on this body, in mm of the measured man: girth times `girth` in the belly, moved out of the way
-/// of the muscle beneath, the quadriceps led to where this body's kneecap is.
+/// of the muscle beneath, the quadriceps led to where this body's kneecap is. Published volumes are larger than the
+/// measured man's, so sections grow; what then is in the bone, in the muscle beneath or outside of the skin is cut off,
+/// and the rest grows until the volume is met.
 struct Fitting {
   const LegFrame& leg;
+  const LegProfile& skin;  // nothing of a muscle lies outside of it, made so much wider
+  double wider;
   const std::array<Bone, 3>& bones;
   Point patella;         // where the kneecap's centre is, mm
   double patella_shift;  // of its upper edge's level against the measured man's
@@ -162,16 +179,16 @@ std::vector<LegSection> fitted(const Fitting& f, const MuscleShape& shape, doubl
   return out;
 }
 
-/// Cuts a ring of vertices back to the bone: each along its ray from the ring's middle, which is moved out first where
-/// it lies in the bone.
-void keep_out(const Fitting& f, const Bone& bone, std::span<Vec3<float>> ring) {
+/// Cuts a ring of vertices back to what lies beneath, a bone or a muscle: each along its ray from the ring's middle,
+/// which is moved out first where it lies within.
+void keep_out(const Fitting& f, std::span<const LegSection> beneath, std::span<Vec3<float>> ring) {
   constexpr double skin_mm = 1.5, middle_outside = 1.12;
   const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
-  const auto e = leg_ellipse(bone.sections, level);
+  const auto e = beneath.empty() ? std::nullopt : leg_ellipse(beneath, level);
   if (!e) return;
   const double aa = e->aa + skin_mm, ll = e->ll + skin_mm, al = e->al, det = aa * ll - al * al;
   const Vec axis = leg_point(f.leg, level, 0, 0);
-  // to the circle that the bone's section is the image of, and back
+  // to the circle that the section beneath is the image of, and back
   const auto inward = [&](double l, double a) { return Point{(aa * l - al * a) / det, (ll * a - al * l) / det}; };
   const auto outward = [&](Point p) { return Point{al * p.a + ll * p.l, aa * p.a + al * p.l}; };
   const auto local = [&](const Vec3<float>& p) {
@@ -203,18 +220,64 @@ void keep_out(const Fitting& f, const Bone& bone, std::span<Vec3<float>> ring) {
   }
 }
 
-SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections) {
+/// Cuts a ring of vertices back to the inside of the leg's skin, each along its ray from the ring's middle, which is
+/// moved in first where it lies outside.
+void keep_in(const Fitting& f, std::span<Vec3<float>> ring) {
+  constexpr double cover_mm = 2, middle_inside = 0.9;
+  const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
+  if (level < LegProfile::first_s || level > LegProfile::last_s) return;
+  const Vec axis = leg_point(f.leg, level, 0, 0);
+  const auto room = [&](Point p) {
+    const double turn = std::atan2(-p.l, p.a);
+    return f.wider * f.skin.radius(level, turn < 0 ? turn + 2 * std::numbers::pi : turn) / f.leg.unit - cover_mm;
+  };
+  const auto is_in = [&](Point p) { return std::hypot(p.l, p.a) <= room(p); };
+  Point middle{0, 0};
+  std::vector<Point> points;
+  for (const auto& p : ring) {
+    points.push_back(
+        {(axis.x - static_cast<double>(p.x)) / f.leg.unit, (static_cast<double>(p.z) - axis.z) / f.leg.unit});
+    middle.l += points.back().l / static_cast<double>(ring.size());
+    middle.a += points.back().a / static_cast<double>(ring.size());
+  }
+  Point moved = middle;
+  if (const double far = std::hypot(middle.l, middle.a), most = middle_inside * room(middle); far > most)
+    moved = {middle.l * most / far, middle.a * most / far};
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point d{points[i].l - middle.l, points[i].a - middle.a};
+    const auto at = [&](double s) { return Point{moved.l + s * d.l, moved.a + s * d.a}; };
+    double low = 0, high = 1;
+    if (is_in(at(1))) low = 1;
+    for (int round = 0; round < 16 && low < 1; ++round) {
+      const double s = 0.5 * (low + high);
+      (is_in(at(s)) ? low : high) = s;
+    }
+    const Point q = at(low);
+    ring[i].x = static_cast<float>(axis.x - q.l * f.leg.unit);
+    ring[i].z = static_cast<float>(axis.z + q.a * f.leg.unit);
+  }
+}
+
+/// `beneath`: sections of the muscle that it lies on; none: empty.
+SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::span<const LegSection> beneath) {
   std::vector<TubeStation> stations;
   for (const auto& s : sections) stations.push_back(leg_station(f.leg, s));
   SurfaceMesh mesh = loft(stations, muscle_shape);
   const std::size_t ring_count = (mesh.position.size() - 2) / muscle_segments;
   for (std::size_t r = 0; r < ring_count; ++r) {
-    for (const auto& bone : f.bones)
-      keep_out(f, bone, std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments));
+    const auto ring = std::span(mesh.position).subspan(1 + r * muscle_segments, muscle_segments);
+    keep_in(f, ring);
+    // Tendons go on to where the muscle beneath ends, too.
+    const double thick =
+        smoothstep(0.3, 0.7, relative_area(sections, leg_level(f.leg, static_cast<double>(ring[0].y))));
+    const std::vector<Vec3<float>> uncut(ring.begin(), ring.end());
+    keep_out(f, beneath, ring);
+    for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = uncut[i] + static_cast<float>(thick) * (ring[i] - uncut[i]);
+    for (const auto& bone : f.bones) keep_out(f, bone.sections, ring);
   }
   for (const auto& bone : f.bones) {
-    keep_out(f, bone, std::span(mesh.position).first(1));
-    keep_out(f, bone, std::span(mesh.position).last(1));
+    keep_out(f, bone.sections, std::span(mesh.position).first(1));
+    keep_out(f, bone.sections, std::span(mesh.position).last(1));
   }
   return mesh;
 }
@@ -236,6 +299,17 @@ std::vector<float> tendon_shares(const LegFrame& leg, std::span<const LegSection
     share.push_back(static_cast<float>(1 - smoothstep(0.10, 0.32, here / largest)));
   }
   return share;
+}
+
+/// How much wider the skin is than its measures have it where muscles of `volume_m3` are more than usual in a leg.
+double given_way(const LegFrame& leg, const LegProfile& skin, double volume_m3) {
+  constexpr double usual_share = 0.38, step = 0.01;  // of what the skin encloses
+  double enclosed_m3 = 0;
+  for (double s = LegProfile::first_s; s < LegProfile::last_s; s += step) {
+    const double girth = skin.girth(s);
+    enclosed_m3 += step * (s < 1 ? leg.thigh_length : leg.shank_length) * girth * girth / (4 * std::numbers::pi);
+  }
+  return std::sqrt(std::max(1.0, volume_m3 / (usual_share * enclosed_m3)));
 }
 
 GroupSurface patellar_ligament(const Body& body, const Fitting& f) {
@@ -289,25 +363,33 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   const auto bones = hard_bones();
   const Vec patella = to_double(body.joint_offset_m[index(Segment::patella_right)]);
   const double top_mm = 18;  // from the kneecap's centre to its upper edge
+  const LegProfile skin(body_measures(body.request));
+  const auto shapes = muscle_shapes();
+  const auto volumes = member_volumes_m3(body);
   const Fitting f{leg,
+                  skin,
+                  given_way(leg, skin, std::accumulate(volumes.begin(), volumes.end(), 0.0)),
                   bones,
                   {-patella.x / leg.unit, patella.z / leg.unit},
                   -(patella.y + top_mm * leg.unit) / leg.thigh_length - measured_patella_top};
-  const auto shapes = muscle_shapes();
-  const auto volumes = member_volumes_m3(body);
 
   std::vector<double> girth(shapes.size(), 1.0);
   const auto surface_of = [&](std::size_t m, double g) {
     const std::size_t n = shapes[m].lies_on;
     return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
   };
+  const auto beneath = [&](std::size_t m) {
+    const std::size_t n = shapes[m].lies_on;
+    return n == no_muscle ? std::vector<LegSection>{} : surface_of(n, girth[n]);
+  };
   for (const bool covering : {false, true}) {
     for (std::size_t m = 0; m < volumes.size(); ++m) {
       if ((shapes[m].lies_on != no_muscle) != covering) continue;
+      const std::vector<LegSection> under = beneath(m);
       double low = 0.25, high = 2.5;
       for (int i = 0; i < 14; ++i) {
         const double middle = 0.5 * (low + high);
-        (enclosed_volume(build(f, surface_of(m, middle))) < volumes[m] ? low : high) = middle;
+        (enclosed_volume(build(f, surface_of(m, middle), under)) < volumes[m] ? low : high) = middle;
       }
       girth[m] = 0.5 * (low + high);
     }
@@ -316,7 +398,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   for (std::size_t m = 0; m < shapes.size(); ++m) {
     const auto sections = surface_of(m, girth[m]);
     GroupSurface s{shapes[m].group, find_muscle(shapes[m].name).value_or(shapes[m].group), {}, {}, {}, false};
-    s.surface.mesh = build(f, sections);
+    s.surface.mesh = build(f, sections, beneath(m));
     s.surface.mesh.name = std::string(shapes[m].name) + "_right";
     s.surface.origin = shapes[m].origin;
     s.surface.insertion = shapes[m].insertion;

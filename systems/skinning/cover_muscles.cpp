@@ -45,20 +45,20 @@ struct CoverPoint {
 };
 
 /// A vector's part along an axis of a ring.
-HWY_INLINE V along_axis(const LegBend& bend, std::size_t axis, std::size_t ring, const CoverPoint& p) {
+HWY_INLINE V along_axis(const JointRings& bend, std::size_t axis, std::size_t ring, const CoverPoint& p) {
   const auto of = [&](std::size_t c) HWY_ATTR { return set(bend.axis[axis][c][ring]); };
   return mul_add(p.z, of(2), mul_add(p.y, of(1), hn::Mul(p.x, of(0))));
 }
 
 /// From a joint's centre.
-HWY_INLINE CoverPoint from_centre(const LegBend& bend, const CoverPoint& p) {
+HWY_INLINE CoverPoint from_centre(const JointRings& bend, const CoverPoint& p) {
   const Vec3<float>& c = bend.centre_m;
   return {hn::Sub(p.x, set(c.x)), hn::Sub(p.y, set(c.y)), hn::Sub(p.z, set(c.z))};
 }
 
 /// Where points from a joint's centre are in the ring that they lie in: the first where their height is not above the
 /// ring's own.
-HWY_INLINE CoverPoint in_bend(const LegBend& bend, const hn::Mask<EightTag>& there, const CoverPoint& p) {
+HWY_INLINE CoverPoint in_bend(const JointRings& bend, const hn::Mask<EightTag>& there, const CoverPoint& p) {
   constexpr IntTag whole;
   const auto above_ring = [&](std::size_t k) HWY_ATTR {
     return hn::And(there, hn::Gt(along_axis(bend, 1, k, p), set(bend.height_m(k))));
@@ -89,7 +89,7 @@ HWY_INLINE CoverPoint choose(const hn::Mask<EightTag>& which, const CoverPoint& 
 /// Where vertices are on the leg: x to the side and z to the front of its line (m), y how far down it (s).
 HWY_INLINE CoverPoint on_leg(const LegRings& rings, const CoverPoint& p) {
   constexpr std::size_t above = bend_rings, below = 0;
-  const LegBend& knee = rings.knee;
+  const JointRings& knee = rings.knee;
   const CoverPoint from = from_centre(knee, p);
   const auto straight = [&](std::size_t ring, const V& y) HWY_ATTR {
     return CoverPoint{along_axis(knee, 0, ring, from), y, along_axis(knee, 2, ring, from)};

@@ -26,9 +26,9 @@ std::array<float, leg_angles> inner_side() {
 }
 
 /// `size`: over that of a body of 1.75 m.
-LegBend bend_of(const Quat<float>& above, const Quat<float>& below, const Vec3<float>& centre_m, const SkinBend& bend,
-                float size) {
-  LegBend rings;
+JointRings bend_of(const Quat<float>& above, const Quat<float>& below, const Vec3<float>& centre_m,
+                   const SkinBend& bend, float size) {
+  JointRings rings;
   rings.centre_m = centre_m;
   rings.low_m = -size * static_cast<float>(bend.below_m);
   rings.high_m = size * static_cast<float>(bend.above_m);
@@ -50,7 +50,7 @@ float bent_back(const Quat<float>& above, const Quat<float>& below) {
 }
 
 /// By how much the line bends at a height over a joint that is bent by `angle`.
-float curved_at(float y, float angle, const LegBend& bend) {
+float curved_at(float y, float angle, const JointRings& bend) {
   const float wide = bend.high_m - bend.low_m, t = (y - bend.low_m) / wide;
   return t <= 0 || t >= 1 ? 0 : angle * 6 * t * (1 - t) / wide;
 }

@@ -13,7 +13,7 @@ namespace mobil {
 inline constexpr std::size_t bend_rings = 16;
 
 /// The rings of one joint, each turned about its centre: the first as the segment below, the last as the one above.
-struct LegBend {
+struct JointRings {
   Vec3<float> centre_m;
   float low_m, high_m;  // the first and the last ring's height over the centre
   /// x, y and z of the rings' axes (to the left, up, to the front).
@@ -25,7 +25,7 @@ struct LegBend {
 };
 
 struct LegRings {
-  LegBend hip, knee, ankle;  // the ankle's as its skin bends in front
+  JointRings hip, knee, ankle;  // the ankle's as its skin bends in front
   float thigh_m, shank_m;
   float out;                               // 1 on the right, −1 on the left: where a leg's angles grow to
   std::array<float, leg_stations> curved;  // by how much the line bends there, rad/m; below 0 towards the front

@@ -64,7 +64,7 @@ TEST(SurfaceFit, OnTheSameBodyNothingChanges) {
 
 /// How far muscles' vertices are, in the mean, from those of surfaces drawn for that body, m; bones are where they
 /// were.
-double off_m(const BodyRequest& bound, const BodyRequest& body) {
+double off_m(const BodyRequest& bound, const BodyRequest& body, double farthest_m = 0.02) {
   const BodySurfaces shared = bind_surfaces(make_body(bound).value()).value();
   Walker walker(body);
   const BodySurfaces own = bind_surfaces(walker.human.body).value();
@@ -75,7 +75,7 @@ double off_m(const BodyRequest& bound, const BodyRequest& body) {
   for (const SurfacePart& part : own.part) {
     for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
       const double off = static_cast<double>(geometry::length(is[v] - fitted[v]));
-      EXPECT_LT(off, part.driver ? 0.02 : 1e-5) << part.name << " of " << body.height_m << " m";
+      EXPECT_LT(off, part.driver ? farthest_m : 1e-5) << part.name << " of " << body.height_m << " m";
       if (part.driver) sum += off, count += 1;
     }
   }
@@ -90,7 +90,7 @@ TEST(SurfaceFit, OnOtherBodiesTheyAreNearlyThoseDrawnForThem) {
   EXPECT_LT(off_m(usual, bodies[3]), 0.0015);
   // Muscles grow away from their bones, meshes about their middles: who is built otherwise has a bound one of that
   // build.
-  EXPECT_LT(off_m(usual, bodies[2]), 0.0050);
+  EXPECT_LT(off_m(usual, bodies[2], 0.05), 0.0050);
   EXPECT_LT(off_m(strong, bodies[2]), 0.0015);
 }
 

@@ -43,4 +43,5 @@
      {0.998F, 29.8F, 35.1F, 9.9F, 3.6F, 148},
  },
  .not_drawn = 1,
- .drawn_below = {{0.990F, 25, 41, 8, 3, 110}}},
+ .drawn_below = {{0.990F, 25, 41, 8, 3, 110}},
+ .lies_on = "vastus_intermedius"},

@@ -74,7 +74,8 @@ const std::map<std::string, std::vector<std::string>> order = {
      {"fem", "reduction", "body", "gait", "muscles", "surfaces", "skin", "finite", "files", "import", "export"}},
     // modules, then facades
     {"systems",
-     {"people", "muscles", "relevance", "avoidance", "terrain", "surfaces", "snapshot", no_folder, "cluster", "c"}},
+     {"people", "muscles", "relevance", "avoidance", "terrain", "surfaces", "snapshot", no_folder, "skin", "cluster",
+      "c"}},
     {"demo", {"examples", "rivals",  "program",  "measure",  "pictures", "muscle",     "walk", "body",
               "anatomy",  "compare", "gait_fit", "paper",    "bake",     "crowd",      "town", "view",
               "bench",    "effects", "schedule", "frontier", "stress",   "completion", "man"}},

@@ -39,6 +39,10 @@ inline constexpr double upper_arm = 0.186, forearm = 0.146, hand = 0.108;
 inline constexpr double patella_forward = 0.027, patella_up = -0.009;
 }  // namespace fraction
 
+/// The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
+/// within a seventh.
+inline constexpr float kneecap_part = 0.9F;
+
 /// The table of proportions, a constant of the programme.
 constexpr UnitBody make_unit_body();
 

@@ -72,11 +72,14 @@ constexpr bool has_architecture(const MemberMuscle& m) {
   return m.fibre_m > 0 && m.belly_m > 0 && m.pennation_deg >= 0 && m.pennation_deg < 90 && (modelled || not_modelled);
 }
 
-/// What a muscle lies on lies on none itself: the surfaces are made in this order.
+/// What a muscle lies on, or is cut back to, lies on none itself: the surfaces are made in this order.
 constexpr bool lies_on_a_member(const MemberMuscle& m) {
-  return m.lies_on.empty() || std::any_of(std::begin(members), std::end(members), [&m](const MemberMuscle& beneath) {
-           return beneath.name == m.lies_on && beneath.lies_on.empty();
-         });
+  const auto is_deep = [](std::string_view name) {
+    return name.empty() || std::any_of(std::begin(members), std::end(members), [name](const MemberMuscle& beneath) {
+             return beneath.name == name && beneath.lies_on.empty() && beneath.cut_back_to.empty();
+           });
+  };
+  return is_deep(m.lies_on) && is_deep(m.cut_back_to);
 }
 
 static_assert(all_members([](const MemberMuscle& m) { return !m.name.empty() && members_named(m.name) == 1; }),

@@ -88,8 +88,9 @@ struct MemberMuscle {
   std::size_t not_drawn = 0;
   FixedList<LegSection, 4> drawn_above = {};
   FixedList<LegSection, 12> drawn_below = {};
-  std::string_view lies_on = {};     // the member that it covers: pushed out by it, cut back to it
-  bool in_calcaneal_tendon = false;  // it goes on in that
+  std::string_view lies_on = {};      // the member that it covers and is pushed out by
+  std::string_view cut_back_to = {};  // the member that its drawn shape ends at; empty: the one that it lies on
+  bool in_calcaneal_tendon = false;   // it goes on in that
 };
 
 /// How far the published knee carries shank and foot from where the pin has them, with all that is fixed to them: along

@@ -128,6 +128,17 @@ double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::ve
   return six_fold / 6;
 }
 
+SkinBuild skin_build(const BodyRequest& body, float index_step) {
+  constexpr float least_index = 13.5F, most_index = 64.5F, most_kg = 200;
+  const float index = std::clamp(body.mass_kg / (body.height_m * body.height_m), least_index, most_index);
+  const int step = static_cast<int>(std::lround(index / index_step));
+  const float tall = skin_body(body.sex).height_m;
+  BodyRequest usual{.height_m = tall,
+                    .mass_kg = std::min(index_step * static_cast<float>(step) * tall * tall, most_kg)};
+  usual.sex = body.sex;
+  return {step, usual};
+}
+
 const SkinMesh& skin_mesh(Sex sex, SkinDetail detail) {
   const auto d = static_cast<std::size_t>(detail);
   if (sex == Sex::woman) {

@@ -33,6 +33,13 @@ struct SkinMesh {
 constexpr BodyRequest skin_body(Sex sex) {
   return {.height_m = 1.75F, .mass_kg = 75, .sex = sex};
 }
+/// A body whose skin serves for those of about its build: of the same sex, as tall as skin_body, with a body mass index
+/// that is `step` times `index_step` kg/m², within 13.5 to 64.5 as far as there are such bodies.
+struct SkinBuild {
+  int step;
+  BodyRequest body;
+};
+SkinBuild skin_build(const BodyRequest& body, float index_step);
 /// Of men and of women, whose hair has other borders. Made at its first use, in about two seconds, for all details;
 /// safe from any thread.
 const SkinMesh& skin_mesh(Sex sex, SkinDetail detail);

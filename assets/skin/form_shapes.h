@@ -6,17 +6,14 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <span>
 
+#include "assets/body/between.h"
 #include "engine/geometry.h"
 
 namespace mobil::form {
 
 using namespace geometry;  // Vec and its operators
-
-/// A full turn, rad.
-inline constexpr double tau = 2 * std::numbers::pi;
 
 /// The lesser of two distances, rounded over where they differ by less than `k` (quadratic, C¹).
 inline double smooth_union(double a, double b, double k) {
@@ -43,14 +40,6 @@ inline double capsule(const Vec& p, const Vec& a, const Vec& b, double at_a, dou
   const Vec along = b - a, from = p - a;
   const double t = std::clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
   return length(from - t * along) - (at_a + t * (at_b - at_a));
-}
-
-/// Where `at` lies among rising keys: the one before, and how far towards the next (0–1).
-template <class Key>
-std::pair<std::size_t, double> between(std::size_t count, double at, const Key& key) {
-  std::size_t k = 0;
-  while (k + 2 < count && key(k + 1) < at) ++k;
-  return {k, std::clamp((at - key(k)) / (key(k + 1) - key(k)), 0.0, 1.0)};
 }
 
 /// A curve through values at places 0, 1, 2… (Catmull–Rom), between the k-th and the next.

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "assets/body/leg_profile.h"
 #include "assets/skin/form_shapes.h"
-#include "assets/skin/leg_profile.h"
 #include "components/body.h"
 
 namespace mobil::form {

@@ -91,7 +91,7 @@ const Body& reference_body() {
 
 /// The surfaces' vertices, in the muscle's frame.
 std::vector<Vec> outline(const MusclePlan& plan) {
-  static const std::vector<GroupSurface> surfaces = make_muscle_surfaces(reference_body());
+  static const std::vector<GroupSurface> surfaces = make_muscle_surfaces(reference_body(), MuscleRoom::alone);
   std::vector<Vec> points;
   const Quat<double> into_frame = conjugate(plan.rotation);
   for (const GroupSurface& s : surfaces) {

@@ -10,9 +10,9 @@
 namespace mobil {
 
 /// The mesh of a muscle's template, muscle frame, reference body: t ascending from 0 to 1 over the belly. Its sections
-/// follow the surface as it is drawn in that body. A single muscle's mesh has the muscle's volume; a group's encloses
-/// its members and all that lies between them. Its ends are no thinner than 0.35 of its middle. The numbers are a
-/// table, which draw_cage (draw_cage.h) made. When a muscle's surface changes, the test
+/// follow the surface that it would have alone (MuscleRoom). A single muscle's mesh has the muscle's volume; a group's
+/// encloses its members and all that lies between them. Its ends are no thinner than 0.35 of its middle. The numbers
+/// are a table, which draw_cage (draw_cage.h) made. When a muscle's surface changes, the test
 /// MuscleCage.IsWhatTheSurfacesGive fails and prints the new table.
 inline constexpr std::size_t cage_station_count = 9;
 using CageStations = std::array<CageStation, cage_station_count>;

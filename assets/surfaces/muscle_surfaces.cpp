@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "assets/body/between.h"
+#include "assets/body/leg_profile.h"
 #include "assets/muscles/muscle_plan.h"
 #include "assets/muscles/muscle_table.h"
-#include "assets/skin/leg_profile.h"
 #include "assets/surfaces/leg_station.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
@@ -30,13 +31,14 @@ constexpr TubeShape muscle_shape{
 constexpr std::size_t no_muscle = static_cast<std::size_t>(-1);
 
 /// A member as it is drawn on the right leg, from its origin (first section) to its insertion (last); or the calcaneal
-/// tendon. `lies_on`: the shape that it covers. `ends_in`: the tendon that it goes on in.
+/// tendon. `lies_on`: the shape that it covers and `cut_back_to`, the one that it ends at. `ends_in`: the tendon that
+/// it goes on in.
 struct MuscleShape {
   std::string_view name;
   Muscle group;
   Segment origin, insertion;
   std::vector<LegSection> sections;
-  std::size_t lies_on = no_muscle, ends_in = no_muscle;
+  std::size_t lies_on = no_muscle, cut_back_to = no_muscle, ends_in = no_muscle;
 };
 
 /// The members in the order of member_muscles(), then the calcaneal tendon.
@@ -49,10 +51,12 @@ std::vector<MuscleShape> muscle_shapes() {
     to.insert(to.end(), m.drawn_above.begin(), m.drawn_above.end());
     to.insert(to.end(), m.sections.begin(), m.sections.end() - m.not_drawn);
     to.insert(to.end(), m.drawn_below.begin(), m.drawn_below.end());
-    if (!m.lies_on.empty()) {
-      const auto beneath = std::ranges::find(members, m.lies_on, &MemberMuscle::name);
-      shape.lies_on = static_cast<std::size_t>(beneath - members.begin());
-    }
+    const auto number_of = [&](std::string_view name) {
+      const auto found = std::ranges::find(members, name, &MemberMuscle::name);
+      return found == members.end() ? no_muscle : static_cast<std::size_t>(found - members.begin());
+    };
+    shape.lies_on = number_of(m.lies_on);
+    shape.cut_back_to = number_of(m.cut_back_to.empty() ? m.lies_on : m.cut_back_to);
     if (m.in_calcaneal_tendon) shape.ends_in = members.size();
     all.push_back(std::move(shape));
   }
@@ -108,10 +112,8 @@ double belly(const LegSection& s, double largest_area) {
 double relative_area(std::span<const LegSection> sections, double level) {
   double largest = 0;
   for (const LegSection& s : sections) largest = std::max(largest, area(s));
-  std::size_t i = 0;
-  while (i + 2 < sections.size() && level > static_cast<double>(sections[i + 1].level)) ++i;
-  const auto from = static_cast<double>(sections[i].level), to = static_cast<double>(sections[i + 1].level);
-  const double w = std::clamp((level - from) / (to - from), 0.0, 1.0);
+  const auto [i, w] =
+      form::between(sections.size(), level, [&](std::size_t k) { return static_cast<double>(sections[k].level); });
   return ((1 - w) * area(sections[i]) + w * area(sections[i + 1])) / largest;
 }
 
@@ -129,7 +131,7 @@ Point bone_centre(const std::array<Bone, 3>& bones, double level) {
 /// and the rest grows until the volume is met.
 struct Fitting {
   const LegFrame& leg;
-  const LegProfile& skin;  // nothing of a muscle lies outside of it, made so much wider
+  const LegProfile* skin;  // nothing of a muscle lies outside of it, made so much wider; null: each for itself
   double wider;
   const std::array<Bone, 3>& bones;
   Point patella;         // where the kneecap's centre is, mm
@@ -225,11 +227,11 @@ void keep_out(const Fitting& f, std::span<const LegSection> beneath, std::span<V
 void keep_in(const Fitting& f, std::span<Vec3<float>> ring) {
   constexpr double cover_mm = 2, middle_inside = 0.9;
   const double level = leg_level(f.leg, static_cast<double>(ring[0].y));
-  if (level < LegProfile::first_s || level > LegProfile::last_s) return;
+  if (f.skin == nullptr || level < LegProfile::first_s || level > LegProfile::last_s) return;
   const Vec axis = leg_point(f.leg, level, 0, 0);
   const auto room = [&](Point p) {
     const double turn = std::atan2(-p.l, p.a);
-    return f.wider * f.skin.radius(level, turn < 0 ? turn + 2 * std::numbers::pi : turn) / f.leg.unit - cover_mm;
+    return f.wider * f.skin->radius(level, turn < 0 ? turn + 2 * std::numbers::pi : turn) / f.leg.unit - cover_mm;
   };
   const auto is_in = [&](Point p) { return std::hypot(p.l, p.a) <= room(p); };
   Point middle{0, 0};
@@ -358,7 +360,7 @@ std::vector<double> member_volumes_m3(const Body& body) {
   return volume;
 }
 
-std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
+std::vector<GroupSurface> make_muscle_surfaces(const Body& body, MuscleRoom room) {
   const LegFrame leg = leg_frame(body);
   const auto bones = hard_bones();
   const Vec patella = to_double(body.joint_offset_m[index(Segment::patella_right)]);
@@ -367,7 +369,7 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
   const auto shapes = muscle_shapes();
   const auto volumes = member_volumes_m3(body);
   const Fitting f{leg,
-                  skin,
+                  room == MuscleRoom::together ? &skin : nullptr,
                   given_way(leg, skin, std::accumulate(volumes.begin(), volumes.end(), 0.0)),
                   bones,
                   {-patella.x / leg.unit, patella.z / leg.unit},
@@ -379,12 +381,12 @@ std::vector<GroupSurface> make_muscle_surfaces(const Body& body) {
     return n == no_muscle ? fitted(f, shapes[m], g, nullptr, 1) : fitted(f, shapes[m], g, &shapes[n], girth[n]);
   };
   const auto beneath = [&](std::size_t m) {
-    const std::size_t n = shapes[m].lies_on;
+    const std::size_t n = room == MuscleRoom::together ? shapes[m].cut_back_to : no_muscle;
     return n == no_muscle ? std::vector<LegSection>{} : surface_of(n, girth[n]);
   };
   for (const bool covering : {false, true}) {
     for (std::size_t m = 0; m < volumes.size(); ++m) {
-      if ((shapes[m].lies_on != no_muscle) != covering) continue;
+      if ((shapes[m].cut_back_to != no_muscle) != covering) continue;
       const std::vector<LegSection> under = beneath(m);
       double low = 0.25, high = 2.5;
       for (int i = 0; i < 14; ++i) {

@@ -11,6 +11,7 @@
 #include "demo/bench/bench.h"
 #include "engine/jobs.h"
 #include "systems/simulation.h"
+#include "systems/skin/skin_tables.h"
 #include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
 
@@ -73,6 +74,25 @@ Result<void> time_cover(BenchRun& run, const std::string& name, double detail) {
       [&] { cover_muscles(*shape->skin, pose, shape->lengths, Side::right, position, cover.lift_m[Side::right]); });
   BenchResult& result = run.add_time(name, time, 1, 1e-6, "us");
   result.bound = fmt::format("{} vertices of muscle", position.size());
+  return {};
+}
+
+/// One leg's cover where nobody simulates its muscles.
+Result<void> time_table(BenchRun& run) {
+  SkinTables tables;
+  const auto table = tables.of({});
+  if (!table) return tl::unexpected(table.error());
+  Simulation simulation;
+  const auto entity = simulation.spawn({});
+  if (!entity) return tl::unexpected(entity.error());
+  simulation.advance(0.2);
+  const Pose<float> pose = *simulation.get<Pose>(*entity);
+  SkinCover cover;
+  const Measured time =
+      measure_short([&] { cover_by_table(**table, leg_angles_of(pose, Side::right), cover.lift_m[Side::right]); });
+  BenchResult& result = run.add_time("skin.table.us_per_leg", time, 1, 1e-6, "us");
+  result.of_peak = 2.0 * skin_terms * leg_grid_points * 1e-3 / result.value / run.machine.fma_peak_gflops;
+  result.bound = fmt::format("{} terms of {} points", skin_terms, leg_grid_points);
   return {};
 }
 
@@ -156,6 +176,7 @@ Result<void> bench_skin(BenchRun& run) {
   }
   if (auto done = time_cover(run, "skin.cover.us_per_leg", 1); !done) return done;
   if (auto done = time_cover(run, "skin.cover.tenth.us_per_leg", 0.1); !done) return done;
+  if (auto done = time_table(run); !done) return done;
   return time_crowd(run);
 }
 

@@ -9,11 +9,11 @@
 #include <utility>
 #include <vector>
 
+#include "assets/body/bent_legs.h"
 #include "components/activation.h"
 #include "demo/compare/compare_walk.h"
 #include "demo/compare/steady_cycle.h"
 #include "demo/paper/paper.h"
-#include "demo/pictures/bent_legs.h"
 #include "demo/pictures/contact_sheet.h"
 #include "demo/pictures/cycle_plot.h"
 #include "demo/walk/figure.h"

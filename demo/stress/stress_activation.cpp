@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "assets/body/bent_legs.h"
 #include "components/activation.h"
-#include "demo/pictures/bent_legs.h"
 #include "demo/stress/stress.h"
 #include "demo/stress/stress_world.h"
 

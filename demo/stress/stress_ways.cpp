@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/pictures/bent_legs.h"
+#include "assets/body/bent_legs.h"
 #include "demo/stress/stress.h"
 #include "demo/stress/stress_world.h"
 #include "systems/simulation.h"

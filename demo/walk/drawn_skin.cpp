@@ -51,7 +51,7 @@ void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles) {
   normal.resize(skin->rest.size());
   std::vector<FrameMap> maps(mesh.frame.size());
   constexpr std::size_t stride = sizeof(Vec3<float>);
-  pose_skin(*skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, maps,
+  pose_skin(*skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, maps,
             {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
              stride, stride});
 }

@@ -298,6 +298,7 @@ mobil_limits usual() {
   limits.rows = of.rows;
   limits.mesh_nodes = of.mesh_nodes;
   limits.seconds = of.seconds;
+  limits.resources = of.resources;
   limits.steps = of.steps;
   limits.numbers = of.numbers ? 1 : 0;
   return limits;

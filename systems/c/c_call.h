@@ -25,6 +25,7 @@
 #include "systems/people/pose_writer.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "systems/skin/skin_tables.h"
 #include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
 #include "systems/terrain/terrain.h"
@@ -243,6 +244,7 @@ struct mobil_sim {
   std::optional<mobil::PoseWriter> poses;
   std::optional<mobil::SurfaceWriter> surfaces;
   mobil::BodySkins skins;
+  mobil::SkinTables skin_tables;
   mobil::SkinWriter skin_writer;
   mobil::c::Line line;
   // What calls work in.

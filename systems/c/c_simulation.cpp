@@ -219,7 +219,8 @@ int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const 
     if (const int code = read_struct(s.line, limits, "limits", known); code != MOBIL_OK) return code;
     if (!(known.seconds >= 0))
       return s.line.refuse(MOBIL_REFUSED, "seconds are negative or no number; choose 0 or more");
-    return restore(s, bytes, count, {known.rows, known.mesh_nodes, known.seconds, known.steps, known.numbers != 0});
+    return restore(s, bytes, count,
+                   {known.rows, known.mesh_nodes, known.seconds, known.numbers != 0, known.resources, known.steps});
   });
 }
 

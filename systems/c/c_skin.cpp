@@ -43,6 +43,11 @@ int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequ
   const auto shape = s.skins.of(body, detail);
   if (!shape) return s.line.refuse(shape.error());
   to.shape = *shape;
+  if (as.flexing != 0) {
+    const auto table = s.skin_tables.of(body);
+    if (!table) return s.line.refuse(table.error());
+    to.table = *table;
+  }
   const auto pose = s.world().get<Pose>(to.person);
   if (!pose) return s.line.refuse(pose.error());
   posed.pose = *pose;

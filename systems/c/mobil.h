@@ -480,7 +480,8 @@ typedef struct mobil_limits {
   size_t mesh_nodes; /* of any one mesh that must be made; usual 500; 0: none is made that is not there */
   double seconds;    /* after which no further mesh is made; usual 10 */
   int numbers;       /* usual 1: a number that is not finite is refused */
-  size_t steps;      /* that any one muscle may take in a tick; usual 2000 */
+  size_t resources;  /* meshes, solvers, bases and choices that rows share; usual 2000 */
+  size_t steps;      /* that any one muscle may take in a tick; usual 2000; 0: no muscles */
 } mobil_limits;
 /* The same within these limits. */
 MOBIL_API int mobil_restore_within(mobil_sim* sim, const void* bytes, size_t count, const mobil_limits* limits);

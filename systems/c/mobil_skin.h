@@ -44,6 +44,8 @@ typedef struct mobil_skin_target {
    * same origin: the skin moves over them. Null: without. */
   const float* muscles[2];
   size_t muscle_vertices[2];
+  int flexing; /* 1: legs without vertices of muscles move as if they had some; usual 0. A second for the first of a
+                * build (3 kg/m2) */
 } mobil_skin_target;
 /* Writes the skins as people are after the last tick. The first person of a sex takes two seconds, the
  * first of a build (1.5 kg/m2) a quarter to half a second. */

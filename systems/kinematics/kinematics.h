@@ -8,10 +8,6 @@
 
 namespace mobil {
 
-/// The kneecap slides round the knee with the shank but for a tenth of its flexion: its ligament keeps its length
-/// within a seventh.
-inline constexpr float kneecap_part = 0.9F;
-
 /// The block to be posed next: fetched meanwhile, never read.
 struct NextWalkers {
   const StepPlan<Lanes<float>>* plan = nullptr;

@@ -38,11 +38,6 @@ bool same_template(const LegMuscles& a, const LegMuscles& b, Muscle muscle) {
          a.stiffness_damping_s == b.stiffness_damping_s && foundation_of(a, muscle) == foundation_of(b, muscle);
 }
 
-/// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
-std::uint32_t steps_of(double tick_s, double dt_s) {
-  return static_cast<std::uint32_t>(std::max(1.0, std::ceil(tick_s / dt_s * (1 - 1e-12))));
-}
-
 Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choice, const BellyScale<float>& scale,
                             double tick_s) {
   if (choice.method == Method::statics) return 1U;
@@ -50,7 +45,15 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
   const auto critical =
       critical_step(shape.critical_steps, static_cast<double>(scale.across), static_cast<double>(scale.along));
   if (!critical) return tl::unexpected(critical.error());
-  if (!choice.dt_s) return substeps_within(*critical, tick_s);
+  if (!choice.dt_s) {
+    if (tick_s > most_steps * *critical) {
+      return fail(fmt::format(
+          "this belly's critical step is {:.3g} s, and a tick takes at most {} steps; choose softer tissue, a coarser"
+          " mesh, or caa",
+          *critical, most_steps));
+    }
+    return substeps_within(*critical, tick_s);
+  }
   if (*choice.dt_s > *critical) {
     return fail(
         fmt::format("a step of {:.6g} s is above this belly's critical step of {:.6g} s; give a shorter one,"
@@ -61,6 +64,10 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
 }
 
 }  // namespace
+
+std::uint32_t steps_of(double tick_s, double dt_s) {
+  return static_cast<std::uint32_t>(std::max(1.0, std::ceil(tick_s / dt_s * (1 - 1e-12))));
+}
 
 Result<void> check_choice(const LegMuscles& choice, double tick_s) {
   if (choice.drive > Drive::force || choice.method > last_method || choice.element > Element::one_point ||

@@ -125,6 +125,8 @@ namespace usual_sizes {
 inline constexpr double least_ratio = 0.80, most_ratio = 1.26, least_product = 0.6, most_product = 1.3;
 inline constexpr double rare_ratio = 1.05;  // times more or less
 }  // namespace usual_sizes
+/// The fewest equal steps of a tick that are no longer than dt_s, up to rounding.
+std::uint32_t steps_of(double tick_s, double dt_s);
 /// Whether a choice is in range, as far as that does not take a body to say.
 Result<void> check_choice(const LegMuscles& choice, double tick_s);
 /// What a reduced belly's basis depends on of a choice, but for how many vectors it has; all else is as in a

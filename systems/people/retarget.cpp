@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "assets/body/anthropometry.h"
 #include "engine/geometry.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/people/person.h"

@@ -6,10 +6,12 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
+#include <utility>
 
 #include "engine/fused-inl.h"
 #include "systems/skinning/eight-inl.h"
@@ -43,6 +45,10 @@ HWY_INLINE V turn_of(const V& x, const V& z) {
 struct CoverPoint {
   V x, y, z;
 };
+/// Where a vertex is on the leg: to the side and to the front of its line (m), and how far down it.
+struct OnLeg {
+  V side, front, s;
+};
 
 /// A vector's part along an axis of a ring.
 HWY_INLINE V along_axis(const JointRings& bend, std::size_t axis, std::size_t ring, const CoverPoint& p) {
@@ -60,18 +66,10 @@ HWY_INLINE CoverPoint from_centre(const JointRings& bend, const CoverPoint& p) {
 /// ring's own.
 HWY_INLINE CoverPoint in_bend(const JointRings& bend, const hn::Mask<EightTag>& there, const CoverPoint& p) {
   constexpr IntTag whole;
-  const auto above_ring = [&](std::size_t k) HWY_ATTR {
-    return hn::And(there, hn::Gt(along_axis(bend, 1, k, p), set(bend.height_m(k))));
-  };
-  // Vertices side by side lie in rings side by side: all are often above the first ones.
-  std::size_t first = 1;
-  for (const std::size_t k : {bend_rings / 4, bend_rings / 2, 3 * bend_rings / 4}) {
-    if (!hn::AllTrue(tag, hn::Or(hn::Not(there), above_ring(k)))) break;
-    first = k + 1;
-  }
-  hn::Vec<IntTag> ring = hn::Set(whole, static_cast<std::int32_t>(first));
-  for (std::size_t k = first; k < bend_rings; ++k) {
-    const auto above = above_ring(k);
+  hn::Vec<IntTag> ring = hn::Set(whole, 1);
+  auto above = there;  // all rings so far
+  for (std::size_t k = 1; k < bend_rings; ++k) {
+    above = hn::And(above, hn::Gt(along_axis(bend, 1, k, p), set(bend.height_m(k))));
     if (hn::AllFalse(tag, above)) break;
     ring = hn::IfThenElse(hn::RebindMask(whole, above), hn::Set(whole, static_cast<std::int32_t>(k) + 1), ring);
   }
@@ -82,49 +80,48 @@ HWY_INLINE CoverPoint in_bend(const JointRings& bend, const hn::Mask<EightTag>& 
   return {along(0), hn::Max(set(bend.low_m), hn::Min(set(bend.high_m), along(1))), along(2)};
 }
 
-HWY_INLINE CoverPoint choose(const hn::Mask<EightTag>& which, const CoverPoint& yes, const CoverPoint& no) {
-  return {hn::IfThenElse(which, yes.x, no.x), hn::IfThenElse(which, yes.y, no.y), hn::IfThenElse(which, yes.z, no.z)};
+HWY_INLINE OnLeg choose(const hn::Mask<EightTag>& which, const OnLeg& yes, const OnLeg& no) {
+  return {hn::IfThenElse(which, yes.side, no.side), hn::IfThenElse(which, yes.front, no.front),
+          hn::IfThenElse(which, yes.s, no.s)};
 }
 
-/// Where vertices are on the leg: x to the side and z to the front of its line (m), y how far down it (s).
-HWY_INLINE CoverPoint on_leg(const LegRings& rings, const CoverPoint& p) {
+/// Vertices in the rings that they lie in: of thigh or shank, or of a joint between.
+HWY_INLINE OnLeg on_leg(const LegRings& rings, const CoverPoint& p) {
   constexpr std::size_t above = bend_rings, below = 0;
   const JointRings& knee = rings.knee;
   const CoverPoint from = from_centre(knee, p);
-  const auto straight = [&](std::size_t ring, const V& y) HWY_ATTR {
-    return CoverPoint{along_axis(knee, 0, ring, from), y, along_axis(knee, 2, ring, from)};
-  };
   const auto down = [&](float joint_s, const V& y, float length_m)
                         HWY_ATTR { return neg_mul_add(y, set(1 / length_m), set(joint_s)); };
+  const auto straight = [&](std::size_t ring, const V& s) HWY_ATTR {
+    return OnLeg{along_axis(knee, 0, ring, from), along_axis(knee, 2, ring, from), s};
+  };
   const V high = along_axis(knee, 1, above, from), low = along_axis(knee, 1, below, from);
-  const CoverPoint thigh = straight(above, down(1, high, rings.thigh_m)),
-                   shank = straight(below, down(1, low, rings.shank_m));
+  const OnLeg thigh = straight(above, down(1, high, rings.thigh_m)),
+              shank = straight(below, down(1, low, rings.shank_m));
   // Where a knee is bent beyond a right angle, the one whose line is nearer.
-  const auto square = [](const CoverPoint& at) HWY_ATTR { return mul_add(at.z, at.z, hn::Mul(at.x, at.x)); };
+  const auto square = [](const OnLeg& at) HWY_ATTR { return mul_add(at.front, at.front, hn::Mul(at.side, at.side)); };
   const auto may_be_shank = hn::Le(low, set(knee.low_m));
   const auto is_thigh =
       hn::AndNot(hn::And(may_be_shank, hn::Lt(square(shank), square(thigh))), hn::Ge(high, set(knee.high_m)));
   const auto is_shank = hn::AndNot(is_thigh, may_be_shank);
-  CoverPoint at = choose(is_thigh, thigh, shank);
+  OnLeg at = choose(is_thigh, thigh, shank);
   if (const auto is_knee = hn::Not(hn::Or(is_thigh, is_shank)); HWY_UNLIKELY(!hn::AllFalse(tag, is_knee))) {
-    CoverPoint bent = in_bend(knee, is_knee, from);
-    bent.y =
+    const CoverPoint bent = in_bend(knee, is_knee, from);
+    const V s =
         hn::IfThenElse(hn::Gt(bent.y, hn::Zero(tag)), down(1, bent.y, rings.thigh_m), down(1, bent.y, rings.shank_m));
-    at = choose(is_knee, bent, at);
+    at = choose(is_knee, {bent.x, bent.z, s}, at);
   }
   if (const auto is_hip = hn::And(is_thigh, hn::Gt(high, set(rings.thigh_m + rings.hip.low_m)));
       HWY_UNLIKELY(!hn::AllFalse(tag, is_hip))) {
-    CoverPoint bent = in_bend(rings.hip, is_hip, from_centre(rings.hip, p));
-    bent.y = down(0, bent.y, rings.thigh_m);
-    at = choose(is_hip, bent, at);
+    const CoverPoint bent = in_bend(rings.hip, is_hip, from_centre(rings.hip, p));
+    at = choose(is_hip, {bent.x, bent.z, down(0, bent.y, rings.thigh_m)}, at);
   }
   // Behind the ankle skin bends below the grid.
-  if (const auto is_ankle =
-          hn::And(hn::And(is_shank, hn::Lt(low, set(rings.ankle.high_m - rings.shank_m))), hn::Gt(at.z, hn::Zero(tag)));
+  if (const auto is_ankle = hn::And(hn::And(is_shank, hn::Lt(low, set(rings.ankle.high_m - rings.shank_m))),
+                                    hn::Gt(at.front, hn::Zero(tag)));
       HWY_UNLIKELY(!hn::AllFalse(tag, is_ankle))) {
-    CoverPoint bent = in_bend(rings.ankle, is_ankle, from_centre(rings.ankle, p));
-    bent.y = down(2, bent.y, rings.shank_m);
-    at = choose(is_ankle, bent, at);
+    const CoverPoint bent = in_bend(rings.ankle, is_ankle, from_centre(rings.ankle, p));
+    at = choose(is_ankle, {bent.x, bent.z, down(2, bent.y, rings.shank_m)}, at);
   }
   return at;
 }
@@ -186,11 +183,12 @@ void spread(WideGrid& grid, WideGrid& work) {
   });
 }
 
-/// Of a grid whose rings begin anew behind their last angle, and one station that is never read. Vertices side by side
-/// raise the same numbers: they take turns with several such grids, so that none waits for the one before.
-constexpr std::size_t reach_angles = leg_angles + 2, reaches = 4;
+/// How far muscles reach at the points of the grid, m. Each row repeats its first two angles at its end, and a row more
+/// takes what lies beyond the last station. Vertices side by side raise the same numbers: they take turns with several
+/// such tables, so that none waits for the one before.
+constexpr std::size_t reach_angles = leg_angles + 2, reach_tables = 4;
 struct Reach {
-  std::array<float, (leg_stations + 1) * reach_angles> most[reaches];
+  std::array<float, (leg_stations + 1) * reach_angles> most[reach_tables];
 };
 
 /// Two numbers to no less than two others.
@@ -213,29 +211,29 @@ void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, Rea
       for (std::size_t i = 0; i < eight_lanes; ++i) last[i] = muscles[std::min(first + i, muscles.size() - 1)];
       hn::LoadInterleaved3(tag, &last->x, x, y, z);
     }
-    const CoverPoint at = on_leg(rings, {x, y, z});
-    const V out = hn::Mul(set(rings.out), at.x), s = at.y;
+    const OnLeg at = on_leg(rings, {x, y, z});
+    const V out = hn::Mul(set(rings.out), at.side), radius = hn::Sqrt(mul_add(at.front, at.front, hn::Mul(out, out)));
     constexpr auto first_s = static_cast<float>(LegProfile::first_s), last_s = static_cast<float>(LegProfile::last_s);
-    constexpr float stations = (leg_stations - 1) / (last_s - first_s);
-    const V along = hn::Mul(hn::Sub(s, set(first_s)), set(stations));
-    // Nor NaN: what is not on the grid, and who knows where, reaches nowhere.
-    const auto there = hn::And(hn::Ge(along, hn::Zero(tag)), hn::Le(along, set(leg_stations - 1)));
+    constexpr float stations = (leg_stations - 1) / (last_s - first_s), most_m = 1;
+    const V along = hn::Mul(hn::Sub(at.s, set(first_s)), set(stations));
+    // What is not on the grid, not near the leg, or no number reaches nowhere.
+    const auto there = hn::And(hn::And(hn::Ge(along, hn::Zero(tag)), hn::Le(along, set(leg_stations - 1))),
+                               hn::Le(radius, set(most_m)));
     if (hn::AllFalse(tag, there)) continue;
-    const V row = hn::IfThenElseZero(there, along);
-    const V round = hn::IfThenElseZero(there, hn::Mul(turn_of(out, at.z), set(leg_angles)));
-    const V radius = hn::IfThenElseZero(there, hn::Sqrt(mul_add(at.z, at.z, hn::Mul(out, out))));
+    const V row = hn::IfThenElseZero(there, along), reaches = hn::IfThenElseZero(there, radius);
+    const V round = hn::IfThenElseZero(there, hn::Mul(turn_of(out, at.front), set(leg_angles)));
     const auto i = hn::ConvertTo(whole, row), j = hn::ConvertTo(whole, round);
     const V u = hn::Sub(row, hn::ConvertTo(tag, i)), v = hn::Sub(round, hn::ConvertTo(tag, j));
     const V u1 = hn::Sub(u, set(1)), v1 = hn::Sub(v, set(1));
     const auto counted = [&](const V& a, const V& b)
-                             HWY_ATTR { return neg_mul_add(set(beside_m), mul_add(a, a, hn::Mul(b, b)), radius); };
+                             HWY_ATTR { return neg_mul_add(set(beside_m), mul_add(a, a, hn::Mul(b, b)), reaches); };
     alignas(64) float value[4 * eight_lanes];  // of each vertex: this station and the next, two angles of either
     alignas(64) std::int32_t to[eight_lanes];
     const Rows rows = transposed({{counted(u, v), counted(u, v1), counted(u1, v), counted(u1, v1)}});
     for (std::size_t k = 0; k < 4; ++k) store_vertices(tag, rows.row[k], value + 4 * k, 4);
     hn::Store(hn::Add(hn::Mul(i, hn::Set(whole, static_cast<std::int32_t>(reach_angles))), j), whole, to);
     for (std::size_t lane = 0; lane < eight_lanes; ++lane) {
-      float* const here = &reach.most[lane % reaches][static_cast<std::size_t>(to[lane])];
+      float* const here = &reach.most[lane % reach_tables][static_cast<std::size_t>(to[lane])];
       raise(here, value + 4 * lane);
       raise(here + reach_angles, value + 4 * lane + 2);
     }
@@ -243,7 +241,7 @@ void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, Rea
   auto& all = reach.most[0];
   for (std::size_t i = 0; i < leg_stations; ++i) {
     float* const row = &all[i * reach_angles];
-    for (std::size_t k = 1; k < reaches; ++k) {
+    for (std::size_t k = 1; k < reach_tables; ++k) {
       const float* const other = &reach.most[k][i * reach_angles];
       for (std::size_t j = 0; j < leg_angles; j += eight_lanes)
         hn::StoreU(hn::Max(hn::LoadU(tag, row + j), hn::LoadU(tag, other + j)), tag, row + j);

@@ -7,6 +7,7 @@
 #include "assets/body/anthropometry.h"
 #include "components/segments.h"
 #include "engine/geometry.h"
+#include "systems/skinning/skin_table.h"
 
 namespace mobil {
 namespace {
@@ -43,12 +44,6 @@ JointRings bend_of(const Quat<float>& above, const Quat<float>& below, const Vec
   return rings;
 }
 
-/// How far a joint is bent about its x axis, rad; backwards above 0.
-float bent_back(const Quat<float>& above, const Quat<float>& below) {
-  const Quat<float> joint = product(conjugate(above), below);
-  return 2 * std::atan2(joint.w < 0 ? -joint.x : joint.x, std::abs(joint.w));
-}
-
 /// By how much the line bends at a height over a joint that is bent by `angle`.
 float curved_at(float y, float angle, const JointRings& bend) {
   const float wide = bend.high_m - bend.low_m, t = (y - bend.low_m) / wide;
@@ -71,13 +66,13 @@ LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths,
   rings.knee = bend_of(turned[thigh], turned[shank], pose.position_m[shank], knee_bend, size);
   rings.ankle = bend_of(turned[shank], turned[foot], pose.position_m[foot], ankle_bend, size);
   rings.out = side == Side::right ? 1.0F : -1.0F;
-  const float hip = bent_back(turned[pelvis], turned[thigh]), knee = bent_back(turned[thigh], turned[shank]);
+  const LegAngles angles = leg_angles_of(pose, side);
   constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const float s = first + (last - first) * static_cast<float>(i) / (leg_stations - 1);
     const float over_knee = s < 1 ? (1 - s) * rings.thigh_m : (1 - s) * rings.shank_m;
-    rings.curved[i] =
-        curved_at(over_knee, std::max(0.0F, knee), rings.knee) + curved_at(-s * rings.thigh_m, hip, rings.hip);
+    rings.curved[i] = curved_at(over_knee, std::max(0.0F, angles.knee), rings.knee) +
+                      curved_at(-s * rings.thigh_m, -angles.hip, rings.hip);
   }
   static const std::array<float, leg_angles> inner = inner_side();
   rings.inner = inner;

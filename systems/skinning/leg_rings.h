@@ -15,7 +15,7 @@ inline constexpr std::size_t bend_rings = 16;
 /// The rings of one joint, each turned about its centre: the first as the segment below, the last as the one above.
 struct JointRings {
   Vec3<float> centre_m;
-  float low_m, high_m;  // the first and the last ring's height over the centre
+  float low_m, high_m;  // the first and the last ring's height over the centre, below it under 0
   /// x, y and z of the rings' axes (to the left, up, to the front).
   std::array<std::array<std::array<float, bend_rings + 1>, 3>, 3> axis;
 
@@ -24,6 +24,7 @@ struct JointRings {
   }
 };
 
+/// World, m, of one leg as a pose has it.
 struct LegRings {
   JointRings hip, knee, ankle;  // the ankle's as its skin bends in front
   float thigh_m, shank_m;

@@ -6,8 +6,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
-#include <cstring>
 #include <numbers>
 
 #include "components/segments.h"
@@ -47,6 +47,7 @@ HWY_INLINE EightVector by_side(const hn::Mask<EightTag>& is_left, float right, f
 /// Vertices at rest, moved away from their legs' lines; their normals tilt as what lifts them slopes.
 HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGroup& group, Vec3<float>* places,
                      Vec3<float>* normals) {
+  static_assert(std::has_single_bit(leg_angles), "angles are wrapped by a mask");
   constexpr IntTag whole;
   constexpr auto round = static_cast<std::int32_t>(leg_angles);
   const auto all = [](float s) HWY_ATTR { return hn::Set(eight, s); };
@@ -200,16 +201,20 @@ void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const Fram
 }
 
 void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
-               const std::array<std::span<const Vec3<float>>, 2>& muscles, std::span<FrameMap> maps,
-               const VertexTarget& out) {
+               const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table,
+               std::span<FrameMap> maps, const VertexTarget& out) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   frame_maps(mesh, skin, pose, lengths, origin_m, maps);
   SkinCover cover;
   bool covers = false;
   for (const Side side : {Side::right, Side::left}) {
-    if (muscles[side].empty()) continue;
+    if (muscles[side].empty() && table == nullptr) continue;
     covers = true;
-    cover_muscles(skin, pose, lengths, side, muscles[side], cover.lift_m[side]);
+    if (muscles[side].empty()) {
+      cover_by_table(*table, leg_angles_of(pose, side), cover.lift_m[side]);
+    } else {
+      cover_muscles(skin, pose, lengths, side, muscles[side], cover.lift_m[side]);
+    }
   }
   place_skin(mesh, skin, maps, covers ? &cover : nullptr, out);
 }

@@ -8,6 +8,7 @@
 #include "components/pose.h"
 #include "systems/skinning/cover_muscles.h"
 #include "systems/skinning/skin_frames.h"
+#include "systems/skinning/skin_table.h"
 #include "systems/skinning/write_vertices.h"
 
 namespace mobil {
@@ -19,15 +20,15 @@ struct LegLines {
 };
 
 /// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned, and
-/// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing. The same bits on every
-/// instruction set with fused multiply-add.
+/// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing. Tangents are not written
+/// (`out.tangent` must be null). The same bits on every instruction set with fused multiply-add.
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
                 const VertexTarget& out);
 
-/// All of it: frames, what muscles lift (world, m, by Side; none: a leg as it is without), vertices. `maps`: of the
-/// mesh's frames, to work in.
+/// All of it: frames, what muscles lift (world, m, by Side; none: as `table` says, and without one the leg is as it is
+/// without), vertices. `maps`: of the mesh's frames, to work in.
 void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
-               const std::array<std::span<const Vec3<float>>, 2>& muscles, std::span<FrameMap> maps,
-               const VertexTarget& out);
+               const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table,
+               std::span<FrameMap> maps, const VertexTarget& out);
 
 }  // namespace mobil

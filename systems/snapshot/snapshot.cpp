@@ -139,6 +139,12 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
         fmt::format("the snapshot has {} people and muscles, and at most {} are allowed; raise RestoreLimits::rows",
                     rows, limits.rows));
   }
+  if (header.resources > limits.resources) {
+    return fail(
+        fmt::format("the snapshot shares {} meshes, solvers, bases and choices, and at most {} are allowed;"
+                    " raise RestoreLimits::resources",
+                    header.resources, limits.resources));
+  }
   if (auto ok = check_modules(front->modules, *world, scene.modules); !ok) return tl::unexpected(ok.error());
   if (auto ok = check_parts(*front, *world, scene); !ok) return tl::unexpected(ok.error());
   if (limits.numbers) {
@@ -159,10 +165,16 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
     if (!number) return tl::unexpected(number.error());
     work.shared.push_back({resource_type(saved.recipe), saved.number, *number});
   }
-  const double tick_s = std::ldexp(static_cast<double>(header.tick_units), -50);
-  const auto check = [&](const TableKey& key) -> Result<void> {
-    if (auto ok = check_key(key, scene.world, work.resources, scene.modules); !ok) return ok;
-    return check_steps(key, scene.world, tick_s, limits.steps);
+  // One reference is captured, so that a std::function of it takes no memory.
+  const struct {
+    const RestoreScene& scene;
+    const ResourceList& resources;
+    double tick_s;
+    std::size_t most_steps;
+  } known{scene, work.resources, std::ldexp(static_cast<double>(header.tick_units), -50), limits.steps};
+  const auto check = [&known](const TableKey& key) -> Result<void> {
+    if (auto ok = check_key(key, known.scene.world, known.resources, known.scene.modules); !ok) return ok;
+    return check_steps(key, known.scene.world, known.tick_s, known.most_steps);
   };
   if (auto ok = work.world.prepare(scene.world, *world, work.parts, work.shared, check); !ok)
     return tl::unexpected(ok.error());

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "assets/fem/stiffness_terms.h"
 #include "components/leg_muscles.h"
 #include "components/muscle.h"
 #include "systems/muscles/muscle_parts.h"
@@ -35,6 +36,16 @@ std::vector<bool> float_words(const SavedWorld& world, std::uint32_t table, std:
     }
   }
   return found;
+}
+
+/// How many steps an explicit belly of a choice takes in a tick, about: of one 4 cm across whose elements are cubes.
+double likely_steps(const LegMuscles& choice, double tick_s) {
+  const Material& m = choice.material;
+  const double modulus = m.young_pa * (1 - m.poisson) / ((1 + m.poisson) * (1 - 2 * m.poisson));
+  const double element_m = 0.04 / std::max({choice.cells[0], choice.cells[1], 1U});
+  const double half_1_s = std::sqrt(modulus / m.density_kg_m3) / element_m;  // of the highest frequency
+  const double damped = choice.stiffness_damping_s * half_1_s;
+  return tick_s * half_1_s * (std::sqrt(1 + damped * damped) + damped);
 }
 
 }  // namespace
@@ -129,9 +140,12 @@ Result<void> check_key(const TableKey& key, const World& world, const ResourceLi
 Result<void> check_steps(const TableKey& key, const World& world, double tick_s, std::size_t most) {
   const auto kind = muscle_kind(key, world);
   double steps = kind ? kind->steps : 0;
-  if (const KeyPart* const part = find_part(key, type_id<LegMuscles>())) {
-    const auto& choice = *static_cast<const LegMuscles*>(world.resource(part->value));
-    if (choice.dt_s) steps = std::max(steps, std::ceil(tick_s / *choice.dt_s));
+  const KeyPart* const part = find_part(key, type_id<LegMuscles>());
+  const auto* const choice = part == nullptr ? nullptr : static_cast<const LegMuscles*>(world.resource(part->value));
+  if (choice != nullptr && choice->muscles.any()) {
+    if (!check_choice(*choice, tick_s) || !check_material(choice->material)) return damaged("a choice of muscles");
+    steps = std::max(
+        steps, choice->dt_s ? static_cast<double>(steps_of(tick_s, *choice->dt_s)) : likely_steps(*choice, tick_s));
   }
   if (steps <= static_cast<double>(most)) return {};
   return fail(

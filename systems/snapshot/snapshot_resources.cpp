@@ -295,7 +295,7 @@ Result<std::uint64_t> ResourceList::number_of(const SavedResource& saved, std::s
 bool ResourceList::is_there(const Recipe& recipe, BellyLibrary& library) {
   const auto choice = choice_of(recipe.choice);
   if (choice && recipe.kind == ResourceKind::choice) {
-    const auto has_mesh = [&](const auto& made) { return made->choice.cells == choice->cells; };
+    const auto has_mesh = [&](const auto& made) { return same_tissue(made->choice, *choice); };
     const auto has_basis = [&](const auto& made) { return made.choice.reduced.cells == choice->reduced.cells; };
     return std::ranges::any_of(library.templates_, has_mesh) &&
            (has_usual_basis(*choice) || std::ranges::any_of(library.bases_, has_basis));

@@ -13,7 +13,6 @@ namespace mobil {
 namespace {
 
 constexpr float index_step = 1.5F;  // kg/m², between the builds that skins are made for
-constexpr float least_index = 13.5F, most_index = 64.5F;
 
 Result<void> check_skin(const World& world, const SkinRequest& request) {
   if (request.shape.skin == nullptr) return fail("no skin; BodySkins::of gives one");
@@ -38,22 +37,18 @@ const SkinMesh& mesh_of(const BodySkin& skin) {
 
 Result<SkinShape> BodySkins::of(const BodyRequest& body, SkinDetail detail) {
   if (auto ok = check_body(body); !ok) return tl::unexpected(ok.error());
-  const float tall = skin_body(body.sex).height_m;
-  const float index = std::clamp(body.mass_kg / (body.height_m * body.height_m), least_index, most_index);
   const int coarse = detail < SkinDetail::far ? 1 : 2;
-  const int step = coarse * static_cast<int>(std::lround(index / (index_step * static_cast<float>(coarse))));
+  const auto [steps, usual] = skin_build(body, index_step * static_cast<float>(coarse));
+  const int step = coarse * steps;
   auto& skin = skin_[{body.sex, detail, step}];
   if (!skin) {
-    BodyRequest usual{.height_m = tall};
-    usual.mass_kg = index_step * static_cast<float>(step) * tall * tall;
-    usual.sex = body.sex;
     const auto made = make_body(usual);
     if (!made) return tl::unexpected(made.error());
     double& fullness = fullness_[{body.sex, step}];
     if (fullness == 0) fullness = trunk_fullness(*made);
     skin = std::make_unique<BodySkin>(make_body_skin(*made, fullness, detail, dress_));
   }
-  return SkinShape{skin.get(), body.height_m / tall};
+  return SkinShape{skin.get(), body.height_m / usual.height_m};
 }
 
 struct SkinWriter::Work {
@@ -75,7 +70,7 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
                            request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
                            request.positions.stride, request.normals.stride};
     const Pose<float> own = request.pose == nullptr ? *work.world.get<Pose>(request.person) : *request.pose;
-    pose_skin(skin, own, request.shape.lengths, request.origin_m, request.muscles, maps, out);
+    pose_skin(skin, own, request.shape.lengths, request.origin_m, request.muscles, request.table, maps, out);
   }
 }
 

@@ -22,6 +22,7 @@
 #include "engine/scratch.h"
 #include "engine/world.h"
 #include "systems/skinning/cover_muscles.h"
+#include "systems/skinning/skin_table.h"
 #include "systems/surfaces/vertex_stream.h"
 
 namespace mobil {
@@ -57,9 +58,12 @@ struct SkinRequest {
   VertexStream positions{}, normals{};
   Vec3<float> origin_m{0, 0, 0};
   /// The vertices of each leg's muscles, by Side, in the world whatever `origin_m` is, as a SurfaceWriter wrote them;
-  /// none: the leg is as it is without. A tenth of them serves (SurfaceChoice::detail); SurfaceChoice::sides binds each
+  /// none: the leg is as `table` says. A tenth of them serves (SurfaceChoice::detail); SurfaceChoice::sides binds each
   /// side by itself.
   std::array<std::span<const Vec3<float>>, 2> muscles{};
+  /// Legs without vertices of muscles move as if they had some. Of the person's sex and build (SkinTables::of); good
+  /// until `write` returns. Null: they do not.
+  const SkinTable* table = nullptr;
   const Pose<float>* pose = nullptr;  // Simulation::get<Pose> of who is compact or asleep; null: that on their row
 };
 

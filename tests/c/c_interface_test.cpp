@@ -288,6 +288,12 @@ TEST(CInterface, SnapshotsGoFromOneInterfaceToTheOther) {
   EXPECT_EQ(mobil_restore_within(sim, bytes.data(), used, &limits), MOBIL_REFUSED);
   EXPECT_NE(std::string(mobil_message(sim)).find("at most 1"), std::string::npos);
   limits.rows = 1000;
+  limits.resources = 0;
+  EXPECT_EQ(mobil_restore_within(sim, bytes.data(), used, &limits), MOBIL_REFUSED);
+  EXPECT_NE(std::string(mobil_message(sim)).find("at most 0"), std::string::npos);
+  limits.resources = 1000;
+  limits.steps = 1000;
+  limits.size = offsetof(mobil_limits, resources);  // of a host that knows no more
   EXPECT_EQ(mobil_restore_within(sim, bytes.data(), used, nullptr), MOBIL_REFUSED);
   ASSERT_EQ(mobil_restore_within(sim, bytes.data(), used, &limits), MOBIL_OK);
   ASSERT_EQ(mobil_restore(sim, bytes.data(), used), MOBIL_OK);

@@ -79,6 +79,26 @@ TEST(CSkin, IsThatOfCppInTheHostsAxes) {
   EXPECT_NEAR(six_fold / 6e6, 0.065, 0.02);
 }
 
+TEST(CSkin, LegsFlexOnRequest) {
+  Sim sim;
+  auto person = filled<mobil_person>(MOBIL_PERSON);
+  auto target = filled<mobil_skin_target>(MOBIL_SKIN_TARGET);
+  ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &target.id), MOBIL_OK);
+  ASSERT_EQ(mobil_tick(sim, 30), MOBIL_OK);
+  target.detail = MOBIL_DISTANT;
+  std::vector<float> still(3 * mobil_skin_vertex_count(MOBIL_MAN, MOBIL_DISTANT)), moved(still.size());
+  target.positions = still.data();
+  target.position_bytes = still.size() * sizeof(float);
+  ASSERT_EQ(mobil_write_skin(sim, &target, 0, 1), MOBIL_OK) << sim.message();
+  target.positions = moved.data();
+  target.flexing = 1;
+  ASSERT_EQ(mobil_write_skin(sim, &target, 0, 1), MOBIL_OK) << sim.message();
+  float most = 0;
+  for (std::size_t i = 0; i < still.size(); ++i) most = std::max(most, std::abs(moved[i] - still[i]));
+  EXPECT_GT(most, 0.001F);
+  EXPECT_LT(most, 0.05F);
+}
+
 TEST(CSkin, RefusesWhatCannotBe) {
   Sim sim;
   EXPECT_EQ(mobil_skin_vertex_count(2, 0), 0U);

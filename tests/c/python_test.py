@@ -284,6 +284,9 @@ class Worlds(unittest.TestCase):
         self.assertEqual(skin.parts["shoes"].stop, len(skin.triangles))
         shoes = vertices[:, skin.triangles[skin.parts["shoes"]].ravel(), 1]
         self.assertLess(float(shoes.max()), 0.35)
+        flexing = skin.vertices(world, people, flexing=True)
+        moved = abs(flexing - vertices)[..., :3].max()
+        self.assertTrue(0.001 < moved < 0.05)
         with self.assertRaises(ValueError):
             mobil.Skin(world, "woman", "huge")
 

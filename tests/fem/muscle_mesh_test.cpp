@@ -106,7 +106,7 @@ RC_GTEST_PROP(MuscleMesh, TheTemplateScaledIsAsLargeAsThePlanSays, ()) {
 // Of a surface in the belly's span: how far its vertices lie outside the mesh.
 TEST(MuscleMesh, FollowsTheSurfacesOfItsMuscle) {
   const Body body = reference();
-  const auto surfaces = make_muscle_surfaces(body);
+  const auto surfaces = make_muscle_surfaces(body, MuscleRoom::alone);
   for (const Muscle muscle : all_muscles()) {
     const MusclePlan plan = make_muscle_plan(body, muscle).value();
     const auto mesh = mesh_of(muscle, middle);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "assets/body/bent_legs.h"
 #include "assets/skin/body_skin.h"
 #include "engine/geometry.h"
 #include "systems/simulation.h"
@@ -215,28 +216,6 @@ TEST(SkinCover, HoldsTheMusclesThroughAStride) {
   }
 }
 
-/// Both legs bent alike, degrees.
-Pose<float> bent(const Body& body, float hip, float knee, float ankle) {
-  using enum Segment;
-  Pose<float> pose = standing_pose(body);
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    const std::size_t parent = index(segment_parent[s]);
-    if (s == parent) continue;
-    const auto is = [s](Segment r) {
-      return s == index(on_side(r, Side::right)) || s == index(on_side(r, Side::left));
-    };
-    const float by = is(thigh_right)     ? -hip
-                     : is(shank_right)   ? knee
-                     : is(patella_right) ? 0.9F * knee
-                     : is(foot_right)    ? -ankle
-                                         : 0.0F;
-    const float half = 0.5F * 0.0174532925F * by;
-    pose.rotation[s] = product(pose.rotation[parent], {std::sin(half), 0, 0, std::cos(half)});
-    pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
-  }
-  return pose;
-}
-
 /// A thousand poses with MOBIL_LONG=1.
 TEST(SkinCover, HoldsTheMusclesInAnyPose) {
   const int poses = std::getenv("MOBIL_LONG") != nullptr ? 167 : 12;  // each
@@ -252,7 +231,7 @@ TEST(SkinCover, HoldsTheMusclesInAnyPose) {
     Outside found;
     for (int i = 0; i < poses; ++i) {
       const float hip = within(-20, 90), knee = within(0, 110), ankle = within(-40, 20);
-      ASSERT_EQ(simulation.set_pose(one, bent(watched.body(), hip, knee, ankle)), Status::ok);
+      ASSERT_EQ(simulation.set_pose(one, with_bent_legs(watched.body(), {hip, knee, ankle})), Status::ok);
       for (int tick = 0; tick < 2; ++tick) simulation.tick();
       watched.look(found);
     }

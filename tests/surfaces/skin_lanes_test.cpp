@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <span>
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "assets/body/bent_legs.h"
 #include "engine/geometry.h"
 #include "systems/simulation.h"
 #include "systems/surfaces/surfaces.h"
@@ -65,6 +67,44 @@ TEST(SkinLanes, IsWhatOneVertexAtATimeComesTo) {
     }
   }
   EXPECT_GT(most_lift, 0.005);
+}
+
+/// Either leg, bent far or not, larger than its skin, with vertices that are no numbers or far away among the others.
+TEST(SkinLanes, CoversEitherLegInAnyPoseAsPlainCodeDoes) {
+  const Body body = *make_body({.height_m = 1.75F, .mass_kg = 75});
+  const BodySkin skin = *make_body_skin(body, SkinDetail::distant);
+  std::mt19937 random(8);
+  const auto within = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(random); };
+  const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
+  double most_lift = 0;
+  for (int round = 0; round < 60; ++round) {
+    const Side side = round % 2 == 0 ? Side::right : Side::left;
+    const float lengths = round % 3 == 0 ? 1.0F : 1.1F;
+    const BodyRequest taller{.height_m = 1.75F * lengths, .mass_kg = 75};
+    const Pose<float> pose = with_bent_legs(*make_body(taller), {within(-20, 100), within(0, 140), within(-45, 30)});
+    std::vector<Vec3<float>> cloud, plain;
+    for (int i = 0; i < 400; ++i) {
+      const std::size_t upper = index(on_side(i % 2 == 0 ? Segment::thigh_right : Segment::shank_right, side));
+      const Vec3<float> off{within(-0.09F, 0.09F), within(-0.45F, 0.05F), within(-0.09F, 0.09F)};
+      cloud.push_back(pose.position_m[upper] + rotated(pose.rotation[upper], off));
+    }
+    plain = cloud;
+    for (const Vec3<float>& odd : {Vec3<float>{nan, 1, 0}, Vec3<float>{0, inf, 0}, Vec3<float>{0, 0.5F, -inf},
+                                   Vec3<float>{3e38F, 3e38F, -3e38F}, Vec3<float>{0, 0.6F, 3e38F}})
+      for (std::size_t at : {std::size_t{3}, std::size_t{100}, cloud.size() - 1})
+        cloud.insert(cloud.begin() + static_cast<std::ptrdiff_t>(at), odd);
+    SkinCover cover, oracle;
+    cover_muscles(skin, pose, lengths, side, cloud, cover.lift_m[side]);
+    skin_oracle::cover(skin, pose, lengths, side, plain, oracle.lift_m[side]);
+    std::size_t off = 0;  // vertices on the border of two rings may fall into either
+    for (std::size_t n = 0; n < leg_grid_points; ++n) {
+      ASSERT_TRUE(std::isfinite(cover.lift_m[side][n]));
+      off += std::abs(cover.lift_m[side][n] - oracle.lift_m[side][n]) > 2e-5F ? 1 : 0;
+      most_lift = std::max(most_lift, static_cast<double>(cover.lift_m[side][n]));
+    }
+    EXPECT_LT(off, leg_grid_points / 50) << round;
+  }
+  EXPECT_GT(most_lift, 0.01);
 }
 
 TEST(SkinLanes, HoldsTheSameBitsOnEveryInstructionSet) {

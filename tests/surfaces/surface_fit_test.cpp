@@ -64,7 +64,7 @@ TEST(SurfaceFit, OnTheSameBodyNothingChanges) {
 
 /// How far muscles' vertices are, in the mean, from those of surfaces drawn for that body, m; bones are where they
 /// were.
-double off_m(const BodyRequest& bound, const BodyRequest& body, double farthest_m = 0.02) {
+double off_m(const BodyRequest& bound, const BodyRequest& body, double farthest_m = 0.03) {
   const BodySurfaces shared = bind_surfaces(make_body(bound).value()).value();
   Walker walker(body);
   const BodySurfaces own = bind_surfaces(walker.human.body).value();
@@ -90,6 +90,7 @@ TEST(SurfaceFit, OnOtherBodiesTheyAreNearlyThoseDrawnForThem) {
   EXPECT_LT(off_m(usual, bodies[3]), 0.0015);
   // Muscles grow away from their bones, meshes about their middles: who is built otherwise has a bound one of that
   // build.
+  // Of vastus lateralis some vertices are 4 cm off, along the surface: his is half as wide again, and cut back by skin.
   EXPECT_LT(off_m(usual, bodies[2], 0.05), 0.0050);
   EXPECT_LT(off_m(strong, bodies[2]), 0.0015);
 }

@@ -44,4 +44,4 @@
  },
  .not_drawn = 1,
  .drawn_below = {{0.990F, 25, 41, 8, 3, 110}},
- .lies_on = "vastus_intermedius"},
+ .cut_back_to = "vastus_intermedius"},

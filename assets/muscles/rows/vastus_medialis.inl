@@ -49,4 +49,4 @@
      {0.962F, -9, 38.5F, 15, 6.5F, 68},
      {0.994F, -1, 41, 9, 2.8F, 80},
  },
- .lies_on = "vastus_intermedius"},
+ .cut_back_to = "vastus_intermedius"},

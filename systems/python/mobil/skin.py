@@ -36,9 +36,10 @@ class Skin:
         """Of "skin", "legs", "lips", "hair", "shirt", "shorts" and "shoes": which triangles."""
 
     def vertices(
-        self, world: World, people: People, out: npt.NDArray[np.float32] | None = None
+        self, world: World, people: People, out: npt.NDArray[np.float32] | None = None, *, flexing: bool = False
     ) -> npt.NDArray[np.float32]:
-        """(n, vertices, 6): positions and unit normals after the last tick, of people of this sex."""
+        """(n, vertices, 6): positions and unit normals after the last tick, of people of this sex. `flexing`: legs
+        move as if muscles moved under their skin; a second for the first person of a build."""
         people = np.atleast_1d(people)
         out = room(out, len(people), self.vertex_count)
         targets = ffi.new("mobil_skin_target[]", max(len(people), 1))
@@ -46,7 +47,7 @@ class Skin:
             target = targets[i]
             target.size = ffi.sizeof("mobil_skin_target")
             target.id = _one(people[i])
-            target.detail, target.sex = self.detail, self.sex
+            target.detail, target.sex, target.flexing = self.detail, self.sex, flexing
             aim(target, out[i])
         world._do(lib.mobil_write_skin(world._sim, targets, 0, len(people)))
         return out

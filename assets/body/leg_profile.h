@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "assets/skin/body_measures.h"
+#include "assets/body/body_measures.h"
 
 namespace mobil {
 

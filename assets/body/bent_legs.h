@@ -1,5 +1,5 @@
 #pragma once
-// A posed body with both legs bent: for pictures and hard cases.
+// A posed body with both legs bent: for pictures, tables and hard cases.
 
 #include "components/body.h"
 #include "components/pose.h"
@@ -11,7 +11,7 @@ struct LegBend {
   float hip_flexion = 0, knee_flexion = 0, dorsiflexion = 0;
 };
 
-/// The pelvis stays where the body stands.
+/// The pelvis stays where the body stands; kneecaps slide round their knees as in a walk.
 Pose<float> with_bent_legs(const Body& body, const LegBend& bend);
 
 }  // namespace mobil

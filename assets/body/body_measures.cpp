@@ -1,4 +1,4 @@
-#include "assets/skin/body_measures.h"
+#include "assets/body/body_measures.h"
 
 #include <array>
 #include <cmath>

@@ -1,11 +1,11 @@
-#include "assets/skin/leg_profile.h"
+#include "assets/body/leg_profile.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 
-#include "assets/skin/form_shapes.h"
+#include "assets/body/between.h"
 
 namespace mobil {
 namespace {

@@ -1,8 +1,9 @@
-#include "demo/pictures/bent_legs.h"
+#include "assets/body/bent_legs.h"
 
 #include <cmath>
 #include <numbers>
 
+#include "assets/body/anthropometry.h"
 #include "components/segments.h"
 #include "engine/geometry.h"
 
@@ -30,6 +31,13 @@ Pose<float> with_bent_legs(const Body& body, const LegBend& bend) {
                                          : 0.0F;
     pose.rotation[s] = product(pose.rotation[parent], about_x(turn));
     pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
+  }
+  for (const Side side : {Side::right, Side::left}) {
+    const std::size_t shank = index(on_side(shank_right, side)), cap = index(on_side(patella_right, side)),
+                      thigh = index(on_side(thigh_right, side));
+    pose.rotation[cap] = product(pose.rotation[thigh], about_x(kneecap_part * bend.knee_flexion));
+    pose.position_m[cap] =
+        pose.position_m[shank] + rotated(pose.rotation[cap], body.joint_offset_m[cap] - body.joint_offset_m[shank]);
   }
   return pose;
 }

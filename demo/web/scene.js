@@ -4,7 +4,7 @@ export const usual = {
   methods: ['reduced', 'reduced', 'reduced', 'reduced'], vectors: 12, pull: 0, inertia: 0, forces: 1,
   ground: 0, crowd: 60, clear: 0, choose: 0, tolerance: 1, budget: 0, heat: 0,
 };
-export const methodNames = ['ecd', 'icd', 'caa', 'static', 'reduced', 'none'];
+export const methodNames = ['ecd', 'icd', 'caa', 'static', 'reduced', 'finite', 'none'];
 
 /** From `?height=1.7&methods=ecd,ecd,caa,none&style.arm_swing=1.2`; what is not a number, or unknown, stays as usual. */
 export function fromAddress(query) {

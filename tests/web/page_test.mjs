@@ -111,7 +111,7 @@ await test('what nobody can be is refused in one line, and the slider goes back'
   assert.equal(await set(page, 'mass', 80), '');
 });
 await test('each method simulates each group', async () => {
-  for (const method of ['ecd', 'icd', 'caa', 'static', 'none', 'reduced']) {
+  for (const method of ['ecd', 'icd', 'caa', 'static', 'finite', 'none', 'reduced']) {
     for (let i = 0; i < 4; ++i) assert.equal(await set(page, `method${i}`, method), '', method);
     await look(page, 5);
     assert.equal(await page.evaluate(() => mobilPage.world.method(mobilPage.person, 2).method), await page.evaluate((m) => mobilPage.constants.METHODS[m], method));

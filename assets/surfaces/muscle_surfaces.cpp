@@ -108,12 +108,12 @@ double belly(const LegSection& s, double largest_area) {
   return smoothstep(0.08, 0.45, area(s) / largest_area);
 }
 
-/// The area of a muscle's section at a level over that of its largest.
-double relative_area(std::span<const LegSection> sections, double level) {
+/// The area of a muscle's section at a level over that of its largest; where the sections lie is told by `placed`.
+double relative_area(std::span<const LegSection> sections, std::span<const LegSection> placed, double level) {
   double largest = 0;
   for (const LegSection& s : sections) largest = std::max(largest, area(s));
   const auto [i, w] =
-      form::between(sections.size(), level, [&](std::size_t k) { return static_cast<double>(sections[k].level); });
+      form::between(sections.size(), level, [&](std::size_t k) { return static_cast<double>(placed[k].level); });
   return ((1 - w) * area(sections[i]) + w * area(sections[i + 1])) / largest;
 }
 
@@ -271,7 +271,7 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::s
     keep_in(f, ring);
     // Tendons go on to where the muscle beneath ends, too.
     const double thick =
-        smoothstep(0.3, 0.7, relative_area(sections, leg_level(f.leg, static_cast<double>(ring[0].y))));
+        smoothstep(0.3, 0.7, relative_area(sections, sections, leg_level(f.leg, static_cast<double>(ring[0].y))));
     const std::vector<Vec3<float>> uncut(ring.begin(), ring.end());
     keep_out(f, beneath, ring);
     for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = uncut[i] + static_cast<float>(thick) * (ring[i] - uncut[i]);
@@ -287,18 +287,10 @@ SurfaceMesh build(const Fitting& f, std::span<const LegSection> sections, std::s
 /// 0 in the belly, 1 in the tendons, by the area of the measured section at each vertex's level.
 std::vector<float> tendon_shares(const LegFrame& leg, std::span<const LegSection> fitted_sections,
                                  std::span<const LegSection> measured, const SurfaceMesh& mesh) {
-  double largest = 0;
-  for (const auto& s : measured) largest = std::max(largest, area(s));
   std::vector<float> share;
   for (const auto& p : mesh.position) {
     const double level = leg_level(leg, static_cast<double>(p.y));
-    std::size_t i = 0;
-    while (i + 2 < measured.size() && level > static_cast<double>(fitted_sections[i + 1].level)) ++i;
-    const auto from = static_cast<double>(fitted_sections[i].level),
-               to = static_cast<double>(fitted_sections[i + 1].level);
-    const double w = std::clamp((level - from) / (to - from), 0.0, 1.0);
-    const double here = (1 - w) * area(measured[i]) + w * area(measured[i + 1]);
-    share.push_back(static_cast<float>(1 - smoothstep(0.10, 0.32, here / largest)));
+    share.push_back(static_cast<float>(1 - smoothstep(0.10, 0.32, relative_area(measured, fitted_sections, level))));
   }
   return share;
 }

@@ -63,8 +63,7 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
     for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
   std::ranges::sort(our_parts_);
   awake_parts_ = our_parts_;
-  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()})
-    std::erase(awake_parts_, kept);
+  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()}) std::erase(awake_parts_, kept);
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
     for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);
@@ -177,13 +176,13 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
 
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
   auto gait = changed_gait(*world_, human, change);
-  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1}, sleep_work_->styles);
+  if (gait) keep_walk_limits(*world_, jobs_, human, *gait, sleep_work_->styles);
   return ask(human, gait);
 }
 
 Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
   auto gait = new_gait(*world_, human, asked);
-  if (gait) keep_walk_limits(*world_, jobs_, {&human, 1}, {&*gait, 1}, sleep_work_->styles);
+  if (gait) keep_walk_limits(*world_, jobs_, human, *gait, sleep_work_->styles);
   return ask(human, gait);
 }
 
@@ -217,17 +216,18 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
       asked[i] = asked_walk(*world_, human, gait, heading_rad, now);
     }
   });
-  people.clear();
+  std::vector<BodySize<float>>& sizes = sleep_work_->sizes;
   std::vector<Gait<float>>& gaits = sleep_work_->gaits;
+  sizes.clear();
   gaits.clear();
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (!asked[i].gait || !changes[i].gait) continue;
-    people.push_back(changes[i].human);
-    gaits.push_back(*asked[i].gait);
+  for (const AskedWalk& one : asked) {
+    if (!one.gait || !one.walks_otherwise) continue;
+    sizes.push_back(one.size);
+    gaits.push_back(*one.gait);
   }
-  keep_walk_limits(*world_, jobs_, people, gaits, sleep_work_->styles);
-  for (std::size_t i = 0, k = 0; i < changes.size(); ++i) {
-    if (!asked[i].gait || !changes[i].gait) continue;
+  keep_walk_limits(jobs_, sizes, gaits, sleep_work_->styles);
+  for (std::size_t i = 0, k = 0; i < asked.size(); ++i) {
+    if (!asked[i].gait || !asked[i].walks_otherwise) continue;
     const Gait<float>& kept = gaits[k++];
     if (asked[i].asleep && !same_style(kept.style, asked[i].gait->style)) asked[i].must_wake = true;
     asked[i].gait = kept;

@@ -45,7 +45,6 @@ double side_of(const AliveRequest& request) {
 }
 
 AliveScene::AliveScene(const AliveRequest& request) : request_(request), threads_(request.threads) {
-  due_.fill(nobody);
   side_m_ = side_of(request);
   simulation_ = std::make_unique<Simulation>(
       SimulationOptions{.jobs = threads_.jobs(), .memory = &memory_, .library_of = request.library});
@@ -130,7 +129,7 @@ Result<void> AliveScene::come(std::size_t first, std::size_t count) {
     const auto slot = static_cast<std::uint32_t>(first + i);
     walkers_[slot].entity = entities_[i];
     keep_slot(slot);
-    plan(slot);
+    due_[next_due(slot)].push_back(slot);
   }
   return {};
 }
@@ -141,13 +140,11 @@ void AliveScene::keep_slot(std::uint32_t slot) {
   slot_of_[index] = slot;
 }
 
-void AliveScene::plan(std::uint32_t slot) {
-  Walker& walker = walkers_[slot];
+std::size_t AliveScene::next_due(std::uint32_t slot) const {
+  const Walker& walker = walkers_[slot];
   const float after_s = crowd_change(request_.seed, walker.number, walker.changes, walker.stopped).after_s;
   const auto ticks = static_cast<std::uint32_t>(std::lround(static_cast<double>(after_s) / simulation_->tick_s()));
-  std::uint32_t& first = due_[(simulation_->ticks() + std::clamp<std::uint32_t>(ticks, 1, ring - 1)) % ring];
-  walker.next = first;
-  first = slot;
+  return (simulation_->ticks() + std::clamp<std::uint32_t>(ticks, 1, ring - 1)) % ring;
 }
 
 /// Who has left the square heads for a point of their own in its inner half instead of turning elsewhere.
@@ -192,15 +189,17 @@ AliveOrders fly(const AliveRequest& request, std::uint32_t tick, double tick_s) 
 }
 
 Result<std::size_t> AliveScene::decide(const AliveOrders& orders) {
-  now_.clear();
-  std::uint32_t& first = due_[simulation_->ticks() % ring];
-  for (std::uint32_t slot = first; slot != nobody; slot = walkers_[slot].next) now_.push_back(slot);
-  first = nobody;
-  changes_.resize(now_.size());
-  in_parallel(threads_.jobs(), now_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) changes_[i] = next_change(now_[i]);
+  std::vector<std::uint32_t>& now = due_[simulation_->ticks() % ring];
+  changes_.resize(now.size());
+  next_due_.resize(now.size());
+  in_parallel(threads_.jobs(), now.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      changes_[i] = next_change(now[i]);
+      next_due_[i] = next_due(now[i]);
+    }
   });
-  for (const std::uint32_t slot : now_) plan(slot);
+  for (std::size_t i = 0; i < now.size(); ++i) due_[next_due_[i]].push_back(now[i]);
+  now.clear();
   if (auto done = simulation_->change_walks(changes_); !done) return tl::unexpected(done.error());
   camera_ = orders.camera;
   cut_ = orders.cut != 0;
@@ -231,7 +230,10 @@ Result<std::vector<std::byte>> AliveScene::save() const {
   PlainBytes host;
   host.put(std::uint64_t{walkers_.size()});
   host.put_all(std::span<const Walker>(walkers_));
-  host.put(due_);
+  for (const auto& slots : due_) {
+    host.put(std::uint64_t{slots.size()});
+    host.put_all(std::span<const std::uint32_t>(slots));
+  }
   host.put(AliveOrders{camera_, cut_ ? 1U : 0U});
   host.put(bytes_asleep_);
   return pack_shard(*simulation_, relevance_.get(), host.bytes());
@@ -245,7 +247,11 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
   AliveOrders orders;
   reader.take(count);
   walkers_ = reader.take_many<Walker>(static_cast<std::size_t>(count));
-  reader.take(due_);
+  for (auto& slots : due_) {
+    std::uint64_t due = 0;
+    reader.take(due);
+    slots = reader.take_many<std::uint32_t>(static_cast<std::size_t>(due));
+  }
   reader.take(orders);
   reader.take(bytes_asleep_);
   if (!reader.whole()) return fail("a crowd's bytes do not agree with themselves");

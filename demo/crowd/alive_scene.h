@@ -86,7 +86,7 @@ class AliveScene {
   /// Of a sleeper, in the simulation, as it was before anybody was awake; of a person, in the host's records; bytes.
   double bytes_asleep() const { return bytes_asleep_; }
   std::size_t bytes_of_people() const { return memory_.lent(); }
-  std::size_t host_bytes() const { return sizeof(Walker) + sizeof(std::uint32_t); }
+  std::size_t host_bytes() const { return sizeof(Walker) + 2 * sizeof(std::uint32_t); }
 
  private:
   /// One who lives; all else is drawn from the number.
@@ -94,17 +94,16 @@ class AliveScene {
     Entity entity{};
     std::uint32_t number = 0;
     float heading_rad = 0;  // asked for
-    std::uint32_t next = 0;
     std::uint16_t changes = 0;
     std::uint8_t draw = 0;
     bool stopped = false;
   };
   static constexpr std::size_t ring = 2048;  // ticks ahead that a change may lie
-  static constexpr std::uint32_t nobody = 0xFFFFFFFF;
 
   explicit AliveScene(const AliveRequest& request);
   Result<void> come(std::size_t first, std::size_t count);
-  void plan(std::uint32_t slot);
+  /// In which of the ring's ticks somebody's next change comes.
+  std::size_t next_due(std::uint32_t slot) const;
   WalkChange next_change(std::uint32_t slot);
   void keep_slot(std::uint32_t slot);
 
@@ -117,12 +116,12 @@ class AliveScene {
   Viewpoint camera_;
   bool cut_ = false;
   std::vector<Walker> walkers_;
-  std::vector<std::uint32_t> slot_of_;  // by entity index
-  std::array<std::uint32_t, ring> due_{};
+  std::vector<std::uint32_t> slot_of_;                // by entity index
+  std::array<std::vector<std::uint32_t>, ring> due_;  // slots
   std::vector<SpawnRequest> requests_;
   std::vector<Entity> entities_;
-  std::vector<std::uint32_t> now_;  // whose change comes in this tick
   std::vector<WalkChange> changes_;
+  std::vector<std::size_t> next_due_;  // of each of them
 };
 
 }  // namespace mobil

@@ -38,14 +38,17 @@ SleepWork::~SleepWork() = default;
 
 AskedWalk asked_walk(const World& world, Entity person, const std::optional<GaitChange>& change,
                      const std::optional<float>& heading_rad, const SleepTime& now) {
-  AskedWalk asked;
-  asked.gait = gait_of(world, person);
-  if (!asked.gait) return asked;
+  AskedWalk asked{};
+  const auto before = asked_body(world, person);
+  if (!before) return asked;
+  asked.gait = before->gait;
+  asked.size = before->size;
   asked.asleep = is_asleep(world, person);
   asked.must_wake = asked.asleep && (is_busy(world, person, now) || (change && change->style));
   if (change) {
-    const auto changed = changed_gait(world, person, *change);
+    const auto changed = changed_gait(*before, *change);
     asked.gait = changed ? std::optional(*changed) : std::nullopt;
+    asked.walks_otherwise = changed && !same_walk(*changed, before->gait);
   }
   if (!asked.gait || !heading_rad) return asked;
   asked.gait->heading_rad = *heading_rad;

@@ -19,10 +19,12 @@ namespace mobil {
 
 class WarmingRoom;  // systems/muscles/warm_muscles.h
 
-/// What one of many is asked, nothing where that is refused; whether they sleep, and must wake for it.
+/// What one of many is asked, nothing where that is refused; whether it is another speed, step or style than before;
+/// whether they sleep, and must wake for it.
 struct AskedWalk {
   std::optional<Gait<float>> gait;
-  bool asleep = false, must_wake = false;
+  BodySize<float> size;
+  bool walks_otherwise = false, asleep = false, must_wake = false;
 };
 
 /// Of a walker who is to walk otherwise, or toward another heading, where that is possible.
@@ -58,6 +60,7 @@ struct SleepWork {
   std::vector<std::uint64_t> all_but_choice;  // parts
   std::unique_ptr<WarmingRoom> warming;
   std::vector<AskedWalk> asked;
+  std::vector<BodySize<float>> sizes;
   std::vector<Gait<float>> gaits;
   StyleWork styles;
   std::vector<AskedSleeper> asked_sleepers;

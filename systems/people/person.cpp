@@ -80,6 +80,23 @@ std::uint32_t next_request(std::uint32_t before) {
   return (before + 1) & 0xFFFFU;
 }
 
+GaitRequest request_of(const Gait<float>& gait) {
+  if (gait.speed_m_s == 0) return {.speed_m_s = 0.0F, .style = gait.style};
+  return {.speed_m_s = gait.speed_m_s, .step_length_m = gait.step_length_m, .style = gait.style};
+}
+
+Result<Gait<float>> next_gait(const AskedBody& now, const GaitRequest& request) {
+  auto gait = resolve_gait(now.size.height_m, request);
+  if (!gait) return gait;
+  const Gait<float>& before = now.gait;
+  gait->heading_rad = before.heading_rad;
+  gait->left_m = before.left_m;
+  gait->ahead_m = before.ahead_m;
+  gait->displacement = before.displacement;
+  gait->revision = next_request(before.revision);
+  return gait;
+}
+
 }  // namespace
 
 std::optional<Gait<float>> gait_of(const World& world, Entity person) {
@@ -90,36 +107,39 @@ std::optional<Gait<float>> gait_of(const World& world, Entity person) {
 
 std::optional<GaitRequest> gait_request(const World& world, Entity person) {
   const auto gait = gait_of(world, person);
-  if (!gait) return std::nullopt;
-  if (gait->speed_m_s == 0) return GaitRequest{.speed_m_s = 0.0F, .style = gait->style};
-  return GaitRequest{.speed_m_s = gait->speed_m_s, .step_length_m = gait->step_length_m, .style = gait->style};
+  return gait ? std::optional(request_of(*gait)) : std::nullopt;
+}
+
+std::optional<AskedBody> asked_body(const World& world, Entity person) {
+  if (is_asleep(world, person)) {
+    const Asleep<float> asleep = *world.get<Asleep>(person);
+    return AskedBody{size_of(asleep), gait_of(asleep.height_m, asleep.walk, sleeper_style(world, person))};
+  }
+  const auto gait = world.get<Gait>(person);
+  return gait ? std::optional(AskedBody{*world.get<BodySize>(person), *gait}) : std::nullopt;
 }
 
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change) {
   if (auto walks = is_walker(world, person, "change_gait", "spawn a walker instead"); !walks)
     return tl::unexpected(walks.error());
-  GaitRequest request = *gait_request(world, person);
+  return changed_gait(*asked_body(world, person), change);
+}
+
+Result<Gait<float>> changed_gait(const AskedBody& now, const GaitChange& change) {
+  GaitRequest request = request_of(now.gait);
   if (change.style) request.style = *change.style;
   if (change.speed_m_s || change.step_length_m || change.step_frequency_hz) {
     request.speed_m_s = change.speed_m_s;
     request.step_length_m = change.step_length_m;
     request.step_frequency_hz = change.step_frequency_hz;
   }
-  return new_gait(world, person, request);
+  return next_gait(now, request);
 }
 
 Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& request) {
   if (auto walks = is_walker(world, person, "set_gait", "spawn a walker instead"); !walks)
     return tl::unexpected(walks.error());
-  auto gait = resolve_gait(body_size(world, person).height_m, request);
-  if (!gait) return tl::unexpected(gait.error());
-  const Gait<float> before = *gait_of(world, person);
-  gait->heading_rad = before.heading_rad;
-  gait->left_m = before.left_m;
-  gait->ahead_m = before.ahead_m;
-  gait->displacement = before.displacement;
-  gait->revision = next_request(before.revision);
-  return gait;
+  return next_gait(*asked_body(world, person), request);
 }
 
 Result<Gait<float>> turned_gait(const World& world, Entity person, float heading_rad) {

@@ -31,9 +31,17 @@ Physique<float> physique(const BodyRequest& request);
 
 /// What is asked of a walker, awake or asleep; nothing for a stale handle and for posed people.
 std::optional<Gait<float>> gait_of(const World& world, Entity person);
+/// A walker's body, and what is asked of it.
+struct AskedBody {
+  BodySize<float> size;
+  Gait<float> gait;
+};
+/// Of a walker, awake or asleep; nothing for a stale handle and for posed people.
+std::optional<AskedBody> asked_body(const World& world, Entity person);
 /// What a walker is to do from the next step on, as these would have it. Errors: a stale handle, a posed person, a gait
 /// out of range.
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change);
+Result<Gait<float>> changed_gait(const AskedBody& now, const GaitChange& change);
 Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& gait);
 /// What a walker is to do; nothing for a stale handle and for posed people.
 std::optional<GaitRequest> gait_request(const World& world, Entity person);

@@ -79,10 +79,6 @@ float usual_length_m(float height_m, float speed_m_s) {
   return gait ? gait->step_length_m : 0;
 }
 
-bool same_walk(const Gait<float>& a, const Gait<float>& b) {
-  return a.speed_m_s == b.speed_m_s && a.step_length_m == b.step_length_m && same_style(a.style, b.style);
-}
-
 /// Usual steps of the usual style: of lengths that the table of steps has (assets/gait/README.md).
 bool is_usual(float height_m, const Gait<float>& gait) {
   if (!same_style(gait.style, {})) return false;
@@ -130,24 +126,15 @@ class StyleBlock {
   }
   void draw_nearer() {
     hold_to_limits(Looking::closely);
-    for (Walker& walker : walkers()) {
-      walker.style = usual_;
-      walker.step_share = 0;
-    }
-    look_at_walkers();
-    for (std::size_t b = 0; b < bound_count; ++b)
-      for (std::size_t l = 0; l < lane_count; ++l) held_[b][l] = std::max(held_[b][l], found_.value[b][l]);
-    for (Walker& walker : walkers()) walker.step_share = 1;
-    look_at_walkers();
-    for (std::size_t w = 0; w < people_; ++w) walkers_[w].step_why = worst(w * each_);
-    halve([](const Walker& walker) { return walker.step_why.has_value(); },
-          [](Walker& walker, float share) { walker.step_share = share; });
+    look_at_usual_and_asked();
+    const auto is_shortened = [](const Walker& walker) { return walker.step_why.has_value(); };
+    halve(is_shortened, [](Walker& walker, float share) { walker.step_share = share; });
     for (Walker& walker : walkers()) walker.style = walker.asked;
-    const auto broken = still_broken(Looking::closely);
+    if (std::ranges::any_of(walkers(), is_shortened)) asked_broken_ = still_broken(Looking::closely);
     for (std::size_t w = 0; w < people_; ++w)
       for (std::size_t p = 0; p < parameter_count; ++p)
         walkers_[w].moved[p] =
-            broken[w] && walkers_[w].asked.*gait_parameters[p].value != usual_.*gait_parameters[p].value;
+            asked_broken_[w] && walkers_[w].asked.*gait_parameters[p].value != usual_.*gait_parameters[p].value;
     give_back();
     halve([](const Walker& walker) { return walker.is_moved(); },
           [](Walker& walker, float share) { walker.style = walker.at(share); });
@@ -172,6 +159,7 @@ class StyleBlock {
 
  private:
   static constexpr GaitStyle usual_{};
+  static constexpr std::size_t try_usual_walk = 0, try_usual_style = 1, try_as_asked = 2, tries = 3;
 
   struct Walker {
     GaitStyle asked{}, style{};  // `style`, `step_share`: what is tried, and at the end what is kept
@@ -212,6 +200,30 @@ class StyleBlock {
   void look_at_walkers(Looking looking = Looking::closely) {
     for (std::size_t l = 0; l < lane_count; ++l) try_in(l, walkers_[walker_of(l)]);
     look(looking);
+  }
+  /// The usual walk, which limits are to allow; the usual style with the steps asked for; all as asked.
+  void look_at_usual_and_asked() {
+    const auto together = std::min(each_, tries);
+    for (std::size_t first = 0; first < tries; first += together) {
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const std::size_t which = std::min(first + l % each_, try_as_asked);
+        Walker walker = walkers_[walker_of(l)];
+        if (which != try_as_asked) walker.style = usual_;
+        walker.step_share = which == try_usual_walk ? 0 : 1;
+        try_in(l, walker);
+      }
+      look();
+      for (std::size_t which = first; which < std::min(first + together, tries); ++which)
+        for (std::size_t w = 0; w < people_; ++w) note_try(which, w, w * each_ + which - first);
+    }
+    for (Walker& walker : walkers()) walker.style = usual_;
+  }
+  void note_try(std::size_t which, std::size_t w, std::size_t lane) {
+    if (which == try_usual_style) walkers_[w].step_why = worst(lane);
+    if (which == try_as_asked) asked_broken_[w] = worst(lane).has_value();
+    for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b)
+      for (std::size_t l = w * each_; l < (w + 1) * each_; ++l)
+        held_[b][l] = std::max(held_[b][l], found_.value[b][lane]);
   }
   void try_in(std::size_t lane, const Walker& walker) {
     Gait<float>& row = gait_row_[lane];
@@ -320,12 +332,17 @@ class StyleBlock {
   Gait<Lanes<float>> gait_{};
   WalkExtremes found_{};
   Lanes<float> held_[bound_count];
+  std::array<bool, lane_count> asked_broken_{};  // walkers
 };
 
 }  // namespace
 
 bool same_style(const GaitStyle& a, const GaitStyle& b) {
   return std::ranges::all_of(gait_parameters, [&](const GaitParameter& p) { return a.*p.value == b.*p.value; });
+}
+
+bool same_walk(const Gait<float>& a, const Gait<float>& b) {
+  return a.speed_m_s == b.speed_m_s && a.step_length_m == b.step_length_m && same_style(a.style, b.style);
 }
 
 std::string described(const StyleChange& change) {
@@ -399,27 +416,9 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
   });
 }
 
-void keep_walk_limits(const World& world, const Jobs& jobs, std::span<const Entity> people,
-                      std::span<Gait<float>> gaits, StyleWork& work) {
-  work.differ.resize(people.size());
-  work.sizes.resize(people.size());
-  in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      work.differ[i] = same_walk(*gait_of(world, people[i]), gaits[i]) ? 0 : 1;
-      if (work.differ[i] != 0) work.sizes[i] = body_size(world, people[i]);
-    }
-  });
-  work.others.clear();
-  work.asked.clear();
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    if (work.differ[i] == 0) continue;
-    work.sizes[work.others.size()] = work.sizes[i];
-    work.others.push_back(i);
-    work.asked.push_back(gaits[i]);
-  }
-  work.sizes.resize(work.others.size());
-  keep_walk_limits(jobs, work.sizes, work.asked, work);
-  for (std::size_t k = 0; k < work.others.size(); ++k) gaits[work.others[k]] = work.asked[k];
+void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work) {
+  const auto before = asked_body(world, person);
+  if (before && !same_walk(before->gait, gait)) keep_walk_limits(jobs, {&before->size, 1}, {&gait, 1}, work);
 }
 
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait) {

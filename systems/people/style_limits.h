@@ -16,8 +16,9 @@
 
 namespace mobil {
 
-/// Whether all numbers of two styles are equal.
+/// Whether all numbers of two styles are equal; and the speed and the step length too.
 bool same_style(const GaitStyle& a, const GaitStyle& b);
+bool same_walk(const Gait<float>& a, const Gait<float>& b);
 
 /// One number of a style that was moved, and why: as asked it would bring `bound` to `would_be` (m, rad or m/s²).
 struct StyleChange {
@@ -31,10 +32,8 @@ std::string described(const StyleChange& change);
 
 /// What looking at styles works in, kept from one time to the next.
 struct StyleWork {
-  std::vector<std::size_t> others, unusual, near;
-  std::vector<std::uint8_t> breaks, differ;
-  std::vector<BodySize<float>> sizes;
-  std::vector<Gait<float>> asked;
+  std::vector<std::size_t> unusual, near;
+  std::vector<std::uint8_t> breaks;
 };
 
 /// Moves step lengths and styles of gaits (as resolve_gait has them) so that a steady walk of that speed keeps all
@@ -45,9 +44,8 @@ struct StyleWork {
 /// Takes memory in `work` alone, which keeps it, and for what is moved.
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
                       StyleWork& work, std::span<std::vector<StyleChange>> moved = {});
-/// The same of walkers, awake or asleep, who are asked for these gaits: of those which differ from what they are to do.
-void keep_walk_limits(const World& world, const Jobs& jobs, std::span<const Entity> people,
-                      std::span<Gait<float>> gaits, StyleWork& work);
+/// The same of a walker, awake or asleep, who is asked for this gait, if it differs from what they are to do.
+void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work);
 /// The same of one.
 std::vector<StyleChange> keep_walk_limits(const BodySize<float>& size, Gait<float>& gait);
 

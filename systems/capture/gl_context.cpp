@@ -31,6 +31,28 @@ EGLContext context_of(EGLDisplay display) {
   return context;
 }
 
+/// What there is to draw with.
+struct Devices {
+  std::array<EGLDeviceEXT, 16> device{};
+  std::array<bool, 16> is_software{};
+  std::size_t count = 0;
+};
+Devices all_devices() {
+  Devices all;
+  const auto query_devices = entry_point<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
+  const auto query_string = entry_point<PFNEGLQUERYDEVICESTRINGEXTPROC>("eglQueryDeviceStringEXT");
+  EGLint count = 0;
+  if (query_devices == nullptr ||
+      query_devices(static_cast<EGLint>(all.device.size()), all.device.data(), &count) == EGL_FALSE)
+    return all;
+  all.count = static_cast<std::size_t>(count);
+  for (std::size_t i = 0; i < all.count; ++i) {
+    const char* const extensions = query_string == nullptr ? nullptr : query_string(all.device[i], EGL_EXTENSIONS);
+    all.is_software[i] = extensions != nullptr && std::strstr(extensions, "EGL_MESA_device_software") != nullptr;
+  }
+  return all;
+}
+
 }  // namespace
 
 Result<GlContext> GlContext::create() {
@@ -45,21 +67,18 @@ Result<GlContext> GlContext::create() {
   };
   const auto platform_display = entry_point<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
   if (platform_display != nullptr) {
+    const Devices devices = all_devices();
+    for (std::size_t i = 0; i < devices.count; ++i)  // what draws in hardware comes first
+      if (!devices.is_software[i] && try_display(platform_display(EGL_PLATFORM_DEVICE_EXT, devices.device[i], nullptr)))
+        return made;
     if (try_display(platform_display(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr))) return made;
-    const auto query_devices = entry_point<PFNEGLQUERYDEVICESEXTPROC>("eglQueryDevicesEXT");
-    std::array<EGLDeviceEXT, 16> devices{};
-    EGLint count = 0;
-    if (query_devices != nullptr &&
-        query_devices(static_cast<EGLint>(devices.size()), devices.data(), &count) != EGL_FALSE) {
-      for (EGLint i = 0; i < count; ++i) {
-        if (try_display(platform_display(EGL_PLATFORM_DEVICE_EXT, devices[static_cast<std::size_t>(i)], nullptr)))
-          return made;
-      }
-    }
+    for (std::size_t i = 0; i < devices.count; ++i)
+      if (devices.is_software[i] && try_display(platform_display(EGL_PLATFORM_DEVICE_EXT, devices.device[i], nullptr)))
+        return made;
   }
   if (try_display(eglGetDisplay(EGL_DEFAULT_DISPLAY))) return made;
   return fail(
-      "cannot render pictures: no OpenGL ES 3 driver answers through EGL (tried surfaceless, devices, default "
+      "cannot render pictures: no OpenGL ES 3 driver answers through EGL (tried devices, surfaceless, default "
       "display); "
       "a software one comes with: apt-get install libegl1 libgl1-mesa-dri");
 }

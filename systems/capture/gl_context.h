@@ -11,7 +11,8 @@ namespace mobil {
 /// initialised, since EGL does not count its users.
 class GlContext {
  public:
-  /// Tries Mesa's surfaceless platform, then each EGL device, then the default display. Error: no driver answers.
+  /// Tries each EGL device that draws in hardware, then Mesa's surfaceless platform, devices in software, and the
+  /// default display. Error: no driver answers.
   static Result<GlContext> create();
 
   GlContext() = default;

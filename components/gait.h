@@ -87,9 +87,9 @@ struct Manner {
   F arm_back, arm_forward, elbow_back, elbow_forward, arm_abduction, forearm_pronation, finger_flexion;
 };
 
-/// How a walker is at a heel strike, the instant at which two steps meet. A function of body and gait alone
-/// (systems/gait/strike-inl.h), so it is known before either step is solved. Standing is a strike too, of length 0 and
-/// no speed. m, s, rad.
+/// How a walker is at a heel strike, the instant at which two steps meet. A function of body, gait and what is left to
+/// turn (systems/gait/step_plan.cpp), so it is known before either step is solved. Standing is a strike too, of length
+/// 0 and no speed. m, s, rad.
 template <class F>
 struct Strike {
   F speed_m_s;                // of the gait that it belongs to; 0: standing
@@ -98,6 +98,7 @@ struct Strike {
   F advance_m;                // how far the hips go in a step at that pace
   F half_width_m, toe_out;    // of the leading foot
   F double_support;           // after it, of the cycle
+  F own_style;                // how much of the style is the gait's own; the rest is the usual one
   F shape[step_shape::size];  // of a steady walk (components/step_shape.h), lengths in m
   Manner<F> manner;
 };

@@ -106,7 +106,8 @@ std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
   Lanes<float> begun, turns;
   store(select(load(state.time_s) < tick_s, wide(1.0F), wide(0.0F)), begun);
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
-  store(select(stands_still(plan) & (abs(way) > off_heading), wide(1.0F), wide(0.0F)), turns);
+  const Wide turns_from = select(stands_still(plan), wide(off_heading), wide(own_turn_rad));
+  store(select(abs(way) > turns_from, wide(1.0F), wide(0.0F)), turns);
   std::uint32_t bits = 0;
   for (std::size_t l = 0; l < lane_count; ++l) {
     const bool changed = plan.settled[l] == 0 || plan.revision[l] != wanted.revision[l] || turns[l] > 0.0F;

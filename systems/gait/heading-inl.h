@@ -17,6 +17,9 @@ constexpr float pi_f = 3.14159265F;
 /// From how far off the wanted heading on somebody who stands turns on the spot, rad.
 constexpr float off_heading = 0.02F;
 
+/// From how far off on somebody who walks takes steps that are nearer to the usual ones, rad.
+constexpr float own_turn_rad = 0.05F;
+
 /// Who walks, is as near as that to the heading asked for, rad, and turns no more than that in a step goes straight on.
 constexpr float as_asked = 4e-6F;
 

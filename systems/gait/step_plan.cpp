@@ -49,8 +49,28 @@ HWY_INLINE WideMask half_aside(const Strike<Lanes<float>>& from) {
 /// How much of a step is solved: all of it, or its times and footholds alone.
 enum class Solve { whole, times };
 
-/// The steps toward the wanted gait: the strike at the end of this one.
-HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted,
+/// Turns and changes of speed from which on a strike has the usual style alone, and up to which its own (own_turn_rad).
+constexpr float calm_turn_rad = 0.5F, calm_change = 0.9F, own_change = 0.05F;
+
+/// A style with which joints have room for a step that turns or changes its speed: of the own one `own`, 0 to 1, the
+/// rest of the usual one. Returns `own`, and 1 where the own style is the usual one.
+HWY_NOINLINE Wide calm_style(const Wide& own, const GaitStyleOf<Lanes<float>>& style, GaitStyleOf<Lanes<float>>& calm) {
+  static_assert(sizeof(GaitStyle) % sizeof(float) == 0 && sizeof(style) == lane_count * sizeof(GaitStyle));
+  constexpr GaitStyle usual;
+  const auto* const from = reinterpret_cast<const float*>(&style);
+  const auto* const there = reinterpret_cast<const float*>(&usual);
+  auto* const to = reinterpret_cast<float*>(&calm);
+  Wide unusual = wide(0.0F);
+  for (std::size_t p = 0; p < sizeof(GaitStyle) / sizeof(float); ++p) {
+    const Wide number = load(from + p * lane_count), off = number - there[p];
+    store(select(own < 1.0F, fma(own, off, wide(there[p])), number), to + p * lane_count);
+    unusual = max(unusual, abs(off));
+  }
+  return select(unusual > 0.0F, own, wide(1.0F));
+}
+
+/// The steps toward the wanted gait: the strike at the end of this one, after which `turn` is left to turn.
+HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted, const Wide& turn,
                               const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
                               Solve solve, Strike<Lanes<float>>& to) {
   const Wide leg = ratio(fraction::thigh + fraction::shank, height);
@@ -67,10 +87,19 @@ HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<L
   const Wide length = load(wanted.step_length_m), usual = usual_length(height, r.speed);
   const Wide scaled = length * usual / usual_length(height, aim);
   r.step_length = select(to_stand, usual, select(abs(r.speed - aim) < 1e-6F, length, scaled));
-  const Wide uneven = load(wanted.style.step_asymmetry), late = load(wanted.style.time_asymmetry);
+  const Wide change = select(fresh | to_stand, wide(0.0F), abs(r.speed - now) / scale);
+  const auto own_part = [](const Wide& of, float own, float calm) {
+    return clamp((calm - of) * (1 / (calm - own)), 0.0F, 1.0F);
+  };
+  GaitStyleOf<Lanes<float>> style;
+  const Wide own =
+      calm_style(min(own_part(abs(turn), own_turn_rad, calm_turn_rad), own_part(change, own_change, calm_change)),
+                 wanted.style, style);
+  const Wide uneven = load(style.step_asymmetry), late = load(style.time_asymmetry);
   r.length = r.step_length * (1.0F + select(right_lands, uneven, -uneven));
   r.slower = select(right_lands, late, -late);
-  solve == Solve::whole ? make_strike(r, wanted.style, to) : time_strike(r, wanted.style, to);
+  solve == Solve::whole ? make_strike(r, style, to) : time_strike(r, style, to);
+  store(own, to.own_style);
 }
 
 /// Whether all words of two components are the same, lane by lane.
@@ -183,7 +212,7 @@ HWY_NOINLINE void settle_step(const Gait<Lanes<float>>& wanted, const WideMask& 
   const WideMask there = abs(load(to.speed_m_s) - load(wanted.speed_m_s)) <= 0.0F;
   const WideMask same_feet = (abs(load(plan.trailing_half_width_m) - load(from.half_width_m)) +
                               abs(load(plan.trailing_toe_out) - load(from.toe_out))) <= 0.0F;
-  const WideMask goes_on = alike & even_steps & (there & same_feet);
+  const WideMask goes_on = alike & even_steps & (there & same_feet) & (load(to.own_style) >= 1.0F);
   store_flags(either(standing(plan, on_spot).spot, zero, select(goes_on, one, zero)), plan.settled);
   plan.revision = wanted.revision;
 }
@@ -219,7 +248,7 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   settle_step(wanted, alike, on_spot, plan);
 }
 
-/// Of a step its times, its footholds and whether it settles; where the styles of both strikes are the same.
+/// Of a step its times, its footholds and whether it settles.
 HWY_NOINLINE void time_step_alone(const Gait<Lanes<float>>& wanted, const WideMask& right_lands,
                                   const WideMask& on_spot, StepPlan<Lanes<float>>& plan) {
   time_step(wanted, right_lands, on_spot, plan);
@@ -228,7 +257,8 @@ HWY_NOINLINE void time_step_alone(const Gait<Lanes<float>>& wanted, const WideMa
   // All else of a strike follows from these.
   for (const auto word :
        {&Strike<Lanes<float>>::speed_m_s, &Strike<Lanes<float>>::length_m, &Strike<Lanes<float>>::pace_hz,
-        &Strike<Lanes<float>>::advance_m, &Strike<Lanes<float>>::half_width_m, &Strike<Lanes<float>>::toe_out})
+        &Strike<Lanes<float>>::advance_m, &Strike<Lanes<float>>::half_width_m, &Strike<Lanes<float>>::toe_out,
+        &Strike<Lanes<float>>::own_style})
     off = max(off, abs(load(from.*word) - load(to.*word)));
   settle_step(wanted, off <= 0.0F, on_spot, plan);
 }
@@ -283,8 +313,8 @@ void begin_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& wa
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const WideMask all = one > zero, left_lands = zero > one;
   store(load(wanted.speed_m_s), plan.from.speed_m_s);
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, all, solve, plan.from);
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, all, left_lands, solve, plan.to);
+  next_strike(load(size.height_m), load(size.mass_kg), wanted, zero, plan.from, all, all, solve, plan.from);
+  next_strike(load(size.height_m), load(size.mass_kg), wanted, zero, plan.from, all, left_lands, solve, plan.to);
   plan.trailing_half_width_m = plan.from.half_width_m;
   plan.trailing_toe_out = plan.from.toe_out;
   solve == Solve::whole ? solve_step(size, wanted, left_lands, left_lands, plan)
@@ -302,9 +332,9 @@ void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   keep(sides_change, plan.from.half_width_m, plan.trailing_half_width_m);
   keep(sides_change, plan.from.toe_out, plan.trailing_toe_out);
   plan.from = plan.to;
-  next_strike(load(size.height_m), load(size.mass_kg), wanted, plan.from, fresh, right_lands, solve, plan.to);
-  // Who stands turns, until both feet point where they are to.
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
+  next_strike(load(size.height_m), load(size.mass_kg), wanted, way, plan.from, fresh, right_lands, solve, plan.to);
+  // Who stands turns, until both feet point where they are to.
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
   const WideMask displaces = displace(size, wanted, state, plan);
   const WideMask on_spot = turns | displaces;

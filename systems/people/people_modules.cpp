@@ -105,7 +105,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 
 Module walking_module() {
   return {.name = "walking",
-          .version = 3,
+          .version = 4,
           .parts = {component_part<Gait>(), component_part<StepPlan>(), component_part<GaitState>()},
           .systems = [](ScheduleBuilder& systems) {
             systems.add("gait", &advance_gait)

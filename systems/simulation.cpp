@@ -10,6 +10,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/avoidance.h"
+#include "components/fat.h"
 #include "components/footing.h"
 #include "engine/row_hash.h"
 #include "engine/schedule.h"
@@ -20,6 +21,7 @@
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
 #include "systems/muscles/warm_muscles.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 #include "systems/people/step_watch.h"
@@ -63,7 +65,8 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
     for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
   std::ranges::sort(our_parts_);
   awake_parts_ = our_parts_;
-  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()}) std::erase(awake_parts_, kept);
+  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>(), type_id<FatWobble<float>>()})
+    std::erase(awake_parts_, kept);
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
     for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);
@@ -136,6 +139,7 @@ Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival
   if (done && arrival == Arrival::jumped) {
     forget_motion(*world_, human);
     forget_past(*world_, human);
+    settle_fat(*world_, human);
   }
   return done;
 }
@@ -208,50 +212,11 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
   for (const WalkChange& change : changes) people.push_back(change.human);
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
   const SleepTime now{tick_, static_cast<float>(tick_s())};
-  std::vector<AskedWalk>& asked = sleep_work_->asked;
-  asked.resize(changes.size());
-  in_parallel(jobs_, changes.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const auto& [human, gait, heading_rad] = changes[i];
-      asked[i] = asked_walk(*world_, human, gait, heading_rad, now);
-    }
-  });
-  std::vector<BodySize<float>>& sizes = sleep_work_->sizes;
-  std::vector<Gait<float>>& gaits = sleep_work_->gaits;
-  sizes.clear();
-  gaits.clear();
-  for (const AskedWalk& one : asked) {
-    if (!one.gait || !one.walks_otherwise) continue;
-    sizes.push_back(one.size);
-    gaits.push_back(*one.gait);
-  }
-  keep_walk_limits(jobs_, sizes, gaits, sleep_work_->styles);
-  for (std::size_t i = 0, k = 0; i < asked.size(); ++i) {
-    if (!asked[i].gait || !asked[i].walks_otherwise) continue;
-    const Gait<float>& kept = gaits[k++];
-    if (asked[i].asleep && !same_style(kept.style, asked[i].gait->style)) asked[i].must_wake = true;
-    asked[i].gait = kept;
-  }
-  people.clear();
-  for (std::size_t i = 0; i < changes.size(); ++i)
-    if (asked[i].gait && asked[i].must_wake) people.push_back(changes[i].human);
+  find_asked(*world_, jobs_, changes, now, *sleep_work_, people);
   if (!people.empty()) {
     if (auto done = wake(std::vector(people)); !done) return tl::unexpected(done.error());
   }
-  std::size_t refused = 0;
-  std::vector<AskedSleeper>& sleepers = sleep_work_->asked_sleepers;
-  sleepers.clear();
-  for (std::size_t i = 0; i < changes.size(); ++i) {
-    if (!asked[i].gait) {
-      ++refused;
-    } else if (asked[i].asleep && !asked[i].must_wake) {
-      sleepers.push_back({changes[i].human, *asked[i].gait});
-    } else {
-      world_->set(changes[i].human, *asked[i].gait);
-    }
-  }
-  ask_sleepers(*world_, jobs_, sleepers, now);
-  return refused;
+  return ask_walks(*world_, jobs_, changes, now, *sleep_work_);
 }
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
@@ -367,6 +332,11 @@ Result<void> Simulation::shift_origin(float x_m, float z_m) {
 Result<void> Simulation::watch_steps(std::span<const Entity> people, bool on) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
   return result_of("watch_steps", mobil::watch_steps(*world_, jobs_, people, on));
+}
+
+Result<void> Simulation::set_fat_wobble(std::span<const Entity> people, bool on) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  return result_of("set_fat_wobble", mobil::set_fat_wobble(*world_, jobs_, people, on));
 }
 
 Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> out, double ahead_s) const {

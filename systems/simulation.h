@@ -75,13 +75,6 @@ struct SimulationOptions {
 /// How a posed person came to a pose.
 enum class Arrival : std::uint8_t { moved, jumped };
 
-/// What one of many walkers is asked to do otherwise.
-struct WalkChange {
-  Entity human;
-  std::optional<GaitChange> gait{};
-  std::optional<float> heading_rad{};
-};
-
 /// One of a person's muscles, by side, with its plan.
 struct HumanMuscle {
   MusclePlan plan;
@@ -260,6 +253,12 @@ class Simulation {
   /// `tick`: in order of time, at the same instant in the order of handles, whatever the threads. Until the next of
   /// those calls; handles of who went since are stale. No state, but who is watched is: peers watch the same people.
   std::span<const StepEvent> events() const;
+
+  /// The effect of fat under the skin that wobbles (components/fat.h, systems/kinematics/fat_motion.h), of walkers and
+  /// posed people, from the next tick on, or no more; skin shows it (systems/surfaces/skin_writer.h). Compact people
+  /// and sleepers keep it, and it begins at rest when they are whole. All or none. Errors: a stale handle, somebody
+  /// named twice; nothing has changed.
+  Result<void> set_fat_wobble(std::span<const Entity> people, bool on = true);
 
   /// Where these people are on the ground `ahead_s` after the last tick (0 to 0.2 s; a frame's alpha times the tick),
   /// and where they head, smooth along the walking line: `root_motion` (systems/people/roots.h) tells the way between

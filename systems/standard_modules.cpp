@@ -6,6 +6,7 @@
 #include "systems/muscles/compact_module.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/people_modules.h"
 #include "systems/people/sleep_module.h"
 #include "systems/people/step_watch.h"
@@ -15,8 +16,8 @@
 namespace mobil {
 
 std::vector<Module> standard_modules() {
-  std::vector<Module> all = {walking_module(),     forces_module(), skeleton_module(),
-                             leg_moments_module(), sleep_module(),  step_watch_module()};
+  std::vector<Module> all = {walking_module(), forces_module(),     skeleton_module(), leg_moments_module(),
+                             sleep_module(),   step_watch_module(), fat_module()};
   for (Module& module : muscle_modules()) all.push_back(std::move(module));
   all.push_back(compact_module());
   all.push_back(relevance_module());

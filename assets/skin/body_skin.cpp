@@ -27,6 +27,18 @@ std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::
 
 constexpr std::array<int, skin_details> shared_turns = {256, 96, 40, 16};  // of a joint's angle, that vertices share
 
+/// How much of a vertex arms carry, from the shoulder's joint on.
+double share_of_arm(const std::vector<SkinFrame>& frames, const SkinVertex& vertex) {
+  double share = 0;
+  for (std::size_t k = 0; k < SkinVertex::most_frames; ++k) {
+    if (vertex.weight[k] == 0) continue;
+    const std::size_t to = segment_of(frames[vertex.frame[k]].to);
+    const bool is_arm = to >= index(Segment::clavicle_right) && to <= index(Segment::thumb_left);
+    share += is_arm ? static_cast<double>(vertex.weight[k]) : 0;
+  }
+  return std::min(share, 1.0);
+}
+
 SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, SkinDetail detail) {
   SkinMesh mesh;
   const std::vector<SkinPart> part = cut_clothes(form, surface, detail <= SkinDetail::near);
@@ -42,6 +54,8 @@ SkinMesh make_mesh(const BodyForm& form, const Body& body, SurfaceMesh surface, 
   SkinBinding binding = bind_skin(form, body, mesh.place, shared_turns[static_cast<std::size_t>(detail)]);
   mesh.frame = std::move(binding.frame);
   mesh.vertex = std::move(binding.vertex);
+  for (std::size_t v = 0; v < binding.rest.size(); ++v)
+    mesh.fat.push_back(fat_place(form, binding.rest[v], share_of_arm(mesh.frame, mesh.vertex[v])));
   for (const Vec& r : binding.rest) {
     // Arms hang beside the legs.
     const bool is_leg = r.y < 0.55 * form.size() || std::abs(r.x) < 0.19 * form.size();

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "assets/skin/clothes.h"
+#include "assets/skin/fat_places.h"
 #include "assets/skin/leg_grid.h"
 #include "assets/skin/skin_binding.h"
 #include "components/body.h"
@@ -27,6 +28,7 @@ struct SkinMesh {
   std::vector<SkinFrame> frame;  // those between the same two segments one after the other
   std::vector<SkinVertex> vertex;
   std::vector<LegPlace> leg;        // of each vertex
+  std::vector<FatPlace> fat;        // of each vertex
   std::vector<Vec3<double>> place;  // of `skin_body`, in the pose that is meshed
 };
 /// Whose skin is meshed.

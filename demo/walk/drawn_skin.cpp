@@ -45,13 +45,13 @@ SkinColours bare_colours() {
   return all;
 }
 
-void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles) {
+void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles, const FatBeside* fat) {
   const SkinMesh& mesh = skin_mesh(skin->sex, skin->detail);
   position.resize(skin->rest.size());
   normal.resize(skin->rest.size());
   std::vector<FrameMap> maps(mesh.frame.size());
   constexpr std::size_t stride = sizeof(Vec3<float>);
-  pose_skin(*skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, maps,
+  pose_skin(*skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, fat, maps,
             {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
              stride, stride});
 }

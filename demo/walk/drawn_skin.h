@@ -8,6 +8,7 @@
 #include "assets/skin/body_skin.h"
 #include "components/pose.h"
 #include "systems/capture/scene.h"
+#include "systems/skinning/place_skin.h"
 
 namespace mobil {
 
@@ -37,8 +38,9 @@ struct DrawnSkin {
   std::array<float, skin_parts> opacity = opacity_of(1);
   std::vector<Vec3<float>> position, normal;
 
-  /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them.
-  void pose(const Pose<float>& pose, const LegVertices& muscles = {});
+  /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them. `fat`: what
+  /// wobbles.
+  void pose(const Pose<float>& pose, const LegVertices& muscles = {}, const FatBeside* fat = nullptr);
   /// One mesh a part; good until the next `pose`.
   void draw(std::vector<DrawMesh>& out) const;
 };

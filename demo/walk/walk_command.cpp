@@ -15,6 +15,7 @@
 #include "assets/export/recorded_people.h"
 #include "assets/export/recorded_skin.h"
 #include "assets/files/output_file.h"
+#include "components/fat.h"
 #include "demo/program/commands.h"
 #include "demo/program/progress.h"
 #include "demo/walk/drawn_skin.h"
@@ -27,6 +28,7 @@
 #include "demo/walk/walk_summary.h"
 #include "demo/walk/walk_tables.h"
 #include "engine/schedule.h"
+#include "systems/kinematics/fat_motion.h"
 
 namespace mobil {
 namespace {
@@ -43,6 +45,7 @@ struct Walked {
   MuscleTable muscles;
   WalkRecording recording, ticks;  // pictures with surfaces; where a file asks for them, poses and forces of all ticks
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
+  std::vector<FatBeside> fat;
   WalkOutcome outcome;
 };
 
@@ -138,6 +141,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
                 {},
                 {},
                 {},
+                {},
                 {}};
   WalkOutcome& outcome = walked.outcome;
   outcome.gait = human.gait;
@@ -176,6 +180,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
     if (i % ticks_per_frame == 0) {
       show_progress("walking", i + std::size_t{1}, total);
       record_frame(figure, simulation, human, walked.recording);
+      if (options.fat) walked.fat.push_back(shown_fat(body_size(human.body), *simulation.get<FatWobble>(human.entity)));
       if (options.view == WalkView::stick) walked.action_line.push_back(action_lines(simulation, human));
       if (options.view == WalkView::wireframe) walked.mesh_edge.push_back(mesh_edges(simulation, human));
     }
@@ -200,7 +205,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
                            const WalkOptions& options, SteadyClock::time_point start, OutputFolder& results) {
   const auto& folder = results.inside();
   if (options.frames || options.video) {  // first, as they may lack a driver or a program
-    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge};
+    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge, walked.fat};
     const std::size_t frames = walked.recording.frames.size();
     auto done = write_pictures(drawing, options, folder, [&](std::size_t i) { show_progress("pictures", i, frames); });
     show("");
@@ -250,6 +255,7 @@ Result<void> run_walk(const WalkOptions& asked) {
     changes = std::move(*planned);
   }
   if (options.forces) simulation.add_forces(*entity);
+  if (options.fat) simulation.set_fat_wobble({&*entity, 1});
   auto added = simulation.add_leg_muscles(*entity, options.muscles);
   if (!added) return added;
   const Human human = *simulation.human(*entity);

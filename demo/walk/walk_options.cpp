@@ -121,6 +121,7 @@ std::vector<Option> walk_options(WalkText& text) {
        {},
        words_of(views)},
       {"--skin", &text.skin, "Skin and clothes in walk.glb and .usda", pictures},
+      {"--fat", &text.fat, "Fat under the skin wobbles, in pictures with --view skin or glass", pictures},
       {"--stereo", &text.stereo, "Left and right eye side by side, along parallel axes", pictures},
       {"--eye-distance", &text.eye_distance, "Between the two eyes of --stereo, 1mm to 0.5m", pictures},
       {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
@@ -139,6 +140,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.forces = !text.no_forces;
   options.out = text.out;
   options.skin = text.skin;
+  options.fat = text.fat;
 
   auto exports = read_exports(text.exports);
   if (!exports) return tl::unexpected(exports.error());

@@ -124,7 +124,7 @@ void fill_scene(const WalkDrawing& drawing, WalkView view, std::size_t frame, Fr
     return;
   }
   if (scene.own) {
-    scene.skin.pose(pose, muscles_of(recording, frame));
+    scene.skin.pose(pose, muscles_of(recording, frame), drawing.fat.empty() ? nullptr : &drawing.fat[frame]);
     scene.skin.draw(scene.drawn.meshes);
     if (view == WalkView::skin) return;
   }

@@ -10,15 +10,18 @@
 #include "components/body.h"
 #include "demo/walk/walk_options.h"
 #include "engine/error.h"
+#include "systems/skinning/place_skin.h"
 
 namespace mobil {
 
 /// What pictures show beyond the recording, by frame, two ends a line, in the world (m): lines of action (the stick
-/// view needs them), edges of the finite-element meshes (the wireframe view).
+/// view needs them), edges of the finite-element meshes (the wireframe view); and where the fat is beside its place, if
+/// it wobbles (the views with skin).
 struct WalkDrawing {
   const WalkRecording* recording = nullptr;
   const Body* body = nullptr;
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
+  std::vector<FatBeside> fat;
 };
 
 /// Renders every frame at 1280×720 with the camera following, as PNGs and/or a video in `folder`, as `options` says;

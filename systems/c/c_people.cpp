@@ -359,6 +359,14 @@ int mobil_expand(mobil_sim* sim, const mobil_id* ids, size_t count) {
   });
 }
 
+int mobil_set_fat_wobble(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
+  return call(sim, "mobil_set_fat_wobble", [&](mobil_sim& s) {
+    if (const int code = s.name_people(ids, count)) return code;
+    const auto done = s.world().set_fat_wobble(s.people, on != 0);
+    return done ? MOBIL_OK : s.line.refuse(done.error());
+  });
+}
+
 int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
   return call(sim, "mobil_set_forces", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;

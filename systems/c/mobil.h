@@ -232,6 +232,8 @@ MOBIL_API int mobil_compact(mobil_sim* sim, const mobil_id* ids, size_t count, s
 MOBIL_API int mobil_expand(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* The effect of ground reaction and joint moments, on or off; who has it so already is left alone. */
 MOBIL_API int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
+/* The same of fat that wobbles under the skin (mobil_write_skin). */
+MOBIL_API int mobil_set_fat_wobble(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
 
 /* ---- Muscles --------------------------------------------------------------------------------------------------- */
 

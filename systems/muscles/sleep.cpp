@@ -31,13 +31,8 @@ bool have_one_method(const World& world, Entity person) {
   return same;
 }
 
-}  // namespace
-
-SleepWork::SleepWork() = default;
-SleepWork::~SleepWork() = default;
-
-AskedWalk asked_walk(const World& world, Entity person, const std::optional<GaitChange>& change,
-                     const std::optional<float>& heading_rad, const SleepTime& now) {
+AskedWalk asked_walk(const World& world, const WalkChange& wanted, const SleepTime& now) {
+  const auto& [person, change, heading_rad] = wanted;
   AskedWalk asked{};
   const auto before = asked_body(world, person);
   if (!before) return asked;
@@ -54,6 +49,55 @@ AskedWalk asked_walk(const World& world, Entity person, const std::optional<Gait
   asked.gait->heading_rad = *heading_rad;
   if (!(std::fabs(*heading_rad) < 1e4F)) asked.gait.reset();
   return asked;
+}
+
+}  // namespace
+
+SleepWork::SleepWork() = default;
+SleepWork::~SleepWork() = default;
+
+void find_asked(const World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
+                SleepWork& work, std::vector<Entity>& must_wake) {
+  std::vector<AskedWalk>& asked = work.asked;
+  asked.resize(changes.size());
+  in_parallel(jobs, changes.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) asked[i] = asked_walk(world, changes[i], now);
+  });
+  work.sizes.clear();
+  work.gaits.clear();
+  for (const AskedWalk& one : asked) {
+    if (!one.gait || !one.walks_otherwise) continue;
+    work.sizes.push_back(one.size);
+    work.gaits.push_back(*one.gait);
+  }
+  keep_walk_limits(jobs, work.sizes, work.gaits, work.styles);
+  for (std::size_t i = 0, k = 0; i < asked.size(); ++i) {
+    if (!asked[i].gait || !asked[i].walks_otherwise) continue;
+    const Gait<float>& kept = work.gaits[k++];
+    if (asked[i].asleep && !same_style(kept.style, asked[i].gait->style)) asked[i].must_wake = true;
+    asked[i].gait = kept;
+  }
+  must_wake.clear();
+  for (std::size_t i = 0; i < changes.size(); ++i)
+    if (asked[i].gait && asked[i].must_wake) must_wake.push_back(changes[i].human);
+}
+
+std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
+                      SleepWork& work) {
+  std::size_t refused = 0;
+  work.asked_sleepers.clear();
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const AskedWalk& asked = work.asked[i];
+    if (!asked.gait) {
+      ++refused;
+    } else if (asked.asleep && !asked.must_wake) {
+      work.asked_sleepers.push_back({changes[i].human, *asked.gait});
+    } else {
+      world.set(changes[i].human, *asked.gait);
+    }
+  }
+  ask_sleepers(world, jobs, work.asked_sleepers, now);
+  return refused;
 }
 
 std::optional<LegMuscles> kept_choice(const World& world, Entity person) {

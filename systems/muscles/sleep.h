@@ -27,10 +27,6 @@ struct AskedWalk {
   bool walks_otherwise = false, asleep = false, must_wake = false;
 };
 
-/// Of a walker who is to walk otherwise, or toward another heading, where that is possible.
-AskedWalk asked_walk(const World& world, Entity person, const std::optional<GaitChange>& change,
-                     const std::optional<float>& heading_rad, const SleepTime& now);
-
 /// Memory that falling asleep and waking work in, kept from one time to the next, and nothing of it state.
 struct SleepWork {
   SleepWork();
@@ -66,6 +62,14 @@ struct SleepWork {
   std::vector<AskedSleeper> asked_sleepers;
   std::vector<Placing> ways;
 };
+
+/// What each of these, named once each, is to be asked, where that is possible, within the limits of walks: in
+/// `work`; and who must wake for it.
+void find_asked(const World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
+                SleepWork& work, std::vector<Entity>& must_wake);
+/// Asks them, who are awake now where they must be. Returns how many cannot walk so, and go on as they were.
+std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange> changes, const SleepTime& now,
+                      SleepWork& work);
 
 /// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may
 /// not, unless `managed`: they then begin again with the first one's. Of their parts that are among `owned` (ids,

@@ -8,12 +8,14 @@
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
 #include "components/avoidance.h"
+#include "components/fat.h"
 #include "components/forces.h"
 #include "engine/each.h"
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/pose_measures.h"
 #include "systems/people/sleepers.h"
 
@@ -197,6 +199,7 @@ Placing place_walker(World& world, const PlaceRequest& to) {
     course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
     world.set(person, *course);
   }
+  place_fat(world, person, way);
   auto footing = world.get<Footing>(person);
   if (footing) {
     footing->known = footing_unknown;
@@ -238,6 +241,9 @@ void shift_people(World& world, float x_m, float z_m) {
     }
   });
   each(world, [&](CentreOfMass<Lanes<float>>& centre) { shift(centre.position_m); });
+  each(world, [&](FatWobble<Lanes<float>>& fat) {
+    for (auto& at : fat.carried_m) shift(at);
+  });
   each(world, [&](Footing<Lanes<float>>& footing) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       footing.stance_x_m[lane] -= x_m, footing.stance_z_m[lane] -= z_m;

@@ -38,6 +38,12 @@ struct AskedBody {
 };
 /// Of a walker, awake or asleep; nothing for a stale handle and for posed people.
 std::optional<AskedBody> asked_body(const World& world, Entity person);
+/// What one of many walkers is asked to do otherwise.
+struct WalkChange {
+  Entity human;
+  std::optional<GaitChange> gait{};
+  std::optional<float> heading_rad{};
+};
 /// What a walker is to do from the next step on, as these would have it. Errors: a stale handle, a posed person, a gait
 /// out of range.
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change);

@@ -14,6 +14,7 @@
 #include "engine/schedule.h"
 #include "systems/gait/gait.h"
 #include "systems/gait/step_events.h"
+#include "systems/people/by_table.h"
 #include "systems/people/person.h"
 #include "systems/people/sleepers.h"
 
@@ -74,28 +75,19 @@ bool is_watched(const World& world, Entity person) {
 }
 
 Status watch_steps(World& world, const Jobs& jobs, std::span<const Entity> people, bool on) {
-  struct Changes {
-    std::uint32_t table;
-    Entity person;
-  };
-  std::vector<Changes> changes;
+  std::vector<Entity> changes;
   for (const Entity person : people) {
     if (!is_person(world, person)) return Status::stale_entity;
     if (is_posed(world, person)) return Status::missing;
-    if (is_watched(world, person) != on) changes.push_back({world.locate(person)->table, person});
+    if (is_watched(world, person) != on) changes.push_back(person);
   }
-  std::ranges::stable_sort(changes, {}, &Changes::table);
   World::Attempt attempt(world, jobs);
-  std::vector<Entity> together;
-  for (auto first = changes.begin(); first != changes.end();) {
-    together.clear();
-    const std::uint32_t table = first->table;
-    for (; first != changes.end() && first->table == table; ++first) together.push_back(first->person);
+  by_table(world, changes, [&](std::span<const Entity> together) {
     const bool asleep = is_asleep(world, together.front());
     const auto part = asleep ? part_value(TagValue<SleepsWatched>{1}) : part_value(Publishes<StepEvents>{});
     const std::array owned = {part.part.id};
     world.remake_many(together, std::span(&part, on ? 1 : 0), owned, jobs);
-  }
+  });
   attempt.keep();
   return Status::ok;
 }

@@ -7,6 +7,7 @@
 
 #include "components/avoidance.h"
 #include "components/body.h"
+#include "components/fat.h"
 #include "components/gait.h"
 #include "components/leg_frames.h"
 #include "components/pose.h"
@@ -90,11 +91,12 @@ void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, 
                 WholeWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WholeWork::Blocks>();
   WholeWork::Blocks& blocks = *work.blocks;
-  const std::array<PartValue, 5> parts = {{{component_part<Pose>(), blocks.pose.data()},
+  const std::array<PartValue, 6> parts = {{{component_part<Pose>(), blocks.pose.data()},
                                            {component_part<JointAngles>(), blocks.angles.data()},
                                            {component_part<Feet>(), blocks.feet.data()},
                                            {component_part<CentreOfMass>(), blocks.centre.data()},
-                                           part_value(Publishes<LegPost>{})}};
+                                           part_value(Publishes<LegPost>{}),
+                                           {component_part<FatWobble>(), nullptr}}};  // at rest
   blocks.owned.assign(gone.begin(), gone.end());
   blocks.owned.insert(blocks.owned.end(), pose_part_ids().begin(), pose_part_ids().end());
   std::ranges::sort(blocks.owned);
@@ -114,7 +116,8 @@ void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, 
         blocks.centre[b] = block->centre;
       }
     });
-    world.remake_many(some, parts, blocks.owned, jobs);
+    const bool wobbles = world.has<FatWobble>(some.front());
+    world.remake_many(some, std::span(parts).first(wobbles ? 6 : 5), blocks.owned, jobs);
   }
 }
 

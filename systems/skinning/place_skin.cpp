@@ -27,7 +27,13 @@ using IntVector = hn::Vec<IntTag>;
 struct SkinGroup {
   const SkinVertex* vertex;
   const LegPlace* leg;
+  const FatPlace* fat;
   const Vec3<float>*rest, *normal;
+};
+
+/// By region, x y z z.
+struct FatRows {
+  alignas(16) float row[fat_regions][4];
 };
 
 struct SkinPoints {
@@ -103,7 +109,8 @@ HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGr
 struct Carried {
   FourVector position, normal;
 };
-HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const Vec3<float>& r, const Vec3<float>& n) {
+HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const Vec3<float>& r, const Vec3<float>& n,
+                           const FatPlace& place, const FatRows* fat) {
   constexpr FourTag four;
   const FrameMap& first = maps[vertex.frame[0]];
   FourVector x = hn::Load(four, first.column[0]), y = hn::Load(four, first.column[1]),
@@ -121,6 +128,8 @@ HWY_INLINE Carried carried(const SkinVertex& vertex, const FrameMap* maps, const
     }
   }
   const auto all = [](float s) HWY_ATTR { return hn::Set(FourTag{}, s); };
+  for (std::size_t k = 0; fat != nullptr && k < place.part.size() && place.part[k] != 0; ++k)
+    from = mul_add(all(place.part[k]), hn::Load(four, fat->row[place.region[k]]), from);
   return {mul_add(all(r.z), z, mul_add(all(r.y), y, mul_add(all(r.x), x, from))),
           mul_add(all(n.z), z, mul_add(all(n.y), y, hn::Mul(all(n.x), x)))};
 }
@@ -136,8 +145,9 @@ HWY_INLINE hn::Vec<Tag> of_two(Tag tag, const FourVector& first, [[maybe_unused]
 }
 
 /// A group of vertices, of which `count` are wanted.
-HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, SkinGroup group, const FrameMap* maps,
-                            std::size_t first, std::size_t count, bool packed, const VertexTarget& out) {
+HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, const FatRows* fat, SkinGroup group,
+                            const FrameMap* maps, std::size_t first, std::size_t count, bool packed,
+                            const VertexTarget& out) {
   Vec3<float> places[group_vertices], normals[group_vertices];
   if (cover != nullptr &&
       std::any_of(group.leg, group.leg + group_vertices, [](const LegPlace& leg) { return leg.amount > 0; })) {
@@ -147,8 +157,9 @@ HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, SkinG
   }
   Rows position, normal;
   for (std::size_t v = 0; v < 4; ++v) {
-    const auto own = [&](std::size_t i)
-                         HWY_ATTR { return carried(group.vertex[i], maps, group.rest[i], group.normal[i]); };
+    const auto own = [&](std::size_t i) HWY_ATTR {
+      return carried(group.vertex[i], maps, group.rest[i], group.normal[i], group.fat[i], fat);
+    };
     const Carried low = own(v), high = group_vertices == 8 ? own(v + 4) : low;
     position.row[v] = of_two(eight, low.position, high.position);
     normal.row[v] = hn::Shuffle2103(of_two(eight, low.normal, high.normal));
@@ -159,23 +170,32 @@ HWY_INLINE void place_group(const LegLines& lines, const SkinCover* cover, SkinG
 }
 
 void place(const SkinMesh& mesh, const BodySkin& skin, const LegLines& lines, const FrameMap* maps,
-           const SkinCover* cover, const VertexTarget& out) {
+           const SkinCover* cover, const FatBeside* beside, const VertexTarget& out) {
+  FatRows rows;
+  for (std::size_t r = 0; beside != nullptr && r < fat_regions; ++r) {
+    const auto& [x, y, z] = (*beside)[r];
+    rows.row[r][0] = x, rows.row[r][1] = y, rows.row[r][2] = rows.row[r][3] = z;
+  }
+  const FatRows* const fat = beside == nullptr ? nullptr : &rows;
   const bool packed = is_packed(out);
   const std::size_t vertices = mesh.vertex.size();
   std::size_t first = 0;
   for (; first + group_vertices <= vertices; first += group_vertices) {
-    place_group(lines, cover, {&mesh.vertex[first], &mesh.leg[first], &skin.rest[first], &skin.normal[first]}, maps,
+    place_group(lines, cover, fat,
+                {&mesh.vertex[first], &mesh.leg[first], &mesh.fat[first], &skin.rest[first], &skin.normal[first]}, maps,
                 first, group_vertices, packed, out);
   }
   if (first == vertices) return;
   SkinVertex vertex[group_vertices];
   LegPlace leg[group_vertices];
+  FatPlace fats[group_vertices];
   Vec3<float> rest[group_vertices], normal[group_vertices];
   for (std::size_t i = 0; i < group_vertices; ++i) {
     const std::size_t v = std::min(first + i, vertices - 1);
-    vertex[i] = mesh.vertex[v], leg[i] = mesh.leg[v], rest[i] = skin.rest[v], normal[i] = skin.normal[v];
+    vertex[i] = mesh.vertex[v], leg[i] = mesh.leg[v], fats[i] = mesh.fat[v], rest[i] = skin.rest[v],
+    normal[i] = skin.normal[v];
   }
-  place_group(lines, cover, {vertex, leg, rest, normal}, maps, first, vertices - first, packed, out);
+  place_group(lines, cover, fat, {vertex, leg, fats, rest, normal}, maps, first, vertices - first, packed, out);
 }
 
 }  // namespace
@@ -189,7 +209,7 @@ HWY_EXPORT(place);
 }
 
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
-                const VertexTarget& out) {
+                const FatBeside* fat, const VertexTarget& out) {
   LegLines lines{};
   for (const Side side : {Side::right, Side::left}) {
     const auto at = [&](Segment s) { return skin.standing.position_m[index(on_side(s, side))]; };
@@ -197,11 +217,11 @@ void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const Fram
     lines.knee_y[side] = at(Segment::shank_right).y;
     lines.ankle_y[side] = at(Segment::foot_right).y;
   }
-  HWY_DYNAMIC_DISPATCH(place)(mesh, skin, lines, maps.data(), cover, out);
+  HWY_DYNAMIC_DISPATCH(place)(mesh, skin, lines, maps.data(), cover, fat, out);
 }
 
 void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
-               const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table,
+               const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table, const FatBeside* fat,
                std::span<FrameMap> maps, const VertexTarget& out) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   frame_maps(mesh, skin, pose, lengths, origin_m, maps);
@@ -216,7 +236,7 @@ void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, con
       cover_muscles(skin, pose, lengths, side, muscles[side], cover.lift_m[side]);
     }
   }
-  place_skin(mesh, skin, maps, covers ? &cover : nullptr, out);
+  place_skin(mesh, skin, maps, covers ? &cover : nullptr, fat, out);
 }
 
 }  // namespace mobil

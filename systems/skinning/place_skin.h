@@ -5,6 +5,7 @@
 #include <span>
 
 #include "assets/skin/body_skin.h"
+#include "components/fat.h"
 #include "components/pose.h"
 #include "systems/skinning/cover_muscles.h"
 #include "systems/skinning/skin_frames.h"
@@ -19,16 +20,20 @@ struct LegLines {
   std::array<float, 2> knee_y, ankle_y;
 };
 
+/// By how much the fat of each region is beside its place, m, world frame (systems/kinematics/fat_motion.h).
+using FatBeside = std::array<Vec3<float>, fat_regions>;
+
 /// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned, and
-/// tilted as the cover slopes. `cover`: what muscles lift the legs by; null: nothing. Tangents are not written
+/// tilted as the cover slopes. `cover`: what muscles lift the legs by; `fat`: what wobbles; null: nothing. Tangents are
+/// not written
 /// (`out.tangent` must be null). The same bits on every instruction set with fused multiply-add.
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
-                const VertexTarget& out);
+                const FatBeside* fat, const VertexTarget& out);
 
 /// All of it: frames, what muscles lift (world, m, by Side; none: as `table` says, and without one the leg is as it is
 /// without), vertices. `maps`: of the mesh's frames, to work in.
 void pose_skin(const BodySkin& skin, const Pose<float>& pose, float lengths, const Vec3<float>& origin_m,
-               const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table,
+               const std::array<std::span<const Vec3<float>>, 2>& muscles, const SkinTable* table, const FatBeside* fat,
                std::span<FrameMap> maps, const VertexTarget& out);
 
 }  // namespace mobil

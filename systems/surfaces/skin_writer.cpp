@@ -6,7 +6,10 @@
 #include <cmath>
 
 #include "assets/body/anthropometry.h"
+#include "components/body.h"
+#include "components/fat.h"
 #include "components/pose.h"
+#include "systems/kinematics/fat_motion.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil {
@@ -70,7 +73,12 @@ void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end)
                            request.normals.bytes.empty() ? nullptr : request.normals.bytes.data(),
                            request.positions.stride, request.normals.stride};
     const Pose<float> own = request.pose == nullptr ? *work.world.get<Pose>(request.person) : *request.pose;
-    pose_skin(skin, own, request.shape.lengths, request.origin_m, request.muscles, request.table, maps, out);
+    const auto fat = work.world.get<FatWobble>(request.person);
+    const bool wobbles = fat && work.world.has<Pose>(request.person);
+    FatBeside beside;
+    if (wobbles) beside = shown_fat(*work.world.get<BodySize>(request.person), *fat);
+    pose_skin(skin, own, request.shape.lengths, request.origin_m, request.muscles, request.table,
+              wobbles ? &beside : nullptr, maps, out);
   }
 }
 

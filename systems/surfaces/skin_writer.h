@@ -51,7 +51,8 @@ class BodySkins {
   std::map<std::tuple<Sex, SkinDetail, int>, std::unique_ptr<BodySkin>> skin_;
 };
 
-/// One person with a skin. Positions in m, world axes, from `origin_m`, as of SurfaceRequest; normals may be left out.
+/// One person with a skin, whose fat wobbles where they have the effect (Simulation::set_fat_wobble) and are awake and
+/// whole. Positions in m, world axes, from `origin_m`, as of SurfaceRequest; normals may be left out.
 struct SkinRequest {
   Entity person;
   SkinShape shape;

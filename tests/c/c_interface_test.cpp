@@ -105,6 +105,8 @@ TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
   ASSERT_TRUE(simulation.place(people[4], 50, -20, 2));
   ASSERT_EQ(mobil_set_forces(sim, &ids[5], 2, 1), MOBIL_OK);
   for (const std::size_t i : {5U, 6U}) ASSERT_TRUE(simulation.add_forces(people[i]));
+  ASSERT_EQ(mobil_set_fat_wobble(sim, &ids[6], 3, 1), MOBIL_OK);
+  ASSERT_TRUE(simulation.set_fat_wobble(std::span(people).subspan(6, 3)));
   both(12);
 
   std::size_t slept = 0, compacted = 0;
@@ -393,6 +395,7 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
     return mobil_set_excitation(sim, ids.data(), n, MOBIL_HAMSTRINGS, MOBIL_RIGHT, pull.data(), 0);
   });
   refused("forces", MOBIL_STALE, [&] { return mobil_set_forces(sim, with_gone.data(), n, 1); });
+  refused("fat", MOBIL_STALE, [&] { return mobil_set_fat_wobble(sim, with_gone.data(), n, 1); });
   refused("sleep", MOBIL_STALE, [&] { return mobil_sleep(sim, with_gone.data(), n, nullptr); });
   refused("poses of a stale one", MOBIL_STALE, [&] {
     std::vector<float> poses(n * 48 * 7, 5);

@@ -159,8 +159,10 @@ class WildHost {
         return mobil_compact(sim_, &who, 1, nullptr);
       case 9:
         return mobil_expand(sim_, &who, 1);
-      case 10:
-        return mobil_set_forces(sim_, &who, 1, numbers_.wild(2));
+      case 10: {
+        const int what = numbers_.wild(4);
+        return what < 2 ? mobil_set_forces(sim_, &who, 1, what) : mobil_set_fat_wobble(sim_, &who, 1, what - 2);
+      }
       case 11: {
         const mobil_muscles choice = muscles();
         return mobil_set_muscles(sim_, &who, 1, numbers_.byte() % 4 == 0 ? nullptr : &choice);

@@ -153,6 +153,9 @@ class Crowd {
     if (who % 3 == 0 && !is_posed(who)) {
       EXPECT_TRUE(simulation_.watch_steps({&*human, 1}));
     }
+    if (who % 4 == 1) {
+      EXPECT_TRUE(simulation_.set_fat_wobble({&*human, 1}));
+    }
     if (is_on_hills(who)) {
       EXPECT_TRUE(terrain_.manage({&*human, 1}));
     }

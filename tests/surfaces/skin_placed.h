@@ -13,13 +13,14 @@ struct Placed {
   std::vector<Vec3<float>> position, normal;
 };
 
-inline Placed place(const BodySkin& skin, const Pose<float>& pose, const SkinCover* cover = nullptr) {
+inline Placed place(const BodySkin& skin, const Pose<float>& pose, const SkinCover* cover = nullptr,
+                    const FatBeside* fat = nullptr) {
   const SkinMesh& mesh = skin_mesh(skin.sex, skin.detail);
   Placed to{std::vector<Vec3<float>>(skin.rest.size()), std::vector<Vec3<float>>(skin.rest.size())};
   std::vector<FrameMap> maps(mesh.frame.size());
   frame_maps(mesh, skin, pose, 1, {0, 0, 0}, maps);
   constexpr std::size_t stride = sizeof(Vec3<float>);
-  place_skin(mesh, skin, maps, cover,
+  place_skin(mesh, skin, maps, cover, fat,
              {std::as_writable_bytes(std::span(to.position)).data(),
               std::as_writable_bytes(std::span(to.normal)).data(), stride, stride});
   return to;

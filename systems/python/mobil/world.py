@@ -272,6 +272,10 @@ class World:
         """Ground reactions and joint moments, or not."""
         self._do(lib.mobil_set_forces(self._sim, *_all(people), int(on)))
 
+    def set_fat_wobble(self, people: People, on: bool = True) -> None:
+        """Fat that wobbles under the skin (Skin), or not."""
+        self._do(lib.mobil_set_fat_wobble(self._sim, *_all(people), int(on)))
+
     def sleep(self, people: People) -> int:
         """How many of them are asleep now."""
         return self._changed(lib.mobil_sleep, people)

@@ -1,0 +1,77 @@
+#include "systems/people/fat_wobble.h"
+
+#include <array>
+#include <vector>
+
+#include "components/body.h"
+#include "components/fat.h"
+#include "components/pose.h"
+#include "components/sleep.h"
+#include "engine/access.h"
+#include "engine/error.h"
+#include "engine/exact_math.h"
+#include "engine/schedule.h"
+#include "systems/kinematics/fat_motion.h"
+#include "systems/people/by_table.h"
+
+namespace mobil {
+namespace {
+
+/// People have fat.
+Result<void> check_fat_key(const TableKey& key, const World&) {
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const bool person = has(type_id<BodySize<float>>()) || has(type_id<Asleep<float>>());
+  if (person || !has(type_id<FatWobble<float>>())) return {};
+  return fail("the snapshot does not agree with itself (whose fat wobbles); give one that `save` made");
+}
+
+}  // namespace
+
+Module fat_module() {
+  return {.name = "fat",
+          .parts = {component_part<FatWobble>()},
+          .systems = [](ScheduleBuilder& systems) { systems.add("fat", &fat_motion); },
+          .check_key = &check_fat_key};
+}
+
+Status set_fat_wobble(World& world, const Jobs& jobs, std::span<const Entity> people, bool on) {
+  std::vector<Entity> changes;
+  for (const Entity person : people) {
+    if (!is_person(world, person)) return Status::stale_entity;
+    if (world.has<FatWobble>(person) != on) changes.push_back(person);
+  }
+  const PartValue part{component_part<FatWobble>(), nullptr};
+  const std::array owned = {part.part.id};
+  World::Attempt attempt(world, jobs);
+  by_table(world, changes, [&](std::span<const Entity> together) {
+    world.remake_many(together, std::span(&part, on ? 1 : 0), owned, jobs);
+  });
+  attempt.keep();
+  return Status::ok;
+}
+
+void settle_fat(World& world, Entity person) {
+  if (world.has<FatWobble>(person)) world.set(person, FatWobble<float>{});
+}
+
+void place_fat(World& world, Entity person, const Placing& way) {
+  auto fat = world.get<FatWobble>(person);
+  if (!fat) return;
+  const double s = exact::sin(double{way.turn_rad()}), c = exact::cos(double{way.turn_rad()});
+  const auto turn = [&](Vec3<float>& v) {
+    const double x = double{v.x}, z = double{v.z};
+    v.x = static_cast<float>(x * c + z * s);
+    v.z = static_cast<float>(z * c - x * s);
+  };
+  for (std::size_t r = 0; r < fat_regions; ++r) {
+    turn(fat->beside_m[r]);
+    turn(fat->speed_m_s[r]);
+    Vec3<float>& at = fat->carried_m[r];
+    at.x -= way.from_x_m, at.z -= way.from_z_m;
+    turn(at);
+    at.x += way.to_x_m, at.z += way.to_z_m;
+  }
+  world.set(person, *fat);
+}
+
+}  // namespace mobil

@@ -1,0 +1,24 @@
+#pragma once
+// The effect of fat that wobbles (components/fat.h) on people: for skin in close view.
+
+#include <span>
+
+#include "engine/jobs.h"
+#include "engine/module.h"
+#include "engine/status.h"
+#include "engine/world.h"
+#include "systems/people/person.h"
+
+namespace mobil {
+
+Module fat_module();
+
+/// People, named once each, walkers and posed, have fat that wobbles, or have it no more; who is so already is left
+/// alone. All or none. Errors: Status::stale_entity.
+Status set_fat_wobble(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
+/// A posed person has jumped: their fat, where it wobbles, begins at rest beside the skeleton.
+void settle_fat(World& world, Entity person);
+/// A walker was put elsewhere: it goes along, as if the world had been moved under it.
+void place_fat(World& world, Entity person, const Placing& way);
+
+}  // namespace mobil

@@ -1,0 +1,236 @@
+// Fat that wobbles: as a mass on a damped spring would, whatever is done with who has it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "components/fat.h"
+#include "engine/rows.h"
+#include "systems/kinematics/fat_motion.h"
+#include "systems/simulation.h"
+#include "tests/engine/instruction_sets.h"
+
+namespace mobil::fat_test {
+namespace {
+
+using Block = FatWobble<Lanes<float>>;
+
+float length(const Vec3<float>& v) {
+  return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z);
+}
+
+/// The mass in double precision: a thousand small steps a tick, the point going evenly.
+struct Mass {
+  double hz, place = 0, speed = 0;
+
+  void tick(double from, double to, double tick_s) {
+    constexpr int parts = 2000;
+    const double circular = 2 * M_PI * hz, h = tick_s / parts;
+    const auto pull = [&](double t, double x, double v) {
+      const double point = from + (to - from) * t / tick_s, pace = (to - from) / tick_s;
+      return -circular * circular * (x - point) - 2 * double{fat_damping} * circular * (v - pace);
+    };
+    for (int i = 0; i < parts; ++i) {  // the midpoint rule
+      const double t = i * h, x = place + 0.5 * h * speed, v = speed + 0.5 * h * pull(t, place, speed);
+      place += h * v;
+      speed += h * pull(t + 0.5 * h, x, v);
+    }
+  }
+};
+
+/// A pose whose every segment is at the same place.
+Pose<Lanes<float>> pose_at(float x_m) {
+  Pose<Lanes<float>> pose{};
+  for (auto& place : pose.position_m)
+    for (std::size_t l = 0; l < lane_count; ++l) place.x[l] = x_m;
+  return pose;
+}
+
+TEST(Fat, SwingsAsAMassOnASpringDoes) {
+  BodySize<Lanes<float>> size;
+  for (std::size_t l = 0; l < lane_count; ++l)
+    put_row(BodySize<float>{1.6F + 0.02F * static_cast<float>(l), 60 + 3 * static_cast<float>(l),
+                            -0.05F + 0.02F * static_cast<float>(l)},
+            size, l);
+  for (const double tick_s : {1.0 / 30, 1.0 / 60, 1.0 / 240, 0.2}) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> pace(-1.5, 1.5);
+    const auto region = index(FatRegion::belly);
+    std::array<Mass, lane_count> mass;
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double thick = static_cast<double>(fat_thickness_m(row_of(size, l))[region]);
+      mass[l].hz = static_cast<double>(fat_hz) * std::sqrt(static_cast<double>(fat_hz_thickness_m) / thick);
+    }
+    Block fat{};
+    double at = 0, before = 0, largest = 0;
+    for (int tick = 0; tick < 60; ++tick) {
+      before = at;
+      at += tick_s * pace(random);
+      fat_motion(size, pose_at(static_cast<float>(at)), fat, static_cast<float>(tick_s));
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        if (tick < 2) mass[l].place = at, mass[l].speed = (at - before) / tick_s;  // it goes along at first
+        if (tick >= 2) mass[l].tick(before, at, tick_s);
+        const double beside = mass[l].place - at;
+        largest = std::max(largest, std::abs(beside));
+        EXPECT_NEAR(static_cast<double>(fat.beside_m[region].x[l]), beside, 2e-5) << tick << " lane " << l;
+        EXPECT_EQ(fat.beside_m[region].y[l], 0);
+      }
+    }
+    EXPECT_GT(largest, 0.005);
+  }
+}
+
+TEST(Fat, IsThickerInWhoHasMoreOfIt) {
+  const auto usual = fat_thickness_m({1.75F, 75, 0});
+  const auto heavy = fat_thickness_m({1.75F, 110, 0.2F}), thin = fat_thickness_m({1.75F, 55, -0.08F});
+  for (std::size_t r = 0; r < fat_regions; ++r) {
+    EXPECT_NEAR(usual[r], fat_points[r].thickness_m, 1e-4F);
+    EXPECT_GT(heavy[r], 1.5F * usual[r]);
+    EXPECT_LT(thin[r], usual[r]);
+  }
+}
+
+TEST(Fat, OfWalkersShakesAndOfWhoStandsComesToRest) {
+  Simulation simulation;
+  std::vector<Entity> people = {*simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 1.4F}),
+                                *simulation.spawn({.height_m = 1.70F, .mass_kg = 105}, {.speed_m_s = 1.4F}),
+                                *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 0.0F})};
+  ASSERT_TRUE(simulation.set_fat_wobble(people));
+  std::array<float, 3> thigh{}, belly{};
+  for (int tick = 0; tick < 300; ++tick) {
+    simulation.tick();
+    for (std::size_t p = 0; p < people.size() && tick >= 120; ++p) {
+      const auto fat = *simulation.get<FatWobble>(people[p]);
+      const auto size = *simulation.get<BodySize>(people[p]);
+      const auto shown = shown_fat(size, fat);
+      const auto thick = fat_thickness_m(size);
+      for (std::size_t r = 0; r < fat_regions; ++r) {
+        EXPECT_LE(length(shown[r]), fat_reach * thick[r]);
+        EXPECT_LE(length(shown[r]), length(fat.beside_m[r]));
+      }
+      thigh[p] = std::max(thigh[p], length(shown[index(FatRegion::thigh_right)]));
+      belly[p] = std::max(belly[p], length(shown[index(FatRegion::belly)]));
+    }
+  }
+  EXPECT_GT(thigh[0], 0.0005F);
+  EXPECT_GT(belly[0], 0.0005F);
+  EXPECT_GT(belly[1], belly[0]);
+  EXPECT_GT(thigh[1], thigh[0]);
+  EXPECT_LT(std::max(thigh[2], belly[2]), 1e-5F);
+}
+
+/// A walker whose fat has been shaken for two seconds.
+struct Shaken {
+  Simulation simulation;
+  Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 90}, {.speed_m_s = 1.4F});
+
+  Shaken() {
+    simulation.set_fat_wobble({&person, 1});
+    simulation.tick(130);
+  }
+  FatWobble<float> fat() const { return *simulation.get<FatWobble>(person); }
+};
+
+TEST(Fat, GoesAlongWhereItsWalkerIsPutAndAsTheOriginShifts) {
+  Shaken stays, placed, shifted;
+  const auto here = *placed.simulation.get<GaitState>(placed.person);
+  ASSERT_TRUE(placed.simulation.place(placed.person, 7, -3, here.heading_rad + 1.1F));
+  ASSERT_TRUE(shifted.simulation.shift_origin(-64, 128));
+  float most = 0;
+  for (int tick = 0; tick < 60; ++tick) {
+    for (Shaken* one : {&stays, &placed, &shifted}) one->simulation.tick();
+    for (std::size_t r = 0; r < fat_regions; ++r) {
+      const Vec3<float> a = stays.fat().beside_m[r], b = placed.fat().beside_m[r], c = shifted.fat().beside_m[r];
+      const float s = std::sin(1.1F), t = std::cos(1.1F);
+      EXPECT_LT(length({a.x * t + a.z * s - b.x, a.y - b.y, a.z * t - a.x * s - b.z}), 5e-5F) << tick;
+      EXPECT_LT(length({a.x - c.x, a.y - c.y, a.z - c.z}), 5e-4F) << tick;  // 15 um at 128 m, and that a tick
+      most = std::max(most, length(a));
+    }
+  }
+  EXPECT_GT(most, 0.002F);
+}
+
+TEST(Fat, BeginsAtRestWhereAPosedPersonJumps) {
+  Simulation simulation;
+  const Entity person = *simulation.spawn_posed({});
+  ASSERT_TRUE(simulation.set_fat_wobble({&person, 1}));
+  Pose<float> pose = *simulation.get<Pose>(person);
+  const auto go = [&](float by_m, Arrival arrival) {
+    for (auto& place : pose.position_m) place.x += by_m;
+    EXPECT_TRUE(simulation.set_pose(person, pose, arrival));
+    simulation.tick();
+    return length(simulation.get<FatWobble>(person)->beside_m[index(FatRegion::belly)]);
+  };
+  for (const float by : {0.0F, 0.0F, 0.0F, 0.02F}) go(by, Arrival::moved);
+  EXPECT_GT(go(-0.02F, Arrival::moved), 0.005F);
+  EXPECT_EQ(go(0.05F, Arrival::jumped), 0);
+  EXPECT_EQ(go(0.0F, Arrival::moved), 0);
+  EXPECT_GT(go(0.02F, Arrival::moved), 0.005F);
+  EXPECT_EQ(go(3.0F, Arrival::moved), 0) << "nobody goes so fast";
+}
+
+TEST(Fat, IsKeptAsleepAndCompactAndBeginsAtRest) {
+  Shaken asleep, compact;
+  ASSERT_EQ(asleep.simulation.sleep({&asleep.person, 1}).value(), 1U);
+  ASSERT_EQ(compact.simulation.compact({&compact.person, 1}).value(), 1U);
+  for (Shaken* one : {&asleep, &compact}) one->simulation.tick(3);
+  ASSERT_TRUE(asleep.simulation.wake({&asleep.person, 1}));
+  ASSERT_TRUE(compact.simulation.expand({&compact.person, 1}));
+  for (Shaken* one : {&asleep, &compact}) {
+    one->simulation.tick();
+    EXPECT_EQ(length(one->fat().beside_m[0]), 0);
+    one->simulation.tick(30);
+    EXPECT_GT(length(one->fat().beside_m[0]), 0);
+    EXPECT_LT(length(one->fat().beside_m[0]), 0.02F);
+  }
+}
+
+TEST(Fat, IsSavedAndTakenAwayAllOrNone) {
+  Shaken shaken;
+  Simulation& simulation = shaken.simulation;
+  std::vector<std::byte> saved(simulation.snapshot_bytes());
+  ASSERT_TRUE(simulation.save(saved));
+  simulation.tick(20);
+  const auto hash = simulation.state_hash();
+  Simulation other;
+  ASSERT_TRUE(other.restore(saved));
+  other.tick(20);
+  EXPECT_EQ(other.state_hash(), hash);
+  const Entity second = *simulation.spawn(BodyRequest{}), gone = *simulation.spawn(BodyRequest{});
+  ASSERT_TRUE(simulation.despawn(gone));
+  const std::array with_gone = {second, gone}, twice = {second, second}, both = {shaken.person, second};
+  EXPECT_FALSE(simulation.set_fat_wobble(with_gone));
+  EXPECT_FALSE(simulation.set_fat_wobble(twice));
+  EXPECT_FALSE(simulation.get<FatWobble>(second));
+  ASSERT_TRUE(simulation.set_fat_wobble(both));
+  simulation.tick(20);
+  EXPECT_GT(length(shaken.fat().beside_m[0]), 0);
+  ASSERT_TRUE(simulation.set_fat_wobble(both, false));
+  EXPECT_FALSE(simulation.get<FatWobble>(second));
+  EXPECT_FALSE(simulation.get<FatWobble>(shaken.person));
+}
+
+TEST(Fat, OfAPoseThatIsNotFiniteStaysInItsLaneAndComesBack) {
+  BodySize<Lanes<float>> size;
+  for (std::size_t l = 0; l < lane_count; ++l) put_row(BodySize<float>{1.75F, 75, 0}, size, l);
+  Block alone{}, beside{};
+  for (int tick = 0; tick < 40; ++tick) {
+    Pose<Lanes<float>> pose = pose_at(0.02F * std::sin(static_cast<float>(tick)));
+    fat_motion(size, pose, alone, 1.0F / 60);
+    if (tick == 10) pose.position_m[index(Segment::L3)].x[3] = std::numeric_limits<float>::quiet_NaN();
+    fat_motion(size, pose, beside, 1.0F / 60);
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if (l == 3) continue;
+      ASSERT_EQ(alone.beside_m[index(FatRegion::belly)].x[l], beside.beside_m[index(FatRegion::belly)].x[l]);
+    }
+  }
+  EXPECT_TRUE(std::isfinite(beside.beside_m[index(FatRegion::belly)].x[3]));
+  EXPECT_NE(beside.beside_m[index(FatRegion::belly)].x[3], 0);
+}
+
+}  // namespace
+}  // namespace mobil::fat_test

@@ -160,8 +160,15 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
     walk(simulation, 300);
     EXPECT_EQ(solved(simulation), before) << speed;
   }
-  // Turning takes no new step.
+  // Who turns is solved step by step, for steps that turn are nearer to the usual ones; not who walks as is usual.
   EXPECT_TRUE(simulation.turn_to(crowd[11], 2));
+  walk(simulation, 600);
+  EXPECT_GE(solved(simulation), before + 4);
+  EXPECT_LE(solved(simulation), before + 9);
+  ASSERT_TRUE(simulation.change_gait(crowd[11], {.style = GaitStyle{}}));
+  walk(simulation, 600);
+  before = solved(simulation);
+  EXPECT_TRUE(simulation.turn_to(crowd[11], 0));
   walk(simulation, 600);
   EXPECT_EQ(solved(simulation), before);
   // Several requests within a step are solved once.

@@ -15,6 +15,7 @@
 #include "engine/scratch.h"
 #include "systems/gait/asleep.h"
 #include "systems/kinematics/kinematics.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/person.h"
 
 namespace mobil {
@@ -162,7 +163,6 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
   if (work.blocks == nullptr) work.blocks = std::make_unique<WakingWork::Blocks>();
   WakingWork::Blocks& blocks = *work.blocks;
   blocks.list_parts(more, as);
-  blocks.parts.push_back({component_part<FatWobble>(), nullptr});  // at rest, where it wobbles
   blocks.people.assign(people.begin(), people.end());
   const auto table = [&](Entity person) { return world.locate(person)->table; };
   const auto order = [&](Entity person) { return std::pair(table(person), person.index); };
@@ -175,9 +175,9 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
     left = left.subspan(count);
     blocks.fill(jobs, count, as, time.tick_s,
                 [&](WakingBlock& block, std::size_t i, std::size_t lane) { block.put(world, some[i], time, lane); });
-    std::span<const PartValue> parts = blocks.parts;
-    if (!world.has<FatWobble>(some.front())) parts = parts.first(parts.size() - 1);
-    world.remake_many(some, parts, owned, jobs);
+    world.remake_many(some, blocks.parts, owned, jobs);
+    if (world.has<FatWobble>(some.front()))
+      for (const Entity person : some) settle_fat(world, person);
   }
 }
 

@@ -15,6 +15,7 @@
 #include "engine/rows.h"
 #include "systems/kinematics/kinematics.h"
 #include "systems/kinematics/shoulders.h"
+#include "systems/people/fat_wobble.h"
 
 namespace mobil {
 namespace {
@@ -91,12 +92,11 @@ void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, 
                 WholeWork& work) {
   if (work.blocks == nullptr) work.blocks = std::make_unique<WholeWork::Blocks>();
   WholeWork::Blocks& blocks = *work.blocks;
-  const std::array<PartValue, 6> parts = {{{component_part<Pose>(), blocks.pose.data()},
+  const std::array<PartValue, 5> parts = {{{component_part<Pose>(), blocks.pose.data()},
                                            {component_part<JointAngles>(), blocks.angles.data()},
                                            {component_part<Feet>(), blocks.feet.data()},
                                            {component_part<CentreOfMass>(), blocks.centre.data()},
-                                           part_value(Publishes<LegPost>{}),
-                                           {component_part<FatWobble>(), nullptr}}};  // at rest
+                                           part_value(Publishes<LegPost>{})}};
   blocks.owned.assign(gone.begin(), gone.end());
   blocks.owned.insert(blocks.owned.end(), pose_part_ids().begin(), pose_part_ids().end());
   std::ranges::sort(blocks.owned);
@@ -116,8 +116,9 @@ void make_whole(World& world, const Jobs& jobs, std::span<const Entity> people, 
         blocks.centre[b] = block->centre;
       }
     });
-    const bool wobbles = world.has<FatWobble>(some.front());
-    world.remake_many(some, std::span(parts).first(wobbles ? 6 : 5), blocks.owned, jobs);
+    world.remake_many(some, parts, blocks.owned, jobs);
+    if (world.has<FatWobble>(some.front()))
+      for (const Entity person : some) settle_fat(world, person);
   }
 }
 

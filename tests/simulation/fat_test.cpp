@@ -181,6 +181,10 @@ TEST(Fat, IsKeptAsleepAndCompactAndBeginsAtRest) {
   ASSERT_TRUE(asleep.simulation.wake({&asleep.person, 1}));
   ASSERT_TRUE(compact.simulation.expand({&compact.person, 1}));
   for (Shaken* one : {&asleep, &compact}) {
+    std::vector<std::byte> saved(one->simulation.snapshot_bytes());
+    ASSERT_TRUE(one->simulation.save(saved));
+    const auto restored = one->simulation.restore(saved);
+    ASSERT_TRUE(restored) << restored.error().message;
     one->simulation.tick();
     EXPECT_EQ(length(one->fat().beside_m[0]), 0);
     one->simulation.tick(30);

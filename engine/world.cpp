@@ -73,7 +73,8 @@ Status World::remake_from(Entity entity, std::span<const PartValue> parts) {
 void World::key_remade(Entity entity, std::span<const PartValue> parts, std::span<const std::uint64_t> owned) {
   key_from(parts);
   for (const KeyPart& part : find(entity).table->key()) {
-    if (!std::binary_search(owned.begin(), owned.end(), part.id)) insert_part(scratch_, part);
+    const bool given = find_part(scratch_, part.id) != nullptr;
+    if (!given && !std::binary_search(owned.begin(), owned.end(), part.id)) insert_part(scratch_, part);
   }
 }
 

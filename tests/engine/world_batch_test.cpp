@@ -251,6 +251,30 @@ RC_GTEST_PROP(WorldBatch, RemadeTogetherTheyAreAsOneByOne, ()) {
   expect_parked(single);
 }
 
+/// A part that is given and is there already, which nobody owns, is there once.
+TEST(WorldBatch, WhatIsGivenAndThereIsThereOnce) {
+  World world;
+  const std::vector<Entity> all = create(world, 1, 0, 20, {});
+  const Age<float> older{77};
+  ASSERT_EQ(world.remake_from(all[3], std::array{part_value(older)}, {}), Status::ok);
+  EXPECT_EQ(world.get<Age>(all[3])->ticks, 77U);
+  const std::array some = {all[3], all[5], all[19]};
+  const auto age = world.get<Age>(all[5])->ticks;
+  world.remake_many(some,
+                    std::array{PartValue{component_part<Age>(), nullptr}, PartValue{component_part<Badge>(), nullptr}},
+                    {}, backward());
+  EXPECT_EQ(world.get<Age>(all[3])->ticks, 77U);
+  EXPECT_EQ(world.get<Age>(all[5])->ticks, age) << "what is there keeps its value";
+  for (const Entity entity : some) {
+    EXPECT_TRUE(world.has<Badge>(entity));
+    const TableKey& key = world.find(entity).table->key();
+    EXPECT_EQ(
+        std::adjacent_find(key.begin(), key.end(), [](const KeyPart& a, const KeyPart& b) { return a.id == b.id; }),
+        key.end());
+  }
+  expect_parked(world);
+}
+
 /// Some are remade in pieces and others come, some of whom get one part more; where that is not kept, nothing of it has
 /// been, and where it is, it is as without an attempt.
 RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {

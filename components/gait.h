@@ -87,9 +87,9 @@ struct Manner {
   F arm_back, arm_forward, elbow_back, elbow_forward, arm_abduction, forearm_pronation, finger_flexion;
 };
 
-/// How a walker is at a heel strike, the instant at which two steps meet. A function of body, gait and what is left to
-/// turn (systems/gait/step_plan.cpp), so it is known before either step is solved. Standing is a strike too, of length
-/// 0 and no speed. m, s, rad.
+/// How a walker is at a heel strike, the instant at which two steps meet. A function of body, gait, the speed before
+/// and what was left to turn then (systems/gait/step_plan.cpp), so it is known before either step is solved. Standing
+/// is a strike too, of length 0 and no speed. m, s, rad.
 template <class F>
 struct Strike {
   F speed_m_s;                // of the gait that it belongs to; 0: standing

@@ -52,10 +52,11 @@ struct Unsettled {
 inline constexpr std::uint32_t never_settles = 0xFFFFFFFF;
 
 /// Tags of a sleeper's table: ground reaction and joint moments are there again on waking; Relevance goes on choosing
-/// muscles then; steps are watched again.
+/// muscles then; steps are watched again; fat wobbles again, from rest.
 struct SleepsWithForces {};
 struct SleepsManaged {};
 struct SleepsWatched {};
+struct SleepsWithFat {};
 
 /// The nearest style of those that take least memory asleep: each parameter a whole number of 254ths of its range away
 /// from its default (systems/gait/asleep.cpp).

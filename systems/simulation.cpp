@@ -65,8 +65,7 @@ Simulation::Simulation(const SimulationOptions& options, Clock clock)
     for (const KeyPart& part : module.parts) our_parts_.push_back(part.id);
   std::ranges::sort(our_parts_);
   awake_parts_ = our_parts_;
-  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>(), type_id<FatWobble<float>>()})
-    std::erase(awake_parts_, kept);
+  for (const std::uint64_t kept : {type_id<Course<float>>(), type_id<Footing<float>>()}) std::erase(awake_parts_, kept);
   modules_.insert(modules_.end(), options.modules.begin(), options.modules.end());
   for (const Module& module : options.modules) {
     for (const NamedResource& one : module.resources) world_->share_as(one.part, one.resource);

@@ -144,8 +144,8 @@ class Simulation {
   Result<Entity> spawn_posed(const BodyRequest& body);
   /// Where a posed person's skeleton is at the end of the next tick, taken as it is. Leg muscles follow. Errors, which
   /// name the segment: a stale handle, a walker (Status::missing), a place not within 1000 km, a quaternion whose
-  /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, unless it
-  /// has `jumped`.
+  /// length is not 1 within 1 %; the pose then stays. Muscles with inertia feel the way from the last pose, and so does
+  /// fat that wobbles, unless it has `jumped`.
   Result<void> set_pose(Entity human, const Pose<float>& pose, Arrival arrival = Arrival::moved);
   /// The person goes, with their muscles; the handles are stale from then on. Errors: a stale handle.
   Result<void> despawn(Entity human);
@@ -192,12 +192,12 @@ class Simulation {
   /// Walkers whom nobody sees fall asleep: their rows go, and a hundred bytes are left from which they come back where
   /// they would be, walk, pose and lines to the bit. Muscles go, their handles too; they begin again on waking. A
   /// host's own parts stay. `get` reads a sleeper's body, walk and pose as anybody's (a pose takes some
-  /// microseconds); change_gait, set_gait, turn_to, place, watch_steps, roots and despawn work on sleepers, at the
-  /// price of the strikes that follow; all other calls wake them, and so does what a sleeper cannot follow: another
-  /// style, or a second request while the first is being carried out. Systems do not see them, nor does `each`. Who
-  /// turns, changes speed or walks unevenly does not fall asleep, nor posed people, nor people whose muscles have
-  /// several methods. Returns how many of these sleep now. Errors: a stale handle, somebody named twice; nothing has
-  /// changed.
+  /// microseconds); change_gait, set_gait, turn_to, place, watch_steps, set_fat_wobble, roots and despawn work on
+  /// sleepers, at the price of the strikes that follow; all other calls wake them, and so does what a sleeper cannot
+  /// follow: another style, or a second request while the first is being carried out. Systems do not see them, nor does
+  /// `each`. Who turns, changes speed or walks unevenly does not fall asleep, nor posed people, nor people whose
+  /// muscles have several methods. Returns how many of these sleep now. Errors: a stale handle, somebody named twice;
+  /// nothing has changed.
   Result<std::size_t> sleep(std::span<const Entity> people);
   /// Sleepers wake; who is awake is left alone. Control points of their muscles are within `within_m` of where they
   /// would be, by running through the last half a second (5 mm), one (1 mm) or two (4 µm) of a person's walk as it now
@@ -212,11 +212,11 @@ class Simulation {
   /// and of the memory. They have no pose of their own then, and the muscles are in the person's row: their handles go,
   /// others come when they are whole again. `get` makes Pose, JointAngles, Feet and CentreOfMass when it is asked (some
   /// microseconds), PoseWriter sixteen people's at a time; each<Pose> does not see them. change_gait, set_gait,
-  /// turn_to, place, watch_steps and despawn leave them compact; all other calls that change a person make them whole
-  /// first. Control points are within 4 µm of where they would be. Posed people do not become compact, nor people with
-  /// forces, nor whose muscles place control points, have effects, parts of the host's or a method other than reduced
-  /// or none, nor while they fade. Returns how many of these are compact now. Errors: a stale handle, somebody named
-  /// twice; nothing has changed.
+  /// turn_to, place, watch_steps, set_fat_wobble and despawn leave them compact; all other calls that change a person
+  /// make them whole first. Control points are within 4 µm of where they would be. Posed people do not become compact,
+  /// nor people with forces, nor whose muscles place control points, have effects, parts of the host's or a method
+  /// other than reduced or none, nor while they fade. Returns how many of these are compact now. Errors: a stale
+  /// handle, somebody named twice; nothing has changed.
   Result<std::size_t> compact(std::span<const Entity> people);
   /// Compact people are whole again; who is not compact is left alone. Errors: a stale handle, somebody named twice;
   /// nothing has changed.

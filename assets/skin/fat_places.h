@@ -17,7 +17,7 @@ struct FatPlace {
 };
 
 /// Of a place at rest, in the anatomical position; `arm`: how much of it is the arm's. The middle of a region moves all
-/// of the way, its borders not at all; nor do kneecap, shin, elbow, hands, feet, ribs and head. The numbers are our
+/// of the way, its borders not at all; nor do kneecap, shin, elbow, hands, feet and head. The numbers are our
 /// choice.
 FatPlace fat_place(const form::BodyForm& form, const Vec3<double>& rest, double arm);
 

@@ -11,7 +11,7 @@ A document has the place of a table as two lines, and what stands between them i
 
 Columns are the machines of demo/bench/figures, each a file or several. A row is a line of the tables below. The table of
 README.md has figures of several commands in sentences, those of the machine that measured all of them; errors and costs of
-ways to deform muscles are those of demo/gallery/living.csv, an AMD EPYC's.
+ways to deform muscles are those of demo/gallery/living.csv and frontier.csv, an AMD EPYC's.
 """
 
 import argparse
@@ -88,27 +88,46 @@ TABLES = {
     ],
 }
 
-# What is told, a sentence with its figures as {name|how it is shown}, and the command that says them.
+# What is told, and two columns with figures as {name|how it is shown}.
 TUNED, PAPERS = "living.reduced-12, tuned, finite shape", "living.ecd, 81 nodes"
 SENTENCES = {
     "readme": [
         ("joint angles inside the band of measured walks, five speeds",
-         "{compare.angles_inside.least|%} to {compare.angles_inside.most|%} of the cycle", "mobil compare"),
+         "{compare.angles_inside.least|%} to {compare.angles_inside.most|%} of the cycle", "`mobil compare`"),
         ("vertical and fore-aft forces, moments at the hip against measured ones",
          "correlate {compare.vertical_correlation|1}, {compare.fore_aft_correlation|1}, "
          "{compare.hip_moment_correlation|1} and better", ""),
         ("muscles that pull and are shaken, against nonlinear tissue; linear, as in the paper",
          f"{{{TUNED}.all_off|%}} off, {{{TUNED}.cost_us|µs}} a tick; {{{PAPERS}.all_off|%}}, {{{PAPERS}.cost_us|µs}}",
-         "mobil frontier --finite"),
+         "`mobil frontier --finite`"),
         ("a person's pose for a tick; with eight muscles and forces",
          "{readme.pose_us|µs}; {walk.us_per_tick|µs} of one core",
-         "mobil bench`, `mobil walk"),
+         "`mobil bench`, `mobil walk`"),
         ("ten thousand people of eight muscles, the nearest 500 within 1 mm",
-         "{crowd.tick_ms_p50|ms} a tick, median, on {machine.cores|cores} of an {machine.cpu|text}", "mobil crowd --humans 10000"),
+         "{crowd.tick_ms_p50|ms} a tick, median, on {machine.cores|cores} of an {machine.cpu|text}", "`mobil crowd --humans 10000`"),
+    ],
+    "frontier": [
+        ("the paper's choice: 81 nodes, explicit, 2 ms", "{line.ecd.81.2.error|.1%}", "{line.ecd.81.2.us|µs} a muscle and tick"),
+        ("its 525 nodes; its 3321", "{line.ecd.525.1.4.error|.1%}; {line.ecd.3321.0.7.error|.1%}",
+         "{line.ecd.525.1.4.us|µs}; {line.ecd.3321.0.7.us|µs}"),
+        ("8 vectors of 8×8×32 cells; with the 81 control points placed", "{line.reduced.2673.8.error|.1%}",
+         "1/{line.reduced.2673.8.ratio|.0f}; 1/{line.reduced.2673.8.ratio_points|.0f} of the paper's choice"),
+        ("12 vectors; with points", "{line.reduced.2673.12.error|.1%}",
+         "1/{line.reduced.2673.12.ratio|.0f}; 1/{line.reduced.2673.12.ratio_points|.0f}"),
+        ("24 vectors; with points", "{line.reduced.2673.24.error|.1%}",
+         "1/{line.reduced.2673.24.ratio|.0f}; 1/{line.reduced.2673.24.ratio_points|.0f}"),
+        ("12 vectors of 4×4×16 cells (made in a tenth of a second); 32", "{line.reduced.425.12.error|.1%}; {line.reduced.425.32.error|.1%}",
+         "1/{line.reduced.425.12.ratio|.0f}; 1/{line.reduced.425.32.ratio|.0f}"),
+        ("static, 81 nodes: real walks jolt", "{line.static.81.16.7.error|%}", "{line.static.81.16.7.us|µs}"),
+        ("with gravity and the frame's motion (`--loads frame`): 12 vectors; the paper's choice",
+         "{frame.reduced.2673.12.error|.1%}; {frame.ecd.81.2.error|.1%}", "1/{frame.reduced.2673.12.ratio|.0f}; {frame.ecd.81.2.us|µs}"),
     ],
 }
+HEADINGS = {"readme": "| | | |", "frontier": "| method | error | cost |"}
 IN_SENTENCES = {
     "%": lambda value: f"{100 * value:.0f} %",
+    ".1%": lambda value: f"{100 * value:.1f} %",
+    ".0f": lambda value: f"{value:.0f}",
     "1": lambda value: f"{math.floor(100 * value) / 100:.2f}",  # least values: never better than they are
     "µs": lambda value: shown(value, US),
     "text": str,
@@ -152,16 +171,31 @@ def living(file):
     return {f"living.{row['way']}.{name}": float(row[name]) for row in rows for name in ("all_off", "cost_us")}
 
 
+def frontier(file):
+    """The same of muscles that are drawn (mobil frontier --long): method, nodes, and milliseconds or vectors."""
+    if not file.exists():
+        return {}
+    found = {}
+    with file.open() as lines:
+        for row in csv.DictReader(lines):
+            part = row["basis"] if row["method"].startswith("reduced") else f"{1e3 * float(row['dt_s']):.1f}".removesuffix(".0")
+            name = f"{row['loads']}.{row['method']}.{row['nodes']}.{part}"
+            found |= {f"{name}.error": float(row["error_rel"]), f"{name}.us": float(row["cost_us_per_tick"]),
+                      f"{name}.ratio": float(row["cost_ratio_to_paper"]),
+                      f"{name}.ratio_points": float(row["control_points_ratio_to_paper"])}
+    return found
+
+
 def sentences(name, columns, where):
     """Of the first machine that has measured all of it."""
-    lines = ["| | | |", "|---|---|---|"]
-    names = re.findall(r"\{([^|{}]+)\|", " ".join(template for _, template, _ in SENTENCES[name]))
+    lines = [HEADINGS[name], "|---|---|---|"]
+    names = re.findall(r"\{([^|{}]+)\|", " ".join(first + second for _, first, second in SENTENCES[name]))
     for _, figures in columns:
         if any(figure not in figures for figure in names):
             continue
-        for text, template, command in SENTENCES[name]:
-            said = re.sub(r"\{([^|{}]+)\|([^}]+)\}", lambda of: IN_SENTENCES[of[2]](figures[of[1]]), template)
-            lines.append(f"| {text} | {said} | " + (f"`{command}` |" if command else "|"))
+        for text, *templates in SENTENCES[name]:
+            said = [re.sub(r"\{([^|{}]+)\|([^}]+)\}", lambda of: IN_SENTENCES[of[2]](figures[of[1]]), one) for one in templates]
+            lines.append(f"| {text} | {said[0]} | " + (f"{said[1]} |" if said[1] else "|"))
         return "\n".join(lines) + "\n"
     sys.exit(f"{where}: no machine has measured all of '{name}'; demo/bench/measure_readme.py does")
 
@@ -200,7 +234,7 @@ def main():
     parser.add_argument("--check", action="store_true", help="change nothing; status 1 where a document differs")
     parser.add_argument("--root", type=pathlib.Path, default=here, help="the project's folder")
     asked = parser.parse_args()
-    errors = living(asked.root / "demo/gallery/living.csv")
+    errors = living(asked.root / "demo/gallery/living.csv") | frontier(asked.root / "demo/gallery/frontier.csv")
     columns = [(heading, figures | errors) for heading, figures in machines(asked.root / "demo/bench/figures")]
     if not columns:
         sys.exit("demo/bench/figures has no file; mobil bench --json demo/bench/figures/MACHINE.json writes one")

@@ -254,7 +254,14 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
   }
   reader.take(orders);
   reader.take(bytes_asleep_);
-  if (!reader.whole()) return fail("a crowd's bytes do not agree with themselves");
+  std::size_t due_together = 0;
+  bool known = true;
+  for (const auto& slots : due_) {
+    due_together += slots.size();
+    known = known && std::ranges::all_of(slots, [&](std::uint32_t slot) { return slot < walkers_.size(); });
+  }
+  if (!reader.whole() || !known || due_together != walkers_.size())
+    return fail("a crowd's bytes do not agree with themselves");
   camera_ = orders.camera;
   cut_ = orders.cut != 0;
   for (std::uint32_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);

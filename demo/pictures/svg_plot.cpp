@@ -209,28 +209,36 @@ void draw_line(Page& page, const PlotLine& line, const Frame& frame) {
            line.width, line.dashed ? R"( stroke-dasharray="4 3")" : "");
 }
 
-/// Where texts beside points are already: from, to and the line they stand on.
-struct TextPlace {
+/// What is drawn already: from, to and the line that a text there would stand on.
+struct TakenPlace {
   double left, right, y;
 
-  bool covers(const TextPlace& other) const {
+  bool covers(const TakenPlace& other) const {
     constexpr double line_height = 10;
     return left < other.right && other.left < right && std::abs(y - other.y) < line_height;
   }
 };
 
-/// Above the point; below it where another text is.
+/// Beside the point where nothing is: above or below it, right or left; first of all above.
 void draw_point_text(Page& page, double x, double y, bool to_the_left, const std::string& text,
-                     const std::string& colour, std::vector<TextPlace>& taken) {
-  const double from = to_the_left ? x - 6 : x + 6,
-               far = to_the_left ? from - text_width(text) : from + text_width(text);
-  TextPlace place = {std::min(from, far), std::max(from, far), y - 4};
-  if (std::ranges::any_of(taken, [&](const TextPlace& one) { return one.covers(place); })) place.y = y + 12;
-  page.text(from, place.y, to_the_left ? "end" : "start", text, colour, 10);
+                     const std::string& colour, std::vector<TakenPlace>& taken) {
+  const double width = text_width(text);
+  const auto beside = [&](bool left, double down) {
+    return left ? TakenPlace{x - 6 - width, x - 6, y + down} : TakenPlace{x + 6, x + 6 + width, y + down};
+  };
+  constexpr double above = -4, below = 12;
+  const std::array places = {beside(to_the_left, above), beside(to_the_left, below), beside(!to_the_left, above),
+                             beside(!to_the_left, below)};
+  const auto is_free = [&](const TakenPlace& place) {
+    return std::ranges::none_of(taken, [&](const TakenPlace& one) { return one.covers(place); });
+  };
+  const auto found = std::ranges::find_if(places, is_free);
+  const TakenPlace& place = found != places.end() ? *found : places.front();
+  page.text(place.left, place.y, "start", text, colour, 10);
   taken.push_back(place);
 }
 
-void draw_points(Page& page, const PlotPoints& points, const Frame& frame, std::vector<TextPlace>& taken) {
+void draw_points(Page& page, const PlotPoints& points, const Frame& frame, std::vector<TakenPlace>& taken) {
   for (std::size_t i = 0; i < std::min(points.x.size(), points.y.size()); ++i) {
     if (!frame.shows(points.x[i], points.y[i])) continue;
     const double x = frame.at_x(points.x[i]), y = frame.at_y(points.y[i]);
@@ -239,10 +247,15 @@ void draw_points(Page& page, const PlotPoints& points, const Frame& frame, std::
                frame.at_y(points.y[i] + points.error[i]), points.colour);
     }
     page.add(R"(<circle cx="{:.1f}" cy="{:.1f}" r="3" fill="{}"/>)", x, y, points.colour);
-    if (i < points.text.size() && !points.text[i].empty()) {
-      const bool right_half = x > frame.left + 0.7 * frame.width;
-      draw_point_text(page, x, y, right_half, points.text[i], points.colour, taken);
-    }
+    taken.push_back({x - 4, x + 4, y + 3});
+  }
+}
+
+void draw_texts(Page& page, const PlotPoints& points, const Frame& frame, std::vector<TakenPlace>& taken) {
+  for (std::size_t i = 0; i < std::min({points.x.size(), points.y.size(), points.text.size()}); ++i) {
+    if (!frame.shows(points.x[i], points.y[i]) || points.text[i].empty()) continue;
+    const double x = frame.at_x(points.x[i]), y = frame.at_y(points.y[i]);
+    draw_point_text(page, x, y, x > frame.left + 0.7 * frame.width, points.text[i], points.colour, taken);
   }
 }
 
@@ -418,8 +431,9 @@ std::string svg(const PlotFigure& figure) {
     for (const auto& band : panel.bands) draw_band(page, band, frame);
     for (const auto& line : panel.lines) draw_line(page, line, frame);
     page.add("</g>");
-    std::vector<TextPlace> texts;
-    for (const auto& points : panel.points) draw_points(page, points, frame, texts);
+    std::vector<TakenPlace> taken;
+    for (const auto& points : panel.points) draw_points(page, points, frame, taken);
+    for (const auto& points : panel.points) draw_texts(page, points, frame, taken);
     page.add(R"(<rect x="{:.1f}" y="{:.1f}" width="{:.1f}" height="{:.1f}" fill="none" stroke="#bbb"/>)", left, top,
              frame.width, frame.height);
   }

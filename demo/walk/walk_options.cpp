@@ -227,6 +227,9 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto view = choose<WalkView>("--view", text.view, views);
   if (!view) return tl::unexpected(view.error());
   options.view = *view;
+  const bool shows_skin = *view == WalkView::skin || *view == WalkView::glass;
+  if (text.fat && !(shows_skin && (text.frames || text.video)))
+    return fail("--fat: is of pictures of skin; add --view skin --frames (or glass, --video), or leave it out");
   if (!text.anatomy.empty()) options.anatomy = text.anatomy;
   return options;
 }

@@ -9,6 +9,7 @@
 #include "components/relevance.h"
 #include "components/sleep.h"
 #include "systems/c/c_call.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/person.h"
 
 namespace {
@@ -265,7 +266,8 @@ int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
             (world.world().has<Needs>(person) || world.world().has<SleepsManaged>(person) ? MOBIL_MANAGED : 0) |
             (is_watched(world.world(), person) ? MOBIL_WATCHED : 0) |
             (world.world().has<Course>(person) ? MOBIL_AVOIDS : 0) |
-            (world.world().has<Footing>(person) ? MOBIL_ON_GROUND : 0);
+            (world.world().has<Footing>(person) ? MOBIL_ON_GROUND : 0) |
+            (has_fat(world.world(), person) ? MOBIL_HAS_FAT : 0);
     return int{MOBIL_OK};
   });
 }

@@ -200,7 +200,8 @@ enum {
   MOBIL_MANAGED = 32,
   MOBIL_WATCHED = 64,
   MOBIL_AVOIDS = 128,   /* others: mobil_avoid */
-  MOBIL_ON_GROUND = 256 /* mobil_set_on_ground */
+  MOBIL_ON_GROUND = 256, /* mobil_set_on_ground */
+  MOBIL_HAS_FAT = 512   /* that wobbles: mobil_set_fat_wobble */
 };
 /* What a person is now: bits of those above. */
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);
@@ -217,7 +218,7 @@ MOBIL_API int mobil_place(mobil_sim* sim, mobil_id id, const float place[3], flo
 /* The origin moves there: every place becomes so much less. The height does not count. */
 MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
 /* Poses of posed people, who take them at the end of the next tick: 48 times place x y z and quaternion x y z w, in the
- * world. `jumped` 1: muscles feel no inertia of the way there. */
+ * world. `jumped` 1: muscles and fat feel no inertia of the way there. */
 MOBIL_API int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride,
                               int jumped);
 /* People whom nobody sees fall asleep: some 100 bytes, no muscles, hardly any cost. `changed` (may be null): how many

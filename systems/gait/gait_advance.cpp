@@ -101,28 +101,21 @@ void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& 
   move_line(plan, done, straight, length * s, length * c, state);
 }
 
-/// Whose steps are the same whether they turn or not (step_plan.cpp).
-bool has_usual_style(const GaitStyleOf<Lanes<float>>& style, std::size_t lane) {
-  constexpr GaitStyle usual;
-  const auto* const own = reinterpret_cast<const float*>(&style);
-  const auto* const there = reinterpret_cast<const float*>(&usual);
-  for (std::size_t p = 0; p < sizeof(GaitStyle) / sizeof(float); ++p)
-    if (own[p * lane_count + lane] != there[p]) return false;
-  return true;
-}
-
 std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes<float>>& wanted,
                             const GaitState<Lanes<float>>& state, float tick_s) {
   Lanes<float> begun, turns;
-  store(select(load(state.time_s) < tick_s, wide(1.0F), wide(0.0F)), begun);
+  const WideMask begins = load(state.time_s) < tick_s;
+  store(select(begins, wide(1.0F), wide(0.0F)), begun);
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   const Wide turns_from = select(stands_still(plan), wide(off_heading), wide(own_turn_rad));
-  store(select(abs(way) > turns_from, wide(1.0F), wide(0.0F)), turns);
+  const WideMask is_off = begins & (abs(way) > turns_from);
+  Wide otherwise = wide(0.0F);
+  if (any(is_off)) otherwise = select(load(wanted.speed_m_s) <= 0.0F, wide(1.0F), off_usual(wanted.style));
+  store(select(is_off, otherwise, wide(0.0F)), turns);
   std::uint32_t bits = 0;
   for (std::size_t l = 0; l < lane_count; ++l) {
     if (!(begun[l] > 0.0F)) continue;
-    const bool turns_otherwise = turns[l] > 0.0F && (wanted.speed_m_s[l] <= 0.0F || !has_usual_style(wanted.style, l));
-    const bool changed = plan.settled[l] == 0 || plan.revision[l] != wanted.revision[l] || turns_otherwise;
+    const bool changed = plan.settled[l] == 0 || plan.revision[l] != wanted.revision[l] || turns[l] > 0.0F;
     bits |= static_cast<std::uint32_t>(changed) << l;
   }
   return bits;

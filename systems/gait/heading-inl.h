@@ -1,4 +1,4 @@
-// Where a walker is to turn to. Include it as engine/wide-inl.h says.
+// Where a walker is to turn to, and whose steps that changes. Include it as engine/wide-inl.h says.
 
 #if defined(MOBIL_SYSTEMS_GAIT_HEADING_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef MOBIL_SYSTEMS_GAIT_HEADING_INL_H_
@@ -19,6 +19,20 @@ constexpr float off_heading = 0.02F;
 
 /// From how far off on somebody who walks takes steps that are nearer to the usual ones, rad.
 constexpr float own_turn_rad = 0.05F;
+
+constexpr std::size_t style_numbers = sizeof(GaitStyle) / sizeof(float);
+static_assert(sizeof(GaitStyleOf<Lanes<float>>) == style_numbers * lane_count * sizeof(float));
+
+/// The farthest of a style's numbers from the usual one; 0 for the usual style, whose steps are then those of somebody
+/// who goes straight on.
+HWY_INLINE Wide off_usual(const GaitStyleOf<Lanes<float>>& style) {
+  constexpr GaitStyle usual;
+  const auto* const own = reinterpret_cast<const float*>(&style);
+  const auto* const there = reinterpret_cast<const float*>(&usual);
+  Wide off = wide(0.0F);
+  for (std::size_t p = 0; p < style_numbers; ++p) off = max(off, abs(load(own + p * lane_count) - there[p]));
+  return off;
+}
 
 /// Who walks, is as near as that to the heading asked for, rad, and turns no more than that in a step goes straight on.
 constexpr float as_asked = 4e-6F;

@@ -49,27 +49,25 @@ HWY_INLINE WideMask half_aside(const Strike<Lanes<float>>& from) {
 /// How much of a step is solved: all of it, or its times and footholds alone.
 enum class Solve { whole, times };
 
-/// Turns and changes of speed from which on a strike has the usual style alone, and up to which its own (own_turn_rad).
+/// Turns from which on a strike has the usual style alone, and up to which its own (own_turn_rad); and changes of
+/// speed, m/s for a leg of leg_m. No step changes it by more than 0.6, with which a third of the own style stays.
 constexpr float calm_turn_rad = 0.5F, calm_change = 0.9F, own_change = 0.05F;
 
 /// A style with which joints have room for a step that turns or changes its speed: of the own one `own`, 0 to 1, the
 /// rest of the usual one. Returns `own`, and 1 where the own style is the usual one.
 HWY_NOINLINE Wide calm_style(const Wide& own, const GaitStyleOf<Lanes<float>>& style, GaitStyleOf<Lanes<float>>& calm) {
-  static_assert(sizeof(GaitStyle) % sizeof(float) == 0 && sizeof(style) == lane_count * sizeof(GaitStyle));
   constexpr GaitStyle usual;
   const auto* const from = reinterpret_cast<const float*>(&style);
   const auto* const there = reinterpret_cast<const float*>(&usual);
   auto* const to = reinterpret_cast<float*>(&calm);
-  Wide unusual = wide(0.0F);
-  for (std::size_t p = 0; p < sizeof(GaitStyle) / sizeof(float); ++p) {
-    const Wide number = load(from + p * lane_count), off = number - there[p];
-    store(select(own < 1.0F, fma(own, off, wide(there[p])), number), to + p * lane_count);
-    unusual = max(unusual, abs(off));
+  for (std::size_t p = 0; p < style_numbers; ++p) {
+    const Wide number = load(from + p * lane_count);
+    store(select(own < 1.0F, fma(own, number - there[p], wide(there[p])), number), to + p * lane_count);
   }
-  return select(unusual > 0.0F, own, wide(1.0F));
+  return select(off_usual(style) > 0.0F, own, wide(1.0F));
 }
 
-/// The steps toward the wanted gait: the strike at the end of this one, after which `turn` is left to turn.
+/// The steps toward the wanted gait: the strike at the end of this one, at whose beginning `turn` is left to turn.
 HWY_NOINLINE void next_strike(const Wide& height, const Wide& mass, const Gait<Lanes<float>>& wanted, const Wide& turn,
                               const Strike<Lanes<float>>& from, const WideMask& fresh, const WideMask& right_lands,
                               Solve solve, Strike<Lanes<float>>& to) {
@@ -183,7 +181,7 @@ HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& ri
   const auto [stays, spot] = standing(plan, on_spot);
   const Wide pace_from = load(from.pace_hz), pace_to = load(to.pace_hz);
   const WideMask displaced = load(from.length_m) + load(to.length_m) > 0.0F;
-  const Wide uneven = load(wanted.style.time_asymmetry);
+  const Wide uneven = load(wanted.style.time_asymmetry) * load(to.own_style);
   const Wide even = select(from_stands, first_step / max(pace_to, 0.1F),
                            select(to_stands, last_step / max(pace_from, 0.1F), 2.0F / max(pace_from + pace_to, 0.1F)));
   const Wide at_rest =
@@ -202,17 +200,21 @@ HWY_NOINLINE void time_step(const Gait<Lanes<float>>& wanted, const WideMask& ri
   store(load(from.length_m), plan.length_before_m);
 }
 
+/// 0 where both feet are as far out and point as far out.
+HWY_INLINE Wide feet_differ(const StepPlan<Lanes<float>>& plan) {
+  return abs(load(plan.trailing_half_width_m) - load(plan.from.half_width_m)) +
+         abs(load(plan.trailing_toe_out) - load(plan.from.toe_out));
+}
+
 /// Whether the step is followed by its mirror image. `alike`: its strikes are the same.
 HWY_NOINLINE void settle_step(const Gait<Lanes<float>>& wanted, const WideMask& alike, const WideMask& on_spot,
                               StepPlan<Lanes<float>>& plan) {
-  const Strike<Lanes<float>>&from = plan.from, &to = plan.to;
+  const Strike<Lanes<float>>& to = plan.to;
   const Wide zero = wide(0.0F), one = wide(1.0F);
   const Wide uneven = abs(load(wanted.style.step_asymmetry)) + abs(load(wanted.style.time_asymmetry));
   const WideMask even_steps = uneven <= 0.0F;
   const WideMask there = abs(load(to.speed_m_s) - load(wanted.speed_m_s)) <= 0.0F;
-  const WideMask same_feet = (abs(load(plan.trailing_half_width_m) - load(from.half_width_m)) +
-                              abs(load(plan.trailing_toe_out) - load(from.toe_out))) <= 0.0F;
-  const WideMask goes_on = alike & even_steps & (there & same_feet) & (load(to.own_style) >= 1.0F);
+  const WideMask goes_on = alike & even_steps & (there & (feet_differ(plan) <= 0.0F)) & (load(to.own_style) >= 1.0F);
   store_flags(either(standing(plan, on_spot).spot, zero, select(goes_on, one, zero)), plan.settled);
   plan.revision = wanted.revision;
 }
@@ -236,7 +238,7 @@ HWY_NOINLINE void solve_step(const BodySize<Lanes<float>>& size, const Gait<Lane
   store(clamp((load(from.length_m) + length) / max(usual, 1e-3F), 0.0F, 1.5F), plan.stride_part);
   store(select(stays, zero, time_of_phase(plan, off) * duration), plan.double_support_s);
   plan_swing(height, plan);
-  const Wide share = select(to_stands, zero, load(wanted.style.forward_swing));
+  const Wide share = select(to_stands, zero, load(wanted.style.forward_swing) * load(to.own_style));
   for (std::size_t k = 0; k < other_way_count; ++k) {
     store(zero, plan.swing_by_forward_m[k]);
     store(zero, plan.swing_by_up_m[k]);
@@ -334,10 +336,10 @@ void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   plan.from = plan.to;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   next_strike(load(size.height_m), load(size.mass_kg), wanted, way, plan.from, fresh, right_lands, solve, plan.to);
-  // Who stands turns, until both feet point where they are to.
+  // Who stands steps on the spot until both feet point where they are to, and stand alike: one may be of a calm strike.
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
   const WideMask displaces = displace(size, wanted, state, plan);
-  const WideMask on_spot = turns | displaces;
+  const WideMask on_spot = (turns | (feet_differ(plan) > 0.0F)) | displaces;
   const WideMask stays = either(on_spot, zero, select(stands_still(plan), one, zero));
   keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // feet that stand stay where they are
   keep(stays, plan.from.toe_out, plan.to.toe_out);

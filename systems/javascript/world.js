@@ -116,7 +116,7 @@ export class World {
   /** Their steps are watched from the next tick on, or no more: events() tells what happens in them. */
   watch(people, on = true) { this.#call('watch', people.ids, people.count, on ? 1 : 0); }
   setForces(people, on = true) { this.#call('set_forces', people.ids, people.count, on ? 1 : 0); }
-  /** Fat that wobbles under the skin, or not. */
+  /** Fat that wobbles under the skin, or not: for peers that show skin, which this module has not. */
   setFatWobble(people, on = true) { this.#call('set_fat_wobble', people.ids, people.count, on ? 1 : 0); }
 
   /** Who is not looked at costs less so (mobil.h says what of them is kept); how many are so now. */

@@ -11,12 +11,12 @@
 
 namespace mobil {
 
-/// Fat of 10 mm swings at 10 Hz, thicker fat slower by the root of its thickness, with a quarter of critical damping:
-/// within what is measured of thighs, calves and bellies (10 to 25 Hz and 0.1 to 0.4 where muscles pull; Wakeling and
-/// Nigg 2001).
+/// Fat of 10 mm swings at 10 Hz, thicker fat slower by the root of its thickness, with a quarter of critical damping.
+/// For legs and arms of usual people that is within what is measured of thighs and calves (10 to 25 Hz and 0.1 to 0.4
+/// where muscles pull; Wakeling and Nigg 2001); for thicker fat, down to 4 Hz, it is our choice.
 inline constexpr float fat_hz = 10, fat_hz_thickness_m = 0.010F, fat_damping = 0.25F;
-/// Faster than that a walker's point moves by being placed elsewhere.
-inline constexpr float fat_fastest_m_s = 8;
+/// Who moves faster than that has jumped without saying so: fat begins at rest. Sprinters' feet do 20 m/s.
+inline constexpr float fat_fastest_m_s = 30;
 /// Fat is shown beside its place by this part of its thickness at most.
 inline constexpr float fat_reach = 0.3F;
 

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <tuple>
 
+#include "components/fat.h"
 #include "engine/row_hash.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/warm_muscles.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/step_watch.h"
 
@@ -133,11 +135,12 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
   std::ranges::stable_sort(work.groups, {}, order);
   for (auto first = work.groups.begin(); first != work.groups.end();) {
     const auto end = std::find_if(first, work.groups.end(), [&](const auto& g) { return order(g) != order(*first); });
-    std::array<KeyPart, 6> more;
+    std::array<KeyPart, 7> more;
     std::size_t count = 0;
     if (first->choice) more[count++] = *first->choice;
     if (has_forces(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWithForces>{1});
     if (is_watched(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWatched>{1});
+    if (has_fat(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWithFat>{1});
     for (const KeyPart& part : keeps)
       if (count < more.size() && (!first->choice || part.id != first->choice->id)) more[count++] = part;
     work.together.clear();
@@ -159,15 +162,16 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
   waking.clear();
   for (const Entity person : people)
     waking.push_back({person, world.shared<LegMuscles>(person), world.has<SleepsWithForces>(person),
-                      world.has<SleepsWatched>(person)});
+                      world.has<SleepsWatched>(person), world.has<SleepsWithFat>(person)});
   const bool later = how.muscles == WakingMuscles::later;
-  for (const bool watched : {false, true}) {
-    work.watched.clear();
+  for (const auto& [watched, fat] : {std::pair(false, false), {false, true}, {true, false}, {true, true}}) {
+    work.alike.clear();
     work.parts.assign(more.begin(), more.end());
     for (const SleepWork::Sleeping& one : waking)
-      if (one.watched == watched) work.watched.push_back(one.entity);
+      if (one.watched == watched && one.fat == fat) work.alike.push_back(one.entity);
     if (watched) work.parts.push_back(key_part(Publishes<StepEvents>{}));
-    wake_walkers(world, scene.jobs, work.watched, how.as, sleep_time(scene), work.parts,
+    if (fat) work.parts.push_back(component_part<FatWobble>());
+    wake_walkers(world, scene.jobs, work.alike, how.as, sleep_time(scene), work.parts,
                  later ? work.all_but_choice : owned, work.waking);
   }
   for (const SleepWork::Sleeping& one : waking)

@@ -47,10 +47,10 @@ struct SleepWork {
   struct Sleeping {
     Entity entity;
     const LegMuscles* choice;
-    bool forces, watched;
+    bool forces, watched, fat;
   };
   std::vector<Sleeping> waking_people;
-  std::vector<Entity> rows, restless, asleep, managed, watched;
+  std::vector<Entity> rows, restless, asleep, managed, alike;
   UnsettledTables unsettled;
   std::vector<KeyPart> parts;                 // of who wakes
   std::vector<std::uint64_t> all_but_choice;  // parts

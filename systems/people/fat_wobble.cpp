@@ -13,15 +13,17 @@
 #include "engine/schedule.h"
 #include "systems/kinematics/fat_motion.h"
 #include "systems/people/by_table.h"
+#include "systems/people/sleepers.h"
 
 namespace mobil {
 namespace {
 
-/// People have fat.
+/// People have fat, awake or asleep.
 Result<void> check_fat_key(const TableKey& key, const World&) {
   const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
-  const bool person = has(type_id<BodySize<float>>()) || has(type_id<Asleep<float>>());
-  if (person || !has(type_id<FatWobble<float>>())) return {};
+  const bool awake = !has(type_id<FatWobble<float>>()) || has(type_id<BodySize<float>>());
+  const bool asleep = !has(type_id<SleepsWithFat>()) || has(type_id<Asleep<float>>());
+  if (awake && asleep) return {};
   return fail("the snapshot does not agree with itself (whose fat wobbles); give one that `save` made");
 }
 
@@ -29,7 +31,7 @@ Result<void> check_fat_key(const TableKey& key, const World&) {
 
 Module fat_module() {
   return {.name = "fat",
-          .parts = {component_part<FatWobble>()},
+          .parts = {component_part<FatWobble>(), key_part(TagValue<SleepsWithFat>{})},
           .systems = [](ScheduleBuilder& systems) { systems.add("fat", &fat_motion); },
           .check_key = &check_fat_key};
 }
@@ -38,16 +40,22 @@ Status set_fat_wobble(World& world, const Jobs& jobs, std::span<const Entity> pe
   std::vector<Entity> changes;
   for (const Entity person : people) {
     if (!is_person(world, person)) return Status::stale_entity;
-    if (world.has<FatWobble>(person) != on) changes.push_back(person);
+    if (has_fat(world, person) != on) changes.push_back(person);
   }
-  const PartValue part{component_part<FatWobble>(), nullptr};
-  const std::array owned = {part.part.id};
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) {
+    const bool asleep = is_asleep(world, together.front());
+    const PartValue part =
+        asleep ? part_value(TagValue<SleepsWithFat>{1}) : PartValue{component_part<FatWobble>(), nullptr};
+    const std::array owned = {part.part.id};
     world.remake_many(together, std::span(&part, on ? 1 : 0), owned, jobs);
   });
   attempt.keep();
   return Status::ok;
+}
+
+bool has_fat(const World& world, Entity person) {
+  return world.has<FatWobble>(person) || world.has<SleepsWithFat>(person);
 }
 
 void settle_fat(World& world, Entity person) {

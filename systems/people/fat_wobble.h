@@ -16,9 +16,11 @@ Module fat_module();
 /// People, named once each, walkers and posed, have fat that wobbles, or have it no more; who is so already is left
 /// alone. All or none. Errors: Status::stale_entity.
 Status set_fat_wobble(World& world, const Jobs& jobs, std::span<const Entity> people, bool on);
-/// A posed person has jumped: their fat, where it wobbles, begins at rest beside the skeleton.
+/// Awake or asleep; false for a stale handle.
+bool has_fat(const World& world, Entity person);
+/// Fat that wobbles begins at rest beside the skeleton: who is posed elsewhere has jumped, who was compact is whole.
 void settle_fat(World& world, Entity person);
-/// A walker was put elsewhere: it goes along, as if the world had been moved under it.
+/// A walker was put elsewhere on the ground plane: it goes along, as if the world had been moved under it.
 void place_fat(World& world, Entity person, const Placing& way);
 
 }  // namespace mobil

@@ -195,12 +195,14 @@ Placing place_walker(World& world, const PlaceRequest& to) {
   gait.heading_rad = way.turned(gait.heading_rad);
   world.set(person, state);
   world.set(person, gait);
+  auto footing = world.get<Footing>(person);
+  bool poses_anew = footing.has_value();  // on other ground, or with shoulders straight
   if (auto course = world.get<Course>(person)) {
+    poses_anew = poses_anew || course->turn_rad != 0;
     course->turn_rad = course->turn_rad_s = course->turn_to_rad = 0;
     world.set(person, *course);
   }
-  place_fat(world, person, way);
-  auto footing = world.get<Footing>(person);
+  poses_anew ? settle_fat(world, person) : place_fat(world, person, way);
   if (footing) {
     footing->known = footing_unknown;
     for (std::size_t i = 0; i < 3; ++i) footing->moved_x_m[i] = footing->moved_z_m[i] = 0;

@@ -7,7 +7,6 @@
 #include <new>
 #include <type_traits>
 
-#include "components/fat.h"
 #include "components/leg_frames.h"
 #include "components/pose.h"
 #include "engine/exact_math.h"
@@ -15,7 +14,6 @@
 #include "engine/scratch.h"
 #include "systems/gait/asleep.h"
 #include "systems/kinematics/kinematics.h"
-#include "systems/people/fat_wobble.h"
 #include "systems/people/person.h"
 
 namespace mobil {
@@ -176,8 +174,6 @@ void wake_walkers(World& world, const Jobs& jobs, std::span<const Entity> people
     blocks.fill(jobs, count, as, time.tick_s,
                 [&](WakingBlock& block, std::size_t i, std::size_t lane) { block.put(world, some[i], time, lane); });
     world.remake_many(some, blocks.parts, owned, jobs);
-    if (world.has<FatWobble>(some.front()))
-      for (const Entity person : some) settle_fat(world, person);
   }
 }
 

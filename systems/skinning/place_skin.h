@@ -25,8 +25,7 @@ using FatBeside = std::array<Vec3<float>, fat_regions>;
 
 /// Positions and unit normals of all vertices, into the caller's buffer. Normals are those at rest, turned, and
 /// tilted as the cover slopes. `cover`: what muscles lift the legs by; `fat`: what wobbles; null: nothing. Tangents are
-/// not written
-/// (`out.tangent` must be null). The same bits on every instruction set with fused multiply-add.
+/// not written (`out.tangent` must be null). The same bits on every instruction set with fused multiply-add.
 void place_skin(const SkinMesh& mesh, const BodySkin& skin, std::span<const FrameMap> maps, const SkinCover* cover,
                 const FatBeside* fat, const VertexTarget& out);
 

@@ -245,6 +245,7 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     until_done("expand", [&] { return mobil_expand(sim, ids.data(), 20); });
     until_done("wake", [&] { return mobil_wake(sim, &ids[20], 20, 0.005F); });
     until_done("forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 1); });
+    until_done("fat", [&] { return mobil_set_fat_wobble(sim, ids.data(), 5, 1); });
     std::vector<std::byte> bytes(mobil_snapshot_bytes(sim));
     std::size_t used = 0;
     ASSERT_EQ(mobil_save(sim, bytes.data(), bytes.size(), &used), MOBIL_OK);

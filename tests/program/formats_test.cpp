@@ -100,6 +100,8 @@ TEST(WalkFormats, WhatIsRefusedIsOneLine) {
                   {"--export ''", {"--export", "empty"}},
                   {"--export a.sto --no-forces", {"--export a.sto", "--no-forces"}},
                   {"--eye-distance 1m", {"--eye-distance", "0.001 to 0.5 m"}},
+                  {"--fat --view skin", {"--fat", "--frames"}},
+                  {"--fat --frames", {"--fat", "--view skin"}},
                   {"--eye-distance 7cm", {"--eye-distance", "--stereo"}}},
                  folder.path);
   expect_refused("crowd",

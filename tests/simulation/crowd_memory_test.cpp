@@ -189,6 +189,8 @@ TEST(CrowdMemory, AddingEffectsWithoutMemoryChangesNothing) {
 TEST(CrowdMemory, WatchingAndPlacingWithoutMemoryChangesNothing) {
   refuse_at_every_request(
       [](Simulation& simulation, std::vector<Entity>& people) { ASSERT_TRUE(simulation.watch_steps(people)); });
+  refuse_at_every_request(
+      [](Simulation& simulation, std::vector<Entity>& people) { ASSERT_TRUE(simulation.set_fat_wobble(people)); });
   refuse_at_every_request([](Simulation& simulation, std::vector<Entity>& people) {
     std::vector<PlaceRequest> places;
     for (const Entity human : people) places.push_back({human, static_cast<float>(human.index), 5, 1});

@@ -131,6 +131,54 @@ TEST(StyleLimits, StylesComeBack) {
   }
 }
 
+/// Who turns on the spot, or stops as soon as a step or two are made, stands on feet that are alike, and is solved no
+/// more.
+TEST(StyleLimits, WhoStandsOnCalmFeetEvensThem) {
+  const BodyRequest body{.height_m = 1.75F, .mass_kg = 75};
+  GaitStyle style;
+  style.toe_out_deg = 20;
+  style.step_width_h = 0.09F;
+  for (const float turn : {0.3F, 1.0F, 3.0F}) {
+    for (const int ticks : {0, 20, 45, 70, 110}) {  // 0: never starts
+      Simulation simulation;
+      const GaitRequest standing{.speed_m_s = 0, .style = style};
+      const Entity person = *simulation.spawn(body, standing);
+      if (ticks > 0) {
+        ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 1.5F}));
+        simulation.tick(ticks);
+        ASSERT_TRUE(simulation.change_gait(person, {.speed_m_s = 0}));
+      }
+      ASSERT_TRUE(simulation.turn_to(person, turn));
+      simulation.tick(900);
+      const auto plan = *simulation.get<StepPlan>(person);
+      EXPECT_EQ(plan.settled, 1U) << turn << " rad, " << ticks << " ticks of walking";
+      EXPECT_EQ(plan.trailing_toe_out, plan.from.toe_out);
+      EXPECT_EQ(plan.trailing_half_width_m, plan.from.half_width_m);
+      EXPECT_EQ(plan.to.own_style, 1);
+      EXPECT_EQ(simulation.sleep({&person, 1}).value(), 1U);
+      ASSERT_TRUE(simulation.turn_to(person, turn + 2));
+      simulation.tick(900);
+      EXPECT_TRUE(simulation.is_asleep(person)) << turn << " rad, " << ticks << " ticks of walking";
+    }
+  }
+}
+
+/// A step that turns far is as long, and lasts as long, as the usual one, whatever the style's halting.
+TEST(StyleLimits, CalmStepsAreEven) {
+  Simulation simulation;
+  const Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.style = {.time_asymmetry = 0.2F}});
+  simulation.tick(120);
+  ASSERT_TRUE(simulation.turn_to(person, 3));
+  std::vector<float> lasts;
+  for (int t = 0; t < 90; ++t) {
+    simulation.tick();
+    const auto plan = *simulation.get<StepPlan>(person);
+    if (plan.from.own_style <= 0 && plan.to.own_style <= 0) lasts.push_back(plan.duration_s);
+  }
+  ASSERT_GT(lasts.size(), 30U);
+  for (const float one : lasts) EXPECT_NEAR(one, lasts.front(), 1e-5F);
+}
+
 /// Of any style no foot in the air is bent up far, whatever its walker does.
 TEST(StyleLimits, FeetInTheAirAreNotBentUp) {
   Dice dice{std::mt19937(6)};

@@ -128,8 +128,6 @@ TEST(CInterface, APlayThroughCHasTheBitsOfThatThroughCpp) {
   EXPECT_EQ(bits, MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
   ASSERT_EQ(mobil_state(sim, ids[7], &bits), MOBIL_OK);
   EXPECT_NE(bits & MOBIL_HAS_FAT, 0);
-  ASSERT_EQ(mobil_state(sim, ids[9], &bits), MOBIL_OK);
-  EXPECT_EQ(bits & MOBIL_HAS_FAT, 0);
   ASSERT_EQ(mobil_state(sim, ids[10], &bits), MOBIL_OK);
   EXPECT_EQ(bits & MOBIL_ASLEEP, slept > 0 ? MOBIL_ASLEEP : 0);
   ASSERT_EQ(mobil_wake(sim, &ids[10], 4, 0.005F), MOBIL_OK);

@@ -46,8 +46,7 @@ int main(int count, char** arguments) {
   }
   std::vector<mobil::Entity> people(asked.size());
   if (const auto done = simulation.spawn(asked, people); !done) return failed(done.error());
-  for (const mobil::Entity person : people)
-    if (const auto done = relevance.manage(person); !done) return failed(done.error());
+  if (const auto done = relevance.manage(people); !done) return failed(done.error());
 
   double worst_ms = 0;
   std::size_t switched = 0;

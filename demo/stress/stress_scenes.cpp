@@ -66,9 +66,7 @@ Result<void> stress_relevance(StressRun& run) {
     if (scene.asleep) needs.asleep_beyond_m = 20;
     if (scene.budget_s > 0) needs.budget_s = scene.budget_s;
     if (auto set = relevance->set_scene(needs); !set) return set;
-    for (const Entity human : *people) {
-      if (auto done = relevance->manage(human); !done) return done;
-    }
+    if (auto done = relevance->manage(*people); !done) return done;
     std::size_t refused = 0;
     double worst_m = 0, cheapest_s = 1e9;
     for (int update = 0; update < updates; ++update) {

@@ -135,9 +135,7 @@ Result<void> ViewScene::set_crowd(std::size_t people) {
     drawn_.push_back({crowd_[i], crowd_number + i, false});
   }
   if (relevance_) {
-    for (const Entity entity : crowd_) {
-      if (auto done = relevance_->manage(entity); !done) return done;
-    }
+    if (auto done = relevance_->manage(crowd_); !done) return done;
   }
   return {};
 }
@@ -165,9 +163,7 @@ Result<void> ViewScene::set_choosing(const ViewChoice& choice) {
     if (!made) return tl::unexpected(made.error());
     relevance_.emplace(std::move(*made));
     if (auto done = relevance_->manage(person_); !done) return done;
-    for (const Entity entity : crowd_) {
-      if (auto done = relevance_->manage(entity); !done) return done;
-    }
+    if (auto done = relevance_->manage(crowd_); !done) return done;
   }
   return {};
 }

@@ -105,33 +105,7 @@ int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_
     Simulation& world = s.world();
     for (std::size_t i = 0; i < count; ++i)
       if (!world.is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
-    struct Done {
-      Entity person;
-      bool muscles;  // came with it
-    };
-    std::vector<Done> new_ones;
-    new_ones.reserve(count);
-    const auto undo = [&] {
-      for (const Done& one : new_ones) {
-        (void)chooser->release(one.person);
-        if (one.muscles) (void)world.remove_leg_muscles(one.person);
-      }
-    };
-    try {
-      for (std::size_t i = 0; i < count; ++i) {
-        const Entity person = s.people[i];
-        const bool managed = world.world().has<Needs>(person), muscles = !world.muscles(person).empty();
-        const auto done = chooser->manage(person, own);
-        if (!done) {
-          undo();
-          return s.line.refuse(done.error(), person_number(i));
-        }
-        if (!managed) new_ones.push_back({person, !muscles});
-      }
-    } catch (const std::bad_alloc&) {
-      undo();
-      throw;
-    }
+    if (const auto done = chooser->manage(s.people, own); !done) return s.line.refuse(done.error());
     return int{MOBIL_OK};
   });
 }

@@ -360,7 +360,7 @@ MOBIL_API int mobil_start_choosing(mobil_sim* sim, const mobil_choosing* options
 MOBIL_API int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene);
 /* Makes what the scene may call for: some seconds, and no update waits later. */
 MOBIL_API int mobil_prepare_scene(mobil_sim* sim);
-/* From the next update on muscles of these people are chosen; `needs` may be null. */
+/* From the next update on muscles of these people, each named once, are chosen; `needs` may be null. */
 MOBIL_API int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs);
 /* Methods stay as they are and are no longer chosen. */
 MOBIL_API int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count);

@@ -211,6 +211,9 @@ class Relevance {
   /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles
   /// refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
+  /// The same of many, each named once, with the simulation's jobs. Errors, besides: somebody named twice; nobody is
+  /// managed then who was not, nor has other needs.
+  Result<void> manage(std::span<const Entity> people, const PersonNeeds& needs = {});
   /// The same of many walkers without muscles, who fall asleep at once: they get muscles, and are managed, from waking
   /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
   /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles; nothing has changed then.
@@ -286,6 +289,7 @@ class Relevance {
     void add(const Looked& more);  // all but `counting`
   };
 
+  Result<void> make_ready(std::span<const Entity> people, const PersonNeeds& needs);
   std::array<bool, rung_count> called_for(std::span<const float> tolerances_m) const;
   void find_tables();
   std::size_t look_at_the_awake();

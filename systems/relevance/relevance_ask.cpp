@@ -4,13 +4,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <new>
 #include <numeric>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/each.h"
+#include "engine/jobs.h"
 #include "engine/rows.h"
 #include "systems/muscles/leg_muscles.h"
+#include "systems/muscles/muscle_parts.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation_world.h"
@@ -46,6 +50,31 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
       return figures + fmt::format("; {} is chosen and waits for its turn", goal);
   }
   return figures;
+}
+
+/// What choosing begins from: a person's muscles and their methods. What the caller forced stays so.
+Tiers<float> tiers_of(const World& world, Entity human) {
+  const auto before = world.get<Tiers>(human);
+  const bool anew = !before || before->relative_size == 0;
+  Tiers<float> tiers = before.value_or(Tiers<float>{});
+  if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
+  tiers.muscles = tiers.effects = 0;
+  for (const OwnMuscle& own : muscles_of(world, human)) {
+    const auto m = static_cast<std::uint32_t>(own.muscle);
+    const Entity one = world.alive(own.entity[Side::right]) ? own.entity[Side::right] : own.entity[Side::left];
+    if (tiers.muscles == 0) {
+      const LegMuscles& choice = *world.shared<LegMuscles>(one);
+      tiers.effects = (choice.inertia ? tier_inertia : 0U) | (pulls_alive(choice) ? tier_living : 0U);
+    }
+    set_bit(tiers.muscles, m, true);
+    if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
+    const MuscleMethod method = muscle_method(world, one);
+    const std::uint32_t rung = rung_of(method, is_living(tiers));
+    set_rung(tiers.rung, m, rung);
+    set_rung(tiers.goal, m, rung);
+    set_bit(tiers.points, m, method.method != Method::none && method.reduced.control_points);
+  }
+  return tiers;
 }
 
 }  // namespace
@@ -143,20 +172,19 @@ Result<void> Relevance::prepare(std::span<const float> own_tolerances_m,
   return {};
 }
 
-Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
-  if (!simulation_.is_person(entity))
-    return fail("manage: that person is not there (a stale handle); spawn one first", Status::stale_entity);
+Result<void> Relevance::manage(Entity human, const PersonNeeds& needs) {
+  return manage(std::span(&human, 1), needs);
+}
+
+Result<void> Relevance::manage(std::span<const Entity> people, const PersonNeeds& needs) {
+  World& world = world_of(simulation_);
+  if (!world.alive_once(people) ||
+      !std::ranges::all_of(people, [&](Entity human) { return simulation_.is_person(human); }))
+    return fail("manage: somebody is not there (a stale handle), or named twice; spawn people first, name each once",
+                Status::stale_entity);
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
-  if (simulation_.is_compact(entity)) {
-    if (auto done = simulation_.expand({&entity, 1}); !done) return done;
-  }
-  if (simulation_.muscles(entity).empty()) {
-    LegMuscles choice = options_.leg_muscles;
-    choice.muscles = needs.muscles.value_or(scene_.muscles);
-    choice.method = Method::none;
-    if (auto done = simulation_.add_leg_muscles(entity, choice); !done) return done;
-  }
+  if (auto done = make_ready(people, needs); !done) return done;
   Needs<float> row{};
   if (needs.muscles) {
     row.own |= own_muscles;
@@ -170,29 +198,53 @@ Result<void> Relevance::manage(Entity entity, const PersonNeeds& needs) {
     row.own |= own_look;
     row.looked_at = *needs.looked_at ? 1 : 0;
   }
-  World& world = world_of(simulation_);
-  auto tiers = world.get<Tiers>(entity).value_or(Tiers<float>{});
-  const bool anew = tiers.relative_size == 0;
-  if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
-  tiers.muscles = 0;
-  const auto choice = choice_of(world, entity);
-  tiers.effects = 0;
-  if (choice && choice->inertia) tiers.effects |= tier_inertia;
-  if (choice && pulls_alive(*choice)) tiers.effects |= tier_living;
-  tiers.tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
-  tiers.relative_size = options_.margin;
-  for (const OwnMuscle& own : simulation_.muscles(entity)) {
-    const auto m = static_cast<std::uint32_t>(own.muscle);
-    set_bit(tiers.muscles, m, true);
-    if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
-    const MuscleMethod method = simulation_.method(entity, own.muscle);
-    set_rung(tiers.rung, m, rung_of(method, is_living(tiers)));
-    set_rung(tiers.goal, m, rung_of(method, is_living(tiers)));
-    set_bit(tiers.points, m, method.method != Method::none && method.reduced.control_points);
+  const float tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
+  std::vector<Tiers<float>> tiers(people.size());
+  in_parallel(SimulationWorld::jobs(simulation_), people.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      tiers[i] = tiers_of(world, people[i]);
+      tiers[i].tolerance_m = tolerance_m;
+      tiers[i].relative_size = options_.margin;
+    }
+  });
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    world.add_parts(people[i], std::array{part_value(row), part_value(tiers[i])});
+    world.set(people[i], row);
+    world.set(people[i], tiers[i]);
   }
-  world.add_parts(entity, std::array{part_value(row), part_value(tiers)});
-  world.set(entity, row);
-  world.set(entity, tiers);
+  return {};
+}
+
+/// All are whole and have muscles, or nobody has got any.
+Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonNeeds& needs) {
+  std::vector<Entity> compact, bare;
+  for (const Entity human : people) {
+    if (simulation_.is_compact(human)) compact.push_back(human);
+  }
+  if (auto done = simulation_.expand(compact); !done) return done;
+  const World& world = simulation_.world();
+  for (const Entity human : people) {
+    if (!world.alive(world.first_member(human))) bare.push_back(human);
+  }
+  if (bare.empty()) return {};
+  LegMuscles choice = options_.leg_muscles;
+  choice.muscles = needs.muscles.value_or(scene_.muscles);
+  choice.method = Method::none;
+  std::size_t begun = 0;
+  const auto undo = [&] {
+    for (const Entity human : std::span(bare).first(begun)) (void)simulation_.remove_leg_muscles(human);
+  };
+  try {
+    for (; begun < bare.size(); ++begun) {
+      if (auto done = simulation_.add_leg_muscles(bare[begun], choice); !done) {
+        undo();
+        return done;
+      }
+    }
+  } catch (const std::bad_alloc&) {
+    undo();
+    throw;
+  }
   return {};
 }
 

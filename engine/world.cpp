@@ -211,28 +211,35 @@ void World::remake_many(std::span<const Entity> entities, std::span<const PartVa
   remove_rows(left, jobs);
 }
 
-World::Attempt::Attempt(World& world, const Jobs& jobs) : world_(world), jobs_(jobs) {
+World::Attempt::Attempt(World& world, const Jobs& jobs)
+    : world_(world),
+      jobs_(jobs),
+      created_(world.journal_.created.size()),
+      moved_(world.journal_.moved.size()),
+      outer_(!world.journal_.open) {
   world_.journal_.open = true;
 }
 
 World::Attempt::~Attempt() {
+  if (kept_) return;
   Journal& journal = world_.journal_;
-  if (!journal.open) return;
-  while (!journal.created.empty()) {
+  while (journal.created.size() > created_) {
     const Entity last = journal.created.back();
     world_.undo_create({&last, 1});
   }
-  for (std::size_t i = journal.moved.size(); i-- > 0;) {
+  for (std::size_t i = journal.moved.size(); i-- > moved_;) {
     auto& at = *world_.entities_.find(journal.moved[i]);
     world_.erase_row(at);
     at = {journal.left[i].table, journal.left[i].row};
   }
-  journal.left.clear();
-  journal.moved.clear();
-  journal.open = false;
+  journal.left.resize(moved_);
+  journal.moved.resize(moved_);
+  if (outer_) journal.open = false;
 }
 
 void World::Attempt::keep() {
+  kept_ = true;
+  if (!outer_) return;
   Journal& journal = world_.journal_;
   journal.open = false;
   journal.created.clear();

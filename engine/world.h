@@ -74,7 +74,8 @@ class World {
   /// While one lives, what create_many and remake_many do, and what becomes of entities remade, can be undone,
   /// and is at its end unless it was kept: rows and handles are those of before, also handles given out later. Undoing
   /// and keeping take no memory. Until then the old rows of who was remade stay in their tables: nobody goes over
-  /// tables, nobody is destroyed, and nobody comes into a table that others left. One at a time.
+  /// tables, nobody is destroyed, and nobody comes into a table that others left. One within another is part of it:
+  /// what the inner one kept is undone with the outer one.
   class Attempt {
    public:
     explicit Attempt(World& world, const Jobs& jobs = {});
@@ -87,6 +88,8 @@ class World {
    private:
     World& world_;
     Jobs jobs_;
+    std::size_t created_, moved_;  // in the journal as this one began
+    bool outer_, kept_ = false;
   };
   /// All or none: where one of them is stale or named twice, Status::stale_entity. Each row that stays moves once at
   /// most; in which order rows then lie is not that of one by one. Takes memory until it returns; where there is none,

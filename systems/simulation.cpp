@@ -219,8 +219,11 @@ Result<std::size_t> Simulation::change_walks(std::span<const WalkChange> changes
 }
 
 Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
+  World::Attempt attempt(*world_, jobs_);
   if (auto done = make_whole_for(human); !done) return done;
-  return mobil::step_aside(*world_, human, left_m, ahead_m);
+  auto done = mobil::step_aside(*world_, human, left_m, ahead_m);
+  if (done) attempt.keep();
+  return done;
 }
 
 Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
@@ -248,12 +251,27 @@ Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   return named("wake", std::move(done));
 }
 
-/// What no sleeper can do wakes them first, and so with who is compact.
-Result<void> Simulation::make_whole_for(Entity human) {
-  if (is_asleep(human)) {
-    if (auto done = wake({&human, 1}); !done) return done;
+/// What no sleeper can do wakes them first, and so with who is compact. All of them, or nobody.
+Result<void> Simulation::make_whole(std::span<const Entity> people) {
+  std::vector<Entity> asleep, compact;
+  for (const Entity human : people)
+    if (is_asleep(human))
+      asleep.push_back(human);
+    else if (is_compact(human))
+      compact.push_back(human);
+  World::Attempt attempt(*world_, jobs_);
+  if (!asleep.empty()) {
+    if (auto done = wake(asleep); !done) return done;
   }
-  return is_compact(human) ? expand({&human, 1}) : Result<void>{};
+  if (!compact.empty()) {
+    if (auto done = expand(compact); !done) return done;
+  }
+  attempt.keep();
+  return {};
+}
+
+Result<void> Simulation::make_whole_for(Entity human) {
+  return make_whole({&human, 1});
 }
 
 Result<std::size_t> Simulation::compact(std::span<const Entity> people) {
@@ -353,11 +371,15 @@ Result<void> Simulation::remove_forces(Entity human) {
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
+  World::Attempt attempt(*world_, jobs_);
   if (auto done = make_whole_for(human); !done) return done;
-  return named("add_leg_muscles", mobil::add_leg_muscles(muscle_scene(), human, choice));
+  auto done = mobil::add_leg_muscles(muscle_scene(), human, choice);
+  if (done) attempt.keep();
+  return named("add_leg_muscles", std::move(done));
 }
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
+  if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
   if (auto done = make_whole_for(human); !done) return done;
   return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
 }

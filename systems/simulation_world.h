@@ -17,6 +17,10 @@ struct SimulationWorld {
   /// As Simulation::compact and expand, people being named once each.
   static std::size_t compact(Simulation& simulation, std::span<const Entity> people);
   static Result<void> expand(Simulation& simulation, std::span<const Entity> people);
+  /// Who of them sleeps wakes, who is compact is whole; all, or nobody. People there, named once each.
+  static Result<void> make_whole(Simulation& simulation, std::span<const Entity> people) {
+    return simulation.make_whole(people);
+  }
   /// Muscles of those who woke so begin, within that of where they would be (Simulation::wake).
   static Result<void> begin_muscles(Simulation& simulation, std::span<const Entity> people, const LegMuscles& choice,
                                     float within_m);

@@ -197,7 +197,7 @@ def sentences(name, columns, where):
             said = [re.sub(r"\{([^|{}]+)\|([^}]+)\}", lambda of: IN_SENTENCES[of[2]](figures[of[1]]), one) for one in templates]
             lines.append(f"| {text} | {said[0]} | " + (f"{said[1]} |" if said[1] else "|"))
         return "\n".join(lines) + "\n"
-    sys.exit(f"{where}: no machine has measured all of '{name}'; demo/bench/measure_readme.py and mobil frontier --long do")
+    sys.exit(f"{where}: no machine has measured all of '{name}'; demo/bench/measure_readme.py, mobil frontier --long and mobil frontier --finite do")
 
 
 def table(name, columns):

@@ -245,23 +245,30 @@ Result<void> AliveScene::restore(std::span<const std::byte> saved) {
   PlainReader reader(*host);
   std::uint64_t count = 0;
   AliveOrders orders;
+  double asleep_bytes = 0;
   reader.take(count);
-  walkers_ = reader.take_many<Walker>(static_cast<std::size_t>(count));
-  for (auto& slots : due_) {
-    std::uint64_t due = 0;
-    reader.take(due);
-    slots = reader.take_many<std::uint32_t>(static_cast<std::size_t>(due));
+  auto walkers = reader.take_many<Walker>(static_cast<std::size_t>(count));
+  auto due = due_;
+  std::vector<bool> is_due(walkers.size());
+  bool sound = std::ranges::all_of(walkers, [&](const Walker& one) { return simulation_->is_person(one.entity); });
+  std::size_t due_together = 0;
+  for (auto& slots : due) {
+    std::uint64_t size = 0;
+    reader.take(size);
+    slots = reader.take_many<std::uint32_t>(static_cast<std::size_t>(size));
+    due_together += slots.size();
+    for (const std::uint32_t slot : slots) {
+      sound = sound && slot < walkers.size() && !is_due[slot];
+      if (sound) is_due[slot] = true;
+    }
   }
   reader.take(orders);
-  reader.take(bytes_asleep_);
-  std::size_t due_together = 0;
-  bool known = true;
-  for (const auto& slots : due_) {
-    due_together += slots.size();
-    known = known && std::ranges::all_of(slots, [&](std::uint32_t slot) { return slot < walkers_.size(); });
-  }
-  if (!reader.whole() || !known || due_together != walkers_.size())
+  reader.take(asleep_bytes);
+  if (!reader.whole() || !sound || due_together != walkers.size())
     return fail("a crowd's bytes do not agree with themselves");
+  walkers_ = std::move(walkers);
+  due_ = std::move(due);
+  bytes_asleep_ = asleep_bytes;
   camera_ = orders.camera;
   cut_ = orders.cut != 0;
   for (std::uint32_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);

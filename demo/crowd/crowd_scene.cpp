@@ -200,15 +200,15 @@ Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
   if (relevance_) {
     if (auto done = relevance_->manage(entities_); !done) return done;
   }
+  if (avoidance_) {
+    if (auto done = avoidance_->manage(entities_); !done) return done;
+  }
   for (std::size_t i = 0; i < slots.size(); ++i) {
     CrowdWalker& walker = walkers_[slots[i]];
     walker.entity = entities_[i];
     keep_slot(slots[i]);
     plan(slots[i]);
     if (request_.effects.forces) simulation_->add_forces(walker.entity);
-    if (avoidance_) {
-      if (auto done = avoidance_->manage(walker.entity); !done) return done;
-    }
   }
   return {};
 }

@@ -38,8 +38,7 @@ int main() {
   }
   std::vector<mobil::Entity> people(requests.size());
   if (!simulation.spawn(requests, people)) return 2;
-  for (const mobil::Entity person : people)
-    if (!avoidance.manage(person)) return 2;  // wants what it was asked for: that speed, that heading
+  if (!avoidance.manage(people)) return 2;  // they want what they were asked for: that speed, that heading
 
   const mobil::Wall walls[] = {{{-20, 2.6F}, {-2.6F, 2.6F}}, {{-20, -2.6F}, {-2.6F, -2.6F}}};
   if (!avoidance.set_walls(walls)) return 2;

@@ -219,10 +219,12 @@ struct TakenPlace {
   }
 };
 
-/// Beside the point where nothing is: above or below it, right or left; first of all above.
-void draw_point_text(Page& page, double x, double y, bool to_the_left, const std::string& text,
+/// Beside the point where nothing is, within the frame: above or below it, right or left; first of all above.
+void draw_point_text(Page& page, const Frame& frame, double x, double y, const std::string& text,
                      const std::string& colour, std::vector<TakenPlace>& taken) {
-  const double width = text_width(text);
+  constexpr double size = 10;
+  const bool to_the_left = x > frame.left + 0.7 * frame.width;
+  const double width = text_width(text) * size / 11;  // text_width is of 11 pixels
   const auto beside = [&](bool left, double down) {
     return left ? TakenPlace{x - 6 - width, x - 6, y + down} : TakenPlace{x + 6, x + 6 + width, y + down};
   };
@@ -230,11 +232,13 @@ void draw_point_text(Page& page, double x, double y, bool to_the_left, const std
   const std::array places = {beside(to_the_left, above), beside(to_the_left, below), beside(!to_the_left, above),
                              beside(!to_the_left, below)};
   const auto is_free = [&](const TakenPlace& place) {
+    if (place.left < frame.left || place.right > frame.left + frame.width) return false;
     return std::ranges::none_of(taken, [&](const TakenPlace& one) { return one.covers(place); });
   };
   const auto found = std::ranges::find_if(places, is_free);
   const TakenPlace& place = found != places.end() ? *found : places.front();
-  page.text(place.left, place.y, "start", text, colour, 10);
+  const bool ends_here = place.right < x;  // widths are an estimate: a text left of its point ends beside it
+  page.text(ends_here ? place.right : place.left, place.y, ends_here ? "end" : "start", text, colour, size);
   taken.push_back(place);
 }
 
@@ -255,7 +259,7 @@ void draw_texts(Page& page, const PlotPoints& points, const Frame& frame, std::v
   for (std::size_t i = 0; i < std::min({points.x.size(), points.y.size(), points.text.size()}); ++i) {
     if (!frame.shows(points.x[i], points.y[i]) || points.text[i].empty()) continue;
     const double x = frame.at_x(points.x[i]), y = frame.at_y(points.y[i]);
-    draw_point_text(page, x, y, x > frame.left + 0.7 * frame.width, points.text[i], points.colour, taken);
+    draw_point_text(page, frame, x, y, points.text[i], points.colour, taken);
   }
 }
 

@@ -87,8 +87,7 @@ Result<void> TownScene::people_come(const TownOptions& options) {
   roots_.resize(options.humans);
   if (auto done = simulation_->spawn(requests, people_); !done) return done;
   if (auto done = avoidance_.set_walls(town_walls()); !done) return done;
-  for (const Entity person : people_)
-    if (auto done = avoidance_.manage(person); !done) return done;
+  if (auto done = avoidance_.manage(people_); !done) return done;
   if (auto done = terrain_.manage(people_); !done) return done;
   if (auto done = simulation_->roots(people_, roots_); !done) return done;
   for (std::size_t i = 0; i < people_.size(); ++i) {

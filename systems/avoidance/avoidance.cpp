@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
 #include "engine/access.h"
 #include "engine/each.h"
@@ -12,6 +15,9 @@
 #include "systems/avoidance/choice.h"
 #include "systems/avoidance/narrow.h"
 #include "systems/gait/gait.h"
+#include "systems/gait/step_limits.h"
+#include "systems/people/by_table.h"
+#include "systems/people/person.h"
 #include "systems/simulation_world.h"
 
 namespace mobil {
@@ -37,38 +43,77 @@ Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
 Avoidance::~Avoidance() = default;
 Avoidance::Avoidance(Avoidance&&) noexcept = default;
 
-Result<void> Avoidance::manage(Entity human) {
-  World& world = world_of(simulation_);
-  if (!is_person(world, human))
-    return fail("Avoidance: that person is not there (a stale handle)", Status::stale_entity);
-  if (simulation_.is_asleep(human)) {
-    if (auto done = simulation_.wake({&human, 1}); !done) return done;
-  }
-  const auto gait = world.get<Gait>(human);
-  if (!gait)
-    return fail("Avoidance: this person's host animates the skeleton; hand them over as discs", Status::missing);
+/// What somebody begins with: they go on as they were asked to, their shoulders as they are.
+Course<float> Avoidance::first_course(const World& world, Entity human) const {
+  const Gait<float> gait = *world.get<Gait>(human);
   const float height = world.get<BodySize>(human)->height_m;
   Course<float> course{};
-  course.speed_m_s = gait->speed_m_s;
-  course.heading_rad = gait->heading_rad;
+  course.speed_m_s = gait.speed_m_s;
+  course.heading_rad = gait.heading_rad;
   course.usual = 1;
   course.radius_m = options_.radius_h * height;
   course.shoulders_m = options_.shoulders_h * height;
-  if (gait->speed_m_s > 0) {
-    const auto usual = resolve_gait(height, {.speed_m_s = gait->speed_m_s});
-    if (usual) course.usual = gait->step_length_m / usual->step_length_m;
+  if (gait.speed_m_s > 0) {
+    const auto usual = resolve_gait(height, {.speed_m_s = gait.speed_m_s});
+    if (usual) course.usual = gait.step_length_m / usual->step_length_m;
   }
   if (const auto before = world.get<Course>(human)) {
     course.turn_rad = before->turn_rad;
     course.turn_rad_s = before->turn_rad_s;
     course.turn_to_rad = before->turn_to_rad;
-    return result_of("Avoidance", world.set(human, course));
   }
-  return result_of("Avoidance", world.add(human, course));
+  return course;
+}
+
+Result<void> Avoidance::manage(Entity human) {
+  return manage(std::span(&human, 1));
+}
+
+Result<void> Avoidance::manage(std::span<const Entity> people) {
+  World& world = world_of(simulation_);
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  if (!world.alive_once(people) || !std::ranges::all_of(people, [&](Entity human) { return is_person(world, human); }))
+    return fail("Avoidance: that person is not there (a stale handle), or is named twice", Status::stale_entity);
+  std::vector<Entity> asleep;
+  for (const Entity human : people) {
+    if (is_posed(world, human))
+      return fail("Avoidance: this person's host animates the skeleton; hand them over as discs", Status::missing);
+    if (simulation_.is_asleep(human)) asleep.push_back(human);
+  }
+  World::Attempt attempt(world, jobs);
+  if (!asleep.empty()) {
+    if (auto done = simulation_.wake(asleep); !done) return done;
+  }
+  std::vector<Entity> begin, again;
+  for (const Entity human : people) (world.has<Course>(human) ? again : begin).push_back(human);
+  std::vector<Course<Lanes<float>>> course;
+  by_table(world, begin, [&](std::span<const Entity> together) {
+    course.resize((together.size() + lane_count - 1) / lane_count);
+    for (std::size_t i = 0; i < together.size(); ++i)
+      put_row(first_course(world, together[i]), course[i / lane_count], i % lane_count);
+    world.remake_many(together, std::array{PartValue{component_part<Course>(), course.data()}}, {}, jobs);
+  });
+  for (const Entity human : again) world.set(human, first_course(world, human));
+  attempt.keep();
+  return {};
 }
 
 Result<void> Avoidance::release(Entity human) {
-  return result_of("Avoidance", world_of(simulation_).remove<Course>(human));
+  return release(std::span(&human, 1));
+}
+
+Result<void> Avoidance::release(std::span<const Entity> people) {
+  World& world = world_of(simulation_);
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  if (!world.alive_once(people))
+    return fail("Avoidance: a person is not there (a stale handle), or is named twice", Status::stale_entity);
+  for (const Entity human : people)
+    if (!world.has<Course>(human)) return fail("Avoidance: a person is not managed", Status::missing);
+  constexpr std::array part = {type_id<Course<float>>()};
+  World::Attempt attempt(world, jobs);
+  by_table(world, people, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
+  attempt.keep();
+  return {};
 }
 
 Result<void> Avoidance::want(std::span<const WalkWish> wishes) {
@@ -116,6 +161,10 @@ Result<void> Avoidance::set_discs(std::span<const Disc> discs) {
   return {};
 }
 
+static float length_m(const GroundBox& way) {
+  return std::hypot(way.high_x_m - way.low_x_m, way.high_z_m - way.low_z_m);
+}
+
 /// Of two who strike in one tick and whose new ways meet, the one with the lower draw goes; the other keeps to the
 /// claim, which the first has kept clear of.
 void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overlap_m) {
@@ -128,15 +177,22 @@ void Avoidance::Work::give_way(const Jobs& jobs, std::uint32_t tick, float overl
     const auto draw = [&](std::uint32_t claim) { return mix64(mix64(book.claim(claim).who.index) ^ tick); };
     return draw(a) < draw(b);
   };
-  constexpr float furthest_m = 2.5F;  // of a step and the stop after it
+  // Claims are listed by where they begin, and new ways go on from there.
+  float longest_m = 0;
+  for (std::size_t i = 0; i < strikers.size(); ++i)
+    if (chosen[i].trial != claimed) longest_m = std::max(longest_m, length_m(chosen[i].box));
   in_parallel(jobs, strikers.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t claim = strikers[i].claim;
       if (striker_of[claim] == nobody) continue;
-      book.near(chosen[i].x_m[0], chosen[i].z_m[0], furthest_m, [&](const Nearby& near) {
+      const GroundBox& way = chosen[i].box;
+      const Claim& mine = book.claim(claim);
+      const float reach_m = 0.5F * length_m(way) + longest_m + mine.radius_m + book.broadest_m();
+      const GroundPoint middle = {0.5F * (way.low_x_m + way.high_x_m), 0.5F * (way.low_z_m + way.high_z_m)};
+      book.near(middle.x_m, middle.z_m, reach_m, [&](const Nearby& near) {
         const std::uint32_t other = near.claim, rival = striker_of[other];
         if (rival == nobody || other == claim || !goes_first(other, claim)) return;
-        const Claim &mine = book.claim(claim), &theirs = book.claim(other);
+        const Claim& theirs = book.claim(other);
         const float apart = mine.radius_m + theirs.radius_m - overlap_m;
         if (meet(chosen[i], chosen[rival], apart)) gives_way[i] = 1;
       });

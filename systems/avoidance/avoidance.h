@@ -50,7 +50,7 @@ struct AvoidanceOptions {
   float shoulders_h = 0.128F;
 };
 
-/// What an update did: people looked at; who chose a step; of these who had to keep to their claim, and who gave way to
+/// What an update did: people looked at; who chose a step; of these who kept to their claim, and who gave way to
 /// somebody that chose at the same time; who stands though they want to walk.
 struct AvoidanceReport {
   std::size_t people = 0, chose = 0, kept_claim = 0, gave_way = 0, waiting = 0;
@@ -69,9 +69,12 @@ class Avoidance {
   /// From now on this walker avoids others, and wants what it was last asked to do. Errors: a stale handle, a posed
   /// person (Status::missing); nothing has changed.
   Result<void> manage(Entity human);
+  /// The same of many, each named once; all or none.
+  Result<void> manage(std::span<const Entity> people);
   /// No more; the walker goes on as it now does, and faces their way. Errors: a stale handle, somebody who is not
   /// managed.
   Result<void> release(Entity human);
+  Result<void> release(std::span<const Entity> people);
   /// All or none. Errors: a stale handle, somebody who is not managed (Status::missing), a speed that their gait cannot
   /// have, a heading not within ±10000; nothing has changed.
   Result<void> want(std::span<const WalkWish> wishes);
@@ -87,6 +90,8 @@ class Avoidance {
 
  private:
   struct Work;
+  Course<float> first_course(const World& world, Entity human) const;
+
   Simulation& simulation_;
   AvoidanceOptions options_;
   std::vector<Disc> discs_;

@@ -132,6 +132,9 @@ int mobil_choose(mobil_sim* sim, mobil_chosen* out) {
   return call(sim, "mobil_choose", [&](mobil_sim& s) {
     Relevance* chooser = nullptr;
     if (const int code = chooser_of(s, chooser)) return code;
+    if (out != nullptr) {  // before anything is done
+      if (const int code = write_struct(s.line, usual<mobil_chosen>(), out, "out")) return code;
+    }
     const RelevanceReport did = chooser->update();
     if (out == nullptr) return int{MOBIL_OK};
     const mobil_chosen to = {sizeof to,    did.evaluated, did.switched, did.waiting,    did.refused,

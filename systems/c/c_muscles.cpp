@@ -38,10 +38,8 @@ int method_from(Line& line, const mobil_method* given, MuscleMethod& to) {
 Result<void> check_muscles(mobil_sim& sim, Entity person, const LegMuscles& choice) {
   Simulation& simulation = sim.world();
   const World& world = simulation.world();
-  if (!simulation.is_person(person)) return fail(Status::stale_entity);
   if (auto ok = check_choice(choice, simulation.tick_s()); !ok) return ok;
   if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
-  if (!choice.dt_s) return {};
   const Body body = *make_body(body_request(world, person));
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (!choice.muscles[m]) continue;
@@ -54,9 +52,7 @@ Result<void> check_muscles(mobil_sim& sim, Entity person, const LegMuscles& choi
 
 /// The same of a method of one muscle that is there.
 Result<void> check_method(mobil_sim& sim, Entity person, Muscle muscle, const MuscleMethod& method) {
-  Simulation& simulation = sim.world();
-  if (!simulation.is_person(person)) return fail(Status::stale_entity);
-  auto choice = choice_of(simulation.world(), person);
+  auto choice = choice_of(sim.world().world(), person);
   if (!choice || !choice->muscles[static_cast<std::size_t>(muscle)])
     return fail(fmt::format("this person has no {}; mobil_set_muscles gives muscles", muscle_name(muscle)),
                 Status::missing);
@@ -66,13 +62,24 @@ Result<void> check_method(mobil_sim& sim, Entity person, Muscle muscle, const Mu
   return check_muscles(sim, person, *choice);
 }
 
-bool has_muscles(const Simulation& simulation, Entity person) {
-  return simulation.is_compact(person) ? choice_of(simulation.world(), person).has_value()
-                                       : !simulation.muscles(person).empty();
+/// Asks `check(i)` of each person named. Who sleeps or is compact is awake and whole for it, and stays so where nobody
+/// is refused; else nobody has changed.
+template <class Check>
+int check_whole(mobil_sim& sim, Check check) {
+  Simulation& simulation = sim.world();
+  for (std::size_t i = 0; i < sim.people.size(); ++i)
+    if (!simulation.is_person(sim.people[i])) return sim.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+  World::Attempt attempt(world_of(simulation), sim.jobs_of());
+  if (const auto done = SimulationWorld::make_whole(simulation, sim.people); !done)
+    return sim.line.refuse(done.error());
+  for (std::size_t i = 0; i < sim.people.size(); ++i)
+    if (const Result<void> ok = check(i); !ok) return sim.line.refuse(ok.error(), person_number(i));
+  attempt.keep();
+  return MOBIL_OK;
 }
 
 Result<void> set_muscles(Simulation& simulation, Entity person, const LegMuscles* choice) {
-  const bool there = has_muscles(simulation, person);
+  const bool there = !simulation.muscles(person).empty();
   if (choice == nullptr) return there ? simulation.remove_leg_muscles(person) : Result<void>{};
   return there ? simulation.change_leg_muscles(person, *choice) : simulation.add_leg_muscles(person, *choice);
 }
@@ -160,16 +167,12 @@ int mobil_set_muscles(mobil_sim* sim, const mobil_id* ids, size_t count, const m
       if (const int code = read_struct(s.line, muscles, "muscles", known)) return code;
       if (const int code = leg_muscles(s.line, known, choice)) return code;
     }
-    Simulation& world = s.world();
+    const auto check = [&](std::size_t i) {
+      return muscles == nullptr ? Result<void>{} : check_muscles(s, s.people[i], choice);
+    };
+    if (const int code = check_whole(s, check)) return code;
     for (std::size_t i = 0; i < count; ++i) {
-      const Entity person = s.people[i];
-      auto ok = muscles != nullptr        ? check_muscles(s, person, choice)
-                : world.is_person(person) ? Result<void>{}
-                                          : fail(Status::stale_entity);
-      if (!ok) return s.line.refuse(ok.error(), person_number(i));
-    }
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto done = set_muscles(world, s.people[i], muscles == nullptr ? nullptr : &choice);
+      const auto done = set_muscles(s.world(), s.people[i], muscles == nullptr ? nullptr : &choice);
       if (!done) return s.line.refuse(done.error(), person_number(i));
     }
     return int{MOBIL_OK};
@@ -183,10 +186,8 @@ int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count, int musc
     if (const int code = muscle_number(s.line, muscle, of)) return code;
     MuscleMethod to;
     if (const int code = method_from(s.line, method, to)) return code;
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto ok = check_method(s, s.people[i], of, to);
-      if (!ok) return s.line.refuse(ok.error(), person_number(i));
-    }
+    const auto check = [&](std::size_t i) { return check_method(s, s.people[i], of, to); };
+    if (const int code = check_whole(s, check)) return code;
     for (std::size_t i = 0; i < count; ++i) {
       const auto done = s.world().set_method(s.people[i], of, to);
       if (!done) return s.line.refuse(done.error(), person_number(i));
@@ -224,20 +225,18 @@ int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int 
     if (const int code = muscle_number(s.line, muscle, of)) return code;
     Side on{};
     if (const int code = one_of(s.line, side, Side::left, "side", on)) return code;
-    const Simulation& world = s.world();
-    for (std::size_t i = 0; i < count; ++i) {
-      const Entity one = world.muscle(s.people[i], of, on);
-      const auto source = world.get<ExcitationSource>(one);
-      const bool of_host = source && *source == static_cast<std::uint64_t>(ExcitationSource::host);
-      if (!world.is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
-      if (!of_host)
-        return s.line.refuse(MOBIL_MISSING,
-                             fmt::format("person {} has no {} of MOBIL_BY_HOST; mobil_set_muscles makes it"
-                                         " so",
-                                         i, muscle_name(of)));
+    const auto check = [&](std::size_t i) -> Result<void> {
+      const Entity one = s.world().muscle(s.people[i], of, on);
+      const auto source = s.world().get<ExcitationSource>(one);
+      if (!source || *source != static_cast<std::uint64_t>(ExcitationSource::host))
+        return fail(
+            fmt::format("this person has no {} of MOBIL_BY_HOST; mobil_set_muscles makes it so", muscle_name(of)),
+            Status::missing);
       if (const float e = *row_at(excitation, i, stride, sizeof(float)); !std::isfinite(e))
-        return s.line.refuse(MOBIL_REFUSED, fmt::format("person {}: an excitation of {}; choose 0.01 to 1", i, e));
-    }
+        return fail(fmt::format("an excitation of {}; choose 0.01 to 1", e));
+      return {};
+    };
+    if (const int code = check_whole(s, check)) return code;
     for (std::size_t i = 0; i < count; ++i) {
       const auto done = s.world().set_excitation(s.people[i], of, on, *row_at(excitation, i, stride, sizeof(float)));
       if (!done) return s.line.refuse(done.error(), person_number(i));

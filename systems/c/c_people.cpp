@@ -9,7 +9,9 @@
 #include "components/relevance.h"
 #include "components/sleep.h"
 #include "systems/c/c_call.h"
+#include "systems/muscles/sleep.h"
 #include "systems/people/fat_wobble.h"
+#include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 
 namespace {
@@ -259,10 +261,11 @@ int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
     const Simulation& world = s.world();
     const Entity person = entity_of(id);
     if (!world.is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
-    const bool muscles = world.world().has<CompactMuscles>(person) || !world.muscles(person).empty();
+    const bool muscles = world.world().has<CompactMuscles>(person) || kept_choice(world.world(), person).has_value() ||
+                         !world.muscles(person).empty();
     *bits = (is_posed(world.world(), person) ? MOBIL_POSED : 0) | (world.is_asleep(person) ? MOBIL_ASLEEP : 0) |
             (world.is_compact(person) ? MOBIL_COMPACT : 0) | (muscles ? MOBIL_HAS_MUSCLES : 0) |
-            (world.world().has<GroundReaction>(person) ? MOBIL_HAS_FORCES : 0) |
+            (has_forces(world.world(), person) ? MOBIL_HAS_FORCES : 0) |
             (world.world().has<Needs>(person) || world.world().has<SleepsManaged>(person) ? MOBIL_MANAGED : 0) |
             (is_watched(world.world(), person) ? MOBIL_WATCHED : 0) |
             (world.world().has<Course>(person) ? MOBIL_AVOIDS : 0) |
@@ -377,7 +380,6 @@ int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on) 
     const auto set = [&](Entity person, bool to) {
       return to ? world.add_forces(person) : world.remove_forces(person);
     };
-    const auto has = [&](Entity person) { return world.world().has<GroundReaction>(person); };
     for (std::size_t i = 0; i < count; ++i)
       if (!world.is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
     std::vector<Entity> changed;
@@ -387,7 +389,7 @@ int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on) 
     };
     try {
       for (; next < count; ++next) {
-        if (has(s.people[next]) == (on != 0)) continue;
+        if (has_forces(world.world(), s.people[next]) == (on != 0)) continue;
         const auto done = set(s.people[next], on != 0);
         if (!done) {
           undo();

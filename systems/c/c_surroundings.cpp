@@ -1,8 +1,10 @@
 // Others, walls and ground.
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "components/avoidance.h"
 #include "components/footing.h"
@@ -38,15 +40,14 @@ int check_avoiders(mobil_sim& sim, bool on) {
 
 /// All of them, or none. Who avoids others already keeps their wish.
 int set_avoiding(mobil_sim& sim, Avoidance& avoidance, bool on) {
-  World::Attempt attempt(world_of(sim.world()), sim.jobs_of());
-  for (std::size_t i = 0; i < sim.people.size(); ++i) {
-    const Entity person = sim.people[i];
-    if (sim.world().world().has<Course>(person) == on) continue;
-    if (const auto done = on ? avoidance.manage(person) : avoidance.release(person); !done)
-      return sim.line.refuse(done.error(), person_number(i));
-  }
-  attempt.keep();
-  return MOBIL_OK;
+  std::vector<Entity> changes;
+  for (const Entity person : sim.people)
+    if (sim.world().world().has<Course>(person) != on) changes.push_back(person);
+  std::ranges::sort(changes, {}, &Entity::index);
+  const auto [first, last] = std::ranges::unique(changes);  // who is named twice
+  changes.erase(first, last);
+  const auto done = on ? avoidance.manage(changes) : avoidance.release(changes);
+  return done ? int{MOBIL_OK} : sim.line.refuse(done.error());
 }
 
 GroundPoint ground_point(const HostAxes& axes, const float* theirs) {

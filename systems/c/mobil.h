@@ -190,7 +190,7 @@ MOBIL_API int mobil_get_person(mobil_sim* sim, mobil_id id, mobil_person* out);
 /* A walker's style, in the order of mobil_style: as it was asked for, or nearer to the usual one, where a foot would go
  * under the ground, or a joint or the pelvis further than people's go. */
 MOBIL_API int mobil_get_style(mobil_sim* sim, mobil_id id, float* out, size_t room);
-/* Bits of what a person is, as mobil_state gives them. */
+/* Bits of what a person is, as mobil_state gives them. What sleepers have they have again on waking. */
 enum {
   MOBIL_POSED = 1,
   MOBIL_ASLEEP = 2,
@@ -199,9 +199,9 @@ enum {
   MOBIL_HAS_FORCES = 16,
   MOBIL_MANAGED = 32,
   MOBIL_WATCHED = 64,
-  MOBIL_AVOIDS = 128,   /* others: mobil_avoid */
+  MOBIL_AVOIDS = 128,    /* others: mobil_avoid */
   MOBIL_ON_GROUND = 256, /* mobil_set_on_ground */
-  MOBIL_HAS_FAT = 512   /* that wobbles: mobil_set_fat_wobble */
+  MOBIL_HAS_FAT = 512    /* that wobbles: mobil_set_fat_wobble */
 };
 /* What a person is now: bits of those above. */
 MOBIL_API int mobil_state(mobil_sim* sim, mobil_id id, int* bits);

@@ -50,7 +50,7 @@ HWY_INLINE WideMask half_aside(const Strike<Lanes<float>>& from) {
 enum class Solve { whole, times };
 
 /// Turns from which on a strike has the usual style alone, and up to which its own (own_turn_rad); and changes of
-/// speed, m/s for a leg of leg_m. No step changes it by more than 0.6, with which a third of the own style stays.
+/// speed, m/s for a leg of leg_m. Steps of who goes on change it by 0.6 at most; a third of the own style then stays.
 constexpr float calm_turn_rad = 0.5F, calm_change = 0.9F, own_change = 0.05F;
 
 /// A style with which joints have room for a step that turns or changes its speed: of the own one `own`, 0 to 1, the
@@ -336,10 +336,13 @@ void follow_step(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& w
   plan.from = plan.to;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   next_strike(load(size.height_m), load(size.mass_kg), wanted, way, plan.from, fresh, right_lands, solve, plan.to);
-  // Who stands steps on the spot until both feet point where they are to, and stand alike: one may be of a calm strike.
+  // Who stands steps on the spot until both feet point where they are to, and stand as the style has them: one may be
+  // of a calm strike, or the style another than before.
   const WideMask turns = (abs(way) > off_heading) | (abs(load(state.turn_before_rad)) > 0.0F);
   const WideMask displaces = displace(size, wanted, state, plan);
-  const WideMask on_spot = (turns | (feet_differ(plan) > 0.0F)) | displaces;
+  const Wide from_style = abs(load(plan.from.half_width_m) - load(plan.to.half_width_m)) +
+                          abs(load(plan.from.toe_out) - load(plan.to.toe_out));
+  const WideMask on_spot = (turns | (feet_differ(plan) + from_style > 0.0F)) | displaces;
   const WideMask stays = either(on_spot, zero, select(stands_still(plan), one, zero));
   keep(stays, plan.from.half_width_m, plan.to.half_width_m);  // feet that stand stay where they are
   keep(stays, plan.from.toe_out, plan.to.toe_out);

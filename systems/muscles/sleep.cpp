@@ -135,17 +135,17 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
   std::ranges::stable_sort(work.groups, {}, order);
   for (auto first = work.groups.begin(); first != work.groups.end();) {
     const auto end = std::find_if(first, work.groups.end(), [&](const auto& g) { return order(g) != order(*first); });
-    std::array<KeyPart, 7> more;
-    std::size_t count = 0;
-    if (first->choice) more[count++] = *first->choice;
-    if (has_forces(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWithForces>{1});
-    if (is_watched(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWatched>{1});
-    if (has_fat(world, first->sleeper->entity)) more[count++] = key_part(TagValue<SleepsWithFat>{1});
+    std::vector<KeyPart>& more = work.parts;
+    more.clear();
+    if (first->choice) more.push_back(*first->choice);
+    if (has_forces(world, first->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithForces>{1}));
+    if (is_watched(world, first->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWatched>{1}));
+    if (has_fat(world, first->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithFat>{1}));
     for (const KeyPart& part : keeps)
-      if (count < more.size() && (!first->choice || part.id != first->choice->id)) more[count++] = part;
+      if (!first->choice || part.id != first->choice->id) more.push_back(part);
     work.together.clear();
     for (; first != end; ++first) work.together.push_back(first->sleeper);
-    put_to_sleep(world, scene.jobs, work.together, std::span(more).first(count), owned, work.falling);
+    put_to_sleep(world, scene.jobs, work.together, more, owned, work.falling);
   }
   return work.sleepers.size();
 }

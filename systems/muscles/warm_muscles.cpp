@@ -51,7 +51,22 @@ void WarmingRoom::warm(const MuscleScene& scene, std::span<const Entity> people,
   steady_.clear();
   find_steady(scene.world, people, {now, tick_s}, steady_);
   if (steady_.empty()) return;
-  people_.resize(steady_.size());
+  people_.assign(steady_.size(), Entity{});
+  try {
+    warm_people(scene, choice, then);
+  } catch (...) {  // nobody stays here; one by one takes no memory
+    for (const Entity person : people_) {
+      for (Entity member = world_.first_member(person); world_.alive(member); member = world_.first_member(person))
+        world_.destroy(member);
+      world_.destroy(person);
+    }
+    throw;
+  }
+}
+
+void WarmingRoom::warm_people(const MuscleScene& scene, const LegMuscles& choice, std::uint32_t then) {
+  const std::uint32_t now = scene.time.tick;
+  const auto tick_s = static_cast<float>(scene.time.tick_s);
   create_steady(world_, scene.jobs, steady_, {then, tick_s}, people_, work_);
   const MuscleScene room{world_, scene.library, scene.work, scene.jobs, {then, scene.time.tick_s}};
   if (begin_leg_muscles(room, people_, choice)) {

@@ -32,6 +32,8 @@ class WarmingRoom {
   void warm(const MuscleScene& scene, std::span<const Entity> people, const LegMuscles& choice, std::uint32_t ticks);
 
  private:
+  void warm_people(const MuscleScene& scene, const LegMuscles& choice, std::uint32_t then);
+
   World world_;
   Schedule schedule_;
   std::vector<Sleeper> steady_;

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "components/activation.h"
+#include "components/sleep.h"
 #include "engine/rows.h"
 #include "systems/forces/forces.h"
 #include "systems/kinematics/body_motion.h"
@@ -84,7 +85,7 @@ void press_posed(const BodySize<Lanes<float>>& size, const Pose<Lanes<float>>& p
 }
 
 bool has_forces(const World& world, Entity person) {
-  return world.has<GroundReaction>(person);
+  return world.has<GroundReaction>(person) || world.has<SleepsWithForces>(person);
 }
 
 Status add_forces(World& world, Entity person) {

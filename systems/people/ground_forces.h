@@ -8,6 +8,7 @@
 
 namespace mobil {
 
+/// Or will have, on waking.
 bool has_forces(const World& world, Entity person);
 /// Stale handles answer Status::stale_entity.
 Status add_forces(World& world, Entity person);

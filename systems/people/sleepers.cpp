@@ -160,14 +160,11 @@ void put_to_sleep(World& world, const Jobs& jobs, std::span<const Sleeper* const
     put_row(one.asleep, work.asleep[b], l);
     packed ? put_row(*one.style, work.style[b], l) : put_row(one.own_style, work.own_style[b], l);
   }
-  std::array<PartValue, 10> parts;
-  std::size_t count = 0;
-  parts[count++] = {component_part<Asleep>(), work.asleep.data()};
-  parts[count++] = packed ? PartValue{component_part<SleepingStyle>(), work.style.data()}
-                          : PartValue{component_part<OwnStyle>(), work.own_style.data()};
-  for (const KeyPart& part : more)
-    if (count < parts.size()) parts[count++] = {part, nullptr};
-  world.remake_many(work.people, std::span(parts).first(count), owned, jobs);
+  work.parts.assign({{component_part<Asleep>(), work.asleep.data()},
+                     packed ? PartValue{component_part<SleepingStyle>(), work.style.data()}
+                            : PartValue{component_part<OwnStyle>(), work.own_style.data()}});
+  for (const KeyPart& part : more) work.parts.push_back({part, nullptr});
+  world.remake_many(work.people, work.parts, owned, jobs);
   face_their_way(world, work.people);
 }
 

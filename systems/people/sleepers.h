@@ -54,6 +54,7 @@ struct FallingAsleep {
   std::vector<SleepingStyle<Lanes<float>>> style;
   std::vector<OwnStyle<Lanes<float>>> own_style;
   std::vector<Entity> people;
+  std::vector<PartValue> parts;
 };
 /// Walkers of one table, whose styles are all on the grid or all not: their rows keep of the parts that `owned` names
 /// (ids, sorted) none but what sleepers have, and `more`; all others stay.

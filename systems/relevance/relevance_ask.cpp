@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <new>
 #include <numeric>
 #include <span>
 #include <string>
@@ -215,36 +214,19 @@ Result<void> Relevance::manage(std::span<const Entity> people, const PersonNeeds
   return {};
 }
 
-/// All are whole and have muscles, or nobody has got any.
+/// All are awake, whole and have muscles, or nobody has changed.
 Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonNeeds& needs) {
-  std::vector<Entity> compact, bare;
-  for (const Entity human : people) {
-    if (simulation_.is_compact(human)) compact.push_back(human);
-  }
-  if (auto done = simulation_.expand(compact); !done) return done;
-  const World& world = simulation_.world();
-  for (const Entity human : people) {
-    if (!world.alive(world.first_member(human))) bare.push_back(human);
-  }
-  if (bare.empty()) return {};
+  World& world = world_of(simulation_);
+  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
+  if (auto done = SimulationWorld::make_whole(simulation_, people); !done) return done;
   LegMuscles choice = options_.leg_muscles;
   choice.muscles = needs.muscles.value_or(scene_.muscles);
   choice.method = Method::none;
-  std::size_t begun = 0;
-  const auto undo = [&] {
-    for (const Entity human : std::span(bare).first(begun)) (void)simulation_.remove_leg_muscles(human);
-  };
-  try {
-    for (; begun < bare.size(); ++begun) {
-      if (auto done = simulation_.add_leg_muscles(bare[begun], choice); !done) {
-        undo();
-        return done;
-      }
-    }
-  } catch (const std::bad_alloc&) {
-    undo();
-    throw;
+  for (const Entity human : people) {
+    if (world.alive(world.first_member(human))) continue;
+    if (auto done = simulation_.add_leg_muscles(human, choice); !done) return done;
   }
+  attempt.keep();
   return {};
 }
 

@@ -14,6 +14,8 @@
 #include "engine/rows.h"
 #include "systems/gait/step_events.h"
 #include "systems/muscles/leg_muscles.h"
+#include "systems/people/by_table.h"
+#include "systems/people/fat_wobble.h"
 #include "systems/people/person.h"
 #include "systems/simulation_world.h"
 #include "systems/terrain/ground_profile.h"
@@ -261,7 +263,10 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   footing.landing_x_m[l] = one.landing_x_m;
   footing.landing_z_m[l] = one.landing_z_m;
   footing.known[l] = footing_all;
-  if (all) stand_up(world, one.human);
+  if (all) {
+    stand_up(world, one.human);
+    settle_fat(world, one.human);
+  }
 
   const float part = GroundProfile::part(0);
   const TerrainQuery& on = queries[on_way];
@@ -285,39 +290,52 @@ Terrain::Terrain(Simulation& simulation, TerrainHeights heights)
 Terrain::~Terrain() = default;
 Terrain::Terrain(Terrain&&) noexcept = default;
 
+namespace {
+
+/// Those of them who are managed, or who are not, each once.
+std::vector<Entity> those(const World& world, std::span<const Entity> people, bool managed) {
+  std::vector<Entity> some;
+  for (const Entity human : people)
+    if (world.has<Footing>(human) == managed) some.push_back(human);
+  std::ranges::sort(some, {}, &Entity::index);
+  const auto [first, last] = std::ranges::unique(some);
+  some.erase(first, last);
+  return some;
+}
+
+}  // namespace
+
 Result<void> Terrain::manage(std::span<const Entity> people) {
   World& world = world_of(simulation_);
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
   for (const Entity human : people) {
     if (!is_person(world, human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
     if (!simulation_.is_asleep(human) && !world.has<Gait>(human))
       return fail("Terrain: this person's host animates the skeleton; pose them on the ground", Status::missing);
   }
-  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
-  for (const Entity human : people) {
-    if (simulation_.is_asleep(human)) {
-      if (auto done = simulation_.wake({&human, 1}); !done) return done;
-    }
-    if (world.has<Footing>(human)) continue;
-    if (auto done = simulation_.expand({&human, 1}); !done) return done;
-    if (const Status status = world.add(human, Footing<float>{}); status != Status::ok)
-      return result_of("Terrain", status);
-  }
+  const std::vector<Entity> changes = those(world, people, false);
+  World::Attempt attempt(world, jobs);
+  if (auto done = SimulationWorld::make_whole(simulation_, changes); !done) return done;
+  by_table(world, changes, [&](std::span<const Entity> together) {
+    world.remake_many(together, std::array{PartValue{component_part<Footing>(), nullptr}}, {}, jobs);
+  });
   attempt.keep();
   return {};
 }
 
 Result<void> Terrain::release(std::span<const Entity> people) {
   World& world = world_of(simulation_);
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
   for (const Entity human : people) {
     if (!world.alive(human)) return fail("Terrain: a person is not there (a stale handle)", Status::stale_entity);
     if (!world.has<Footing>(human)) return fail("Terrain: a person is not managed", Status::missing);
   }
-  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
-  for (const Entity human : people) {
-    if (!world.has<Footing>(human)) continue;  // named twice
-    if (auto done = result_of("Terrain", world.remove<Footing>(human)); !done) return done;
-  }
+  constexpr std::array part = {type_id<Footing<float>>()};
+  const std::vector<Entity> changes = those(world, people, true);
+  World::Attempt attempt(world, jobs);
+  by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
+  for (const Entity human : changes) settle_fat(world, human);  // they go down to the plane at once
   return {};
 }
 

@@ -282,6 +282,29 @@ TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
   EXPECT_NEAR(root_of(simulation, one).z_m - before, 1.2, 0.1);
 }
 
+/// Two tall walkers who speed up towards each other and strike in the same ticks, from any distance and anywhere
+/// between the cells that claims are sorted into: their ways are longer than claims are.
+TEST(Avoidance, WhoComesFastIsSeenFromFarOff) {
+  for (std::uint64_t c = 0; c < 1500; ++c) {
+    const auto draw = [&](std::uint64_t which) { return drawn(c, which); };
+    const float speed = 0.8F + 1.4F * draw(0), faster = speed + (2.3F - speed) * draw(1), off = 3 * draw(4);
+    const float heading = pi * (1 + 0.3F * (draw(2) - 0.5F)), half = 1.1F * speed + 0.8F + 1.5F * draw(3);
+    Simulation simulation;
+    Avoidance avoidance(simulation);
+    const Entity who[] = {walker(simulation, speed, off, off - half, 0, 1.9F),
+                          walker(simulation, speed, off - half * std::sin(heading), off + half, heading, 1.9F)};
+    ASSERT_TRUE(avoidance.manage(who));
+    ASSERT_TRUE(avoidance.want(std::array{WalkWish{who[0], faster, 0}, WalkWish{who[1], faster, heading}}));
+    const float radii_m = simulation.get<Course>(who[0])->radius_m + simulation.get<Course>(who[1])->radius_m;
+    for (int k = 0; k < 150; ++k) {
+      avoidance.update();
+      simulation.tick();
+      const Root one = root_of(simulation, who[0]), other = root_of(simulation, who[1]);
+      ASSERT_GT(std::hypot(one.x_m - other.x_m, one.z_m - other.z_m), radii_m - 0.04F) << c;
+    }
+  }
+}
+
 TEST(Avoidance, AlonePeopleWalkAsTheyWouldWithout) {
   Simulation with, without;
   Avoidance avoidance(with);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "tests/c/c_fixture.h"
 
@@ -240,8 +241,17 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     unseen.control_points = 0;
     for (std::size_t i = 0; i < 20; ++i)
       until_done("set_muscles", [&] { return mobil_set_muscles(sim, &ids[i], 1, &unseen); });
-    until_done("compact", [&] { return mobil_compact(sim, ids.data(), 20, nullptr); });
-    until_done("sleep", [&] { return mobil_sleep(sim, &ids[20], 20, nullptr); });
+    ASSERT_EQ(mobil_start_avoidance(sim, nullptr), MOBIL_OK);
+    const auto absent = [&] {
+      until_done("compact", [&] { return mobil_compact(sim, ids.data(), 20, nullptr); });
+      until_done("sleep", [&] { return mobil_sleep(sim, &ids[20], 20, nullptr); });
+    };
+    for (const auto& [name, ask] : {std::pair{"avoid", &mobil_avoid}, std::pair{"ground", &mobil_set_on_ground}}) {
+      absent();
+      until_done(name, [&, asked = ask] { return asked(sim, ids.data(), ids.size(), 1); });
+      until_done(name, [&, asked = ask] { return asked(sim, ids.data(), ids.size(), 0); });
+    }
+    absent();
     until_done("expand", [&] { return mobil_expand(sim, ids.data(), 20); });
     until_done("wake", [&] { return mobil_wake(sim, &ids[20], 20, 0.005F); });
     until_done("forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 1); });

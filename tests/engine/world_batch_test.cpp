@@ -315,4 +315,40 @@ RC_GTEST_PROP(WorldBatch, AnAttemptIsKeptOrHasNeverBeen, ()) {
   expect_parked(world);
 }
 
+/// An attempt within another: what it did is undone where it is not kept, or where the other one is not.
+RC_GTEST_PROP(WorldBatch, AnAttemptWithinAnotherIsPartOfIt, ()) {
+  const auto count = *rc::gen::inRange<std::size_t>(1, 60);
+  const bool outer_kept = *rc::gen::arbitrary<bool>(), inner_kept = *rc::gen::arbitrary<bool>();
+  World world, twin;
+  const std::vector<Entity> all = create(world, 1, 0, count, backward());
+  create(twin, 1, 0, count, {});
+  const std::size_t half = all.size() / 2;
+  const auto mark = [&](World& of, std::span<const Entity> some) {
+    of.remake_many(some, std::array{PartValue{component_part<Badge>(), nullptr}}, {}, backward());
+  };
+  const auto outer_change = [&](World& of) {
+    create(of, 3, 0, 5, {});
+    mark(of, std::span(all).first(half));
+  };
+  const auto inner_change = [&](World& of) {
+    create(of, 4, 0, 7, {});
+    mark(of, std::span(all).subspan(half));
+  };
+  {
+    World::Attempt outer(world, backward());
+    outer_change(world);
+    {
+      World::Attempt inner(world, backward());
+      inner_change(world);
+      if (inner_kept) inner.keep();
+    }
+    if (outer_kept) outer.keep();
+  }
+  if (outer_kept) outer_change(twin);
+  if (outer_kept && inner_kept) inner_change(twin);
+  RC_ASSERT(state_hash(world, {}) == state_hash(twin, {}));
+  RC_ASSERT(world.create(Age<float>{}) == twin.create(Age<float>{}));
+  expect_parked(world);
+}
+
 }  // namespace mobil::world_batch_test

@@ -165,7 +165,24 @@ TEST(StyleLimits, WhoStandsOnCalmFeetEvensThem) {
   }
 }
 
-/// A step that turns far is as long, and lasts as long, as the usual one, whatever the style's halting.
+TEST(StyleLimits, WhoStandsInAnotherStyleStandsAsItHasFeet) {
+  Simulation simulation;
+  const Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 0});
+  simulation.tick(60);
+  GaitStyle broad;
+  broad.step_width_h = 0.09F;
+  broad.toe_out_deg = 15;
+  const Entity twin = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.speed_m_s = 0, .style = broad});
+  ASSERT_TRUE(simulation.change_gait(person, {.style = broad}));
+  simulation.tick(300);
+  const auto plan = *simulation.get<StepPlan>(person), own = *simulation.get<StepPlan>(twin);
+  EXPECT_EQ(plan.from.half_width_m, own.from.half_width_m);
+  EXPECT_EQ(plan.trailing_half_width_m, own.trailing_half_width_m);
+  EXPECT_EQ(plan.from.toe_out, own.from.toe_out);
+  EXPECT_EQ(simulation.sleep({&person, 1}).value(), 1U);
+}
+
+/// Steps that turn far last as long as each other, right and left, whatever the style's halting.
 TEST(StyleLimits, CalmStepsAreEven) {
   Simulation simulation;
   const Entity person = *simulation.spawn({.height_m = 1.75F, .mass_kg = 75}, {.style = {.time_asymmetry = 0.2F}});

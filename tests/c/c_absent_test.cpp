@@ -1,0 +1,121 @@
+// Who sleeps or is compact, asked through the C interface for what needs rows of their own.
+
+#include <functional>
+#include <vector>
+
+#include "tests/c/c_fixture.h"
+
+namespace mobil::c_absent_test {
+namespace {
+using namespace c_test;
+
+int state(const Sim& sim, mobil_id id) {
+  int bits = -1;
+  EXPECT_EQ(mobil_state(sim, id, &bits), MOBIL_OK);
+  return bits;
+}
+
+mobil_muscles unseen_muscles() {
+  auto muscles = reduced_muscles();
+  muscles.control_points = 0;
+  return muscles;
+}
+
+/// Six with muscles: two asleep, with forces; two compact; two awake.
+struct Absent {
+  Absent() {
+    const auto muscles = unseen_muscles();
+    ids = spawn(sim, 6, &muscles);
+    EXPECT_EQ(mobil_set_forces(sim, ids.data(), 2, 1), MOBIL_OK);
+    EXPECT_EQ(mobil_tick(sim, 120), MOBIL_OK);
+    std::size_t changed = 0;
+    EXPECT_EQ(mobil_sleep(sim, ids.data(), 2, &changed), MOBIL_OK);
+    EXPECT_EQ(changed, 2U);
+    EXPECT_EQ(mobil_compact(sim, &ids[2], 2, &changed), MOBIL_OK);
+    EXPECT_EQ(changed, 2U);
+  }
+  Sim sim;
+  std::vector<mobil_id> ids;
+};
+
+TEST(CAbsent, StateSaysWhatComesBack) {
+  const Absent all;
+  EXPECT_EQ(state(all.sim, all.ids[0]), MOBIL_ASLEEP | MOBIL_HAS_MUSCLES | MOBIL_HAS_FORCES);
+  EXPECT_EQ(state(all.sim, all.ids[2]), MOBIL_COMPACT | MOBIL_HAS_MUSCLES);
+  EXPECT_EQ(state(all.sim, all.ids[4]), MOBIL_HAS_MUSCLES);
+}
+
+TEST(CAbsent, MusclesGoForGood) {
+  const Absent all;
+  ASSERT_EQ(mobil_set_muscles(all.sim, all.ids.data(), 6, nullptr), MOBIL_OK) << all.sim.message();
+  ASSERT_EQ(mobil_wake(all.sim, all.ids.data(), 6, 0.005F), MOBIL_OK);
+  ASSERT_EQ(mobil_expand(all.sim, all.ids.data(), 6), MOBIL_OK);
+  for (const mobil_id id : all.ids) EXPECT_EQ(state(all.sim, id) & MOBIL_HAS_MUSCLES, 0);
+}
+
+TEST(CAbsent, MusclesBecomeOthersAndMethodsAreSet) {
+  const Absent all;
+  auto others = unseen_muscles();
+  others.muscles = 1U << MOBIL_QUADRICEPS;
+  ASSERT_EQ(mobil_set_muscles(all.sim, all.ids.data(), 6, &others), MOBIL_OK) << all.sim.message();
+  const Absent again;
+  auto method = filled<mobil_method>(MOBIL_METHOD);
+  method.method = MOBIL_STATIC;
+  ASSERT_EQ(mobil_set_method(again.sim, again.ids.data(), 6, MOBIL_HAMSTRINGS, &method), MOBIL_OK)
+      << again.sim.message();
+  for (std::size_t i = 0; i < 6; ++i) {
+    mobil_method is;
+    is.size = sizeof is;
+    ASSERT_EQ(mobil_get_method(all.sim, all.ids[i], MOBIL_HAMSTRINGS, &is), MOBIL_OK);
+    EXPECT_EQ(is.method, MOBIL_NONE);
+    ASSERT_EQ(mobil_get_method(all.sim, all.ids[i], MOBIL_QUADRICEPS, &is), MOBIL_OK);
+    EXPECT_EQ(is.method, MOBIL_REDUCED);
+    ASSERT_EQ(mobil_get_method(again.sim, again.ids[i], MOBIL_HAMSTRINGS, &is), MOBIL_OK);
+    EXPECT_EQ(is.method, MOBIL_STATIC);
+  }
+}
+
+TEST(CAbsent, ForcesOfSleepersGo) {
+  const Absent all;
+  ASSERT_EQ(mobil_set_forces(all.sim, all.ids.data(), 1, 0), MOBIL_OK);
+  ASSERT_EQ(mobil_set_forces(all.sim, &all.ids[1], 1, 1), MOBIL_OK);
+  EXPECT_NE(state(all.sim, all.ids[1]) & MOBIL_ASLEEP, 0);
+  ASSERT_EQ(mobil_wake(all.sim, all.ids.data(), 2, 0.005F), MOBIL_OK);
+  EXPECT_EQ(state(all.sim, all.ids[0]) & MOBIL_HAS_FORCES, 0);
+  EXPECT_NE(state(all.sim, all.ids[1]) & MOBIL_HAS_FORCES, 0);
+}
+
+/// What is refused wakes nobody.
+TEST(CAbsent, NobodyHasChangedWhereOneIsRefused) {
+  const Absent all;
+  const auto before = all.sim.hash();
+  const auto refused = [&](int code) {
+    EXPECT_LT(code, 0);
+    EXPECT_EQ(all.sim.hash(), before) << all.sim.message();
+  };
+  auto wild = unseen_muscles();
+  wild.young_pa = -1;
+  refused(mobil_set_muscles(all.sim, all.ids.data(), 6, &wild));
+  auto method = filled<mobil_method>(MOBIL_METHOD);
+  refused(mobil_set_method(all.sim, all.ids.data(), 6, MOBIL_QUADRICEPS, &method));
+  method.vectors = 40;
+  method.method = MOBIL_REDUCED;
+  refused(mobil_set_method(all.sim, all.ids.data(), 6, MOBIL_HAMSTRINGS, &method));
+  const float pull = 0.5F;
+  refused(mobil_set_excitation(all.sim, all.ids.data(), 1, MOBIL_HAMSTRINGS, MOBIL_RIGHT, &pull, 0));
+  refused(mobil_step_aside(all.sim, all.ids[0], 5, 5));
+  mobil_chosen unfilled{};
+  const auto choosing = filled<mobil_choosing>(MOBIL_CHOOSING);
+  ASSERT_EQ(mobil_start_choosing(all.sim, &choosing, nullptr), MOBIL_OK);
+  ASSERT_EQ(mobil_manage(all.sim, all.ids.data(), 6, nullptr), MOBIL_OK) << all.sim.message();
+  for (const mobil_id id : all.ids) {
+    EXPECT_EQ(state(all.sim, id) & (MOBIL_ASLEEP | MOBIL_COMPACT), 0);
+    EXPECT_NE(state(all.sim, id) & MOBIL_MANAGED, 0);
+  }
+  const auto managed = all.sim.hash();
+  EXPECT_EQ(mobil_choose(all.sim, &unfilled), MOBIL_STRUCT);
+  EXPECT_EQ(all.sim.hash(), managed);
+}
+
+}  // namespace
+}  // namespace mobil::c_absent_test

@@ -99,6 +99,10 @@ Result<FittedAnatomy> fit_anatomy(const Anatomy& anatomy, const Body& body) {
     surface.origin = part.origin;
     surface.insertion = part.insertion;
     for (auto& p : surface.mesh.position) p = place(p);
+    if (part.kind == AnatomyKind::skin) {
+      fitted.skins.push_back(std::move(surface.mesh));
+      continue;
+    }
     if (!part.group) {
       fitted.others.push_back(std::move(surface));
       continue;

@@ -25,11 +25,12 @@ struct FittedMuscle {
 
 /// `bones`: both sides, the left the mirror image of the right, each in its segment's frame (names end in _right,
 /// _left). `muscles`: right side, world axes, the body in the anatomical position at x = z = 0; not bound to a cage
-/// yet. `others`: surfaces of no group (skin, further muscles), as the muscles.
+/// yet. `others`: further muscles, of no group, as the muscles; `skins`, too.
 struct FittedAnatomy {
   std::vector<BoneSurface> bones;
   std::vector<FittedMuscle> muscles;
   std::vector<MuscleSurface> others;
+  std::vector<SurfaceMesh> skins;
 };
 
 /// What a muscle's surface is beyond the kneecap, and from where to where it is the ligament.

@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <span>
+#include <utility>
 
 #include "engine/row_hash.h"
+#include "systems/skinning/follow_skin.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil {
@@ -45,30 +47,72 @@ SkinColours bare_colours() {
   return all;
 }
 
-void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles, const FatBeside* fat) {
-  const SkinMesh& mesh = skin_mesh(skin->sex, skin->detail);
-  position.resize(skin->rest.size());
-  normal.resize(skin->rest.size());
-  std::vector<FrameMap> maps(mesh.frame.size());
+namespace {
+
+struct PosedSkin {
+  std::vector<Vec3<float>> position, normal;
+};
+PosedSkin posed(const BodySkin& skin, float lengths, const Pose<float>& pose, const LegVertices& muscles,
+                const FatBeside* fat) {
+  PosedSkin at{std::vector<Vec3<float>>(skin.rest.size()), std::vector<Vec3<float>>(skin.rest.size())};
+  std::vector<FrameMap> maps(skin_mesh(skin.sex, skin.detail).frame.size());
   constexpr std::size_t stride = sizeof(Vec3<float>);
-  pose_skin(*skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, fat, maps,
-            {std::as_writable_bytes(std::span(position)).data(), std::as_writable_bytes(std::span(normal)).data(),
+  pose_skin(skin, pose, lengths, {0, 0, 0}, {muscles[Side::right], muscles[Side::left]}, nullptr, fat, maps,
+            {std::as_writable_bytes(std::span(at.position)).data(), std::as_writable_bytes(std::span(at.normal)).data(),
              stride, stride});
+  return at;
+}
+
+}  // namespace
+
+void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles, const FatBeside* fat) {
+  PosedSkin at = posed(*skin, lengths, pose, muscles, fat);
+  position = std::move(at.position);
+  normal = std::move(at.normal);
+  if (!own) return;
+  const PosedSkin under = posed(*bare, lengths, pose, muscles, fat);
+  own_position.resize(own->vertex.size());
+  own_normal.resize(own->vertex.size());
+  follow_skin(*own, under.position, under.normal, own_position, own_normal);
+}
+
+Result<void> DrawnSkin::follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
+                               float hem_m) {
+  auto made = make_body_skin(body, skin->detail, {.dressed = false});
+  if (!made) return tl::unexpected(made.error());
+  bare = std::move(*made);
+  LegVertices at_rest;
+  for (const Vec3<float>& at : rest_m) {
+    at_rest[Side::right].push_back(at);
+    at_rest[Side::left].push_back({-at.x, at.y, at.z});
+  }
+  const PosedSkin under = posed(*bare, 1, bare->standing, at_rest, nullptr);
+  own = bind_own_skin(*bare, under.position, under.normal, legs, hem_m);
+  return {};
 }
 
 void DrawnSkin::draw(std::vector<DrawMesh>& out) const {
   const SkinMesh& mesh = skin_mesh(skin->sex, skin->detail);
+  const auto& triangles = own ? own->left : mesh.triangle;
+  const auto& first_of = own ? own->first_left : mesh.first_triangle;
+  constexpr float wetness = 0.08F;
   for (std::size_t part = 0; part < skin_parts; ++part) {
-    const std::size_t first = 3 * std::size_t{mesh.first_triangle[part]};
-    const std::size_t last = 3 * std::size_t{mesh.first_triangle[part + 1]};
+    const std::size_t first = 3 * std::size_t{first_of[part]}, last = 3 * std::size_t{first_of[part + 1]};
     if (first == last) continue;
     out.push_back({.position = position,
-                   .triangle = std::span(mesh.triangle).subspan(first, last - first),
+                   .triangle = std::span(triangles).subspan(first, last - first),
                    .normal = normal,
                    .colour = colours[part],
-                   .wetness = 0.08F,
+                   .wetness = wetness,
                    .opacity = opacity[part]});
   }
+  if (own)
+    out.push_back({.position = own_position,
+                   .triangle = own->triangle,
+                   .normal = own_normal,
+                   .colour = colours.front(),
+                   .wetness = wetness,
+                   .opacity = opacity.front()});
 }
 
 }  // namespace mobil

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "assets/skin/body_skin.h"
+#include "assets/skin/own_skin.h"
 #include "components/pose.h"
 #include "systems/capture/scene.h"
 #include "systems/skinning/place_skin.h"
@@ -36,8 +39,15 @@ struct DrawnSkin {
   float lengths = 1;
   SkinColours colours{};
   std::array<float, skin_parts> opacity = opacity_of(1);
-  std::vector<Vec3<float>> position, normal;
+  std::vector<Vec3<float>> position{}, normal{};
+  std::optional<OwnSkin> own{};  // the legs', in their place, and what it moves with
+  std::optional<BodySkin> bare{};
+  std::vector<Vec3<float>> own_position{}, own_normal{};
 
+  /// Legs are drawn as these meshes of right legs (bind_own_skin). `rest_m`: of the right leg's muscles. `body`: whose
+  /// skin it is. `hem_m`: how far shorts stay over them.
+  Result<void> follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
+                      float hem_m);
   /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them. `fat`: what
   /// wobbles.
   void pose(const Pose<float>& pose, const LegVertices& muscles = {}, const FatBeside* fat = nullptr);

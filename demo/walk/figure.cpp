@@ -62,7 +62,7 @@ std::vector<std::string> all_said(const Anatomy& anatomy) {
 }
 
 Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, const std::filesystem::path& folder) {
-  const auto anatomy = load_anatomy(folder.string());
+  const auto anatomy = load_anatomy(folder.string(), {.skin = true});
   if (!anatomy) return tl::unexpected(anatomy.error());
   auto fitted = fit_anatomy(*anatomy, human.body);
   if (!fitted) return tl::unexpected(fitted.error());
@@ -77,8 +77,14 @@ Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, cons
   for (auto& muscle : fitted->muscles) {
     if (auto done = bind(human, choice, muscle, drawn); !done) return tl::unexpected(done.error());
   }
+  std::vector<Vec3<float>> rest_m;
+  for (const auto& muscle : drawn.muscles)
+    rest_m.insert(rest_m.end(), muscle.surface.mesh.position.begin(), muscle.surface.mesh.position.end());
   auto figure = bound_figure(human, std::move(drawn), choice);
-  if (figure) figure->said = all_said(*anatomy);
+  if (!figure) return figure;
+  figure->said = all_said(*anatomy);
+  figure->skins = std::move(fitted->skins);
+  figure->rest_m = std::move(rest_m);
   return figure;
 }
 

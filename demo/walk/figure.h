@@ -17,6 +17,8 @@ struct Figure {
   BodySurfaces muscles;              // muscles alone, of each right and left
   std::vector<Vec3<float>> colours;  // linear; of each part
   std::vector<std::string> said;     // about the folder and its meshes, "FILE: …"
+  std::vector<SurfaceMesh> skins;    // of right legs, where the folder has some (assets/skin/own_skin.h)
+  std::vector<Vec3<float>> rest_m;   // then all vertices of the right leg's muscles at rest
 };
 
 /// Surfaces for one person with muscles. Without a folder they are generated from published dimensions. Errors: those

@@ -201,11 +201,12 @@ void print_said(const std::vector<std::string>& said, const WalkOptions& options
   fmt::print("anatomy: {} more such lines; see mobil anatomy {}\n", said.size() - most, options.anatomy->string());
 }
 
-Result<void> write_results(const Walked& walked, const Simulation& simulation, const Human& human,
+Result<void> write_results(const Walked& walked, const Simulation& simulation, const Human& human, const Figure& figure,
                            const WalkOptions& options, SteadyClock::time_point start, OutputFolder& results) {
   const auto& folder = results.inside();
   if (options.frames || options.video) {  // first, as they may lack a driver or a program
-    const WalkDrawing drawing{&walked.recording, &human.body, walked.action_line, walked.mesh_edge, walked.fat};
+    const WalkDrawing drawing{&walked.recording,  &human.body,      &figure,
+                              walked.action_line, walked.mesh_edge, walked.fat};
     const std::size_t frames = walked.recording.frames.size();
     auto done = write_pictures(drawing, options, folder, [&](std::size_t i) { show_progress("pictures", i, frames); });
     show("");
@@ -273,7 +274,7 @@ Result<void> run_walk(const WalkOptions& asked) {
     if (auto done = terrain->manage({&*entity, 1}); !done) return done;
   }
   const auto walked = walk(simulation, human, *figure, options, changes, terrain ? &*terrain : nullptr);
-  auto done = walked ? write_results(*walked, simulation, human, options, start, *results)
+  auto done = walked ? write_results(*walked, simulation, human, *figure, options, start, *results)
                      : Result<void>(tl::unexpected(walked.error()));
   if (!done) show("");
   if (done && changes.size() > walked->outcome.changes) {

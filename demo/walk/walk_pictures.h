@@ -8,6 +8,7 @@
 
 #include "assets/export/walk_recording.h"
 #include "components/body.h"
+#include "demo/walk/figure.h"
 #include "demo/walk/walk_options.h"
 #include "engine/error.h"
 #include "systems/skinning/place_skin.h"
@@ -20,6 +21,7 @@ namespace mobil {
 struct WalkDrawing {
   const WalkRecording* recording = nullptr;
   const Body* body = nullptr;
+  const Figure* figure = nullptr;
   std::vector<std::vector<Vec3<float>>> action_line, mesh_edge;
   std::vector<FatBeside> fat;
 };

@@ -397,25 +397,36 @@ TEST(NextStep, WhoIsAskedToStopStandsStillWithBothFeetFlatSideBySide) {
   }
 }
 
-TEST(NextStep, AStandersStyleMayChangeButItsFeetStay) {
+/// Who stands and is given another style steps on the spot until both feet are as it has them; no foot slides.
+TEST(NextStep, AStandersStyleMayChangeButItsFeetDoNotSlide) {
   Dice dice{std::mt19937(10)};
   auto w = random_walkers(10, 0.3);
   for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, 0.5)});
   for (int step = 0; step < 12; ++step) w->strike();
-  std::array<std::array<Vec3<float>, 4>, lane_count> stood;
-  auto places = [&](std::size_t l) {
-    return std::array<Vec3<float>, 4>{at(w->feet.heel_m[0], l), at(w->feet.heel_m[1], l), at(w->feet.toe_m[0], l),
-                                      at(w->feet.toe_m[1], l)};
+  using Foot = std::array<Vec3<float>, 2>;
+  const auto foot = [&](std::size_t l, std::size_t side) {
+    return Foot{at(w->feet.heel_m[side], l), at(w->feet.toe_m[side], l)};
   };
-  w->place();
-  for (std::size_t l = 0; l < lane_count; ++l) stood[l] = places(l);
+  const auto apart = [](const Foot& a, const Foot& b) { return std::max(distance(a[0], b[0]), distance(a[1], b[1])); };
   for (int step = 0; step < 6; ++step) {
     for (std::size_t l = 0; l < lane_count; ++l) w->ask(l, {.speed_m_s = 0.0F, .style = random_style(dice, 0.5)});
     w->strike();
+    w->place_at(0.1F);
+    std::array<Foot, lane_count> stood;
+    for (std::size_t l = 0; l < lane_count; ++l) stood[l] = foot(l, w->state.stance_side[l]);
+    w->place_at(0.9F);
+    for (std::size_t l = 0; l < lane_count; ++l)
+      ASSERT_LT(apart(foot(l, w->state.stance_side[l]), stood[l]), 1e-4) << "step " << step;
+  }
+  for (int step = 0; step < 4; ++step) w->strike();
+  w->place_at(0.5F);
+  std::array<std::array<Foot, 2>, lane_count> there;
+  for (std::size_t l = 0; l < lane_count; ++l) there[l] = {foot(l, Side::right), foot(l, Side::left)};
+  for (int step = 0; step < 4; ++step) {
+    w->strike();
     w->place_at(0.5F);
     for (std::size_t l = 0; l < lane_count; ++l) {
-      const auto now = places(l);
-      for (std::size_t i = 0; i < 4; ++i) ASSERT_LT(distance(now[i], stood[l][i]), 1e-4) << "step " << step;
+      for (const Side side : {Side::right, Side::left}) ASSERT_LT(apart(foot(l, side), there[l][side]), 1e-4);
     }
   }
 }

@@ -1,13 +1,17 @@
 #pragma once
 // A skin's vertices as the kernels place them.
 
+#include <cmath>
 #include <span>
 #include <vector>
 
+#include "assets/body/anthropometry.h"
 #include "assets/skin/body_skin.h"
+#include "engine/geometry.h"
 #include "systems/skinning/place_skin.h"
 
 namespace mobil::skin_test {
+using namespace geometry;
 
 struct Placed {
   std::vector<Vec3<float>> position, normal;
@@ -24,6 +28,25 @@ inline Placed place(const BodySkin& skin, const Pose<float>& pose, const SkinCov
              {std::as_writable_bytes(std::span(to.position)).data(),
               std::as_writable_bytes(std::span(to.normal)).data(), stride, stride});
   return to;
+}
+
+/// Standing, with both knees, hips and elbows bent by so many rad.
+inline Pose<float> bent(const Body& body, float knee, float hip, float elbow) {
+  const Pose<float> standing = standing_pose(body);
+  Pose<float> pose = standing;
+  const auto about_x = [](float angle) { return Quat<float>{std::sin(angle / 2), 0, 0, std::cos(angle / 2)}; };
+  for (std::size_t s = 0; s < segment_count; ++s) {
+    const Segment segment = static_cast<Segment>(s);
+    const std::size_t parent = index(segment_parent[s]);
+    if (s == parent) continue;
+    Quat<float> turn{0, 0, 0, 1};
+    if (segment == Segment::thigh_right || segment == Segment::thigh_left) turn = about_x(-hip);
+    if (segment == Segment::shank_right || segment == Segment::shank_left) turn = about_x(knee);
+    if (segment == Segment::forearm_right || segment == Segment::forearm_left) turn = about_x(-elbow);
+    pose.rotation[s] = product(pose.rotation[parent], turn);
+    pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
+  }
+  return pose;
 }
 
 }  // namespace mobil::skin_test

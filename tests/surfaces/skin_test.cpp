@@ -43,25 +43,6 @@ BodyRequest person(float height_m, float mass_kg, Sex sex = Sex::man) {
 const std::array<BodyRequest, 6> people = {person(1.75F, 75), person(1.90F, 84),  person(1.65F, 62, Sex::woman),
                                            person(1.75F, 58), person(1.75F, 105), person(1.60F, 85, Sex::woman)};
 
-/// Standing, with both knees, hips and elbows bent by so many rad.
-Pose<float> bent(const Body& body, float knee, float hip, float elbow) {
-  const Pose<float> standing = standing_pose(body);
-  Pose<float> pose = standing;
-  const auto about_x = [](float angle) { return Quat<float>{std::sin(angle / 2), 0, 0, std::cos(angle / 2)}; };
-  for (std::size_t s = 0; s < segment_count; ++s) {
-    const Segment segment = static_cast<Segment>(s);
-    const std::size_t parent = index(segment_parent[s]);
-    if (s == parent) continue;
-    Quat<float> turn{0, 0, 0, 1};
-    if (segment == Segment::thigh_right || segment == Segment::thigh_left) turn = about_x(-hip);
-    if (segment == Segment::shank_right || segment == Segment::shank_left) turn = about_x(knee);
-    if (segment == Segment::forearm_right || segment == Segment::forearm_left) turn = about_x(-elbow);
-    pose.rotation[s] = product(pose.rotation[parent], turn);
-    pose.position_m[s] = pose.position_m[parent] + rotated(pose.rotation[parent], body.joint_offset_m[s]);
-  }
-  return pose;
-}
-
 TEST(Skin, IsClosedAndBoundEverywhere) {
   for (const Sex sex : {Sex::man, Sex::woman}) {
     for (const SkinDetail detail : details) {

@@ -1,0 +1,150 @@
+// A skin mesh of somebody's own moves with the skin of their body.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/skin/own_skin.h"
+#include "assets/surfaces/surface_mesh.h"
+#include "systems/skinning/follow_skin.h"
+#include "tests/surfaces/skin_placed.h"
+
+namespace mobil::own_skin_test {
+using namespace geometry;
+using skin_test::bent;
+using skin_test::place;
+using skin_test::Placed;
+
+constexpr float top_m = 0.80F, seam_m = 0.06F;
+
+/// The right leg of a coarser skin, up to there, pushed out by so much; `from`: its vertices in that skin.
+struct Leg {
+  SurfaceMesh mesh;
+  std::vector<std::uint32_t> from;
+};
+Leg leg_of(const BodySkin& skin, float out_m) {
+  const SkinMesh& shared = skin_mesh(skin.sex, skin.detail);
+  const auto is_leg = [&](std::uint32_t v) {
+    using enum Segment;
+    const auto segment = static_cast<Segment>(segment_of(shared.frame[shared.vertex[v].frame[0]].to));
+    const auto of_leg = {thigh_right, patella_right, shank_right, foot_right, toes_right};
+    return skin.rest[v].y < top_m && std::ranges::find(of_leg, segment) != of_leg.end();
+  };
+  Leg leg;
+  std::vector<std::uint32_t> number(skin.rest.size(), ~0U);
+  for (std::size_t t = 0; t < shared.triangle.size(); t += 3) {
+    const std::uint32_t* const corner = &shared.triangle[t];
+    if (!std::all_of(corner, corner + 3, is_leg)) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      std::uint32_t& n = number[corner[k]];
+      if (n == ~0U) {
+        n = static_cast<std::uint32_t>(leg.from.size());
+        leg.from.push_back(corner[k]);
+        leg.mesh.position.push_back(skin.rest[corner[k]] + out_m * skin.normal[corner[k]]);
+      }
+      leg.mesh.triangle.push_back(n);
+    }
+  }
+  return leg;
+}
+
+struct Followed {
+  explicit Followed(const BodyRequest& request, float out_m)
+      : body(*make_body(request)),
+        skin(*make_body_skin(body, SkinDetail::hero, {.dressed = false})),
+        coarse(*make_body_skin(body, SkinDetail::near, {.dressed = false})),
+        leg(leg_of(coarse, out_m)),
+        own(bind_own_skin(skin, place(skin, skin.standing).position, place(skin, skin.standing).normal,
+                          {&leg.mesh, 1})) {}
+  Placed follow(const Pose<float>& pose) const {
+    const Placed at = place(skin, pose);
+    Placed to{std::vector<Vec3<float>>(own.vertex.size()), std::vector<Vec3<float>>(own.vertex.size())};
+    follow_skin(own, at.position, at.normal, to.position, to.normal);
+    return to;
+  }
+  Body body;
+  BodySkin skin, coarse;
+  Leg leg;
+  OwnSkin own;
+};
+
+TEST(OwnSkin, StandsWhereItWasAndComesToTheBodysAtItsTop) {
+  const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0.012F);
+  const Placed at = one.follow(one.skin.standing);
+  const std::size_t count = one.leg.mesh.position.size();
+  ASSERT_GT(count, 1000U);
+  ASSERT_EQ(at.position.size(), 2 * count) << "both legs";
+  double furthest = 0, most_top = 0;
+  for (std::size_t v = 0; v < count; ++v) {
+    const Vec3<float>&own = one.leg.mesh.position[v], &right = at.position[v], &left = at.position[count + v];
+    const auto off = static_cast<double>(length(right - own));
+    if (own.y < top_m - seam_m - 0.02F) furthest = std::max(furthest, off);
+    if (own.y > top_m - 0.004F) most_top = std::max(most_top, std::abs(off - 0.012));
+    EXPECT_NEAR(left.x, -right.x, 0.003F);
+    EXPECT_NEAR(left.y, right.y, 0.003F);
+    EXPECT_NEAR(length(at.normal[v]), 1, 1e-3F);
+  }
+  EXPECT_LT(furthest, 1e-5);
+  EXPECT_LT(most_top, 0.004) << "drawn in by what it stood off";
+}
+
+/// A coarser mesh of the same skin is where that skin itself would be, in poses up to a knee of 110 degrees.
+TEST(OwnSkin, MovesAsTheBodysSkinDoes) {
+  for (const BodyRequest& request : {BodyRequest{.height_m = 1.75F, .mass_kg = 75},
+                                     BodyRequest{.height_m = 1.62F, .mass_kg = 70, .sex = Sex::woman}}) {
+    const Followed one(request, 0);
+    for (const auto& [knee, hip] : {std::pair{0.5F, 0.3F}, {1.2F, 0.8F}, {1.92F, 1.4F}}) {
+      const Pose<float> pose = bent(one.body, knee, hip, 0);
+      const Placed own = one.follow(pose), itself = place(one.coarse, pose);
+      double squares = 0, most = 0;
+      for (std::size_t v = 0; v < one.leg.from.size(); ++v) {
+        const auto off = static_cast<double>(length(own.position[v] - itself.position[one.leg.from[v]]));
+        squares += off * off;
+        most = std::max(most, off);
+      }
+      const double rms = std::sqrt(squares / static_cast<double>(one.leg.from.size()));
+      std::printf("[ own skin ] knee %.0f deg: %.2f mm rms, %.1f at most\n", static_cast<double>(knee) * 57.3,
+                  1e3 * rms, 1e3 * most);
+      EXPECT_LT(rms, 0.002);
+      EXPECT_LT(most, 0.015);
+    }
+  }
+}
+
+/// Of the body's skin nothing is left in its place, and all of the rest.
+TEST(OwnSkin, TakesThePlaceOfTheLegsAlone) {
+  const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0);
+  const SkinMesh& mesh = skin_mesh(one.skin.sex, one.skin.detail);
+  ASSERT_EQ(one.own.first_left[skin_parts], one.own.left.size() / 3);
+  float top = 0;
+  for (const Vec3<float>& at : one.leg.mesh.position) top = std::max(top, at.y);
+  std::size_t shown = 0;
+  for (std::size_t t = 0; t < one.own.left.size(); t += 3) {
+    float highest = 0, side = 0;
+    bool hand = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = one.own.left[t + k];
+      highest = std::max(highest, one.skin.rest[v].y);
+      side = std::max(side, std::fabs(one.skin.rest[v].x));
+      hand = hand || mesh.frame[mesh.vertex[v].frame[0]].to >= index(Segment::clavicle_right);
+    }
+    EXPECT_TRUE(highest >= top || hand) << highest << ' ' << side;
+    ++shown;
+  }
+  EXPECT_GT(shown, mesh.triangle.size() / 3 / 4);
+  EXPECT_LT(shown, mesh.triangle.size() / 3);
+}
+
+TEST(OwnSkin, WithoutAMeshNothingChanges) {
+  const Body body = *make_body({.height_m = 1.75F, .mass_kg = 75});
+  const BodySkin skin = *make_body_skin(body, SkinDetail::near, {.dressed = false});
+  const Placed at = place(skin, skin.standing);
+  const OwnSkin own = bind_own_skin(skin, at.position, at.normal, {});
+  EXPECT_TRUE(own.vertex.empty());
+  EXPECT_EQ(own.left, skin_mesh(skin.sex, skin.detail).triangle);
+}
+
+}  // namespace mobil::own_skin_test

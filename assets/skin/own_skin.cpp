@@ -17,6 +17,8 @@ namespace {
 using namespace geometry;
 
 constexpr double seam_m = 0.06, furthest_m = 0.08, cap_m = 0.002;
+/// How far out skin may be under shorts, and how far up under them it is drawn.
+constexpr float under_cloth_m = 0.004F, over_hem_m = 0.04F;
 
 Vec unit(const Vec& v) {
   const double size = length(v);
@@ -65,12 +67,16 @@ class LegSkin {
  public:
   LegSkin(const BodySkin& skin, std::span<const Vec3<float>> position, std::span<const Vec3<float>> normal,
           std::size_t side)
-      : mesh_(skin_mesh(skin.sex, skin.detail)), position_(position), normal_(normal) {
+      : mesh_(skin_mesh(skin.sex, skin.detail)), position_(position), normal_(normal), shorts_(position.size()) {
     for (std::uint32_t t = 0; t < mesh_.triangle.size(); t += 3) {
       const std::uint32_t* const corner = &mesh_.triangle[t];
       if (std::all_of(corner, corner + 3, [&](std::uint32_t v) { return is_of_leg(skin, v, side); }))
         cells_[cell(middle(t))].push_back(t);
     }
+    constexpr auto part = static_cast<std::size_t>(SkinPart::shorts);
+    for (std::size_t i = 3 * std::size_t{mesh_.first_triangle[part]};
+         i < 3 * std::size_t{mesh_.first_triangle[part + 1]}; ++i)
+      shorts_[mesh_.triangle[i]] = true;
   }
 
   static bool is_of_leg(const BodySkin& skin, std::uint32_t v, std::size_t side) {
@@ -81,6 +87,19 @@ class LegSkin {
     const auto heaviest = std::ranges::max_element(hangs.weight) - std::begin(hangs.weight);
     const SkinFrame& frame = mesh.frame[hangs.frame[static_cast<std::size_t>(heaviest)]];
     return out > -over_the_middle_m && is_leg(frame.from) && is_leg(frame.to);
+  }
+
+  /// Whether what is nearest to it is of shorts.
+  bool is_under_shorts(const SkinFollower& one) const {
+    const auto is_in = [&](std::uint32_t v) { return shorts_[v]; };
+    return std::all_of(one.corner, one.corner + 3, is_in);
+  }
+  /// The lowest place of shorts, m.
+  float hem() const {
+    float lowest = std::numeric_limits<float>::infinity();
+    for (std::size_t v = 0; v < shorts_.size(); ++v)
+      if (shorts_[v]) lowest = std::min(lowest, position_[v].y);
+    return lowest;
   }
 
   /// Of a vertex and its normal.
@@ -166,6 +185,7 @@ class LegSkin {
   };
   const SkinMesh& mesh_;
   std::span<const Vec3<float>> position_, normal_;
+  std::vector<bool> shorts_;  // which vertices
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
 };
 
@@ -188,14 +208,16 @@ float top_of(const SurfaceMesh& mesh) {
   return std::ranges::max_element(mesh.position, {}, &Vec3<float>::y)->y;
 }
 
-void add_leg(const SurfaceMesh& whole, const LegSkin& skin, OwnSkin& own) {
+void add_leg(const SurfaceMesh& whole, const LegSkin& skin, bool shorts_stay, OwnSkin& own) {
   const double top = double{top_of(whole)};
+  const float covered = skin.hem() + over_hem_m;
   SurfaceMesh mesh{whole.name, whole.position, {}};
   for (std::size_t t = 0; t < whole.triangle.size(); t += 3) {
     const std::uint32_t* const corner = &whole.triangle[t];
-    const bool cap =
-        std::all_of(corner, corner + 3, [&](std::uint32_t v) { return double{whole.position[v].y} > top - cap_m; });
-    if (!cap) mesh.triangle.insert(mesh.triangle.end(), corner, corner + 3);
+    const auto all = [&](auto is) { return std::all_of(corner, corner + 3, is); };
+    const bool cap = all([&](std::uint32_t v) { return double{whole.position[v].y} > top - cap_m; });
+    const bool hidden = shorts_stay && all([&](std::uint32_t v) { return whole.position[v].y > covered; });
+    if (!cap && !hidden) mesh.triangle.insert(mesh.triangle.end(), corner, corner + 3);
   }
   drop_unused(mesh);
   const std::vector<Vec> normal = normals_of(mesh);
@@ -203,7 +225,9 @@ void add_leg(const SurfaceMesh& whole, const LegSkin& skin, OwnSkin& own) {
   for (std::size_t v = 0; v < mesh.position.size(); ++v) {
     const Vec p = to_double(mesh.position[v]);
     const double below = std::clamp((top - p.y) / seam_m, 0.0, 1.0);
-    own.vertex.push_back(skin.follower(p, normal[v], below * below * (3 - 2 * below)));
+    SkinFollower one = skin.follower(p, normal[v], below * below * (3 - 2 * below));
+    if (shorts_stay && skin.is_under_shorts(one)) one.beside_m.z = std::min(one.beside_m.z, under_cloth_m);
+    own.vertex.push_back(one);
   }
   for (const std::uint32_t v : mesh.triangle) own.triangle.push_back(first + v);
 }
@@ -211,7 +235,7 @@ void add_leg(const SurfaceMesh& whole, const LegSkin& skin, OwnSkin& own) {
 }  // namespace
 
 OwnSkin bind_own_skin(const BodySkin& skin, std::span<const Vec3<float>> position, std::span<const Vec3<float>> normal,
-                      std::span<const SurfaceMesh> legs, float hem_m) {
+                      std::span<const SurfaceMesh> legs, bool shorts_stay) {
   OwnSkin own;
   float top = -std::numeric_limits<float>::infinity();
   for (const std::size_t side : {std::size_t{Side::right}, std::size_t{Side::left}}) {
@@ -219,14 +243,14 @@ OwnSkin bind_own_skin(const BodySkin& skin, std::span<const Vec3<float>> positio
     for (const SurfaceMesh& mesh : legs) {
       if (mesh.triangle.empty()) continue;
       top = std::max(top, top_of(mesh));
-      add_leg(side == Side::right ? mesh : mirror_image(mesh), leg, own);
+      add_leg(side == Side::right ? mesh : mirror_image(mesh), leg, shorts_stay, own);
     }
   }
   const SkinMesh& shared = skin_mesh(skin.sex, skin.detail);
   for (std::size_t part = 0; part < skin_parts; ++part) {
-    const float below_m = top - (static_cast<SkinPart>(part) == SkinPart::shorts ? hem_m : 0);
+    const bool stays = shorts_stay && static_cast<SkinPart>(part) == SkinPart::shorts;
     const auto is_replaced = [&](std::uint32_t v) {
-      return skin.rest[v].y < below_m &&
+      return !stays && skin.rest[v].y < top &&
              (LegSkin::is_of_leg(skin, v, Side::right) || LegSkin::is_of_leg(skin, v, Side::left));
     };
     for (std::size_t t = shared.first_triangle[part]; t < shared.first_triangle[part + 1]; ++t) {

@@ -33,9 +33,9 @@ struct OwnSkin {
 /// Binds meshes of right legs, the body standing at x = z = 0 (m), and their mirror images. They may be closed flat at
 /// their top, which is left out; over the last 6 cm below it they come to the body's skin. `position`, `normal`: of the
 /// body's skin where it stands, over muscles as they are at rest (pose_skin). Vertices that are more than 8 cm beside
-/// it are brought as near as that. Meshes without triangles make nothing. `hem_m`: how far the body's shorts stay over
-/// them.
+/// it are brought as near as that. Meshes without triangles make nothing. `shorts_stay`: the body's
+/// shorts are shown, and what is under them is left out or keeps under them.
 OwnSkin bind_own_skin(const BodySkin& skin, std::span<const Vec3<float>> position, std::span<const Vec3<float>> normal,
-                      std::span<const SurfaceMesh> legs, float hem_m = 0);
+                      std::span<const SurfaceMesh> legs, bool shorts_stay = false);
 
 }  // namespace mobil

@@ -77,7 +77,7 @@ void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles, const 
 }
 
 Result<void> DrawnSkin::follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
-                               float hem_m) {
+                               bool shorts_stay) {
   auto made = make_body_skin(body, skin->detail, {.dressed = false});
   if (!made) return tl::unexpected(made.error());
   bare = std::move(*made);
@@ -87,7 +87,7 @@ Result<void> DrawnSkin::follow(const Body& body, std::span<const SurfaceMesh> le
     at_rest[Side::left].push_back({-at.x, at.y, at.z});
   }
   const PosedSkin under = posed(*bare, 1, bare->standing, at_rest, nullptr);
-  own = bind_own_skin(*bare, under.position, under.normal, legs, hem_m);
+  own = bind_own_skin(*bare, under.position, under.normal, legs, shorts_stay);
   return {};
 }
 

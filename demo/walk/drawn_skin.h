@@ -45,9 +45,9 @@ struct DrawnSkin {
   std::vector<Vec3<float>> own_position{}, own_normal{};
 
   /// Legs are drawn as these meshes of right legs (bind_own_skin). `rest_m`: of the right leg's muscles. `body`: whose
-  /// skin it is. `hem_m`: how far shorts stay over them.
+  /// skin it is. `shorts_stay`: as there.
   Result<void> follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
-                      float hem_m);
+                      bool shorts_stay);
   /// `muscles`: of the right and the left leg, as they are drawn in that pose; the skin covers them. `fat`: what
   /// wobbles.
   void pose(const Pose<float>& pose, const LegVertices& muscles = {}, const FatBeside* fat = nullptr);

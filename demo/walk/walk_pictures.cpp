@@ -100,7 +100,6 @@ struct FrameScene {
 /// The skin of the views that show it.
 Result<void> begin_skin(const WalkDrawing& drawing, WalkView view, FrameScene& scene) {
   if (view != WalkView::skin && view != WalkView::glass) return {};
-  constexpr float hem_m = 0.05F;
   const bool of_their_own = !drawing.figure->skins.empty(), dressed = view == WalkView::skin;
   auto made = make_body_skin(*drawing.body, SkinDetail::hero, {.dressed = dressed});
   if (!made) return tl::unexpected(made.error());
@@ -109,7 +108,7 @@ Result<void> begin_skin(const WalkDrawing& drawing, WalkView view, FrameScene& s
                 .colours = dressed ? skin_colours(0) : bare_colours(),
                 .opacity = opacity_of(view == WalkView::skin ? 1 : 0.45F)};
   if (!of_their_own) return {};
-  return scene.skin.follow(*drawing.body, drawing.figure->skins, drawing.figure->rest_m, dressed ? hem_m : 0);
+  return scene.skin.follow(*drawing.body, drawing.figure->skins, drawing.figure->rest_m, dressed);
 }
 
 void fill_scene(const WalkDrawing& drawing, WalkView view, std::size_t frame, FrameScene& scene) {

@@ -138,6 +138,32 @@ TEST(OwnSkin, TakesThePlaceOfTheLegsAlone) {
   EXPECT_LT(shown, mesh.triangle.size() / 3);
 }
 
+/// A leg that is stouter than its shorts does not come out of them.
+TEST(OwnSkin, StaysUnderShorts) {
+  const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0.03F);
+  const SkinMesh& mesh = skin_mesh(one.skin.sex, one.skin.detail);
+  const Placed standing = place(one.skin, one.skin.standing);
+  const OwnSkin own = bind_own_skin(one.skin, standing.position, standing.normal, {&one.leg.mesh, 1}, true);
+  constexpr auto shorts = static_cast<std::size_t>(SkinPart::shorts);
+  EXPECT_EQ(own.first_left[shorts + 1] - own.first_left[shorts],
+            mesh.first_triangle[shorts + 1] - mesh.first_triangle[shorts]);
+  EXPECT_LT(own.triangle.size(), one.own.triangle.size());
+  float hem = 9;
+  for (std::size_t i = 3 * std::size_t{mesh.first_triangle[shorts]};
+       i < 3 * std::size_t{mesh.first_triangle[shorts + 1]}; ++i)
+    hem = std::min(hem, one.skin.rest[mesh.triangle[i]].y);
+  std::vector<Vec3<float>> position(own.vertex.size()), normal(own.vertex.size());
+  follow_skin(own, standing.position, standing.normal, position, normal);
+  std::size_t under = 0;
+  for (std::size_t v = 0; v < own.vertex.size(); ++v) {
+    if (position[v].y < hem + 0.01F) continue;
+    ++under;
+    EXPECT_LT(own.vertex[v].beside_m.z, 0.0041F);
+    EXPECT_LT(position[v].y, hem + 0.09F);
+  }
+  EXPECT_GT(under, 10U);
+}
+
 TEST(OwnSkin, WithoutAMeshNothingChanges) {
   const Body body = *make_body({.height_m = 1.75F, .mass_kg = 75});
   const BodySkin skin = *make_body_skin(body, SkinDetail::near, {.dressed = false});

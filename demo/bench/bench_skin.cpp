@@ -91,8 +91,8 @@ Result<void> time_table(BenchRun& run) {
   const Measured time =
       measure_short([&] { cover_by_table(**table, leg_angles_of(pose, Side::right), cover.lift_m[Side::right]); });
   BenchResult& result = run.add_time("skin.table.us_per_leg", time, 1, 1e-6, "us");
-  result.of_peak = 2.0 * skin_terms * leg_grid_points * 1e-3 / result.value / run.machine.fma_peak_gflops;
-  result.bound = fmt::format("{} terms of {} points", skin_terms, leg_grid_points);
+  result.of_peak = 2.0 * skin_modes * leg_grid_points * 1e-3 / result.value / run.machine.fma_peak_gflops;
+  result.bound = fmt::format("{} modes of {} points", skin_modes, leg_grid_points);
   return {};
 }
 

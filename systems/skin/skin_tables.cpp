@@ -1,6 +1,7 @@
 #include "systems/skin/skin_tables.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -76,10 +77,23 @@ class Fit {
 
   std::unique_ptr<SkinTable> table() const {
     const Matrix fitted = square_.ldlt().solve(right_);
+    // The modes that leave least out over all that was added: the fit, in units in which terms weigh alike and are
+    // apart, cut to its greatest singular values.
+    const Eigen::SelfAdjointEigenSolver<Matrix> terms(square_);
+    const Eigen::VectorXd root = terms.eigenvalues().cwiseMax(0).cwiseSqrt();
+    const Matrix alike = root.asDiagonal() * terms.eigenvectors().transpose() * fitted;
+    const Eigen::SelfAdjointEigenSolver<Matrix> shapes(alike * alike.transpose());
+    const Matrix greatest = shapes.eigenvectors().rightCols(skin_modes);
+    const Matrix mode = greatest.transpose() * alike;
+    const Matrix weight = terms.eigenvectors() * root.cwiseInverse().asDiagonal() * greatest;
     auto table = std::make_unique<SkinTable>();
-    for (std::size_t t = 0; t < skin_terms; ++t)
+    for (std::size_t m = 0; m < skin_modes; ++m) {
+      const auto of = static_cast<Eigen::Index>(m);
+      for (std::size_t t = 0; t < skin_terms; ++t)
+        table->weight[t][m] = static_cast<float>(weight(static_cast<Eigen::Index>(t), of));
       for (std::size_t p = 0; p < leg_grid_points; ++p)
-        table->term[t][p] = static_cast<float>(fitted(static_cast<Eigen::Index>(t), static_cast<Eigen::Index>(p)));
+        table->mode[m][p] = static_cast<float>(mode(of, static_cast<Eigen::Index>(p)));
+    }
     return table;
   }
 

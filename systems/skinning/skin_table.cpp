@@ -7,22 +7,24 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "components/segments.h"
 #include "engine/fused-inl.h"
-#include "engine/geometry.h"
 #include "systems/skinning/eight-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace {
 
-void sum_terms(const SkinTable& table, const std::array<float, skin_terms>& value, float* lift_m) {
-  constexpr EightTag tag;
-  for (std::size_t n = 0; n < leg_grid_points; n += eight_lanes) {
-    auto sum = hn::Mul(hn::Set(tag, value[0]), hn::Load(tag, &table.term[0][n]));
-    for (std::size_t t = 1; t < skin_terms; ++t)
-      sum = mul_add(hn::Set(tag, value[t]), hn::Load(tag, &table.term[t][n]), sum);
+void sum_modes(const SkinTable& table, const std::array<float, skin_modes>& share, float* lift_m) {
+  const hn::CappedTag<float, 16> tag;  // all of them divide the grid
+  static_assert(leg_grid_points % 16 == 0);
+  hn::Vec<decltype(tag)> all[skin_modes];
+  for (std::size_t m = 0; m < skin_modes; ++m) all[m] = hn::Set(tag, share[m]);
+  for (std::size_t n = 0; n < leg_grid_points; n += hn::Lanes(tag)) {
+    auto sum = hn::Mul(all[0], hn::Load(tag, &table.mode[0][n]));
+    for (std::size_t m = 1; m < skin_modes; ++m) sum = mul_add(all[m], hn::Load(tag, &table.mode[m][n]), sum);
     hn::StoreU(sum, tag, lift_m + n);
   }
 }
@@ -35,23 +37,34 @@ HWY_AFTER_NAMESPACE();
 namespace mobil {
 namespace {
 
-HWY_EXPORT(sum_terms);
+HWY_EXPORT(sum_modes);
 
-using namespace geometry;
+/// The angle whose tangent is y over x, x not below 0 (Abramowitz and Stegun 4.4.49: to 2e-8 and rounding).
+float angle_of(float y, float x) {
+  constexpr std::array odd = {0.0028662257F, -0.0161657367F, 0.0429096138F, -0.0752896400F,
+                              0.1065626393F, -0.1420889944F, 0.1999355085F, -0.3333314528F};
+  const float high = std::abs(y), least = std::min(high, x), most = std::max(high, x);
+  const float t = most > 0 ? least / most : 0, square = t * t;
+  float sum = odd[0];
+  for (std::size_t i = 1; i < odd.size(); ++i) sum = sum * square + odd[i];
+  const float near = t + t * square * sum, angle = high > x ? 0.5F * std::numbers::pi_v<float> - near : near;
+  return y < 0 ? -angle : angle;
+}
 
 /// About x, above 0 where the lower segment is turned back.
-float bent_back(const Pose<float>& pose, std::size_t upper, std::size_t lower) {
-  const Quat<float> joint = product(conjugate(pose.rotation[upper]), pose.rotation[lower]);
-  return 2 * std::atan2(joint.w < 0 ? -joint.x : joint.x, std::abs(joint.w));
+float bent_back(const Quat<float>& upper, const Quat<float>& lower) {
+  const float w = upper.w * lower.w + upper.x * lower.x + upper.y * lower.y + upper.z * lower.z;
+  const float x = upper.w * lower.x - upper.x * lower.w - upper.y * lower.z + upper.z * lower.y;
+  return 2 * angle_of(w < 0 ? -x : x, std::abs(w));
 }
 
 }  // namespace
 
 LegAngles leg_angles_of(const Pose<float>& pose, Side side) {
-  const std::size_t pelvis = index(Segment::pelvis), thigh = index(on_side(Segment::thigh_right, side)),
-                    shank = index(on_side(Segment::shank_right, side)),
-                    foot = index(on_side(Segment::foot_right, side));
-  return {-bent_back(pose, pelvis, thigh), bent_back(pose, thigh, shank), -bent_back(pose, shank, foot)};
+  const auto of = [&](Segment right) -> const Quat<float>& { return pose.rotation[index(on_side(right, side))]; };
+  const Quat<float>&pelvis = pose.rotation[index(Segment::pelvis)], &thigh = of(Segment::thigh_right),
+        &shank = of(Segment::shank_right), &foot = of(Segment::foot_right);
+  return {-bent_back(pelvis, thigh), bent_back(thigh, shank), -bent_back(shank, foot)};
 }
 
 std::array<float, skin_terms> skin_term_values(const LegAngles& angles) {
@@ -62,7 +75,11 @@ std::array<float, skin_terms> skin_term_values(const LegAngles& angles) {
 }
 
 void cover_by_table(const SkinTable& table, const LegAngles& angles, std::array<float, leg_grid_points>& lift_m) {
-  HWY_DYNAMIC_DISPATCH(sum_terms)(table, skin_term_values(angles), lift_m.data());
+  const std::array<float, skin_terms> value = skin_term_values(angles);
+  std::array<float, skin_modes> share{};
+  for (std::size_t t = 0; t < skin_terms; ++t)
+    for (std::size_t m = 0; m < skin_modes; ++m) share[m] += value[t] * table.weight[t][m];
+  HWY_DYNAMIC_DISPATCH(sum_modes)(table, share, lift_m.data());
 }
 
 }  // namespace mobil

@@ -76,11 +76,13 @@ TEST(SkinTable, IsNearTheSkinOverMusclesInWalks) {
   }
 }
 
-TEST(SkinTable, SaysWhatItsTermsSay) {
+TEST(SkinTable, SaysWhatItsTermsAndModesSay) {
   SkinTable table;
-  for (std::size_t t = 0; t < skin_terms; ++t)
+  for (std::size_t m = 0; m < skin_modes; ++m) {
+    for (std::size_t t = 0; t < skin_terms; ++t) table.weight[t][m] = std::cos(static_cast<float>(t * skin_modes + m));
     for (std::size_t n = 0; n < leg_grid_points; ++n)
-      table.term[t][n] = 1e-3F * std::sin(static_cast<float>(t * leg_grid_points + n));
+      table.mode[m][n] = 1e-3F * std::sin(static_cast<float>(m * leg_grid_points + n));
+  }
   const Body body = *make_body({});
   const Pose<float> pose = with_bent_legs(body, {30, 60, -15});
   const LegAngles right = leg_angles_of(pose, Side::right), left = leg_angles_of(pose, Side::left);
@@ -95,8 +97,10 @@ TEST(SkinTable, SaysWhatItsTermsSay) {
   for (const auto& lift : all) EXPECT_EQ(std::memcmp(&lift, all.data(), sizeof lift), 0);
   for (std::size_t n = 0; n < leg_grid_points; ++n) {
     double sum = 0;
-    for (std::size_t t = 0; t < skin_terms; ++t)
-      sum += static_cast<double>(value[t]) * static_cast<double>(table.term[t][n]);
+    for (std::size_t m = 0; m < skin_modes; ++m)
+      for (std::size_t t = 0; t < skin_terms; ++t)
+        sum += static_cast<double>(value[t]) * static_cast<double>(table.weight[t][m]) *
+               static_cast<double>(table.mode[m][n]);
     ASSERT_NEAR(all[0][n], sum, 1e-8);
   }
   // beyond the poses that a table is made from it stays as it is there

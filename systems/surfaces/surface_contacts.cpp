@@ -1,0 +1,328 @@
+#include "systems/surfaces/surface_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "engine/geometry.h"
+#include "engine/row_hash.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+constexpr float near_m = 0.015F;  // at rest
+constexpr int rounds = 3, shifts = 2, sweeps = 2, bands_each = 12;
+
+/// Vertices by cells of space.
+class VertexCells {
+ public:
+  void add(std::uint32_t vertex, const Vec3<float>& at) { cells_[cell(at)].push_back(vertex); }
+  template <class F>
+  void near(const Vec3<float>& at, const F& f) const {
+    const Cell c = cell(at);
+    for (std::int32_t x = -1; x <= 1; ++x)
+      for (std::int32_t y = -1; y <= 1; ++y)
+        for (std::int32_t z = -1; z <= 1; ++z)
+          if (const auto found = cells_.find({c[0] + x, c[1] + y, c[2] + z}); found != cells_.end())
+            for (const std::uint32_t v : found->second) f(v);
+  }
+
+ private:
+  using Cell = std::array<std::int32_t, 3>;
+  static Cell cell(const Vec3<float>& at) {
+    const auto of = [](float m) { return static_cast<std::int32_t>(std::floor(m / near_m)); };
+    return {of(at.x), of(at.y), of(at.z)};
+  }
+  struct Hash {
+    std::size_t operator()(const Cell& c) const { return hash_bytes(c.data(), sizeof c); }
+  };
+  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
+};
+
+void link_neighbours(const BodySurfaces& surfaces, std::span<const Vec3<float>> position, SurfaceContacts& contacts) {
+  std::vector<std::vector<std::uint32_t>> beside(surfaces.vertices);
+  for (std::size_t t = 0; t < surfaces.index.size(); t += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      auto& of = beside[surfaces.index[t + k]];
+      for (const std::size_t next : {(k + 1) % 3, (k + 2) % 3}) of.push_back(surfaces.index[t + next]);
+    }
+  }
+  contacts.first_neighbour.push_back(0);
+  for (std::size_t v = 0; v < beside.size(); ++v) {
+    auto& of = beside[v];
+    float longest = 0;
+    for (const std::uint32_t other : of) longest = std::max(longest, length(position[other] - position[v]));
+    contacts.edge_m.push_back(longest);
+    std::ranges::sort(of);
+    const auto [first, last] = std::ranges::unique(of);
+    contacts.neighbour.insert(contacts.neighbour.end(), of.begin(), first);
+    contacts.first_neighbour.push_back(static_cast<std::uint32_t>(contacts.neighbour.size()));
+  }
+}
+
+/// Parts of each muscle's length, along the line between its highest and its lowest vertex at rest.
+void cut_into_bands(const BodySurfaces& surfaces, std::span<const Vec3<float>> position, SurfaceContacts& contacts) {
+  contacts.band.assign(surfaces.vertices, SurfaceContacts::no_band);
+  contacts.within.assign(surfaces.vertices, 0);
+  for (const SurfacePart& part : surfaces.part) {
+    if (!part.driver || part.vertices == 0) continue;
+    const auto of = position.subspan(part.first_vertex, part.vertices);
+    const auto [low, high] = std::ranges::minmax_element(of, {}, &Vec3<float>::y);
+    const Vec3<float> along = *high - *low;
+    const float square = std::max(dot(along, along), 1e-12F);
+    for (std::uint32_t v = 0; v < part.vertices; ++v) {
+      const float t = std::clamp(dot(of[v] - *low, along) / square, 0.0F, 0.9999F);
+      const auto band = static_cast<std::uint16_t>(t * bands_each);
+      contacts.band[part.first_vertex + v] = static_cast<std::uint16_t>(contacts.bands + band);
+      contacts.within[part.first_vertex + v] = t * bands_each - static_cast<float>(band);
+    }
+    contacts.bands = static_cast<std::uint16_t>(contacts.bands + bands_each);
+    contacts.triangle.insert(contacts.triangle.end(), surfaces.index.begin() + part.first_index,
+                             surfaces.index.begin() + part.first_index + part.indices);
+  }
+}
+
+}  // namespace
+
+SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3<float>> position,
+                              std::span<const Vec3<float>> normal) {
+  SurfaceContacts contacts;
+  link_neighbours(surfaces, position, contacts);
+  cut_into_bands(surfaces, position, contacts);
+  VertexCells cells;
+  std::vector<std::uint32_t> part_of(surfaces.vertices);
+  for (std::uint32_t p = 0; p < surfaces.part.size(); ++p) {
+    const SurfacePart& part = surfaces.part[p];
+    for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
+      part_of[v] = p;
+      cells.add(v, position[v]);
+    }
+  }
+  struct Nearest {
+    std::uint32_t vertex;
+    float square;
+  };
+  std::map<std::uint32_t, Nearest> nearest;  // by part
+  for (std::uint32_t v = 0; v < surfaces.vertices; ++v) {
+    const SurfacePart& own = surfaces.part[part_of[v]];
+    if (!own.driver) continue;
+    nearest.clear();
+    cells.near(position[v], [&](std::uint32_t other) {
+      const SurfacePart& theirs = surfaces.part[part_of[other]];
+      if (part_of[other] == part_of[v] || (theirs.driver == own.driver)) return;
+      const Vec3<float> off = position[v] - position[other];
+      const float square = dot(off, off);
+      if (square > near_m * near_m) return;
+      const auto [at, is_new] = nearest.try_emplace(part_of[other], Nearest{other, square});
+      if (!is_new && square < at->second.square) at->second = {other, square};
+    });
+    for (const auto& [part, one] : nearest) {
+      const float out = dot(normal[one.vertex], position[v] - position[one.vertex]);
+      contacts.pair.push_back({v, one.vertex, std::min(out, 0.0F)});
+    }
+  }
+  return contacts;
+}
+
+namespace {
+
+/// What a vertex touches.
+constexpr std::uint8_t touches_muscle = 1, touches_bone = 2;
+
+class Apart {
+ public:
+  Apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position, std::span<Vec3<float>> normal,
+        ContactWork& work)
+      : contacts_(contacts), position_(position), normal_(normal), work_(work) {
+    work_.touches.assign(position.size(), 0);
+    work_.taken.assign(contacts.bands, 0);
+    find_areas();
+  }
+
+  /// Sections of a belly go aside as a whole, less towards its ends, as far as they are pushed in the mean.
+  void shift() {
+    find_pushes();
+    auto& shift = work_.shift;
+    shift.assign(contacts_.bands, {0, 0, 0});
+    work_.pushed_area.assign(contacts_.bands, 0);
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      const Vec3<float>& by = work_.push[v];
+      if (by.x == 0 && by.y == 0 && by.z == 0) continue;
+      shift[contacts_.band[v]] = shift[contacts_.band[v]] + work_.area[v] * by;
+      work_.pushed_area[contacts_.band[v]] += work_.area[v];
+    }
+    for (std::size_t b = 0; b < contacts_.bands; ++b) {
+      const float part = (static_cast<float>(b % bands_each) + 0.5F) / bands_each, free = 4 * part * (1 - part);
+      shift[b] = free / std::max(work_.pushed_area[b], 1e-9F) * shift[b];
+    }
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (contacts_.band[v] != SurfaceContacts::no_band) position_[v] = position_[v] + shift_of(v);
+  }
+
+  void sweep() {
+    find_pushes();
+    smooth();
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      const Vec3<float>& by = work_.push[v];
+      if (contacts_.band[v] == SurfaceContacts::no_band || (by.x == 0 && by.y == 0 && by.z == 0)) continue;
+      work_.taken[contacts_.band[v]] += work_.area[v] * dot(normal_[v], by);
+      position_[v] = position_[v] + by;
+    }
+  }
+
+  /// What was taken from each section goes back to it, outwards where it lies on no bone: neighbours make room in the
+  /// next round; in the `last` one only where it touches nobody.
+  void give_back(bool last) {
+    constexpr float most_m = 0.004F;
+    const auto takes = [&](std::size_t v) {
+      return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] < (last ? touches_muscle : touches_bone);
+    };
+    work_.free_area.assign(contacts_.bands, 0);
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (takes(v)) work_.free_area[contacts_.band[v]] += work_.area[v];
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      if (!takes(v)) continue;
+      const std::uint16_t band = contacts_.band[v];
+      const float out = std::clamp(-work_.taken[band] / std::max(work_.free_area[band], 1e-9F), -most_m, most_m);
+      position_[v] = position_[v] + out * normal_[v];
+    }
+    for (std::size_t b = 0; b < contacts_.bands; ++b) {
+      const float room = most_m * work_.free_area[b];
+      work_.taken[b] -= std::clamp(work_.taken[b], -room, room);
+    }
+  }
+
+  void make_normals() {
+    const auto is_muscle = [&](std::size_t v) { return contacts_.band[v] != SurfaceContacts::no_band; };
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (is_muscle(v)) normal_[v] = {0, 0, 0};
+    each_triangle([&](const std::uint32_t* corner, const Vec3<float>& twice) {
+      for (std::size_t k = 0; k < 3; ++k) normal_[corner[k]] = normal_[corner[k]] + twice;
+    });
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      if (!is_muscle(v)) continue;
+      const float square = dot(normal_[v], normal_[v]);
+      normal_[v] = square > 0 ? 1 / std::sqrt(square) * normal_[v] : Vec3<float>{0, 1, 0};
+    }
+  }
+
+ private:
+  /// `f(corners, twice the area along the normal)`.
+  template <class F>
+  void each_triangle(const F& f) const {
+    for (std::size_t t = 0; t < contacts_.triangle.size(); t += 3) {
+      const std::uint32_t* const corner = &contacts_.triangle[t];
+      const Vec3<float>& a = position_[corner[0]];
+      f(corner, cross(position_[corner[1]] - a, position_[corner[2]] - a));
+    }
+  }
+  void find_areas() {
+    work_.area.assign(position_.size(), 0);
+    each_triangle([&](const std::uint32_t* corner, const Vec3<float>& twice) {
+      const float third = std::sqrt(dot(twice, twice)) / 6;
+      for (std::size_t k = 0; k < 3; ++k) work_.area[corner[k]] += third;
+    });
+  }
+  void find_pushes() {
+    work_.push.assign(position_.size(), {0, 0, 0});
+    for (const ContactPair& pair : contacts_.pair) push(pair);
+  }
+  /// Between the middles of its band and of the next one.
+  Vec3<float> shift_of(std::size_t v) const {
+    const std::size_t band = contacts_.band[v], first = band - band % bands_each, last = first + bands_each - 1;
+    const float from_middle = contacts_.within[v] - 0.5F;
+    const std::size_t next = from_middle < 0 ? std::max(band, first + 1) - 1 : std::min(band + 1, last);
+    const float part = std::abs(from_middle);
+    return (1 - part) * work_.shift[band] + part * work_.shift[next];
+  }
+  bool is_free(std::size_t v) const { return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] == 0; }
+
+  /// From where the other surface was nearest at rest, along its edges to where it is now.
+  std::uint32_t nearest(const ContactPair& pair) const {
+    constexpr int most_steps = 12;
+    const Vec3<float>& at = position_[pair.vertex];
+    const auto square = [&](std::uint32_t v) {
+      const Vec3<float> off = at - position_[v];
+      return dot(off, off);
+    };
+    std::uint32_t best = pair.other;
+    float least = square(best);
+    for (int step = 0; step < most_steps; ++step) {
+      const std::uint32_t from = best;
+      for (std::uint32_t i = contacts_.first_neighbour[from]; i < contacts_.first_neighbour[from + 1]; ++i) {
+        const std::uint32_t next = contacts_.neighbour[i];
+        if (const float s = square(next); s < least) {
+          least = s;
+          best = next;
+        }
+      }
+      if (best == from) break;
+    }
+    return best;
+  }
+
+  void push(const ContactPair& pair) {
+    constexpr float near_by_m = 0.004F, deepest_m = 0.045F;
+    const std::uint32_t other = nearest(pair);
+    const Vec3<float> off = position_[pair.vertex] - position_[other], &out = normal_[other];
+    const float gap = dot(off, out), beside = dot(off, off) - gap * gap, depth = pair.rest_m - gap;
+    const float most_beside = contacts_.edge_m[other];  // farther it is beside the other's edge
+    if (beside > most_beside * most_beside || gap < -deepest_m) return;
+    const bool bone = contacts_.band[other] == SurfaceContacts::no_band;
+    if (depth > -near_by_m) {
+      for (const std::uint32_t v : {pair.vertex, other})
+        work_.touches[v] = std::max(work_.touches[v], bone ? touches_bone : touches_muscle);
+    }
+    if (depth <= 0) return;
+    raise(pair.vertex, (bone ? depth : 0.5F * depth) * out);
+    if (!bone) raise(other, -0.5F * depth * out);
+  }
+  /// The larger of what a vertex is pushed by and another push.
+  void raise(std::uint32_t v, const Vec3<float>& by) {
+    Vec3<float>& now = work_.push[v];
+    if (dot(by, by) > dot(now, now)) now = by;
+  }
+
+  /// No dents of single vertices: neighbours come along by half.
+  void smooth() {
+    constexpr int passes = 2;
+    work_.smooth.resize(position_.size());
+    for (int pass = 0; pass < passes; ++pass) {
+      for (std::uint32_t v = 0; v < position_.size(); ++v) {
+        const std::uint32_t first = contacts_.first_neighbour[v], last = contacts_.first_neighbour[v + 1];
+        if (contacts_.band[v] == SurfaceContacts::no_band || first == last) {
+          work_.smooth[v] = {0, 0, 0};
+          continue;
+        }
+        Vec3<float> sum{0, 0, 0};
+        for (std::uint32_t i = first; i < last; ++i) sum = sum + work_.push[contacts_.neighbour[i]];
+        work_.smooth[v] = 0.6F * work_.push[v] + 0.4F / static_cast<float>(last - first) * sum;
+      }
+      std::swap(work_.push, work_.smooth);
+    }
+  }
+
+  const SurfaceContacts& contacts_;
+  std::span<Vec3<float>> position_, normal_;
+  ContactWork& work_;
+};
+
+}  // namespace
+
+void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position, std::span<Vec3<float>> normal,
+                ContactWork& work) {
+  Apart apart(contacts, position, normal, work);
+  for (int round = 0; round < rounds; ++round) {
+    for (int i = 0; i < shifts; ++i) apart.shift();
+    for (int i = 0; i < sweeps; ++i) apart.sweep();
+    apart.give_back(round + 1 == rounds);
+    apart.make_normals();
+  }
+}
+
+}  // namespace mobil

@@ -27,14 +27,54 @@ SurfaceChoice choice_of(const Simulation& simulation, const Human& human) {
   return choice;
 }
 
-Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const SurfaceChoice& choice) {
+/// Writes a body's surfaces into memory of its own; nothing where muscles are gone.
+struct WrittenSurfaces {
+  std::vector<Vec3<float>> position, normal;
+};
+WrittenSurfaces written(const BodySurfaces& surfaces, const Simulation& simulation, Entity person) {
+  std::vector<SurfaceMuscle> muscles;
+  for (const BodySurfaces::Driver& driver : surfaces.driver) {
+    muscles.push_back({driver.muscle,
+                       {simulation.muscle(person, driver.muscle, Side::right),
+                        simulation.muscle(person, driver.muscle, Side::left)}});
+  }
+  WrittenSurfaces to{std::vector<Vec3<float>>(surfaces.vertices), std::vector<Vec3<float>>(surfaces.vertices)};
+  SurfaceRequest request{person, muscles, &surfaces};
+  request.positions.bytes = std::as_writable_bytes(std::span(to.position));
+  request.normals.bytes = std::as_writable_bytes(std::span(to.normal));
+  SurfaceWriter writer;
+  if (!writer.write(simulation.world(), {&request, 1})) to.position.assign(to.position.size(), {});
+  return to;
+}
+
+/// Who may touch whom: as the same body stands, its muscles at rest.
+Result<SurfaceContacts> contacts_of(const BodySurfaces& surfaces, const Human& human) {
+  Simulation still;
+  const auto model = still.spawn_posed(human.body.request);
+  if (!model) return tl::unexpected(model.error());
+  LegMuscles choice = human.leg_muscles;
+  choice.method = Method::none;
+  choice.activation = ExcitationSource::none;
+  choice.inertia = false;
+  if (auto done = still.add_leg_muscles(*model, choice); !done) return tl::unexpected(done.error());
+  still.tick();
+  const WrittenSurfaces rest = written(surfaces, still, *model);
+  return find_contacts(surfaces, rest.position, rest.normal);
+}
+
+Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact) {
   Figure figure;
-  auto muscles = bind_surfaces(human.body, {{}, std::move(drawn.muscles)}, choice);
+  figure.bones = std::move(drawn.bones);
+  drawn.bones = contact ? figure.bones : std::vector<BoneSurface>{};
+  auto muscles = bind_surfaces(human.body, drawn, choice);
   if (!muscles) return tl::unexpected(muscles.error());
   figure.muscles = std::move(*muscles);
-  figure.bones = std::move(drawn.bones);
   for (const SurfacePart& part : figure.muscles.part)
     figure.colours.push_back(is_tendon(part.name) ? tendon_colour : belly_colour);
+  if (!contact) return figure;
+  auto contacts = contacts_of(figure.muscles, human);
+  if (!contacts) return tl::unexpected(contacts.error());
+  figure.contacts = std::move(*contacts);
   return figure;
 }
 
@@ -61,7 +101,8 @@ std::vector<std::string> all_said(const Anatomy& anatomy) {
   return said;
 }
 
-Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, const std::filesystem::path& folder) {
+Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, const std::filesystem::path& folder,
+                           bool contact) {
   const auto anatomy = load_anatomy(folder.string(), {.skin = true});
   if (!anatomy) return tl::unexpected(anatomy.error());
   auto fitted = fit_anatomy(*anatomy, human.body);
@@ -80,7 +121,7 @@ Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, cons
   std::vector<Vec3<float>> rest_m;
   for (const auto& muscle : drawn.muscles)
     rest_m.insert(rest_m.end(), muscle.surface.mesh.position.begin(), muscle.surface.mesh.position.end());
-  auto figure = bound_figure(human, std::move(drawn), choice);
+  auto figure = bound_figure(human, std::move(drawn), choice, contact);
   if (!figure) return figure;
   figure->said = all_said(*anatomy);
   figure->skins = std::move(fitted->skins);
@@ -91,13 +132,13 @@ Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, cons
 }  // namespace
 
 Result<Figure> make_figure(const Simulation& simulation, const Human& human,
-                           const std::optional<std::filesystem::path>& anatomy) {
+                           const std::optional<std::filesystem::path>& anatomy, bool contact) {
   SurfaceChoice choice = choice_of(simulation, human);
-  if (anatomy) return real_figure(human, choice, *anatomy);
+  if (anatomy) return real_figure(human, choice, *anatomy, contact);
   choice.bones = true;
   auto drawn = draw_surfaces(human.body, choice);
   if (!drawn) return tl::unexpected(drawn.error());
-  return bound_figure(human, std::move(*drawn), choice);
+  return bound_figure(human, std::move(*drawn), choice, contact);
 }
 
 WalkRecording begin_recording(const Figure& figure, float frame_s) {
@@ -106,6 +147,7 @@ WalkRecording begin_recording(const Figure& figure, float frame_s) {
   recording.bones = figure.bones;
   for (std::size_t i = 0; i < figure.muscles.part.size(); ++i) {
     const SurfacePart& part = figure.muscles.part[i];
+    if (!part.driver) continue;
     RecordedMuscle recorded;
     recorded.name = part.name;
     recorded.segment = part.segment;
@@ -121,21 +163,16 @@ void record_frame(const Figure& figure, const Simulation& simulation, const Huma
   const auto pose = simulation.get<Pose>(human.entity);
   if (!pose) return;
   recording.frames.push_back(*pose);
-  std::vector<SurfaceMuscle> muscles;
-  for (const BodySurfaces::Driver& driver : figure.muscles.driver) {
-    muscles.push_back({driver.muscle,
-                       {simulation.muscle(human.entity, driver.muscle, Side::right),
-                        simulation.muscle(human.entity, driver.muscle, Side::left)}});
+  WrittenSurfaces now = written(figure.muscles, simulation, human.entity);
+  if (figure.contacts) {
+    ContactWork work;
+    keep_apart(*figure.contacts, now.position, now.normal, work);
   }
-  std::vector<Vec3<float>> position(figure.muscles.vertices);
-  SurfaceRequest request{human.entity, muscles, &figure.muscles};
-  request.positions.bytes = std::as_writable_bytes(std::span(position));
-  SurfaceWriter writer;
-  if (!writer.write(simulation.world(), {&request, 1})) position.assign(position.size(), {});  // muscles that are gone
-  for (std::size_t i = 0; i < figure.muscles.part.size(); ++i) {
-    const SurfacePart& part = figure.muscles.part[i];
-    const auto first = position.begin() + part.first_vertex;
-    recording.muscles[i].position_m.emplace_back(first, first + part.vertices);
+  std::size_t muscle = 0;
+  for (const SurfacePart& part : figure.muscles.part) {
+    if (!part.driver) continue;
+    const auto first = now.position.begin() + part.first_vertex;
+    recording.muscles[muscle++].position_m.emplace_back(first, first + part.vertices);
   }
 }
 

@@ -8,23 +8,25 @@
 
 #include "assets/export/walk_recording.h"
 #include "systems/simulation.h"
+#include "systems/surfaces/surface_contacts.h"
 #include "systems/surfaces/surfaces.h"
 
 namespace mobil {
 
 struct Figure {
   std::vector<BoneSurface> bones;
-  BodySurfaces muscles;              // muscles alone, of each right and left
+  BodySurfaces muscles;              // of each right and left; with contacts bones, too, which are not drawn from here
   std::vector<Vec3<float>> colours;  // linear; of each part
-  std::vector<std::string> said;     // about the folder and its meshes, "FILE: …"
-  std::vector<SurfaceMesh> skins;    // of right legs, where the folder has some (assets/skin/own_skin.h)
-  std::vector<Vec3<float>> rest_m;   // then all vertices of the right leg's muscles at rest
+  std::optional<SurfaceContacts> contacts;
+  std::vector<std::string> said;    // about the folder and its meshes, "FILE: …"
+  std::vector<SurfaceMesh> skins;   // of right legs, where the folder has some (assets/skin/own_skin.h)
+  std::vector<Vec3<float>> rest_m;  // then all vertices of the right leg's muscles at rest
 };
 
 /// Surfaces for one person with muscles. Without a folder they are generated from published dimensions. Errors: those
-/// of reading and fitting the folder's meshes.
+/// of reading and fitting the folder's meshes. `contact`: muscles are kept out of each other and of bones.
 Result<Figure> make_figure(const Simulation& simulation, const Human& human,
-                           const std::optional<std::filesystem::path>& anatomy);
+                           const std::optional<std::filesystem::path>& anatomy, bool contact = false);
 
 /// Begins a recording of the figure: bones, and each muscle's name, triangles and colour, right then left.
 WalkRecording begin_recording(const Figure& figure, float frame_s);

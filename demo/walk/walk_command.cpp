@@ -261,7 +261,7 @@ Result<void> run_walk(const WalkOptions& asked) {
   if (!added) return added;
   const Human human = *simulation.human(*entity);
   set_edges(options.ground, human.body.request.height_m, human.gait.step_length_m);
-  const auto figure = make_figure(simulation, human, options.anatomy);
+  const auto figure = make_figure(simulation, human, options.anatomy, options.contact);
   if (!figure) return tl::unexpected(figure.error());
   auto results = OutputFolder::make(options.out);
   if (!results) return tl::unexpected(results.error());

@@ -122,6 +122,8 @@ std::vector<Option> walk_options(WalkText& text) {
        words_of(views)},
       {"--skin", &text.skin, "Skin and clothes in walk.glb and .usda", pictures},
       {"--fat", &text.fat, "Fat under the skin wobbles, in pictures with --view skin or glass", pictures},
+      {"--contact", &text.contact, "Muscles are kept out of each other and of bones, in what is drawn and written",
+       pictures},
       {"--stereo", &text.stereo, "Left and right eye side by side, along parallel axes", pictures},
       {"--eye-distance", &text.eye_distance, "Between the two eyes of --stereo, 1mm to 0.5m", pictures},
       {"--frames", &text.frames, "Write frame_*.png, 1280x720, 30 a second", pictures},
@@ -141,6 +143,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   options.out = text.out;
   options.skin = text.skin;
   options.fat = text.fat;
+  options.contact = text.contact;
 
   auto exports = read_exports(text.exports);
   if (!exports) return tl::unexpected(exports.error());

@@ -30,7 +30,7 @@ struct WalkOptions {
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
   WalkView view = WalkView::surface;
-  bool skin = false, fat = false, frames = false, video = false, stereo = false;
+  bool skin = false, fat = false, contact = false, frames = false, video = false, stereo = false;
   std::filesystem::path out = "out";
   std::vector<WalkExport> exports;
   double eye_distance_m = 0.063;
@@ -46,7 +46,7 @@ struct WalkText {
   std::vector<std::string> set, exports;
   std::string script, ground = "level";
   bool list_parameters = false, no_forces = false, members = false, tuned = false, inertia = false;
-  bool skin = false, fat = false, frames = false, video = false, stereo = false;
+  bool skin = false, fat = false, contact = false, frames = false, video = false, stereo = false;
 };
 
 std::vector<Option> walk_options(WalkText& text);

@@ -91,6 +91,7 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
   summary["element"] = element_name[static_cast<std::size_t>(options.muscles.element)];
   summary["inertia"] = options.muscles.inertia;
   summary["fat"] = options.fat;
+  summary["contact"] = options.contact;
   summary["anatomy"] = options.anatomy ? Json(options.anatomy->string()) : Json("built-in");
   if (options.anatomy) summary["anatomy_said"] = outcome.anatomy_said;
 

@@ -12,6 +12,7 @@
 // A system says by its signature what it reads and writes (engine/access.h), and runs in the order that follows from
 // that: between the library's systems, before or after them.
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -28,6 +29,7 @@ namespace mobil {
 class Schedule;  // engine/schedule.h
 class ScheduleBuilder;
 struct SavedWorld;  // engine/snapshot.h
+class Table;
 class World;
 
 /// An immutable resource that snapshots name by the module's name and its own. `part`: key_part(Shared<T>{}).
@@ -51,6 +53,11 @@ struct Module {
   std::vector<KeyPart> parts{};
   /// Resources that its rows may share. A snapshot keeps their names; what it does not know here is refused.
   std::vector<NamedResource> resources{};
+  /// The part of a table whose column follows from the table's other columns, so that snapshots leave it out: its id,
+  /// or 0; may be empty. `make` makes it of blocks [begin, end) of such a table, with the bits that the last tick gave
+  /// it; from any thread.
+  std::function<std::uint64_t(const TableKey& key)> follows{};
+  std::function<void(Table& table, const World& world, std::size_t begin, std::size_t end)> make{};
   /// Adds its systems; may be empty.
   std::function<void(ScheduleBuilder&)> systems{};
   /// Whether a table's key makes sense, asked before a snapshot's rows are given a table; may be empty. `world` has the

@@ -40,6 +40,24 @@ void for_pieces(const Records<SavedTable>& tables, std::size_t begin, std::size_
   }
 }
 
+WordGap gap_of(const Table& table, std::uint64_t left_out) {
+  const KeyPart* const part = left_out == 0 ? nullptr : find_part(table.key(), left_out);
+  if (part == nullptr || !has_column(part->kind)) return {};
+  return {table.column(left_out), static_cast<std::uint32_t>(part->value)};
+}
+std::uint32_t words_saved(const Table& table, const LeftOut& left_out) {
+  return table.words() - gap_of(table, left_out(table.key())).words;
+}
+
+/// `copy(bytes of the table's block, bytes from `from` on)` for both sides of a gap, of bytes that a snapshot has from
+/// `from` on.
+template <class Copy>
+void across_gap(const WordGap& gap, std::size_t from, std::size_t bytes, const Copy& copy) {
+  const std::size_t gap_at = block_bytes(gap.first), before = from < gap_at ? std::min(bytes, gap_at - from) : 0;
+  if (before > 0) copy(from, std::size_t{0}, before);
+  if (before < bytes) copy(from + before + block_bytes(gap.words), before, bytes - before);
+}
+
 Error damaged(const std::string& what) {
   return {"the snapshot does not agree with itself (" + what + "); give one that `save` made"};
 }
@@ -52,16 +70,19 @@ Result<void> check_tables(const SavedWorld& saved, std::size_t blocks_bytes) {
         table.parts > saved.parts.size() - part) {
       return tl::unexpected(damaged("a table's place"));
     }
-    std::uint64_t words = 0, before = 0;
+    std::uint64_t words = 0, before = 0, left_out = 0;
     for (std::uint32_t i = 0; i < table.parts; ++i) {
       const SavedPart p = saved.parts[table.first_part + i];
-      if ((i != 0 && p.id <= before) || p.kind > static_cast<std::uint32_t>(PartKind::published) || p.spare != 0)
+      if ((i != 0 && p.id <= before) || p.kind > static_cast<std::uint32_t>(PartKind::published) || p.left_out > 1 ||
+          (p.left_out == 1 && !has_column(static_cast<PartKind>(p.kind))))
         return tl::unexpected(damaged("a table's key"));
       before = p.id;
       if (!has_column(static_cast<PartKind>(p.kind))) continue;
       if (p.value > blocks_bytes) return tl::unexpected(damaged("a column's width"));
-      words += p.value;
+      left_out += p.left_out;
+      if (p.left_out == 0) words += p.value;
     }
+    if (left_out > 1) return tl::unexpected(damaged("a table's key"));
     if (words != table.words || table.rows > saved.entities.size()) return tl::unexpected(damaged("a table's size"));
     part += table.parts;
     entity += table.rows;
@@ -125,7 +146,7 @@ std::uint32_t SavedWorld::column(std::uint32_t table, std::uint64_t id) const {
   std::uint64_t word = 0;
   for (std::uint32_t i = 0; i < of.parts; ++i) {
     const SavedPart p = parts[of.first_part + i];
-    const bool column = has_column(static_cast<PartKind>(p.kind));
+    const bool column = has_column(static_cast<PartKind>(p.kind)) && p.left_out == 0;
     if (p.id == id) return column ? static_cast<std::uint32_t>(word) : Table::no_column;
     if (column) word += p.value;
   }
@@ -140,18 +161,19 @@ std::uint32_t SavedWorld::word(std::uint32_t table, std::uint32_t row, std::uint
   return value;
 }
 
-SnapshotLayout WorldSnapshot::layout(const World& world) {
+SnapshotLayout WorldSnapshot::layout(const World& world, const LeftOut& left_out) {
   SnapshotLayout layout;
   layout.world = sizeof(WorldHeader) + world.entities_.slots_.size() * sizeof(SavedSlot);
   for (const Table& table : world.tables_) {
     if (table.row_count() == 0) continue;
     layout.world += sizeof(SavedTable) + table.key().size() * sizeof(SavedPart) + table.row_count() * sizeof(Entity);
-    layout.blocks += table.block_count() * block_bytes(table.words());
+    layout.blocks += table.block_count() * block_bytes(words_saved(table, left_out));
   }
   return layout;
 }
 
-void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs) {
+void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs,
+                         const LeftOut& left_out) {
   const auto& slots = world.entities_.slots_;
   ByteWriter writer(&out[layout.world_at()]);
   WorldHeader header{0, 0, 0, static_cast<std::uint32_t>(slots.size()), world.entities_.first_free_};
@@ -168,16 +190,17 @@ void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::
     if (table.row_count() == 0) continue;
     saved.parts = static_cast<std::uint32_t>(table.key().size());
     saved.rows = table.row_count();
-    saved.words = table.words();
+    saved.words = words_saved(table, left_out);
     writer.put(saved);
     saved.first_part += saved.parts;
     saved.first_entity += saved.rows;
-    saved.first_block_byte += table.block_count() * block_bytes(table.words());
+    saved.first_block_byte += table.block_count() * block_bytes(saved.words);
   }
   for (const Table& table : world.tables_) {
     if (table.row_count() == 0) continue;
+    const std::uint64_t without = gap_of(table, left_out(table.key())).words == 0 ? 0 : left_out(table.key());
     for (const KeyPart& part : table.key())
-      writer.put(SavedPart{part.id, part.value, static_cast<std::uint32_t>(part.kind), 0});
+      writer.put(SavedPart{part.id, part.value, static_cast<std::uint32_t>(part.kind), part.id == without ? 1U : 0U});
   }
   // Slots name tables by their number among those with rows, which rows tell.
   std::byte* const slots_at = writer.at();
@@ -197,20 +220,26 @@ void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::
     const World& world;
     Records<SavedTable> tables;
     std::byte* out;
-  } blocks{world, {tables_at, header.tables}, &out[0] + layout.blocks_at()};
+    const LeftOut& left_out;
+  } blocks{world, {tables_at, header.tables}, &out[0] + layout.blocks_at(), left_out};
   seal_snapshot(
       layout, out, jobs,
       [](void* context, std::size_t begin, std::size_t end) {
         const auto& to = *static_cast<const Blocks*>(context);
         std::size_t with_rows = 0, at = 0;
         const Table* table = nullptr;
+        WordGap gap;
         for_pieces(to.tables, begin, end, [&](std::size_t t, std::size_t block, std::size_t from, std::size_t bytes) {
           for (; with_rows <= t; ++at) {
             if (to.world.tables()[at].row_count() == 0) continue;
             table = &to.world.tables()[at];
             ++with_rows;
+            gap = with_rows > t ? gap_of(*table, to.left_out(table->key())) : WordGap{};
           }
-          std::memcpy(to.out + begin, reinterpret_cast<const std::byte*>(table->block(block)) + from, bytes);
+          const auto* const in = reinterpret_cast<const std::byte*>(table->block(block));
+          across_gap(gap, from, bytes, [&](std::size_t at_block, std::size_t done, std::size_t some) {
+            std::memcpy(to.out + begin + done, in + at_block, some);
+          });
           begin += bytes;
         });
       },
@@ -260,9 +289,10 @@ Result<KeyPart> WorldSnapshot::known_part(const World& world, const SavedPart& p
 }
 
 Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::span<const KeyPart> known,
-                                    std::span<const SharedNumber> shared,
+                                    std::span<const SharedNumber> shared, const LeftOut& left_out,
                                     const std::function<Result<void>(const TableKey&)>& check) {
   table_.resize(saved.tables.size());
+  gap_.assign(saved.tables.size(), {});
   saved_.assign(world.tables_.size(), SavedWorld::nobody);
   for (std::uint32_t t = 0; t < table_.size(); ++t) {
     const SavedTable from = saved.tables[t];
@@ -271,6 +301,12 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
       auto part = known_part(world, saved.parts[from.first_part + i], known, shared);
       if (!part) return tl::unexpected(part.error());
       key_.push_back(*part);
+    }
+    const std::uint64_t without = left_out(key_);
+    for (std::uint32_t i = 0; i < from.parts; ++i) {
+      const SavedPart part = saved.parts[from.first_part + i];
+      if (part.left_out != (part.id == without && part.value != 0 ? 1U : 0U))
+        return tl::unexpected(damaged("which columns are left out"));
     }
     const std::uint64_t hash = key_hash(key_);
     std::uint32_t at = 0;
@@ -286,6 +322,7 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
     saved_[at] = t;
     table_[t] = at;
     world.tables_[at].reserve(from.rows);
+    gap_[t] = gap_of(world.tables_[at], without);
   }
   world.entities_.slots_.reserve(saved.slots.size());
   world.members_.reserve(saved.slots.size());
@@ -319,7 +356,8 @@ void WorldSnapshot::commit(World& world, const SavedWorld& saved, const Jobs& jo
     World& world;
     const SavedWorld& saved;
     const std::vector<std::uint32_t>& table;
-  } blocks{world, saved, table_};
+    const std::vector<WordGap>& gap;
+  } blocks{world, saved, table_, gap_};
   constexpr std::size_t piece_bytes = SnapshotLayout::chunk_bytes;
   const auto copy = [](void* context, std::size_t begin, std::size_t end) {
     const auto& to = *static_cast<const Blocks*>(context);
@@ -328,7 +366,10 @@ void WorldSnapshot::commit(World& world, const SavedWorld& saved, const Jobs& jo
     end = std::min(end * piece_bytes, from.blocks.size());
     const std::byte* in = from.blocks.data() + begin;
     for_pieces(from.tables, begin, end, [&](std::size_t t, std::size_t block, std::size_t first, std::size_t bytes) {
-      std::memcpy(reinterpret_cast<std::byte*>(to.world.tables()[to.table[t]].block(block)) + first, in, bytes);
+      auto* const out = reinterpret_cast<std::byte*>(to.world.tables()[to.table[t]].block(block));
+      across_gap(to.gap[t], first, bytes, [&](std::size_t at_block, std::size_t done, std::size_t some) {
+        std::memcpy(out + at_block, in + done, some);
+      });
       in += bytes;
     });
   };

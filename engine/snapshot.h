@@ -24,9 +24,10 @@ struct SavedTable {
   std::uint64_t first_block_byte, first_entity;
   std::uint32_t first_part, parts, rows, words;
 };
+/// `left_out`: 1 for a column that is not among the blocks' words, for it follows from the others; else 0.
 struct SavedPart {
   std::uint64_t id, value;
-  std::uint32_t kind, spare;
+  std::uint32_t kind, left_out;
 };
 struct SavedSlot {
   std::uint32_t generation, table, row;
@@ -45,7 +46,7 @@ struct SavedWorld {
   /// Its slot; nothing for a stale handle.
   std::optional<SavedSlot> find(Entity entity) const;
   std::optional<SavedPart> part(std::uint32_t table, std::uint64_t id) const;
-  /// First word of a column in a table's blocks; Table::no_column where it has none.
+  /// First word of a column in a table's blocks; Table::no_column where it has none, or it is left out.
   std::uint32_t column(std::uint32_t table, std::uint64_t id) const;
   std::uint32_t word(std::uint32_t table, std::uint32_t row, std::uint32_t column_word) const;
 };
@@ -68,12 +69,22 @@ struct SharedNumber {
   std::uint64_t id, saved, present;
 };
 
+/// The part of a key whose column follows from the others and is left out of snapshots; its id, or 0 for none. Whoever
+/// restores makes it again.
+using LeftOut = std::function<std::uint64_t(const TableKey& key)>;
+
+/// Words of a table's rows that a snapshot has not.
+struct WordGap {
+  std::uint32_t first = 0, words = 0;
+};
+
 class WorldSnapshot {
  public:
   /// Bytes of the parts `world` and `blocks`. Tables without rows are left out.
-  static SnapshotLayout layout(const World& world);
+  static SnapshotLayout layout(const World& world, const LeftOut& left_out);
   /// Writes those parts, and seals the whole: the front must be there. No heap.
-  static void save(const World& world, const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs);
+  static void save(const World& world, const SnapshotLayout& layout, std::span<std::byte> out, const Jobs& jobs,
+                   const LeftOut& left_out);
 
   /// Checks that everything agrees: sizes, keys, the register with the rows and its list of free slots.
   static Result<SavedWorld> read(const OpenSnapshot& snapshot);
@@ -81,11 +92,13 @@ class WorldSnapshot {
   /// Finds or makes a table for each one saved, and makes room. Until `commit` the world is unchanged, but for tables
   /// and blocks without rows; nothing here keeps pointers into the snapshot. `known`: parts that tables may have beside
   /// those that the world's have. `shared`: of every resource named. `check` says whether a key that the world has no
-  /// table of yet makes sense. Takes memory only where more is needed than the last time. Throws what the memory
-  /// resource throws; then call `give_up`.
+  /// table of yet makes sense. `left_out`: as the snapshot must have it. Takes memory only where more is needed than
+  /// the last time. Throws what the memory resource throws; then call `give_up`.
   Result<void> prepare(World& world, const SavedWorld& saved, std::span<const KeyPart> known,
-                       std::span<const SharedNumber> shared, const std::function<Result<void>(const TableKey&)>& check);
-  /// Makes the world what was saved. Only after a `prepare` of the same two that succeeded.
+                       std::span<const SharedNumber> shared, const LeftOut& left_out,
+                       const std::function<Result<void>(const TableKey&)>& check);
+  /// Makes the world what was saved, but for columns that were left out, whose words are any. Only after a `prepare` of
+  /// the same two that succeeded.
   void commit(World& world, const SavedWorld& saved, const Jobs& jobs) const noexcept;
   /// Gives back the room made.
   static void give_up(World& world) noexcept;
@@ -97,6 +110,7 @@ class WorldSnapshot {
 
   std::vector<std::uint32_t> table_;  // of the world, by table saved
   std::vector<std::uint32_t> saved_;  // the other way round
+  std::vector<WordGap> gap_;          // by table saved
   std::pmr::vector<KeyPart> key_;
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "assets/reduction/reduced_bellies.h"
+#include "engine/each.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/restart.h"
 
@@ -77,11 +78,38 @@ void report(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float ti
                  {basis->options.far_end, end}, tick_s, report);
 }
 
+/// Control points follow from motion and shape, but where a finite shape goes on from them.
+std::uint64_t placed_part(const TableKey& key) {
+  const auto has = [&](std::uint64_t id) { return find_part(key, id) != nullptr; };
+  const bool follows = has(type_id<ReducedBasis>()) && has(type_id<ReducedShape>()) &&
+                       has(type_id<NodalDisplacement>()) && !has(type_id<FiniteShape>());
+  return follows ? type_id<NodalDisplacement>() : 0;
+}
+
+void place_blocks(Table& table, const World& world, std::size_t begin, std::size_t end) {
+  const TableColumn<BellyScale> scale(table);
+  const TableColumn<EndDrive> drive(table);
+  const TableColumn<FrameLoad> frame(table);
+  const KeyPart* const part = find_part(table.key(), type_id<ReducedBasis>());
+  const auto& basis = *static_cast<const ReducedBasis*>(world.resource(part->value));
+  const bool still = find_part(table.key(), type_id<ReducedStatic>()) != nullptr;
+  const auto field = [&](std::size_t b, std::uint64_t id) { return table.block(b) + table.column(id) * lane_count; };
+  for (std::size_t b = begin; b < end; ++b) {
+    const ReducedBlock block = read_only(basis, scale.at(table, b), still ? nullptr : field(b, type_id<ReducedState>()),
+                                         nullptr, frame ? &frame.at(table, b) : nullptr);
+    const ControlPoints points{field(b, type_id<ReducedShape>()), field(b, type_id<NodalDisplacement>())};
+    const FarFaceDrive end_drive(basis.options.far_end, drive.at(table, b));
+    still ? place_static(block, points, end_drive) : place_control_points(block, points, end_drive);
+  }
+}
+
 Module reduced_module() {
   return {.name = "deformation, reduced",
           .parts = {key_part(Shared<ReducedBasis>{}), key_part(FieldWidth<ReducedState>{}),
                     key_part(FieldWidth<ReducedMotion>{}), key_part(FieldWidth<ReducedShape>{}),
                     key_part(TagValue<ReducedStatic>{}), key_part(TagValue<ReducedTuned>{})},
+          .follows = &placed_part,
+          .make = &place_blocks,
           .systems = [](ScheduleBuilder& systems) {
             systems.add("deformation, reduced", &move)
                 .add("control points", &place)
@@ -265,6 +293,14 @@ Beginning go_on(const NextBelly& next, const PastBelly& past, bool keeps) {
 
 }  // namespace of_reduced
 }  // namespace
+
+void place_now(World& world, Entity muscle) {
+  const auto* const at = world.locate(muscle);
+  if (at == nullptr || of_reduced::placed_part(world.tables()[at->table].key()) == 0) return;
+  const FlushDenormals flush;  // as in a tick
+  const std::size_t block = at->row / lane_count;
+  of_reduced::place_blocks(world.tables()[at->table], world, block, block + 1);
+}
 
 constinit const DeformationMethod reduced_method = {
     Method::reduced,       &of_reduced::reduced_module, &of_reduced::reduced_parts, &of_reduced::recognise,

@@ -8,4 +8,8 @@ namespace mobil {
 
 extern const DeformationMethod reduced_method;
 
+/// Places control points that follow from a muscle's other columns, as the next tick will: of a muscle that has just
+/// begun or changed, and of those in its block, whose bits stay. Nothing for other muscles. Takes no memory.
+void place_now(World& world, Entity muscle);
+
 }  // namespace mobil

@@ -11,6 +11,7 @@
 #include "engine/access.h"
 #include "engine/rows.h"
 #include "systems/deformation/deformation.h"
+#include "systems/deformation/method_reduced.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
@@ -31,7 +32,8 @@ struct Column {
 class Columns {
  public:
   void add(const KeyPart& part, std::size_t blocks) {
-    all_.push_back({part.id, static_cast<std::size_t>(part.value), std::make_unique_for_overwrite<Lanes<float>[]>(blocks * part.value)});
+    all_.push_back({part.id, static_cast<std::size_t>(part.value),
+                    std::make_unique_for_overwrite<Lanes<float>[]>(blocks * part.value)});
   }
   /// Null where there is none.
   const Column* find(std::uint64_t part) const {
@@ -273,6 +275,11 @@ void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector
     }
     std::vector<Entity> made(group.who.size());
     world.create_many(parts, made, jobs);
+    // One of each block: they lie side by side.
+    const std::size_t before = world.locate(made.front())->row % lane_count;
+    in_parallel(jobs, (before + made.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t b = begin; b < end; ++b) place_now(world, made[b == 0 ? 0 : b * lane_count - before]);
+    });
     all_made.insert(all_made.end(), made.begin(), made.end());
   }
 }

@@ -8,6 +8,7 @@
 #include "components/fade.h"
 #include "systems/deformation/deformation.h"
 #include "systems/deformation/method_finite.h"
+#include "systems/deformation/method_reduced.h"
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/muscle_effect.h"
 #include "systems/muscles/muscle_parts.h"
@@ -229,7 +230,10 @@ void change_muscles(World& world, BellyLibrary& library, MuscleWork& work, const
       world.reserve_remade(next.back().muscle, next.back().parts, muscle_part_ids(), 2);
     }
   }
-  for (const NextMuscle& one : next) world.remake_from(one.muscle, one.parts, muscle_part_ids());
+  for (const NextMuscle& one : next) {
+    world.remake_from(one.muscle, one.parts, muscle_part_ids());
+    place_now(world, one.muscle);
+  }
 }
 
 }  // namespace mobil

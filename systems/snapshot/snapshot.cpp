@@ -80,8 +80,34 @@ FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
   return header;
 }
 
-SnapshotLayout layout_of(const World& world, const FrontHeader& header) {
-  SnapshotLayout layout = WorldSnapshot::layout(world);
+/// Which part of a table follows from the others: as its module says.
+std::uint64_t left_out_of(std::span<const Module> modules, const TableKey& key) {
+  for (const Module& module : modules) {
+    if (!module.follows) continue;
+    if (const std::uint64_t part = module.follows(key); part != 0) return part;
+  }
+  return 0;
+}
+/// It captures a span alone, so that a std::function of it takes no memory.
+auto left_out_by(std::span<const Module> modules) {
+  return [modules](const TableKey& key) { return left_out_of(modules, key); };
+}
+
+void make_left_out(const RestoreScene& scene) {
+  for (Table& table : scene.world.tables()) {
+    if (table.row_count() == 0) continue;
+    for (const Module& module : scene.modules) {
+      if (!module.follows || module.follows(table.key()) == 0) continue;
+      in_parallel(scene.jobs, table.block_count(), [&](std::size_t begin, std::size_t end) {
+        const FlushDenormals flush;  // as in a tick
+        module.make(table, scene.world, begin, end);
+      });
+    }
+  }
+}
+
+SnapshotLayout layout_of(const SnapshotScene& scene, const FrontHeader& header) {
+  SnapshotLayout layout = WorldSnapshot::layout(scene.world, left_out_by(scene.modules));
   layout.front = sizeof(FrontHeader) + header.modules * sizeof(SavedModule) + header.resources * sizeof(SavedResource) +
                  header.parts * sizeof(SavedPartName);
   return layout;
@@ -176,16 +202,18 @@ Result<SnapshotTime> restore_checked(const RestoreScene& scene, const SnapshotTi
     if (auto ok = check_key(key, known.scene.world, known.resources, known.scene.modules); !ok) return ok;
     return check_steps(key, known.scene.world, known.tick_s, known.most_steps);
   };
-  if (auto ok = work.world.prepare(scene.world, *world, work.parts, work.shared, check); !ok)
+  if (auto ok = work.world.prepare(scene.world, *world, work.parts, work.shared, left_out_by(scene.modules), check);
+      !ok)
     return tl::unexpected(ok.error());
   work.world.commit(scene.world, *world, scene.jobs);  // nothing fails from here on
+  make_left_out(scene);
   return SnapshotTime{header.tick_units, header.remainder_units, header.tick};
 }
 
 }  // namespace
 
 std::size_t snapshot_bytes(const SnapshotScene& scene, SnapshotWork& work) {
-  return layout_of(scene.world, count(scene, work)).bytes();
+  return layout_of(scene, count(scene, work)).bytes();
 }
 
 Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime& time, SnapshotWork& work,
@@ -195,7 +223,7 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
   header.tick_units = time.tick_units;
   header.remainder_units = time.remainder_units;
   header.tick = time.tick;
-  const SnapshotLayout layout = layout_of(scene.world, header);
+  const SnapshotLayout layout = layout_of(scene, header);
   if (out.size() < layout.bytes())
     return fail(fmt::format("save: the snapshot takes {} bytes, and there is room for {}; give snapshot_bytes()",
                             layout.bytes(), out.size()));
@@ -218,7 +246,7 @@ Result<std::size_t> save_snapshot(const SnapshotScene& scene, const SnapshotTime
     part.name.copy(saved.name, sizeof(saved.name));
     writer.put(saved);
   });
-  WorldSnapshot::save(scene.world, layout, out.first(layout.bytes()), scene.jobs);
+  WorldSnapshot::save(scene.world, layout, out.first(layout.bytes()), scene.jobs, left_out_by(scene.modules));
   return layout.bytes();
 }
 

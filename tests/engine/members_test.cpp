@@ -120,9 +120,10 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
     }
   }
   model.check();
-  const SnapshotLayout layout = WorldSnapshot::layout(model.world);
+  const auto nothing = [](const TableKey&) { return std::uint64_t{0}; };
+  const SnapshotLayout layout = WorldSnapshot::layout(model.world, nothing);
   std::vector<std::byte> bytes(layout.bytes());
-  WorldSnapshot::save(model.world, layout, bytes, {});
+  WorldSnapshot::save(model.world, layout, bytes, {}, nothing);
   const std::uint64_t before = state_hash(model.world, {});
   const Entity late = model.world.create(kept_by(model.alive[3], 99));
   EXPECT_NE(state_hash(model.world, {}), before);
@@ -131,7 +132,7 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
   const auto saved = WorldSnapshot::read(*open);
   ASSERT_TRUE(saved);
   WorldSnapshot snapshot;
-  ASSERT_TRUE(snapshot.prepare(model.world, *saved, {}, {}, [](const TableKey&) { return Result<void>(); }));
+  ASSERT_TRUE(snapshot.prepare(model.world, *saved, {}, {}, nothing, [](const TableKey&) { return Result<void>(); }));
   snapshot.commit(model.world, *saved, {});
   EXPECT_FALSE(model.world.alive(late));
   EXPECT_EQ(state_hash(model.world, {}), before);

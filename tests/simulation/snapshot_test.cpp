@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "components/gait.h"
+#include "engine/snapshot.h"
 #include "engine/snapshot_bytes.h"
 #include "systems/simulation.h"
 #include "systems/snapshot/snapshot_records.h"
@@ -313,6 +314,83 @@ TEST(Snapshot, MadeUpBytesWithAGoodSealDoNoHarm) {
   }
   EXPECT_GT(refused, 100);
   EXPECT_EQ(simulation.state_hash(), state);
+}
+
+/// Control points of reduced muscles are left out, and made again with their bits: also of muscles that have just begun
+/// or changed, before any tick.
+TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
+  Simulation simulation;
+  std::vector<Entity> people;
+  for (int i = 0; i < 20; ++i) {
+    people.push_back(*simulation.spawn(person(1).body, person(i).gait));
+    LegMuscles choice;
+    choice.method = Method::reduced;
+    choice.reduced.moving = i % 3 != 0;
+    choice.inertia = i % 2 == 0;
+    ASSERT_TRUE(simulation.add_leg_muscles(people.back(), choice));
+  }
+  const auto expect_same = [&](const char* when) {
+    Simulation other;
+    restore(other, saved(simulation));
+    EXPECT_EQ(other.state_hash(), simulation.state_hash()) << when;
+    const Entity one = simulation.muscle(people[1], Muscle::quadriceps, Side::left);
+    const NodalView ours = simulation.nodal_displacement(one), theirs = other.nodal_displacement(one);
+    ASSERT_GT(ours.nodes, 0U);
+    for (std::size_t w = 0; w < 3 * std::size_t{ours.nodes}; ++w)
+      ASSERT_EQ(ours.first[w * lane_count], theirs.first[w * lane_count]) << when;
+  };
+  expect_same("just begun");
+  simulation.tick(7);
+  expect_same("after ticks");
+  for (std::size_t i = 0; i < people.size(); i += 2) {
+    MuscleMethod method{Method::reduced, {}};
+    method.reduced.vectors = 8;
+    ASSERT_TRUE(simulation.set_method(people[i], Muscle::quadriceps, method));
+  }
+  expect_same("just changed");
+  std::size_t rows = 0, points = 0;
+  for (const Table& table : simulation.world().tables()) {
+    rows += table.block_count() * table.words() * sizeof(Lanes<float>);
+    const KeyPart* const part = find_part(table.key(), type_id<NodalDisplacement>());
+    if (part != nullptr) points += table.block_count() * part->value * sizeof(Lanes<float>);
+  }
+  EXPECT_GT(points, 100'000U);
+  EXPECT_LT(simulation.snapshot_bytes(), rows - points + 100'000);
+}
+
+/// Whoever says of another column that it is left out, or of one that is that it is there, is refused.
+TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
+  Simulation simulation;
+  const Entity one = *simulation.spawn(person(1).body, person(1).gait);
+  LegMuscles choice;
+  choice.method = Method::reduced;
+  ASSERT_TRUE(simulation.add_leg_muscles(one, choice));
+  simulation.tick(3);
+  const Bytes bytes = saved(simulation);
+  std::uint64_t world_at = 0;
+  std::memcpy(&world_at, &bytes[32], sizeof world_at);
+  world_at += SnapshotLayout::header_bytes;
+  std::uint64_t world_bytes = 0;
+  std::memcpy(&world_bytes, &bytes[40], sizeof world_bytes);
+  const auto refused = [&](Bytes altered) {
+    EXPECT_TRUE(reseal_snapshot(altered));
+    Simulation other;
+    const auto done = other.restore(altered);
+    EXPECT_FALSE(done);
+    EXPECT_EQ(other.ticks(), 0U);
+  };
+  std::size_t flags = 0;
+  for (std::size_t at = world_at; at + 24 <= world_at + world_bytes; at += 4) {
+    SavedPart part;
+    std::memcpy(&part, &bytes[at], sizeof part);
+    if (part.id != type_id<NodalDisplacement>() && part.id != type_id<Pose<float>>()) continue;
+    ++flags;
+    Bytes altered = bytes;
+    part.left_out = 1 - part.left_out;
+    std::memcpy(&altered[at], &part, sizeof part);
+    refused(altered);
+  }
+  EXPECT_GT(flags, 4U);
 }
 
 }  // namespace mobil::snapshot_test

@@ -25,6 +25,9 @@ Result<Schedule> make_schedule(std::span<const Module> modules, std::pmr::memory
       return fail("modules: number " + std::to_string(m) + " is named '" + module.name +
                   "', which is empty or another one's name; give each its own");
     }
+    if (static_cast<bool>(module.follows) != static_cast<bool>(module.make))
+      return fail("modules: '" + module.name +
+                  "' says which column follows, or how it is made, but not both; give both");
     for (const KeyPart& part : module.parts) {
       const Module* const other = module_of(before, part.id);
       if (other == nullptr) continue;

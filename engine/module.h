@@ -54,8 +54,9 @@ struct Module {
   /// Resources that its rows may share. A snapshot keeps their names; what it does not know here is refused.
   std::vector<NamedResource> resources{};
   /// The part of a table whose column follows from the table's other columns, so that snapshots leave it out: its id,
-  /// or 0; may be empty. `make` makes it of blocks [begin, end) of such a table, with the bits that the last tick gave
-  /// it; from any thread.
+  /// or 0; one a table at most. `make` makes it of blocks [begin, end) of such a table, with the bits that the last
+  /// tick gave it; from any thread. Both or neither. What another system writes into such a column is not in snapshots:
+  /// after a restore it is there once that system has run.
   std::function<std::uint64_t(const TableKey& key)> follows{};
   std::function<void(Table& table, const World& world, std::size_t begin, std::size_t end)> make{};
   /// Adds its systems; may be empty.

@@ -251,29 +251,6 @@ Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
   return named("wake", std::move(done));
 }
 
-/// What no sleeper can do wakes them first, and so with who is compact. All of them, or nobody.
-Result<void> Simulation::make_whole(std::span<const Entity> people) {
-  std::vector<Entity> asleep, compact;
-  for (const Entity human : people)
-    if (is_asleep(human))
-      asleep.push_back(human);
-    else if (is_compact(human))
-      compact.push_back(human);
-  World::Attempt attempt(*world_, jobs_);
-  if (!asleep.empty()) {
-    if (auto done = wake(asleep); !done) return done;
-  }
-  if (!compact.empty()) {
-    if (auto done = expand(compact); !done) return done;
-  }
-  attempt.keep();
-  return {};
-}
-
-Result<void> Simulation::make_whole_for(Entity human) {
-  return make_whole({&human, 1});
-}
-
 Result<std::size_t> Simulation::compact(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
   return compact_people(muscle_scene(), people, *compact_work_);
@@ -333,6 +310,7 @@ Result<void> Simulation::place(std::span<const PlaceRequest> places) {
     if (auto done = wake(std::vector(people)); !done) return done;
   }
   place_people(*world_, {tick_, static_cast<float>(tick_s())}, places, sleep_work_->ways);
+  work_->recent = {};
   return {};
 }
 
@@ -372,7 +350,7 @@ Result<void> Simulation::remove_forces(Entity human) {
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {
   World::Attempt attempt(*world_, jobs_);
-  if (auto done = make_whole_for(human); !done) return done;
+  if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   auto done = mobil::add_leg_muscles(muscle_scene(), human, choice);
   if (done) attempt.keep();
   return named("add_leg_muscles", std::move(done));
@@ -380,21 +358,23 @@ Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice)
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
   if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
-  if (auto done = make_whole_for(human); !done) return done;
+  if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
-  if (auto done = make_whole_for(human); !done) return done;
-  return result_of("remove_leg_muscles", mobil::remove_leg_muscles(*world_, jobs_, human));
+  if (auto done = make_muscles_whole({&human, 1}); !done) return done;
+  const Status status = mobil::remove_leg_muscles(*world_, jobs_, human);
+  if (status == Status::ok) SimulationWorld::choose_from_now(*this, human);
+  return result_of("remove_leg_muscles", status);
 }
 
 Result<void> Simulation::set_excitation(Entity human, Muscle muscle, Side side, float excitation) {
-  if (auto done = make_whole_for(human); !done) return done;
+  if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   return named("set_excitation", mobil::set_excitation(*world_, human, muscle, side, excitation));
 }
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
-  if (auto done = make_whole_for(human); !done) return done;
+  if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   return named("set_method", mobil::set_method(muscle_scene(), human, muscle, method));
 }
 

@@ -447,6 +447,7 @@ class Simulation {
   Status read_absent(Entity entity, std::uint64_t part, void* row) const;
   Result<void> make_whole(std::span<const Entity> people);
   Result<void> make_whole_for(Entity human);
+  Result<void> make_muscles_whole(std::span<const Entity> people);
   void warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m);
   Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 

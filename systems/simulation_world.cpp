@@ -1,5 +1,9 @@
 #include "systems/simulation_world.h"
 
+#include <algorithm>
+#include <array>
+#include <vector>
+
 #include "components/relevance.h"
 #include "systems/muscles/compact.h"
 #include "systems/muscles/leg_muscles.h"
@@ -7,6 +11,45 @@
 #include "systems/relevance/relevance_module.h"
 
 namespace mobil {
+
+/// What no sleeper can do wakes them first, and so with who is compact. All of them, or nobody.
+Result<void> Simulation::make_whole(std::span<const Entity> people) {
+  std::vector<Entity> asleep, compact;
+  for (const Entity human : people)
+    if (is_asleep(human))
+      asleep.push_back(human);
+    else if (is_compact(human))
+      compact.push_back(human);
+  for (auto* const some : {&asleep, &compact}) {  // once who is named twice
+    std::ranges::sort(*some, {}, &Entity::index);
+    const auto again = std::ranges::unique(*some);
+    some->erase(again.begin(), again.end());
+  }
+  World::Attempt attempt(*world_, jobs_);
+  if (!asleep.empty()) {
+    if (auto done = wake(asleep); !done) return done;
+  }
+  if (!compact.empty()) {
+    if (auto done = expand(compact); !done) return done;
+  }
+  attempt.keep();
+  return {};
+}
+
+Result<void> Simulation::make_whole_for(Entity human) {
+  return make_whole({&human, 1});
+}
+
+/// Besides, muscles that somebody is to have later, once Relevance looks at them, begin.
+Result<void> Simulation::make_muscles_whole(std::span<const Entity> people) {
+  World::Attempt attempt(*world_, jobs_);
+  if (auto done = make_whole(people); !done) return done;
+  for (const Entity human : people) {
+    if (auto done = SimulationWorld::begin_kept(*this, human); !done) return done;
+  }
+  attempt.keep();
+  return {};
+}
 
 std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entity> people,
                                    std::span<const KeyPart> keeps) {
@@ -20,6 +63,21 @@ Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entit
   unseen.view = static_cast<std::uint32_t>(View::out_of_reach);
   for (const Entity human : people) simulation.world_->set(human, unseen);
   return done;
+}
+
+void SimulationWorld::choose_from_now(Simulation& simulation, Entity human) {
+  World& world = *simulation.world_;
+  if (world.has<Tiers>(human)) world.set(human, tiers_of(world, human));
+}
+
+Result<void> SimulationWorld::begin_kept(Simulation& simulation, Entity human) {
+  World& world = *simulation.world_;
+  const auto choice = kept_choice(world, human);
+  if (!choice) return {};
+  if (auto done = begin_leg_muscles(simulation.muscle_scene(), {&human, 1}, *choice); !done) return done;
+  world.remake_many({&human, 1}, {}, std::array{type_id<LegMuscles>()}, simulation.jobs_);
+  choose_from_now(simulation, human);
+  return {};
 }
 
 std::size_t SimulationWorld::compact(Simulation& simulation, std::span<const Entity> people) {

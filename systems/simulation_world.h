@@ -21,6 +21,14 @@ struct SimulationWorld {
   static Result<void> make_whole(Simulation& simulation, std::span<const Entity> people) {
     return simulation.make_whole(people);
   }
+  /// The same, and muscles that they are to have later begin.
+  static Result<void> make_muscles_whole(Simulation& simulation, std::span<const Entity> people) {
+    return simulation.make_muscles_whole(people);
+  }
+  /// What choosing remembers of a managed person is that of the muscles that are there.
+  static void choose_from_now(Simulation& simulation, Entity human);
+  /// Of somebody awake and whole: muscles kept on their row (kept_choice) begin.
+  static Result<void> begin_kept(Simulation& simulation, Entity human);
   /// Muscles of those who woke so begin, within that of where they would be (Simulation::wake).
   static Result<void> begin_muscles(Simulation& simulation, std::span<const Entity> people, const LegMuscles& choice,
                                     float within_m);

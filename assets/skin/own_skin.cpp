@@ -70,8 +70,7 @@ class LegSkin {
       : mesh_(skin_mesh(skin.sex, skin.detail)), position_(position), normal_(normal), shorts_(position.size()) {
     for (std::uint32_t t = 0; t < mesh_.triangle.size(); t += 3) {
       const std::uint32_t* const corner = &mesh_.triangle[t];
-      if (std::all_of(corner, corner + 3, [&](std::uint32_t v) { return is_of_leg(skin, v, side); }))
-        cells_[cell(middle(t))].push_back(t);
+      if (std::all_of(corner, corner + 3, [&](std::uint32_t v) { return is_of_leg(skin, v, side); })) add(t);
     }
     constexpr auto part = static_cast<std::size_t>(SkinPart::shorts);
     for (std::size_t i = 3 * std::size_t{mesh_.first_triangle[part]};
@@ -141,6 +140,11 @@ class LegSkin {
     return 1.0 / 3 * (at[0] + at[1] + at[2]);
   }
   using Cell = std::array<std::int32_t, 3>;
+  void add(std::uint32_t t) {
+    const Vec at = middle(t);
+    for (const Vec& corner : corners(t)) largest_m_ = std::max(largest_m_, length(corner - at));
+    cells_[cell(at)].push_back(t);
+  }
   static constexpr double cell_m = 0.02;
   static Cell cell(const Vec& p) {
     const auto of = [](double m) { return static_cast<std::int32_t>(std::floor(m / cell_m)); };
@@ -150,7 +154,7 @@ class LegSkin {
   /// The nearest triangle that faces about the same way; of all of them where none near does.
   std::uint32_t nearest(const Vec& p, const Vec& normal) const {
     constexpr std::int32_t furthest = 5;  // cells
-    constexpr double same_way = 0.3, triangle_m = 0.01;
+    constexpr double same_way = 0.3;
     const Cell at = cell(p);
     std::uint32_t best = 0;
     double least = std::numeric_limits<double>::infinity();
@@ -165,7 +169,7 @@ class LegSkin {
         best = t;
       }
     };
-    for (std::int32_t r = 0; r <= furthest && std::sqrt(least) > r * cell_m - triangle_m; ++r)
+    for (std::int32_t r = 0; r <= furthest && std::sqrt(least) > (r - 1) * cell_m - largest_m_; ++r)
       for (std::int32_t x = -r; x <= r; ++x)
         for (std::int32_t y = -r; y <= r; ++y)
           for (std::int32_t z = -r; z <= r; ++z) {
@@ -186,6 +190,7 @@ class LegSkin {
   const SkinMesh& mesh_;
   std::span<const Vec3<float>> position_, normal_;
   std::vector<bool> shorts_;  // which vertices
+  double largest_m_ = 0;      // from a triangle's middle to a corner
   std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
 };
 

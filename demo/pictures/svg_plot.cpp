@@ -231,11 +231,14 @@ void draw_point_text(Page& page, const Frame& frame, double x, double y, const s
   constexpr double above = -4, below = 12;
   const std::array places = {beside(to_the_left, above), beside(to_the_left, below), beside(!to_the_left, above),
                              beside(!to_the_left, below)};
-  const auto is_free = [&](const TakenPlace& place) {
-    if (place.left < frame.left || place.right > frame.left + frame.width) return false;
-    return std::ranges::none_of(taken, [&](const TakenPlace& one) { return one.covers(place); });
+  const auto is_within = [&](const TakenPlace& place) {
+    return place.left >= frame.left && place.right <= frame.left + frame.width;
   };
-  const auto found = std::ranges::find_if(places, is_free);
+  const auto is_free = [&](const TakenPlace& place) {
+    return is_within(place) && std::ranges::none_of(taken, [&](const TakenPlace& one) { return one.covers(place); });
+  };
+  auto found = std::ranges::find_if(places, is_free);
+  if (found == places.end()) found = std::ranges::find_if(places, is_within);
   const TakenPlace& place = found != places.end() ? *found : places.front();
   const bool ends_here = place.right < x;  // widths are an estimate: a text left of its point ends beside it
   page.text(ends_here ? place.right : place.left, place.y, ends_here ? "end" : "start", text, colour, size);

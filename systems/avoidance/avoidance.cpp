@@ -125,7 +125,7 @@ Result<void> Avoidance::want(std::span<const WalkWish> wishes) {
     if (!(std::fabs(heading) < 1e4F))
       return fail(fmt::format("Avoidance: a heading of {} rad is not within ±10000; give an angle about +Y", heading));
     if (speed == 0) continue;
-    if (auto gait = resolve_gait(world.get<BodySize>(human)->height_m, {.speed_m_s = speed}); !gait)
+    if (auto gait = resolve_gait(body_request(world, human).height_m, {.speed_m_s = speed}); !gait)
       return tl::unexpected(gait.error());
   }
   for (const auto& [human, speed, heading] : wishes) {

@@ -70,7 +70,7 @@ int check_whole(mobil_sim& sim, Check check) {
   for (std::size_t i = 0; i < sim.people.size(); ++i)
     if (!simulation.is_person(sim.people[i])) return sim.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
   World::Attempt attempt(world_of(simulation), sim.jobs_of());
-  if (const auto done = SimulationWorld::make_whole(simulation, sim.people); !done)
+  if (const auto done = SimulationWorld::make_muscles_whole(simulation, sim.people); !done)
     return sim.line.refuse(done.error());
   for (std::size_t i = 0; i < sim.people.size(); ++i)
     if (const Result<void> ok = check(i); !ok) return sim.line.refuse(ok.error(), person_number(i));

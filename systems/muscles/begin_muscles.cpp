@@ -275,12 +275,12 @@ void create_rows(World& world, const Jobs& jobs, const Group& group, std::vector
     }
     std::vector<Entity> made(group.who.size());
     world.create_many(parts, made, jobs);
+    all_made.insert(all_made.end(), made.begin(), made.end());
     // One of each block: they lie side by side.
     const std::size_t before = world.locate(made.front())->row % lane_count;
     in_parallel(jobs, (before + made.size() + lane_count - 1) / lane_count, [&](std::size_t begin, std::size_t end) {
       for (std::size_t b = begin; b < end; ++b) place_now(world, made[b == 0 ? 0 : b * lane_count - before]);
     });
-    all_made.insert(all_made.end(), made.begin(), made.end());
   }
 }
 

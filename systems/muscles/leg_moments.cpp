@@ -101,8 +101,13 @@ void set_leg_moments(World& world, Entity person, const Body& body, const LegMus
     design.member[i++] = member_design(member, plan.member[0]);
     design.scale = plan.leg_scale;
   }
-  world.add_parts(person, std::array<PartValue, 3>{part_value(design), part_value(MomentReserve<float>{}),
-                                                   part_value(Publishes<AskedForces>{})});
+  // Remade, so that a World::Attempt can undo it.
+  world.remake_many({&person, 1},
+                    std::array<PartValue, 3>{PartValue{component_part<LegDesign>(), nullptr},
+                                             PartValue{component_part<MomentReserve>(), nullptr},
+                                             part_value(Publishes<AskedForces>{})},
+                    {});
+  world.set(person, design);
 }
 
 void forget_leg_moments(World& world, Entity person) {

@@ -14,8 +14,10 @@
 #include "engine/rows.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/by_table.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
+#include "systems/relevance/relevance_module.h"
 #include "systems/simulation_world.h"
 
 namespace mobil {
@@ -51,13 +53,15 @@ std::string explain(const Choice& choice, View view, const std::string& goal) {
   return figures;
 }
 
-/// What choosing begins from: a person's muscles and their methods. What the caller forced stays so.
+}  // namespace
+
 Tiers<float> tiers_of(const World& world, Entity human) {
   const auto before = world.get<Tiers>(human);
   const bool anew = !before || before->relative_size == 0;
   Tiers<float> tiers = before.value_or(Tiers<float>{});
   if (anew) tiers.view = static_cast<std::uint32_t>(View::out_of_reach);
   tiers.muscles = tiers.effects = 0;
+  tiers.relative_size = 1;
   for (const OwnMuscle& own : muscles_of(world, human)) {
     const auto m = static_cast<std::uint32_t>(own.muscle);
     const Entity one = world.alive(own.entity[Side::right]) ? own.entity[Side::right] : own.entity[Side::left];
@@ -75,8 +79,6 @@ Tiers<float> tiers_of(const World& world, Entity human) {
   }
   return tiers;
 }
-
-}  // namespace
 
 std::uint32_t rung_of(const MuscleMethod& method, bool living) {
   if (method.method == Method::none) return 0;
@@ -183,7 +185,6 @@ Result<void> Relevance::manage(std::span<const Entity> people, const PersonNeeds
                 Status::stale_entity);
   if (needs.tolerance_m && !positive(static_cast<double>(*needs.tolerance_m)))
     return fail(fmt::format("manage: a tolerance of {} m is not finite and positive", *needs.tolerance_m));
-  if (auto done = make_ready(people, needs); !done) return done;
   Needs<float> row{};
   if (needs.muscles) {
     row.own |= own_muscles;
@@ -198,16 +199,27 @@ Result<void> Relevance::manage(std::span<const Entity> people, const PersonNeeds
     row.looked_at = *needs.looked_at ? 1 : 0;
   }
   const float tolerance_m = row.tolerance_m > 0 ? row.tolerance_m : scene_.tolerance_m.value_or(default_tolerance_m);
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  World::Attempt attempt(world, jobs);
+  if (auto done = make_ready(people, needs); !done) return done;
   std::vector<Tiers<float>> tiers(people.size());
-  in_parallel(SimulationWorld::jobs(simulation_), people.size(), [&](std::size_t begin, std::size_t end) {
+  in_parallel(jobs, people.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       tiers[i] = tiers_of(world, people[i]);
       tiers[i].tolerance_m = tolerance_m;
       tiers[i].relative_size = options_.margin;
     }
   });
+  std::vector<Entity> anew;
+  for (const Entity human : people)
+    if (!world.has<Needs>(human) || !world.has<Tiers>(human)) anew.push_back(human);
+  by_table(world, anew, [&](std::span<const Entity> together) {
+    world.remake_many(
+        together, std::array{PartValue{component_part<Needs>(), nullptr}, PartValue{component_part<Tiers>(), nullptr}},
+        {}, jobs);
+  });
+  attempt.keep();
   for (std::size_t i = 0; i < people.size(); ++i) {
-    world.add_parts(people[i], std::array{part_value(row), part_value(tiers[i])});
     world.set(people[i], row);
     world.set(people[i], tiers[i]);
   }
@@ -218,7 +230,7 @@ Result<void> Relevance::manage(std::span<const Entity> people, const PersonNeeds
 Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonNeeds& needs) {
   World& world = world_of(simulation_);
   World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
-  if (auto done = SimulationWorld::make_whole(simulation_, people); !done) return done;
+  if (auto done = SimulationWorld::make_muscles_whole(simulation_, people); !done) return done;
   LegMuscles choice = options_.leg_muscles;
   choice.muscles = needs.muscles.value_or(scene_.muscles);
   choice.method = Method::none;

@@ -3,7 +3,9 @@
 
 #include <span>
 
+#include "components/relevance.h"
 #include "engine/module.h"
+#include "engine/world.h"
 
 namespace mobil {
 
@@ -11,5 +13,7 @@ namespace mobil {
 Module relevance_module();
 /// What a person has who is managed, for SpawnRequest::parts.
 std::span<const KeyPart> relevance_parts();
+/// What choosing begins from: a person's muscles, whole, and their methods. What the caller forced stays so.
+Tiers<float> tiers_of(const World& world, Entity human);
 
 }  // namespace mobil

@@ -243,7 +243,8 @@ void Relevance::begin_muscles(RelevanceReport& report) {
 /// What they are to be is kept on the person's row.
 void Relevance::end_muscles(RelevanceReport& report) {
   World& world = world_of(simulation_);
-  std::erase_if(now_.idle, [&](Entity human) { return simulation_.is_compact(human); });
+  std::erase_if(now_.idle,
+                [&](Entity human) { return simulation_.is_compact(human) || !world.alive(world.first_member(human)); });
   now_.idle.resize(std::min<std::size_t>(now_.idle.size(), options_.begins));
   people_.clear();
   for (const Entity human : now_.idle) {

@@ -98,10 +98,15 @@ void make_left_out(const RestoreScene& scene) {
     if (table.row_count() == 0) continue;
     for (const Module& module : scene.modules) {
       if (!module.follows || module.follows(table.key()) == 0) continue;
-      in_parallel(scene.jobs, table.block_count(), [&](std::size_t begin, std::size_t end) {
+      const auto make = [&](std::size_t begin, std::size_t end) {
         const FlushDenormals flush;  // as in a tick
         module.make(table, scene.world, begin, end);
-      });
+      };
+      try {
+        in_parallel(scene.jobs, table.block_count(), make);
+      } catch (...) {  // a host's jobs that throw, though they must not
+        make(0, table.block_count());
+      }
     }
   }
 }

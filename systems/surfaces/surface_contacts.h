@@ -50,7 +50,7 @@ struct ContactWork {
   std::vector<std::uint8_t> touches;
 };
 /// Moves muscles' vertices, and makes their normals anew. `position`, `normal`: as SurfaceWriter wrote them, of the
-/// same surfaces, in any frame. Some 0.2 µs a pair.
+/// same surfaces, in any frame. Some 0.5 µs a pair.
 void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position, std::span<Vec3<float>> normal,
                 ContactWork& work);
 

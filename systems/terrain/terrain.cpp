@@ -191,13 +191,14 @@ std::size_t Terrain::Work::mend_answers(std::size_t first, std::size_t count, st
 /// Moves a person whose pose is not on this ground onto it at once: one who was placed, woke or is newly managed. No
 /// inertia is felt.
 void Terrain::Work::stand_up(World& world, Entity human) {
-  constexpr float more_than_a_step_m = 0.4F;
+  constexpr float more_than_a_step_m = 0.4F, fat_feels_m = 0.05F;
   const auto feet = world.get<Feet>(human);
   const auto state = world.get<GaitState>(human);
   if (!feet || !state) return;
   const std::size_t side = state->stance_side & 1U;
   const float lowest_m = std::min({feet->heel_m[side].y, feet->toe_m[side].y, feet->tip_m[side].y});
   const float by_m = world.get<Footing>(human)->height_m[stance] - lowest_m;
+  if (std::fabs(by_m) > fat_feels_m) settle_fat(world, human);
   if (!(std::fabs(by_m) > more_than_a_step_m)) return;
   Pose<float> pose = *world.get<Pose>(human);
   for (auto& at : pose.position_m) at.y += by_m;
@@ -263,10 +264,7 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   footing.landing_x_m[l] = one.landing_x_m;
   footing.landing_z_m[l] = one.landing_z_m;
   footing.known[l] = footing_all;
-  if (all) {
-    stand_up(world, one.human);
-    settle_fat(world, one.human);
-  }
+  if (all) stand_up(world, one.human);
 
   const float part = GroundProfile::part(0);
   const TerrainQuery& on = queries[on_way];

@@ -271,9 +271,12 @@ TEST(Avoidance, AWishIsKeptAsleepAndReleasedPeopleGoOn) {
     avoidance.update();
     simulation.tick();
   }
+  EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.2F, 1e-6F);
+  EXPECT_FALSE(avoidance.want(std::array{WalkWish{one, 30, 0}})) << "nobody of that height walks so";
+  ASSERT_TRUE(avoidance.want(std::array{WalkWish{one, 1.3F, 0}}));
   const Entity entity = one;
   ASSERT_TRUE(simulation.wake({&entity, 1}));
-  EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.2F, 1e-6F);
+  EXPECT_NEAR(simulation.get<Course>(one)->speed_m_s, 1.3F, 1e-6F);
   ASSERT_TRUE(avoidance.release(one));
   EXPECT_FALSE(simulation.get<Course>(one));
   const double before = root_of(simulation, one).z_m;

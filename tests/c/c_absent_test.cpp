@@ -85,6 +85,48 @@ TEST(CAbsent, ForcesOfSleepersGo) {
   EXPECT_NE(state(all.sim, all.ids[1]) & MOBIL_HAS_FORCES, 0);
 }
 
+/// Whom choosing put to sleep, and whose muscles it keeps for later.
+TEST(CAbsent, MusclesOfManagedSleepersAreOneSet) {
+  for (const bool away : {true, false}) {
+    const Sim sim;
+    const auto muscles = unseen_muscles();
+    const auto ids = spawn(sim, 4, &muscles);
+    const auto choosing = filled<mobil_choosing>(MOBIL_CHOOSING);
+    ASSERT_EQ(mobil_start_choosing(sim, &choosing, &muscles), MOBIL_OK);
+    ASSERT_EQ(mobil_manage(sim, ids.data(), 4, nullptr), MOBIL_OK) << sim.message();
+    auto scene = filled<mobil_scene>(MOBIL_SCENE);
+    scene.has_camera = 1;
+    scene.eye[0] = 500;
+    scene.gaze[2] = 1;
+    scene.asleep_beyond_m = 20;
+    ASSERT_EQ(mobil_set_scene(sim, &scene), MOBIL_OK) << sim.message();
+    for (int i = 0; i < 200; ++i) {
+      ASSERT_EQ(mobil_choose(sim, nullptr), MOBIL_OK);
+      ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
+    }
+    ASSERT_NE(state(sim, ids[0]) & MOBIL_ASLEEP, 0);
+    auto others = unseen_muscles();
+    others.muscles = 1U << MOBIL_QUADRICEPS;
+    const mobil_id twice[] = {ids[0], ids[0], ids[1]};
+    ASSERT_EQ(mobil_set_muscles(sim, twice, 3, away ? nullptr : &others), MOBIL_OK) << sim.message();
+    for (int i = 0; i < 100; ++i) {
+      ASSERT_EQ(mobil_choose(sim, nullptr), MOBIL_OK);
+      ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
+    }
+    EXPECT_EQ(state(sim, ids[0]) & MOBIL_HAS_MUSCLES, away ? 0 : MOBIL_HAS_MUSCLES);
+    ASSERT_EQ(mobil_wake(sim, ids.data(), 4, 0.005F), MOBIL_OK);
+    mobil_method method;
+    method.size = sizeof method;
+    if (!away) {
+      ASSERT_EQ(mobil_set_method(sim, ids.data(), 1, MOBIL_QUADRICEPS, &(method = filled<mobil_method>(MOBIL_METHOD))),
+                MOBIL_OK)
+          << sim.message();
+      ASSERT_EQ(mobil_set_muscles(sim, ids.data(), 1, nullptr), MOBIL_OK) << sim.message();
+      EXPECT_EQ(state(sim, ids[0]) & MOBIL_HAS_MUSCLES, 0) << "there was one set";
+    }
+  }
+}
+
 /// What is refused wakes nobody.
 TEST(CAbsent, NobodyHasChangedWhereOneIsRefused) {
   const Absent all;

@@ -252,6 +252,11 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
       until_done(name, [&, asked = ask] { return asked(sim, ids.data(), ids.size(), 0); });
     }
     absent();
+    const auto choosing = filled<mobil_choosing>(MOBIL_CHOOSING);
+    ASSERT_EQ(mobil_start_choosing(sim, &choosing, &muscles), MOBIL_OK);
+    until_done("manage", [&] { return mobil_manage(sim, ids.data(), ids.size(), nullptr); });
+    ASSERT_EQ(mobil_release(sim, ids.data(), ids.size()), MOBIL_OK);
+    absent();
     until_done("expand", [&] { return mobil_expand(sim, ids.data(), 20); });
     until_done("wake", [&] { return mobil_wake(sim, &ids[20], 20, 0.005F); });
     until_done("forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 1); });

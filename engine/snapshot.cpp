@@ -198,7 +198,7 @@ void WorldSnapshot::save(const World& world, const SnapshotLayout& layout, std::
   }
   for (const Table& table : world.tables_) {
     if (table.row_count() == 0) continue;
-    const std::uint64_t without = gap_of(table, left_out(table.key())).words == 0 ? 0 : left_out(table.key());
+    const std::uint64_t follows = left_out(table.key()), without = gap_of(table, follows).words == 0 ? 0 : follows;
     for (const KeyPart& part : table.key())
       writer.put(SavedPart{part.id, part.value, static_cast<std::uint32_t>(part.kind), part.id == without ? 1U : 0U});
   }

@@ -69,8 +69,9 @@ struct SharedNumber {
   std::uint64_t id, saved, present;
 };
 
-/// The part of a key whose column follows from the others and is left out of snapshots; its id, or 0 for none. Whoever
-/// restores makes it again.
+/// Snapshots leave out a column that can be computed from a row's other columns. This function says which: it takes a
+/// table's key and returns the part's id, or 0 if the table has no such column. The caller computes the column again
+/// after `commit`.
 using LeftOut = std::function<std::uint64_t(const TableKey& key)>;
 
 /// Words of a table's rows that a snapshot has not.

@@ -1,6 +1,5 @@
 #include "systems/simulation_world.h"
 
-#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -8,6 +7,7 @@
 #include "systems/muscles/compact.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/sleep.h"
+#include "systems/people/by_table.h"
 #include "systems/relevance/relevance_module.h"
 
 namespace mobil {
@@ -20,11 +20,8 @@ Result<void> Simulation::make_whole(std::span<const Entity> people) {
       asleep.push_back(human);
     else if (is_compact(human))
       compact.push_back(human);
-  for (auto* const some : {&asleep, &compact}) {  // once who is named twice
-    std::ranges::sort(*some, {}, &Entity::index);
-    const auto again = std::ranges::unique(*some);
-    some->erase(again.begin(), again.end());
-  }
+  drop_repeated(asleep);
+  drop_repeated(compact);
   World::Attempt attempt(*world_, jobs_);
   if (!asleep.empty()) {
     if (auto done = wake(asleep); !done) return done;

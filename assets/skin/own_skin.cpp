@@ -5,11 +5,10 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <unordered_map>
 
+#include "assets/surfaces/space_cells.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "engine/geometry.h"
-#include "engine/row_hash.h"
 
 namespace mobil {
 namespace {
@@ -139,23 +138,16 @@ class LegSkin {
     const auto at = corners(t);
     return 1.0 / 3 * (at[0] + at[1] + at[2]);
   }
-  using Cell = std::array<std::int32_t, 3>;
   void add(std::uint32_t t) {
     const Vec at = middle(t);
     for (const Vec& corner : corners(t)) largest_m_ = std::max(largest_m_, length(corner - at));
-    cells_[cell(at)].push_back(t);
-  }
-  static constexpr double cell_m = 0.02;
-  static Cell cell(const Vec& p) {
-    const auto of = [](double m) { return static_cast<std::int32_t>(std::floor(m / cell_m)); };
-    return {of(p.x), of(p.y), of(p.z)};
+    cells_.add(t, at);
   }
 
   /// The nearest triangle that faces about the same way; of all of them where none near does.
   std::uint32_t nearest(const Vec& p, const Vec& normal) const {
     constexpr std::int32_t furthest = 5;  // cells
     constexpr double same_way = 0.3;
-    const Cell at = cell(p);
     std::uint32_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     const auto look = [&](std::uint32_t t, bool any_way) {
@@ -169,29 +161,18 @@ class LegSkin {
         best = t;
       }
     };
-    for (std::int32_t r = 0; r <= furthest && std::sqrt(least) > (r - 1) * cell_m - largest_m_; ++r)
-      for (std::int32_t x = -r; x <= r; ++x)
-        for (std::int32_t y = -r; y <= r; ++y)
-          for (std::int32_t z = -r; z <= r; ++z) {
-            if (std::max({std::abs(x), std::abs(y), std::abs(z)}) != r) continue;
-            const auto found = cells_.find(Cell{at[0] + x, at[1] + y, at[2] + z});
-            if (found == cells_.end()) continue;
-            for (const std::uint32_t t : found->second) look(t, false);
-          }
+    for (std::int32_t r = 0; r <= furthest && std::sqrt(least) > (r - 1) * cells_.cell_m() - largest_m_; ++r)
+      cells_.near(p, r, r, [&](std::uint32_t t) { look(t, false); });
     if (least < std::numeric_limits<double>::infinity()) return best;
-    for (const auto& [where, triangles] : cells_)
-      for (const std::uint32_t t : triangles) look(t, true);
+    cells_.each([&](std::uint32_t t) { look(t, true); });
     return best;
   }
 
-  struct CellHash {
-    std::size_t operator()(const Cell& c) const { return hash_bytes(c.data(), sizeof c); }
-  };
   const SkinMesh& mesh_;
   std::span<const Vec3<float>> position_, normal_;
   std::vector<bool> shorts_;  // which vertices
   double largest_m_ = 0;      // from a triangle's middle to a corner
-  std::unordered_map<Cell, std::vector<std::uint32_t>, CellHash> cells_;
+  SpaceCells cells_{0.02};
 };
 
 /// The mean of a vertex' triangles' normals, weighted by their areas.

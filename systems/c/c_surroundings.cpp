@@ -1,6 +1,5 @@
 // Others, walls and ground.
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -9,6 +8,7 @@
 #include "components/avoidance.h"
 #include "components/footing.h"
 #include "systems/c/c_call.h"
+#include "systems/people/by_table.h"
 #include "systems/people/person.h"
 #include "systems/simulation_world.h"
 
@@ -43,9 +43,7 @@ int set_avoiding(mobil_sim& sim, Avoidance& avoidance, bool on) {
   std::vector<Entity> changes;
   for (const Entity person : sim.people)
     if (sim.world().world().has<Course>(person) != on) changes.push_back(person);
-  std::ranges::sort(changes, {}, &Entity::index);
-  const auto [first, last] = std::ranges::unique(changes);  // who is named twice
-  changes.erase(first, last);
+  drop_repeated(changes);
   const auto done = on ? avoidance.manage(changes) : avoidance.release(changes);
   return done ? int{MOBIL_OK} : sim.line.refuse(done.error());
 }

@@ -11,6 +11,13 @@
 
 namespace mobil {
 
+/// Each of them once, in the order of their indices.
+inline void drop_repeated(std::vector<Entity>& entities) {
+  std::ranges::sort(entities, {}, &Entity::index);
+  const auto repeated = std::ranges::unique(entities);
+  entities.erase(repeated.begin(), repeated.end());
+}
+
 /// f(entities of one table), table by table, in the order in which they are named; they are alive. What `f` makes of
 /// them counts no more: tables are those of before.
 template <class F>

@@ -80,17 +80,15 @@ FrontHeader count(const SnapshotScene& scene, SnapshotWork& work) {
   return header;
 }
 
-/// Which part of a table follows from the others: as its module says.
-std::uint64_t left_out_of(std::span<const Module> modules, const TableKey& key) {
-  for (const Module& module : modules) {
-    if (!module.follows) continue;
-    if (const std::uint64_t part = module.follows(key); part != 0) return part;
-  }
-  return 0;
-}
-/// It captures a span alone, so that a std::function of it takes no memory.
+/// As the table's module says. It captures a span alone, so that a std::function of it takes no memory.
 auto left_out_by(std::span<const Module> modules) {
-  return [modules](const TableKey& key) { return left_out_of(modules, key); };
+  return [modules](const TableKey& key) -> std::uint64_t {
+    for (const Module& module : modules) {
+      if (!module.follows) continue;
+      if (const std::uint64_t part = module.follows(key); part != 0) return part;
+    }
+    return 0;
+  };
 }
 
 void make_left_out(const RestoreScene& scene) {

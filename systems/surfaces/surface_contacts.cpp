@@ -1,14 +1,12 @@
 #include "systems/surfaces/surface_contacts.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
+#include "assets/surfaces/space_cells.h"
 #include "engine/geometry.h"
-#include "engine/row_hash.h"
 
 namespace mobil {
 namespace {
@@ -17,32 +15,6 @@ using namespace geometry;
 
 constexpr float near_m = 0.015F;  // at rest
 constexpr int rounds = 3, shifts = 2, sweeps = 2, bands_each = 12;
-
-/// Vertices by cells of space.
-class VertexCells {
- public:
-  void add(std::uint32_t vertex, const Vec3<float>& at) { cells_[cell(at)].push_back(vertex); }
-  template <class F>
-  void near(const Vec3<float>& at, const F& f) const {
-    const Cell c = cell(at);
-    for (std::int32_t x = -1; x <= 1; ++x)
-      for (std::int32_t y = -1; y <= 1; ++y)
-        for (std::int32_t z = -1; z <= 1; ++z)
-          if (const auto found = cells_.find({c[0] + x, c[1] + y, c[2] + z}); found != cells_.end())
-            for (const std::uint32_t v : found->second) f(v);
-  }
-
- private:
-  using Cell = std::array<std::int32_t, 3>;
-  static Cell cell(const Vec3<float>& at) {
-    const auto of = [](float m) { return static_cast<std::int32_t>(std::floor(m / near_m)); };
-    return {of(at.x), of(at.y), of(at.z)};
-  }
-  struct Hash {
-    std::size_t operator()(const Cell& c) const { return hash_bytes(c.data(), sizeof c); }
-  };
-  std::unordered_map<Cell, std::vector<std::uint32_t>, Hash> cells_;
-};
 
 void link_neighbours(const BodySurfaces& surfaces, std::span<const Vec3<float>> position, SurfaceContacts& contacts) {
   std::vector<std::vector<std::uint32_t>> beside(surfaces.vertices);
@@ -94,13 +66,13 @@ SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3
   SurfaceContacts contacts;
   link_neighbours(surfaces, position, contacts);
   cut_into_bands(surfaces, position, contacts);
-  VertexCells cells;
+  SpaceCells cells(double{near_m});
   std::vector<std::uint32_t> part_of(surfaces.vertices);
   for (std::uint32_t p = 0; p < surfaces.part.size(); ++p) {
     const SurfacePart& part = surfaces.part[p];
     for (std::uint32_t v = part.first_vertex; v < part.first_vertex + part.vertices; ++v) {
       part_of[v] = p;
-      cells.add(v, position[v]);
+      cells.add(v, to_double(position[v]));
     }
   }
   struct Nearest {
@@ -112,7 +84,7 @@ SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3
     const SurfacePart& own = surfaces.part[part_of[v]];
     if (!own.driver) continue;
     nearest.clear();
-    cells.near(position[v], [&](std::uint32_t other) {
+    cells.near(to_double(position[v]), 0, 1, [&](std::uint32_t other) {
       const SurfacePart& theirs = surfaces.part[part_of[other]];
       if (part_of[other] == part_of[v] || (theirs.driver == own.driver)) return;
       const Vec3<float> off = position[v] - position[other];

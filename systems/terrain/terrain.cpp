@@ -295,9 +295,7 @@ std::vector<Entity> those(const World& world, std::span<const Entity> people, bo
   std::vector<Entity> some;
   for (const Entity human : people)
     if (world.has<Footing>(human) == managed) some.push_back(human);
-  std::ranges::sort(some, {}, &Entity::index);
-  const auto [first, last] = std::ranges::unique(some);
-  some.erase(first, last);
+  drop_repeated(some);
   return some;
 }
 

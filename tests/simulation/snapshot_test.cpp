@@ -358,7 +358,7 @@ TEST(Snapshot, ControlPointsAreLeftOutAndMadeAgain) {
   EXPECT_LT(simulation.snapshot_bytes(), rows - points + 100'000);
 }
 
-/// Whoever says of another column that it is left out, or of one that is that it is there, is refused.
+/// A snapshot is refused if it marks a stored column as left out, or the left-out column as stored.
 TEST(Snapshot, OnlyWhatIsMadeAgainMayBeLeftOut) {
   Simulation simulation;
   const Entity one = *simulation.spawn(person(1).body, person(1).gait);

@@ -27,9 +27,9 @@ using Cells = std::array<std::uint32_t, 3>;
 
 /// Linear elastic material. The defaults are the paper's (section 6.1).
 struct Material {
-  double density_kg_m3 = 1000.0;
-  double young_pa = 1.06667e4;
-  double poisson = 0.3333;
+  double density_kg_m3 = 1000.0;  ///< 1 to 1e6
+  double young_pa = 1.06667e4;    ///< 1 to 1e12
+  double poisson = 0.3333;        ///< -0.99 to 0.4999
 
   friend bool operator==(const Material&, const Material&) = default;
 };

@@ -87,14 +87,15 @@ std::size_t slot_between_corners(std::size_t a, std::size_t b) {
 }
 
 Result<void> check_material(const Material& m) {
-  if (!(m.density_kg_m3 > 0 && m.density_kg_m3 <= 1e6)) {
-    return fail(fmt::format("density {} kg/m^3 must be above 0 and at most 1e6", m.density_kg_m3));
+  // Beyond these, products of what a belly is made of leave single precision.
+  if (!(m.density_kg_m3 >= 1 && m.density_kg_m3 <= 1e6)) {
+    return fail(fmt::format("density {} kg/m^3 must be from 1 to 1e6", m.density_kg_m3));
   }
-  if (!(m.young_pa > 0 && m.young_pa <= 1e12)) {
-    return fail(fmt::format("Young's modulus {} Pa must be above 0 and at most 1e12", m.young_pa));
+  if (!(m.young_pa >= 1 && m.young_pa <= 1e12)) {
+    return fail(fmt::format("Young's modulus {} Pa must be from 1 to 1e12", m.young_pa));
   }
-  if (!(m.poisson > -1 && m.poisson <= 0.4999)) {
-    return fail(fmt::format("Poisson's ratio {} must be above -1 and at most 0.4999", m.poisson));
+  if (!(m.poisson >= -0.99 && m.poisson <= 0.4999)) {
+    return fail(fmt::format("Poisson's ratio {} must be from -0.99 to 0.4999", m.poisson));
   }
   return {};
 }

@@ -246,7 +246,7 @@ std::vector<Option> muscle_options(MuscleText& text) {
        {},
        words_of(element_name)},
       {"--young", &text.young, "Young's modulus, Pa", block},
-      {"--poisson", &text.poisson, "Poisson's ratio, above -1 and below 0.5", block},
+      {"--poisson", &text.poisson, "Poisson's ratio, -0.99 to 0.4999", block},
       {"--density", &text.density, "Density, kg/m3", block},
       {"--foundation", &text.foundation,
        "Held sideways as fascia would, at this frequency, 0 to 1000 Hz: (2 pi f)^2 times the mass, in x and y", block},

@@ -278,7 +278,7 @@ typedef struct mobil_muscles {
   int inertia, line_motion; /* 0 or 1 */
   int finite_shape;         /* 0 or 1; below 0: where there is activation */
   unsigned int cells[3];
-  double density_kg_m3, young_pa, poisson;
+  double density_kg_m3, young_pa, poisson; /* 1 to 1e6, 1 to 1e12, -0.99 to 0.4999 */
   double damping_per_s, stiffness_damping_s;
   double foundation_hz; /* below 0: as the muscle needs it */
   double dt_s;          /* below 0: 0.9 of each individual's critical step */

@@ -14,8 +14,7 @@ namespace mobil {
 /// Each of them once, in the order of their indices.
 inline void drop_repeated(std::vector<Entity>& entities) {
   std::ranges::sort(entities, {}, &Entity::index);
-  const auto repeated = std::ranges::unique(entities);
-  entities.erase(repeated.begin(), repeated.end());
+  entities.erase(std::unique(entities.begin(), entities.end()), entities.end());
 }
 
 /// f(entities of one table), table by table, in the order in which they are named; they are alive. What `f` makes of

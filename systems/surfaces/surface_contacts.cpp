@@ -31,8 +31,7 @@ void link_neighbours(const BodySurfaces& surfaces, std::span<const Vec3<float>> 
     for (const std::uint32_t other : of) longest = std::max(longest, length(position[other] - position[v]));
     contacts.edge_m.push_back(longest);
     std::ranges::sort(of);
-    const auto [first, last] = std::ranges::unique(of);
-    contacts.neighbour.insert(contacts.neighbour.end(), of.begin(), first);
+    contacts.neighbour.insert(contacts.neighbour.end(), of.begin(), std::unique(of.begin(), of.end()));
     contacts.first_neighbour.push_back(static_cast<std::uint32_t>(contacts.neighbour.size()));
   }
 }

@@ -247,8 +247,9 @@ TEST(FiniteBound, IsAboveEveryTangent) {
     const HexahedralMesh& mesh;
     double across, along;
   };
-  for (const auto& [rest, across, along] :
-       {Body{plain, 1, 1}, Body{plain, 1.3, 0.8}, Body{bent, 1, 1}, Body{bent, 0.6, 1.2}}) {
+  for (const Body& body : {Body{plain, 1, 1}, Body{plain, 1.3, 0.8}, Body{bent, 1, 1}, Body{bent, 0.6, 1.2}}) {
+    const HexahedralMesh& rest = body.mesh;
+    const double across = body.across, along = body.along;
     const auto linear = assemble(rest, Material{}).value();
     const StiffnessTerms bound = finite_bound(rest, make_finite_kernel(rest, linear, Material{}).value(), linear);
     FiniteOracle oracle(scaled(rest, BellyScale<double>{across, along}), stepped_tissue(Material{}));

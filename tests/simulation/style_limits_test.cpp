@@ -141,7 +141,7 @@ TEST(StyleLimits, WhoStandsOnCalmFeetEvensThem) {
   style.toe_out_deg = 20;
   style.step_width_h = 0.09F;
   for (const float turn : {0.3F, 1.0F, 3.0F}) {
-    for (const int ticks : {0, 20, 45, 70, 110}) {  // 0: never starts
+    for (const std::uint32_t ticks : {0U, 20U, 45U, 70U, 110U}) {  // 0: never starts
       Simulation simulation;
       const GaitRequest standing{.speed_m_s = 0, .style = style};
       const Entity person = *simulation.spawn(body, standing);

@@ -305,7 +305,8 @@ Result<void> WorldSnapshot::prepare(World& world, const SavedWorld& saved, std::
     const std::uint64_t without = left_out(key_);
     for (std::uint32_t i = 0; i < from.parts; ++i) {
       const SavedPart part = saved.parts[from.first_part + i];
-      if (part.left_out != (part.id == without && part.value != 0 ? 1U : 0U))
+      const bool column = has_column(static_cast<PartKind>(part.kind)) && part.value != 0;
+      if (part.left_out != (part.id == without && column ? 1U : 0U))
         return tl::unexpected(damaged("which columns are left out"));
     }
     const std::uint64_t hash = key_hash(key_);

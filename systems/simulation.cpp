@@ -10,6 +10,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/avoidance.h"
+#include "components/compact.h"
 #include "components/fat.h"
 #include "components/footing.h"
 #include "engine/row_hash.h"
@@ -139,6 +140,7 @@ Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival
     forget_motion(*world_, human);
     forget_past(*world_, human);
     settle_fat(*world_, human);
+    work_->recent = {};
   }
   return done;
 }
@@ -339,11 +341,13 @@ Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> o
 }
 
 Result<void> Simulation::add_forces(Entity human) {
+  if (has_forces(*world_, human)) return result_of("add_forces", Status::already_there);
   if (auto done = make_whole_for(human); !done) return done;
   return result_of("add_forces", mobil::add_forces(*world_, human));
 }
 
 Result<void> Simulation::remove_forces(Entity human) {
+  if (is_person(human) && !has_forces(*world_, human)) return result_of("remove_forces", Status::missing);
   if (auto done = make_whole_for(human); !done) return done;
   return result_of("remove_forces", mobil::remove_forces(*world_, human));
 }
@@ -352,30 +356,47 @@ Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice)
   World::Attempt attempt(*world_, jobs_);
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   auto done = mobil::add_leg_muscles(muscle_scene(), human, choice);
-  if (done) attempt.keep();
+  if (done) {
+    attempt.keep();
+    SimulationWorld::choose_from_now(*this, human);
+  }
   return named("add_leg_muscles", std::move(done));
 }
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
   if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
-  return named("change_leg_muscles", mobil::change_leg_muscles(muscle_scene(), human, choice));
+  auto done = mobil::change_leg_muscles(muscle_scene(), human, choice);
+  if (done) SimulationWorld::choose_from_now(*this, human);
+  return named("change_leg_muscles", std::move(done));
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
+  const bool any = world_->has<CompactMuscles>(human) || kept_choice(*world_, human) || !muscles(human).empty();
+  if (is_person(human) && !any) return result_of("remove_leg_muscles", Status::missing);
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   const Status status = mobil::remove_leg_muscles(*world_, jobs_, human);
   if (status == Status::ok) SimulationWorld::choose_from_now(*this, human);
   return result_of("remove_leg_muscles", status);
 }
 
-Result<void> Simulation::set_excitation(Entity human, Muscle muscle, Side side, float excitation) {
+/// A change of muscles, before which who is asleep or compact is whole again: they stay as they were where it fails.
+template <class F>
+Result<void> Simulation::of_whole(Entity human, const char* name, const F& change) {
+  if (!is_asleep(human) && !is_compact(human) && !kept_choice(*world_, human)) return named(name, change());
+  World::Attempt attempt(*world_, jobs_);
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
-  return named("set_excitation", mobil::set_excitation(*world_, human, muscle, side, excitation));
+  auto done = change();
+  if (done) attempt.keep();
+  return named(name, std::move(done));
+}
+
+Result<void> Simulation::set_excitation(Entity human, Muscle muscle, Side side, float excitation) {
+  return of_whole(human, "set_excitation",
+                  [&] { return mobil::set_excitation(*world_, human, muscle, side, excitation); });
 }
 Result<void> Simulation::set_method(Entity human, Muscle muscle, const MuscleMethod& method) {
-  if (auto done = make_muscles_whole({&human, 1}); !done) return done;
-  return named("set_method", mobil::set_method(muscle_scene(), human, muscle, method));
+  return of_whole(human, "set_method", [&] { return mobil::set_method(muscle_scene(), human, muscle, method); });
 }
 
 MuscleMethod Simulation::method(Entity human, Muscle muscle) const {

@@ -197,7 +197,7 @@ class Simulation {
   /// follow: another style, or a second request while the first is being carried out. Systems do not see them, nor does
   /// `each`. Who turns, changes speed or walks unevenly does not fall asleep, nor posed people, nor people whose
   /// muscles have several methods. A Relevance no longer manages whom this puts to sleep. Returns how many of these
-  /// sleep now. Errors: a stale handle, somebody named twice; nothing has changed.
+  /// fell asleep. Errors: a stale handle, somebody named twice; nothing has changed.
   Result<std::size_t> sleep(std::span<const Entity> people);
   /// Sleepers wake; who is awake is left alone. Control points of their muscles are within `within_m` of where they
   /// would be, by running through the last half a second (5 mm), one (1 mm) or two (4 µm) of a person's walk as it now
@@ -448,6 +448,8 @@ class Simulation {
   Result<void> make_whole(std::span<const Entity> people);
   Result<void> make_whole_for(Entity human);
   Result<void> make_muscles_whole(std::span<const Entity> people);
+  template <class F>
+  Result<void> of_whole(Entity human, const char* name, const F& change);
   void warm_muscles(std::span<const Entity> people, const LegMuscles& choice, float within_m);
   Result<void> ask(Entity human, const Result<Gait<float>>& gait);
 

@@ -26,6 +26,9 @@ enum Number : std::size_t {
 /// The steepness, rise over length of a step, for which the numbers are: that of stairs. Parts of it up to which a step
 /// is that of a slope, which changes little but the lean of the trunk, and from which on it is that of stairs.
 inline constexpr float full = 0.16F / 0.30F, gentle = 0.25F, stairs = 0.85F;
+/// A heel rises as much as on stairs where the ground falls so far beside its slope, of the height; and by so much more
+/// the further its step is than one on stairs, both of the height.
+inline constexpr float edge_h = 0.085F, stairs_h = 0.22F, edge_further = 1.5F;
 /// Steps that are shorter count as that long, of the height.
 inline constexpr float shortest_h = 0.1F;
 /// How much higher the hips pass over the leg that bears than straight from strike to strike, of the rise.

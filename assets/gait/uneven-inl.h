@@ -64,7 +64,9 @@ struct RiseManner {
   HWY_INLINE Wide operator[](rise_table::Number n) const { return of[n]; }
 };
 
-HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& length, const Wide& height) {
+/// Between two footholds whose ground itself rises by `along`, m per m, on the mean: who steps off an edge does so from
+/// the forefoot however long the step, for the ankle bends no further.
+HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& along, const Wide& length, const Wide& height) {
   using namespace rise_table;
   const Wide one = wide(1.0F);
   const Wide steep = min(abs(rise) / (full * max(length, shortest_h * height)), one);
@@ -74,6 +76,9 @@ HWY_INLINE RiseManner rise_manner(const Wide& rise, const Wide& length, const Wi
                            HWY_ATTR { return by * select(upward, wide(numbers[0][n]), wide(numbers[1][n])); };
   RiseManner m;
   for (std::size_t n = 0; n < count; ++n) m.of[n] = towards(n == trunk_lean ? steep : part, n);
+  const Wide drop = fma(along, length, -rise) / (edge_h * height);
+  const Wide further = max(fma(length / height, wide(edge_further), wide(1.0F - edge_further * stairs_h)), one);
+  m.of[heel_up_more] = select(upward, m.of[heel_up_more], towards(max(part, further * smooth(drop)), heel_up_more));
   m.rate = rise * select(upward, mix(wide(gentle_rate[0]), wide(rate[0]), part),
                          mix(wide(gentle_rate[1]), wide(rate[1]), part));
   return m;
@@ -145,13 +150,15 @@ HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const F
   Uneven u;
   u.slopes = slopes_of(footing, heading);
   const auto& [leaving, stance, landing] = u.slopes;
-  // Who stands does so as on level ground.
-  const Wide zero = wide(0.0F);
-  u.from = rise_manner(select(stands(plan.from), zero, -leaving.height), load(plan.length_before_m), height);
-  u.to = rise_manner(select(stands(plan.to), zero, landing.height), load(plan.step_length_m), height);
-  u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
   // Both steps see a strike along the heading at its leading foothold.
   const Slopes there = slopes_of(footing, heading + turn);
+  // Who stands does so as on level ground.
+  const Wide zero = wide(0.0F);
+  u.from = rise_manner(select(stands(plan.from), zero, -leaving.height), 0.5F * (leaving.along + stance.along),
+                       load(plan.length_before_m), height);
+  u.to = rise_manner(select(stands(plan.to), zero, landing.height), 0.5F * (there.stance.along + there.landing.along),
+                     load(plan.step_length_m), height);
+  u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
   // Who stands moves no foot.
   u.hips_to = select(load(plan.landing) > 0.0F, hips_at_strike(plan.to, there.stance, there.landing, u.to, height),
                      u.hips_from);

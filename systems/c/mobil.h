@@ -222,7 +222,7 @@ MOBIL_API int mobil_shift_origin(mobil_sim* sim, const float to[3]);
 MOBIL_API int mobil_set_poses(mobil_sim* sim, const mobil_id* ids, size_t count, const float* poses, size_t stride,
                               int jumped);
 /* People whom nobody sees fall asleep: some 100 bytes, no muscles, hardly any cost. `changed` (may be null): how many
- * of these sleep now. */
+ * of these fell asleep. */
 MOBIL_API int mobil_sleep(mobil_sim* sim, const mobil_id* ids, size_t count, size_t* changed);
 /* They wake, with their muscles' control points within `within_m` of where they would be; usual 0.005. */
 MOBIL_API int mobil_wake(mobil_sim* sim, const mobil_id* ids, size_t count, float within_m);

@@ -163,7 +163,6 @@ void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person
   const Shared<LegMuscles>& choice = people.front().choice;
   std::vector<std::uint64_t> owned(pose_part_ids().begin(), pose_part_ids().end());
   std::vector<PartValue> parts;
-  work.rows.clear();
   if (choice.resource != nullptr) {
     const CompactLayout width = compact_width(people.front().codes);
     if (width.state > 0) {
@@ -180,7 +179,6 @@ void compact_alike(const MuscleScene& scene, std::span<const CompactWork::Person
   std::ranges::sort(owned);
   work.entities.clear();
   for (const CompactWork::Person& person : people) work.entities.push_back(person.entity);
-  world.destroy_many(work.rows, scene.jobs);
   world.remake_many(work.entities, parts, owned, scene.jobs);
 }
 
@@ -261,11 +259,16 @@ std::size_t compact_people(const MuscleScene& scene, std::span<const Entity> peo
     return std::tuple(p.table, p.codes, p.choice.resource == nullptr ? 0 : p.choice.index + 1);
   };
   std::ranges::stable_sort(work.people, {}, order);
+  // Muscles go when everybody is compact: to become so takes memory, and can be undone.
+  work.rows.clear();
+  World::Attempt attempt(scene.world, scene.jobs);
   for (auto first = work.people.begin(); first != work.people.end();) {
     const auto end = std::find_if(first, work.people.end(), [&](const auto& p) { return order(p) != order(*first); });
     compact_alike(scene, {first, end}, work);
     first = end;
   }
+  attempt.keep();
+  scene.world.destroy_many(work.rows, scene.jobs);
   if (!work.people.empty()) scene.work.recent = {};
   return compact + work.people.size();
 }

@@ -233,8 +233,10 @@ Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity>
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, choice, scene.time, scene.jobs, people, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
+  // Who has lost their forces meanwhile has no moments to follow.
   for (const Entity person : people)
-    if (follows_moments(choice)) set_leg_moments(world, person, *make_body(body_request(world, person)), choice);
+    if (follows_moments(choice) && world.has<JointMoments>(person))
+      set_leg_moments(world, person, *make_body(body_request(world, person)), choice);
   rows.done = true;
   return {};
 }
@@ -280,8 +282,9 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
   NewRows rows(scene, 2 * size.size());
   auto begun = begin_muscles(world, scene.library, new_ones, scene.time, scene.jobs, {&person, 1}, size, rows.made);
   if (!begun) return tl::unexpected(begun.error().error);
-  set_leg_moments(world, person, body, choice);
+  if (follows_moments(choice)) set_leg_moments(world, person, body, choice);
   change_muscles(world, scene.library, scene.work, {person, choice, false, scene.time}, bellies, stay);
+  if (!follows_moments(choice)) forget_leg_moments(world, person);
   rows.done = true;
   for (const OwnMuscle& one : before) {
     if (choice.muscles[static_cast<std::size_t>(one.muscle)]) continue;

@@ -104,7 +104,7 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
 
 std::optional<LegMuscles> kept_choice(const World& world, Entity person) {
   const auto* const choice = world.has<MuscleOwner>(person) ? nullptr : world.shared<LegMuscles>(person);
-  return choice == nullptr ? std::nullopt : std::optional(*choice);
+  return choice == nullptr || !muscles_of(world, person).empty() ? std::nullopt : std::optional(*choice);
 }
 
 std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
@@ -127,8 +127,8 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
     if (choice) group.choice = key_part(keep_choice(world, scene.library, *choice));
     work.groups.push_back(group);
   }
-  world.destroy_many(work.rows, scene.jobs);
-  scene.work.recent = {};
+  // Who sleeps is made before muscles go: that takes memory, and what it has done can be undone.
+  World::Attempt attempt(world, scene.jobs);
   const auto order = [](const SleepWork::Group& group) {
     return std::tuple(group.table, group.packed, group.choice ? group.choice->value + 1 : 0);
   };
@@ -147,6 +147,9 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
     for (; first != end; ++first) work.together.push_back(first->sleeper);
     put_to_sleep(world, scene.jobs, work.together, more, owned, work.falling);
   }
+  attempt.keep();
+  world.destroy_many(work.rows, scene.jobs);
+  scene.work.recent = {};
   return work.sleepers.size();
 }
 

@@ -73,7 +73,7 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
 
 /// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may
 /// not, unless `managed`: they then begin again with the first one's. Of their parts that are among `owned` (ids,
-/// sorted) they keep those of `keeps` alone. Returns how many sleep now.
+/// sorted) they keep those of `keeps` alone. Returns how many fell asleep. Where memory runs out, nobody did.
 std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
                          std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work);
 /// Sleepers, named once each, wake where they are, with `more` parts (wake_walkers), and have their forces again.
@@ -90,7 +90,7 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
                          std::span<const KeyPart> more, std::span<const std::uint64_t> owned, SleepWork& work,
                          const MusclesBegun& then = {});
 /// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
-/// come.
+/// come, or they are there already.
 std::optional<LegMuscles> kept_choice(const World& world, Entity person);
 
 }  // namespace mobil

@@ -244,8 +244,9 @@ Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonN
 
 Result<void> Relevance::release(Entity human) {
   World& world = world_of(simulation_);
-  if (const Status status = world.remove<Needs>(human); status != Status::ok) return result_of("release", status);
-  return result_of("release", world.remove<Tiers>(human));
+  if (!world.alive(human)) return result_of("release", Status::stale_entity);
+  if (!world.has<Needs>(human)) return result_of("release", Status::missing);
+  return result_of("release", world.remove_parts(human, {type_id<Needs<float>>(), type_id<Tiers<float>>()}));
 }
 
 Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& method) {

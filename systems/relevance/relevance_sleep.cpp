@@ -248,8 +248,13 @@ void Relevance::end_muscles(RelevanceReport& report) {
   now_.idle.resize(std::min<std::size_t>(now_.idle.size(), options_.begins));
   people_.clear();
   for (const Entity human : now_.idle) {
-    if (world.shared<LegMuscles>(human) == nullptr) {
-      world.add(human, keep_choice(world, SimulationWorld::library(simulation_), *choice_of(world, human)));
+    // What an earlier end has kept is that of muscles that may have changed since.
+    LegMuscles now = *choice_of(world, human);
+    const LegMuscles* const kept = world.shared<LegMuscles>(human);
+    if (kept != nullptr) now.method = kept->method, now.reduced = kept->reduced;
+    if (kept == nullptr || *kept != now) {
+      const std::array part = {part_value(keep_choice(world, SimulationWorld::library(simulation_), now))};
+      world.remake_many({&human, 1}, part, std::array{type_id<LegMuscles>()}, SimulationWorld::jobs(simulation_));
     }
     world.each_member(human, [&](Entity member) {
       if (world.has<MuscleOwner>(member)) people_.push_back(member);

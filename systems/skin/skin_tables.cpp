@@ -81,11 +81,14 @@ class Fit {
     // apart, cut to its greatest singular values.
     const Eigen::SelfAdjointEigenSolver<Matrix> terms(square_);
     const Eigen::VectorXd root = terms.eigenvalues().cwiseMax(0).cwiseSqrt();
+    // What no pose has is left alone: its inverse is nothing.
+    const double least = 1e-9 * root.maxCoeff();
+    const Eigen::VectorXd inverse = (root.array() > least).select(root.cwiseInverse(), 0.0);
     const Matrix alike = root.asDiagonal() * terms.eigenvectors().transpose() * fitted;
     const Eigen::SelfAdjointEigenSolver<Matrix> shapes(alike * alike.transpose());
     const Matrix greatest = shapes.eigenvectors().rightCols(skin_modes);
     const Matrix mode = greatest.transpose() * alike;
-    const Matrix weight = terms.eigenvectors() * root.cwiseInverse().asDiagonal() * greatest;
+    const Matrix weight = terms.eigenvectors() * inverse.asDiagonal() * greatest;
     auto table = std::make_unique<SkinTable>();
     for (std::size_t m = 0; m < skin_modes; ++m) {
       const auto of = static_cast<Eigen::Index>(m);

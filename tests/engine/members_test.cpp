@@ -139,6 +139,32 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
   model.check();
 }
 
+TEST(Snapshot, WhatItLeavesOutIsWhatWhoRestoresItMakesAgain) {
+  World world;
+  world.create(Weight<float>{70}, kept_by({}, 1));
+  const auto nothing = [](const TableKey&) { return std::uint64_t{0}; };
+  const auto weight = [](const TableKey&) { return type_id<Weight<float>>(); };
+  const auto keeper = [](const TableKey&) { return type_id<Keeper<float>>(); };
+  const auto absent = [](const TableKey&) { return type_id<Model>(); };
+  const struct {
+    LeftOut by_writer, by_reader;
+    bool agree;
+  } cases[] = {{nothing, nothing, true}, {weight, weight, true},  {nothing, weight, false},
+               {weight, nothing, false}, {weight, keeper, false}, {absent, nothing, true}};
+  for (const auto& [by_writer, by_reader, agree] : cases) {
+    const SnapshotLayout layout = WorldSnapshot::layout(world, by_writer);
+    std::vector<std::byte> bytes(layout.bytes());
+    WorldSnapshot::save(world, layout, bytes, {}, by_writer);
+    const auto open = open_snapshot(bytes, {});
+    ASSERT_TRUE(open);
+    const auto saved = WorldSnapshot::read(*open);
+    ASSERT_TRUE(saved);
+    WorldSnapshot snapshot;
+    const auto any_key = [](const TableKey&) { return Result<void>(); };
+    EXPECT_EQ(snapshot.prepare(world, *saved, {}, {}, by_reader, any_key).has_value(), agree);
+  }
+}
+
 TEST(Members, CountInTheHashOfTheirOwnerAndNotByHandle) {
   World one, other;
   one.set_owner_part(component_part<Keeper>());

@@ -241,7 +241,7 @@ TEST(BadWalk, NamesTheMethodsAndElements) {
 
 TEST(BadMuscle, NamesTheLimit) {
   expect_refused("muscle --dt 0.0037", {"0.0037", "critical step 0.003483 s", "0.00313 s"});
-  expect_refused("muscle --poisson 0.5", {"0.5", "-1"});
+  expect_refused("muscle --poisson 0.5", {"0.5", "-0.99 to 0.4999"});
   expect_refused("muscle --poisson nan", {"--poisson", "'nan'"});
   expect_refused("muscle --young 0", {"oung", "0"});
   expect_refused("muscle --density -1", {"ensity", "-1"});

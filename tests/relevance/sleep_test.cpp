@@ -243,8 +243,12 @@ TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
   }
   EXPECT_GT(begun, 50U);
   EXPECT_GT(ended, 5U);
+  std::size_t bare = 0;
   for (const Entity human : scene.people) {
     const bool has = !scene.simulation.muscles(human).empty();
+    std::size_t rows = 0;
+    scene.simulation.world().each_member(human, [&](Entity) { ++rows; });
+    EXPECT_EQ(rows, has ? 2U : 0U) << "one muscle, right and left";
     if (scene.simulation.is_asleep(human)) {
       EXPECT_FALSE(has);
       continue;
@@ -253,7 +257,16 @@ TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
     if (tiers.relative_size == 0) continue;  // has just woken
     EXPECT_EQ(has, (tiers.effects & tier_bare) == 0);
     EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(1));
+    // A method of the host's choice is that of the muscles there are, or they begin with it.
+    bare += has ? 0 : 1;
+    const MuscleMethod asked = {Method::reduced, {.vectors = 3}};
+    ASSERT_TRUE(scene.relevance->force(human, static_cast<Muscle>(0), asked));
+    std::size_t forced = 0;
+    scene.simulation.world().each_member(human, [&](Entity) { ++forced; });
+    EXPECT_EQ(forced, 2U);
+    EXPECT_TRUE(same_method(scene.simulation.method(human, static_cast<Muscle>(0)), asked));
   }
+  EXPECT_GT(bare, 0U);
 }
 
 /// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those

@@ -135,7 +135,7 @@ TEST(Terrain, HillsKerbsAndStairsAreWalkedSmoothly) {
                 highest);
     EXPECT_LT(fastest, 20) << name;  // people's knees swing at 7 rad/s
     EXPECT_LT(highest, 33) << name;
-    EXPECT_LT(ankle, hard ? 46 : 39) << name;
+    EXPECT_LT(ankle, 39) << name;
     EXPECT_LT(knee, hard ? 125 : 112) << name;
   }
 }

@@ -20,8 +20,9 @@ constexpr std::size_t index(FootholdOf which) {
 /// `lift_early_m`, `lift_late_m`: how much higher than straight from one foothold to the next the foot in the air
 /// passes
 /// (`swing_lift`). Where the stance foothold and the next one were when the ground was asked for, before they were
-/// moved; the step (GaitState) that it is of; and how much of it is known (FootingKnown). All zero: level ground,
-/// nothing known yet.
+/// moved; the step (GaitState) that it is of; and how much of it is known (FootingKnown). The steepness for which the
+/// walker is to slow down, m per m, 0: for none; the speed and the length of step asked for on level ground, and what
+/// slowing down has made of them, all 0 while it has not. All zero: level ground, nothing known yet.
 template <class F>
 struct Footing {
   F height_m[3], rise_x[3], rise_z[3];
@@ -29,6 +30,7 @@ struct Footing {
   F lift_early_m, lift_late_m;
   F stance_x_m, stance_z_m, landing_x_m, landing_z_m;
   Whole<F> steps, stance_side, known;
+  F slows_for, level_speed_m_s, level_length_m, slowed_speed_m_s, slowed_length_m;
 };
 
 /// All that is kept by FootholdOf.

@@ -341,7 +341,6 @@ Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> o
 }
 
 Result<void> Simulation::add_forces(Entity human) {
-  if (has_forces(*world_, human)) return result_of("add_forces", Status::already_there);
   if (auto done = make_whole_for(human); !done) return done;
   return result_of("add_forces", mobil::add_forces(*world_, human));
 }

@@ -37,7 +37,8 @@ TownScene::TownScene(TownPaths paths, const TownOptions& options)
       terrain_(*simulation_,
                [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
                  for (std::size_t i = 0; i < at.size(); ++i) out[i] = town_ground(at[i].x_m, at[i].z_m);
-               }),
+               },
+               {.slows_down = true}),
       seed_(options.seed) {}
 TownScene::TownScene(TownScene&&) noexcept = default;
 TownScene::~TownScene() = default;

@@ -268,9 +268,10 @@ Result<void> run_walk(const WalkOptions& asked) {
 
   std::optional<Terrain> terrain;
   if (options.ground.kind != GroundKind::level) {
-    terrain.emplace(simulation, [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+    const TerrainHeights heights = [&](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
       for (std::size_t i = 0; i < at.size(); ++i) out[i] = options.ground.at(at[i].x_m, at[i].z_m);
-    });
+    };
+    terrain.emplace(simulation, heights, TerrainOptions{.slows_down = options.slow_down});
     if (auto done = terrain->manage({&*entity, 1}); !done) return done;
   }
   const auto walked = walk(simulation, human, *figure, options, changes, terrain ? &*terrain : nullptr);

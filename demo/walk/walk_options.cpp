@@ -75,6 +75,8 @@ std::vector<Option> walk_options(WalkText& text) {
       {"--seconds", &text.seconds, "How long to walk, 0.1s to 60s", gait},
       {"--ground", &text.ground, "level, slope:10%, cross:10%, hills:20cm, kerb:15cm or stairs:16cm/30cm, see below",
        gait},
+      {"--slow-down", &text.slow_down, "On slopes and stairs, as people do, and go on as asked where it is level",
+       gait},
       {"--no-forces", &text.no_forces, "Leave ground reactions and joint moments out: empty cells in motion.csv", gait},
       {"--muscles", &text.muscles,
        "groups, members, or names like hamstrings,soleus: which muscles of both legs are simulated", muscles},
@@ -182,6 +184,7 @@ Result<WalkOptions> read_walk_options(const WalkText& text) {
   const auto ground = read_walk_ground(text.ground);
   if (!ground) return tl::unexpected(ground.error());
   options.ground = *ground;
+  options.slow_down = text.slow_down;
   if (ground->kind == GroundKind::stairs && !options.gait.step_length_m) {
     options.gait.step_length_m = ground->tread_m;
     constexpr float usual_hz = 1.8F;  // of people on stairs

@@ -26,6 +26,7 @@ struct WalkOptions {
   std::optional<WalkScript> script;
   double seconds = 5;
   WalkGround ground;
+  bool slow_down = false;
   LegMuscles muscles;
   bool forces = true;  // ground reactions and joint moments
   std::optional<std::filesystem::path> anatomy;
@@ -45,7 +46,7 @@ struct WalkText {
   std::string eye_distance = "63mm";
   std::vector<std::string> set, exports;
   std::string script, ground = "level";
-  bool list_parameters = false, no_forces = false, members = false, tuned = false, inertia = false;
+  bool list_parameters = false, slow_down = false, no_forces = false, members = false, tuned = false, inertia = false;
   bool skin = false, fat = false, contact = false, frames = false, video = false, stereo = false;
 };
 

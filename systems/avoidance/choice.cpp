@@ -5,7 +5,9 @@
 #include <numbers>
 #include <optional>
 
+#include "assets/gait/slope_pace.h"
 #include "components/avoidance.h"
+#include "components/footing.h"
 #include "engine/each.h"
 #include "engine/rows.h"
 #include "systems/avoidance/lane.h"
@@ -342,6 +344,8 @@ void choose_step(const Surroundings& around, const Striker& striker, Chosen& out
   next_footing(block_of(TableColumn<BodySize>(table)), block_of(TableColumn<StepPlan>(table)),
                block_of(TableColumn<GaitState>(table)), footing);
   Course<float> course = row_of(block_of(TableColumn<Course>(table)), striker.lane);
+  if (const TableColumn<Footing> ground(table); ground)
+    course.speed_m_s = slope_speed(course.speed_m_s, ground.at(table, striker.block).slows_for[striker.lane]);
   const Gait<float> before = row_of(block_of(TableColumn<Gait>(table)), striker.lane);
   StrikePlace<float> from = row_of(footing, striker.lane);
   from.usual = course.usual;

@@ -19,6 +19,7 @@
 #include "systems/people/person.h"
 #include "systems/simulation_world.h"
 #include "systems/terrain/ground_profile.h"
+#include "systems/terrain/slowing.h"
 #include "systems/terrain/sole_fit.h"
 
 namespace mobil {
@@ -60,15 +61,18 @@ struct Terrain::Work {
   std::vector<Asking> asking;
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
+  std::vector<Entity> people;       // whose ground was answered
+  std::vector<WalkChange> changes;  // of those who slow down
   TerrainReport report;
 
   void collect(const World& world);
   void collect_block(const Table& table, std::uint32_t block);
   void ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
                  std::span<const float> ahead_m);
-  void put_answers(World& world);
+  void put_answers(Simulation& simulation, const TerrainOptions& options);
   std::size_t put_answers(World& world, const Asking& one);
   static void stand_up(World& world, Entity human);
+  static void set_steepness(World& world, Entity human);
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -212,11 +216,26 @@ void Terrain::Work::stand_up(World& world, Entity human) {
   forget_motion(world, human);
 }
 
-void Terrain::Work::put_answers(World& world) {
+void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& options) {
   const FlushDenormals flush;  // as in a tick
+  World& world = world_of(simulation);
+  people.clear();
   for (const Asking& one : asking) report.unusable += put_answers(world, one);
   asking.clear();
   queries.clear();
+  if (!options.slows_down) return;
+  for (const Entity human : people) set_steepness(world, human);
+  slow_down(simulation, people, changes);
+}
+
+/// How steep the way is from the foothold behind to the one ahead, which kerbs are but for two steps.
+void Terrain::Work::set_steepness(World& world, Entity human) {
+  constexpr float steepest = 1, shortest_m = 0.2F;
+  auto footing = *world.get<Footing>(human);
+  const auto plan = *world.get<StepPlan>(human);
+  const float way_m = std::max(plan.length_before_m + plan.step_length_m, shortest_m);
+  footing.slows_for = std::clamp((footing.height_m[landing] - footing.height_m[leaving]) / way_m, -steepest, steepest);
+  world.set(human, footing);
 }
 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
@@ -264,6 +283,7 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   footing.landing_x_m[l] = one.landing_x_m;
   footing.landing_z_m[l] = one.landing_z_m;
   footing.known[l] = footing_all;
+  people.push_back(one.human);
   if (all) stand_up(world, one.human);
 
   const float part = GroundProfile::part(0);
@@ -283,8 +303,8 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   return unusable;
 }
 
-Terrain::Terrain(Simulation& simulation, TerrainHeights heights)
-    : simulation_(simulation), heights_(std::move(heights)), work_(std::make_unique<Work>()) {}
+Terrain::Terrain(Simulation& simulation, TerrainHeights heights, const TerrainOptions& options)
+    : simulation_(simulation), heights_(std::move(heights)), options_(options), work_(std::make_unique<Work>()) {}
 Terrain::~Terrain() = default;
 Terrain::Terrain(Terrain&&) noexcept = default;
 
@@ -328,6 +348,12 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   }
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
+  for (const Entity human : changes) {
+    auto footing = *world.get<Footing>(human);
+    footing.slows_for = 0;
+    world.set(human, footing);
+  }
+  slow_down(simulation_, changes, work_->changes);  // back to the walk on level ground
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
@@ -348,7 +374,7 @@ Result<TerrainReport> Terrain::answer(std::span<const TerrainHeight> heights) {
                     heights.size(), work.queries.size()),
         Status::not_valid);
   std::ranges::copy(heights, work.answers.begin());
-  work.put_answers(world_of(simulation_));
+  work.put_answers(simulation_, options_);
   return work.report;
 }
 
@@ -358,7 +384,7 @@ TerrainReport Terrain::update() {
   work.collect(world_of(simulation_));
   if (work.asking.empty()) return work.report;
   heights_(work.queries, work.answers);
-  work.put_answers(world_of(simulation_));
+  work.put_answers(simulation_, options_);
   return work.report;
 }
 

@@ -51,12 +51,19 @@ struct TerrainReport {
   std::size_t people = 0, asked = 0, places = 0, unusable = 0;
 };
 
+/// `slows_down`: walkers slow down on slopes and stairs (assets/gait/slope_pace.h), one step after their feet come
+/// there, and go on as asked where it is level. Their Gait then is the slower one; a gait asked for meanwhile is one
+/// for level ground. Avoidance slows what it wants.
+struct TerrainOptions {
+  bool slows_down = false;
+};
+
 /// Puts those it manages on the host's ground, before each tick.
 class Terrain {
  public:
   /// Works on `simulation`, which must outlive it and stay where it is.
   /// Without `heights`, `update` does nothing: use `ask` and `answer`.
-  explicit Terrain(Simulation& simulation, TerrainHeights heights = {});
+  explicit Terrain(Simulation& simulation, TerrainHeights heights = {}, const TerrainOptions& options = {});
   ~Terrain();
   Terrain(Terrain&&) noexcept;
   Terrain(const Terrain&) = delete;
@@ -85,6 +92,7 @@ class Terrain {
   struct Work;
   Simulation& simulation_;
   TerrainHeights heights_;
+  TerrainOptions options_;
   std::unique_ptr<Work> work_;
 };
 

@@ -43,8 +43,8 @@ struct Hike {
   Entity human;
 
   Hike(HeightOf on, const GaitRequest& gait, const BodyRequest& body = {.height_m = 1.75F, .mass_kg = 75},
-       double tick_s = 1.0 / 60, float start_z_m = 0)
-      : ground(std::move(on)), simulation({.tick_s = tick_s}), terrain(simulation, answering(ground)) {
+       double tick_s = 1.0 / 60, float start_z_m = 0, const TerrainOptions& options = {})
+      : ground(std::move(on)), simulation({.tick_s = tick_s}), terrain(simulation, answering(ground), options) {
     human = simulation.spawn(body, gait).value();
     EXPECT_TRUE(simulation.place(human, 0, start_z_m, 0));
     EXPECT_TRUE(simulation.add_forces(human));

@@ -1,0 +1,135 @@
+// Walkers who slow down on slopes and stairs.
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "assets/gait/slope_pace.h"
+#include "components/avoidance.h"
+#include "components/gait.h"
+#include "systems/avoidance/avoidance.h"
+#include "tests/terrain/hike.h"
+
+namespace mobil {
+namespace {
+
+constexpr float first_m = 8, last_m = 24;  // where the slope begins and ends
+
+HeightOf ramp(float rise) {
+  return [=](float, float z) {
+    const bool on = z > first_m && z < last_m;
+    return TerrainHeight{rise * (std::clamp(z, first_m, last_m) - first_m), 0, on ? rise : 0.0F};
+  };
+}
+
+Hike hike_on(HeightOf ground, const GaitRequest& gait) {
+  return Hike(std::move(ground), gait, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 60, 0, {.slows_down = true});
+}
+
+void walk_to(Hike& hike, float z_m) {
+  for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < z_m; ++i) hike.tick();
+  ASSERT_GE(hike.get<GaitState>().line_z_m, z_m);
+}
+
+TEST(SlopeSpeed, FallsWithSteepnessAndSlowPeopleKeepTheirs) {
+  rc::check([] {
+    const float asked = static_cast<float>(*rc::gen::inRange(100, 2500)) / 1000;
+    const float steep = static_cast<float>(*rc::gen::inRange(-1000, 1000)) / 1000;
+    const float speed = slope_speed(asked, steep);
+    RC_ASSERT(speed <= asked && speed >= std::min(asked, 0.6F));
+    RC_ASSERT(slope_speed(asked, steep + (steep < -0.05F ? -0.01F : 0.01F)) <= speed);
+    if (steep >= -0.1F && steep <= 0) RC_ASSERT(std::fabs(speed - asked) < 1e-6F);
+  });
+  EXPECT_NEAR(slope_speed(1.4F, 0.1F) / 1.4F, std::exp(-0.35), 1e-6);
+  EXPECT_NEAR(slope_speed(1.4F, -0.3F) / 1.4F, std::exp(-0.7), 1e-6);
+}
+
+TEST(Slowing, WalkersSlowDownOnASlopeAndGoOnAsAsked) {
+  for (const float rise : {0.15F, -0.25F}) {
+    Hike hike = hike_on(ramp(rise), {.speed_m_s = 1.3F});
+    walk_to(hike, first_m - 2);
+    const Gait<float> level = hike.get<Gait>();
+    EXPECT_EQ(level.speed_m_s, 1.3F);
+    walk_to(hike, last_m - 4);
+    const Gait<float> slow = hike.get<Gait>();
+    EXPECT_NEAR(slow.speed_m_s, slope_speed(1.3F, rise), 0.03F);
+    EXPECT_LT(slow.step_length_m, level.step_length_m);
+    EXPECT_NEAR(hike.get<StepPlan>().to.speed_m_s, slow.speed_m_s, 0.01F);
+    walk_to(hike, last_m + 6);
+    EXPECT_EQ(hike.get<Gait>().speed_m_s, level.speed_m_s);
+    EXPECT_EQ(hike.get<Gait>().step_length_m, level.step_length_m);
+    EXPECT_EQ(hike.get<StepPlan>().settled, 1U);
+  }
+}
+
+TEST(Slowing, IsAskedFor) {
+  Hike hike(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, last_m - 4);
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
+}
+
+TEST(Slowing, AHostsRequestOnTheWayIsOneForLevelGround) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  EXPECT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  ASSERT_TRUE(hike.simulation.turn_to(hike.human, 0.05F));  // says nothing of speed
+  walk_to(hike, first_m + 7);
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.0F}));
+  walk_to(hike, first_m + 10);
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.0F, 0.15F), 0.03F);
+  walk_to(hike, last_m + 6);
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
+}
+
+TEST(Slowing, StepsAsLongAsTreadsStayAsLong) {
+  Hike hike = hike_on(stairs(0.16F, 0.3F, 40), {.speed_m_s = 0.9F, .step_length_m = 0.30F});
+  walk_to(hike, 8);
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, 0.6F, 0.03F);
+  EXPECT_FLOAT_EQ(hike.get<Gait>().step_length_m, 0.30F);
+}
+
+TEST(Slowing, WhoIsReleasedWalksAsAsked) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  const Gait<float> level = hike.get<Gait>();
+  walk_to(hike, first_m + 6);
+  EXPECT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  ASSERT_TRUE(hike.terrain.release({&hike.human, 1}));
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, level.speed_m_s);
+  EXPECT_EQ(hike.get<Gait>().step_length_m, level.step_length_m);
+}
+
+TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  Avoidance avoidance(hike.simulation);
+  ASSERT_TRUE(avoidance.manage(hike.human));
+  const auto walk = [&](float z_m) {
+    for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < z_m; ++i) {
+      avoidance.update();
+      hike.tick();
+    }
+    return hike.get<StepPlan>().to.speed_m_s;
+  };
+  EXPECT_NEAR(walk(first_m - 2), 1.3F, 0.01F);
+  EXPECT_NEAR(walk(last_m - 4), slope_speed(1.3F, 0.15F), 0.03F);
+  EXPECT_NEAR(hike.get<Course>().speed_m_s, 1.3F, 1e-6F) << "what it wants is what was asked for";
+  EXPECT_NEAR(walk(last_m + 6), 1.3F, 0.01F);
+}
+
+TEST(Slowing, GoesOnFromASnapshot) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  std::vector<std::byte> bytes(hike.simulation.snapshot_bytes());
+  ASSERT_TRUE(hike.simulation.save(bytes));
+  walk_to(hike, last_m + 3);
+  const std::uint64_t once = hike.simulation.state_hash();
+  ASSERT_TRUE(hike.simulation.restore(bytes));
+  walk_to(hike, last_m + 3);
+  EXPECT_EQ(hike.simulation.state_hash(), once);
+}
+
+}  // namespace
+}  // namespace mobil

@@ -7,7 +7,6 @@
 #include "components/avoidance.h"
 #include "components/footing.h"
 #include "systems/gait/gait.h"
-#include "systems/simulation_world.h"
 
 namespace mobil {
 namespace {
@@ -34,9 +33,8 @@ GaitChange change_to(float height_m, const Footing<float>& footing, float speed_
 
 }  // namespace
 
-void slow_down(Simulation& simulation, std::span<const Entity> people, std::vector<WalkChange>& changes) {
+void find_slowed(World& world, std::span<const Entity> people, std::vector<WalkChange>& changes) {
   constexpr float least_part = 0.04F;  // less is not worth a step that is solved anew
-  World& world = world_of(simulation);
   changes.clear();
   for (const Entity human : people) {
     auto footing = world.get<Footing>(human);
@@ -49,8 +47,9 @@ void slow_down(Simulation& simulation, std::span<const Entity> people, std::vect
     changes.push_back({human, change_to(world.get<BodySize>(human)->height_m, *footing, speed), {}});
     world.set(human, *footing);
   }
-  if (changes.empty()) return;
-  (void)simulation.change_walks(changes);  // who cannot walk so goes on as before
+}
+
+void keep_slowed(World& world, std::span<const WalkChange> changes) {
   for (const WalkChange& change : changes) {
     auto footing = *world.get<Footing>(change.human);
     const auto gait = world.get<Gait>(change.human);

@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "engine/world.h"
-#include "systems/simulation.h"
+#include "systems/people/person.h"
 
 namespace mobil {
 
-/// Those of `people` whose pace is another than their steepness asks for (Footing::slows_for; assets/gait/slope_pace.h)
-/// are asked to change it from the next step on; what they were asked to do on level ground is kept on their rows. Of
-/// who avoids others (Course) nothing is asked: Avoidance slows what it wants. `changes` is what this works in.
-void slow_down(Simulation& simulation, std::span<const Entity> people, std::vector<WalkChange>& changes);
+/// What those of `people` are to be asked for, in `changes`, whose pace is another than their steepness asks for
+/// (Footing::slows_for; assets/gait/slope_pace.h). What they were asked to do on level ground is kept on their rows. Of
+/// who avoids others (Course) nothing is asked: Avoidance slows what it wants.
+void find_slowed(World& world, std::span<const Entity> people, std::vector<WalkChange>& changes);
+/// They have been asked for that: what has become of it is kept too, so that another request is told from it.
+void keep_slowed(World& world, std::span<const WalkChange> changes);
 
 }  // namespace mobil

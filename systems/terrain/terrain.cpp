@@ -73,6 +73,7 @@ struct Terrain::Work {
   std::size_t put_answers(World& world, const Asking& one);
   static void stand_up(World& world, Entity human);
   static void set_steepness(World& world, Entity human);
+  void slow_down(Simulation& simulation, std::span<const Entity> some);
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -225,7 +226,16 @@ void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& op
   queries.clear();
   if (!options.slows_down) return;
   for (const Entity human : people) set_steepness(world, human);
-  slow_down(simulation, people, changes);
+  slow_down(simulation, people);
+}
+
+/// They, who are awake, are asked to walk as fast as suits their steepness.
+void Terrain::Work::slow_down(Simulation& simulation, std::span<const Entity> some) {
+  World& world = world_of(simulation);
+  find_slowed(world, some, changes);
+  if (changes.empty()) return;
+  (void)simulation.change_walks(changes);  // who cannot walk so goes on as before
+  keep_slowed(world, changes);
 }
 
 /// How steep the way is from the foothold behind to the one ahead, which kerbs are but for two steps.
@@ -353,7 +363,7 @@ Result<void> Terrain::release(std::span<const Entity> people) {
     footing.slows_for = 0;
     world.set(human, footing);
   }
-  slow_down(simulation_, changes, work_->changes);  // back to the walk on level ground
+  work_->slow_down(simulation_, changes);  // back to the walk on level ground
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();

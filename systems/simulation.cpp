@@ -371,7 +371,7 @@ Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choi
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
-  const bool any = world_->has<CompactMuscles>(human) || kept_choice(*world_, human) || !muscles(human).empty();
+  const bool any = world_->has<CompactMuscles>(human) || kept_choice(*world_, human) || has_muscles(*world_, human);
   if (is_person(human) && !any) return result_of("remove_leg_muscles", Status::missing);
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   const Status status = mobil::remove_leg_muscles(*world_, jobs_, human);

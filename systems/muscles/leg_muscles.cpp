@@ -137,6 +137,12 @@ std::vector<OwnMuscle> muscles_of(const World& world, Entity person) {
   return all;
 }
 
+bool has_muscles(const World& world, Entity person) {
+  bool any = false;
+  world.each_member(person, [&](Entity member) { any = any || world.has<MuscleOwner>(member); });
+  return any;
+}
+
 Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side) {
   Entity found{};
   world.each_member(person, [&](Entity member) {

@@ -31,6 +31,8 @@ struct MuscleScene {
 
 /// A person's muscles in the table's order; empty for a stale handle. A side that is gone has a stale handle.
 std::vector<OwnMuscle> muscles_of(const World& world, Entity person);
+/// Whether there are any. Takes no memory.
+bool has_muscles(const World& world, Entity person);
 /// A person's muscle of that side; a stale handle where there is none.
 Entity muscle_of(const World& world, Entity person, Muscle muscle, Side side);
 /// What a person's muscles were chosen as: their tissue and effects, the method of the first one. Nothing without

@@ -104,7 +104,7 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
 
 std::optional<LegMuscles> kept_choice(const World& world, Entity person) {
   const auto* const choice = world.has<MuscleOwner>(person) ? nullptr : world.shared<LegMuscles>(person);
-  return choice == nullptr || !muscles_of(world, person).empty() ? std::nullopt : std::optional(*choice);
+  return choice == nullptr || has_muscles(world, person) ? std::nullopt : std::optional(*choice);
 }
 
 std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,

@@ -18,6 +18,7 @@
 #include "engine/state_hash.h"
 #include "systems/gait/gait.h"
 #include "systems/muscles/compact.h"
+#include "systems/muscles/leg_moments.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
@@ -140,8 +141,8 @@ Result<void> Simulation::set_pose(Entity human, const Pose<float>& pose, Arrival
     forget_motion(*world_, human);
     forget_past(*world_, human);
     settle_fat(*world_, human);
-    work_->recent = {};
   }
+  work_->recent = {};
   return done;
 }
 
@@ -364,6 +365,9 @@ Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice)
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
   if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
+  if (is_asleep(human) && follows_moments(choice) && !has_forces(*world_, human))
+    return fail("change_leg_muscles: activation by moments needs the moments at the joints; call add_forces first",
+                Status::missing);
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   auto done = mobil::change_leg_muscles(muscle_scene(), human, choice);
   if (done) SimulationWorld::choose_from_now(*this, human);

@@ -16,4 +16,11 @@ float slope_speed(float asked_m_s, float steepness) {
   return std::max(asked_m_s * part, std::min(asked_m_s, on_stairs_m_s));
 }
 
+LevelWalk level_walk(const Gait<float>& gait, const Footing<float>& footing) {
+  const bool slowed = footing.level_speed_m_s > 0 && gait.speed_m_s == footing.slowed_speed_m_s &&
+                      gait.step_length_m == footing.slowed_length_m;
+  if (slowed) return {footing.level_speed_m_s, footing.level_length_m};
+  return {gait.speed_m_s, gait.step_length_m};
+}
+
 }  // namespace mobil

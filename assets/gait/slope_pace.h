@@ -1,6 +1,9 @@
 #pragma once
 // How people slow down on slopes and stairs.
 
+#include "components/footing.h"
+#include "components/gait.h"
+
 namespace mobil {
 
 /// How fast, m/s, who walks at `asked_m_s` on level ground goes where it rises by `steepness`, m per m of the way;
@@ -9,5 +12,11 @@ namespace mobil {
 /// faster than people do on stairs slows down: 0.6 m/s, horizontally (U. Weidmann, Transporttechnik der Fussgänger,
 /// 1993: 0.61 up and 0.69 down).
 float slope_speed(float asked_m_s, float steepness);
+
+/// What somebody was asked to do on level ground: what their gait is, unless that is what slowing down has asked for.
+struct LevelWalk {
+  float speed_m_s, step_length_m;
+};
+LevelWalk level_walk(const Gait<float>& gait, const Footing<float>& footing);
 
 }  // namespace mobil

@@ -154,9 +154,11 @@ HWY_NOINLINE inline Uneven uneven_of(const StepPlan<Lanes<float>>& plan, const F
   const Slopes there = slopes_of(footing, heading + turn);
   // Who stands does so as on level ground.
   const Wide zero = wide(0.0F);
-  u.from = rise_manner(select(stands(plan.from), zero, -leaving.height), 0.5F * (leaving.along + stance.along),
+  const auto level = [&](const Strike<Lanes<float>>& strike, const Wide& value)
+                         HWY_ATTR { return select(stands(strike), zero, value); };
+  u.from = rise_manner(level(plan.from, -leaving.height), level(plan.from, 0.5F * (leaving.along + stance.along)),
                        load(plan.length_before_m), height);
-  u.to = rise_manner(select(stands(plan.to), zero, landing.height), 0.5F * (there.stance.along + there.landing.along),
+  u.to = rise_manner(level(plan.to, landing.height), level(plan.to, 0.5F * (there.stance.along + there.landing.along)),
                      load(plan.step_length_m), height);
   u.hips_from = hips_at_strike(plan.from, leaving, stance, u.from, height);
   // Who stands moves no foot.

@@ -8,6 +8,8 @@
 #include <span>
 #include <vector>
 
+#include "assets/gait/slope_pace.h"
+#include "components/footing.h"
 #include "engine/access.h"
 #include "engine/each.h"
 #include "engine/row_hash.h"
@@ -43,19 +45,20 @@ Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
 Avoidance::~Avoidance() = default;
 Avoidance::Avoidance(Avoidance&&) noexcept = default;
 
-/// What somebody begins with: they go on as they were asked to, their shoulders as they are.
+/// What somebody begins with: they go on as they were asked to, on level ground, their shoulders as they are.
 Course<float> Avoidance::first_course(const World& world, Entity human) const {
   const Gait<float> gait = *world.get<Gait>(human);
+  const LevelWalk asked = level_walk(gait, world.get<Footing>(human).value_or(Footing<float>{}));
   const float height = world.get<BodySize>(human)->height_m;
   Course<float> course{};
-  course.speed_m_s = gait.speed_m_s;
+  course.speed_m_s = asked.speed_m_s;
   course.heading_rad = gait.heading_rad;
   course.usual = 1;
   course.radius_m = options_.radius_h * height;
   course.shoulders_m = options_.shoulders_h * height;
-  if (gait.speed_m_s > 0) {
-    const auto usual = resolve_gait(height, {.speed_m_s = gait.speed_m_s});
-    if (usual) course.usual = gait.step_length_m / usual->step_length_m;
+  if (asked.speed_m_s > 0) {
+    const auto usual = resolve_gait(height, {.speed_m_s = asked.speed_m_s});
+    if (usual) course.usual = asked.step_length_m / usual->step_length_m;
   }
   if (const auto before = world.get<Course>(human)) {
     course.turn_rad = before->turn_rad;
@@ -98,6 +101,21 @@ Result<void> Avoidance::manage(std::span<const Entity> people) {
   return {};
 }
 
+/// Who walks slower than they wish because of a slope goes on from it as they wished.
+static void keep_level_wish(World& world, Entity human) {
+  auto footing = world.get<Footing>(human);
+  const auto gait = world.get<Gait>(human);
+  const Course<float> course = *world.get<Course>(human);
+  if (!footing || !gait || footing->slows_for == 0 || !(gait->speed_m_s > 0) || !(course.speed_m_s > 0)) return;
+  const auto usual = resolve_gait(world.get<BodySize>(human)->height_m, {.speed_m_s = course.speed_m_s});
+  if (!usual) return;
+  footing->level_speed_m_s = course.speed_m_s;
+  footing->level_length_m = course.usual * usual->step_length_m;
+  footing->slowed_speed_m_s = gait->speed_m_s;
+  footing->slowed_length_m = gait->step_length_m;
+  world.set(human, *footing);
+}
+
 Result<void> Avoidance::release(Entity human) {
   return release(std::span(&human, 1));
 }
@@ -110,6 +128,7 @@ Result<void> Avoidance::release(std::span<const Entity> people) {
   for (const Entity human : people)
     if (!world.has<Course>(human)) return fail("Avoidance: a person is not managed", Status::missing);
   constexpr std::array part = {type_id<Course<float>>()};
+  for (const Entity human : people) keep_level_wish(world, human);
   World::Attempt attempt(world, jobs);
   by_table(world, people, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();

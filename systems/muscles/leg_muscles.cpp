@@ -308,6 +308,8 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
   });
   if (count == 0) return Status::missing;
   forget_leg_moments(world, person);
+  if (world.shared<LegMuscles>(person) != nullptr)  // those that somebody who woke was to have
+    if (const Status status = world.remove_parts(person, {type_id<LegMuscles>()}); status != Status::ok) return status;
   return world.destroy_many(std::span(rows).first(count), jobs);
 }
 

@@ -245,6 +245,9 @@ Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonN
 Result<void> Relevance::release(Entity human) {
   World& world = world_of(simulation_);
   if (!world.alive(human)) return result_of("release", Status::stale_entity);
+  if (world.has<SleepsManaged>(human)) {
+    if (auto done = SimulationWorld::make_whole(simulation_, {&human, 1}); !done) return done;
+  }
   if (!world.has<Needs>(human)) return result_of("release", Status::missing);
   return result_of("release", world.remove_parts(human, {type_id<Needs<float>>(), type_id<Tiers<float>>()}));
 }
@@ -256,6 +259,7 @@ Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& m
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
                 tiers ? Status::missing : tiers.error());
   if ((tiers->effects & tier_bare) != 0) {
+    if (auto done = SimulationWorld::make_whole(simulation_, {&human, 1}); !done) return done;
     if (auto done = begin_muscles(std::span(&human, 1), 0, false); !done) return done;
     tiers = simulation_.world().get<Tiers>(human);
   }

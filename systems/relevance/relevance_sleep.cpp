@@ -256,6 +256,8 @@ void Relevance::end_muscles(RelevanceReport& report) {
       const std::array part = {part_value(keep_choice(world, SimulationWorld::library(simulation_), now))};
       world.remake_many({&human, 1}, part, std::array{type_id<LegMuscles>()}, SimulationWorld::jobs(simulation_));
     }
+  }
+  for (const Entity human : now_.idle) {
     world.each_member(human, [&](Entity member) {
       if (world.has<MuscleOwner>(member)) people_.push_back(member);
     });

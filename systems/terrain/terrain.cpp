@@ -72,8 +72,8 @@ struct Terrain::Work {
   void put_answers(Simulation& simulation, const TerrainOptions& options);
   std::size_t put_answers(World& world, const Asking& one);
   static void stand_up(World& world, Entity human);
-  static void set_steepness(World& world, Entity human);
-  void slow_down(Simulation& simulation, std::span<const Entity> some);
+  static void set_steepness(World& world, Entity human, bool slows_down);
+  void slow_down(Simulation& simulation, const TerrainOptions& options);
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -218,34 +218,52 @@ void Terrain::Work::stand_up(World& world, Entity human) {
 }
 
 void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& options) {
-  const FlushDenormals flush;  // as in a tick
   World& world = world_of(simulation);
   people.clear();
-  for (const Asking& one : asking) report.unusable += put_answers(world, one);
+  {
+    const FlushDenormals flush;  // as in a tick
+    for (const Asking& one : asking) report.unusable += put_answers(world, one);
+    for (const Entity human : people) set_steepness(world, human, options.slows_down);
+  }
   asking.clear();
   queries.clear();
-  if (!options.slows_down) return;
-  for (const Entity human : people) set_steepness(world, human);
-  slow_down(simulation, people);
-}
-
-/// They, who are awake, are asked to walk as fast as suits their steepness.
-void Terrain::Work::slow_down(Simulation& simulation, std::span<const Entity> some) {
-  World& world = world_of(simulation);
-  find_slowed(world, some, changes);
-  if (changes.empty()) return;
-  (void)simulation.change_walks(changes);  // who cannot walk so goes on as before
-  keep_slowed(world, changes);
+  slow_down(simulation, options);
 }
 
 /// How steep the way is from the foothold behind to the one ahead, which kerbs are but for two steps.
-void Terrain::Work::set_steepness(World& world, Entity human) {
+void Terrain::Work::set_steepness(World& world, Entity human, bool slows_down) {
   constexpr float steepest = 1, shortest_m = 0.2F;
   auto footing = *world.get<Footing>(human);
   const auto plan = *world.get<StepPlan>(human);
   const float way_m = std::max(plan.length_before_m + plan.step_length_m, shortest_m);
-  footing.slows_for = std::clamp((footing.height_m[landing] - footing.height_m[leaving]) / way_m, -steepest, steepest);
+  const float steepness = (footing.height_m[landing] - footing.height_m[leaving]) / way_m;
+  footing.slows_for = slows_down ? std::clamp(steepness, -steepest, steepest) : 0;
   world.set(human, footing);
+}
+
+/// Whoever is on a slope and whom the host has asked for something else since, besides those whose ground is new, walks
+/// as fast as suits its steepness.
+void Terrain::Work::slow_down(Simulation& simulation, const TerrainOptions& options) {
+  World& world = world_of(simulation);
+  for (const Table& table : world.tables()) {
+    const TableColumn<Footing> footings(table);
+    const TableColumn<Gait> gaits(table);
+    if (!options.slows_down || !footings || !gaits) continue;
+    for (std::size_t b = 0; b < table.block_count(); ++b) {
+      const auto& footing = footings.at(table, b);
+      const auto& gait = gaits.at(table, b);
+      for (std::uint32_t l = 0; l < table.live(b); ++l) {
+        const bool as_slowed =
+            gait.speed_m_s[l] == footing.slowed_speed_m_s[l] && gait.step_length_m[l] == footing.slowed_length_m[l];
+        if (footing.slows_for[l] != 0 && !as_slowed) people.push_back(table.entities(b)[l]);
+      }
+    }
+  }
+  drop_repeated(people);
+  find_slowed(world, people, changes);
+  if (changes.empty()) return;
+  (void)simulation.change_walks(changes);  // who cannot walk so goes on as before
+  keep_slowed(world, changes);
 }
 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
@@ -363,10 +381,11 @@ Result<void> Terrain::release(std::span<const Entity> people) {
     footing.slows_for = 0;
     world.set(human, footing);
   }
-  work_->slow_down(simulation_, changes);  // back to the walk on level ground
+  find_slowed(world, changes, work_->changes);  // who is slowed goes back to the walk on level ground
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
+  (void)simulation_.change_walks(work_->changes);
   for (const Entity human : changes) settle_fat(world, human);  // they go down to the plane at once
   return {};
 }
@@ -392,8 +411,7 @@ TerrainReport Terrain::update() {
   Work& work = *work_;
   if (!heights_) return {};
   work.collect(world_of(simulation_));
-  if (work.asking.empty()) return work.report;
-  heights_(work.queries, work.answers);
+  if (!work.asking.empty()) heights_(work.queries, work.answers);
   work.put_answers(simulation_, options_);
   return work.report;
 }

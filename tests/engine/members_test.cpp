@@ -141,16 +141,16 @@ TEST(Members, AreMadeAgainFromTheRowsOfASnapshot) {
 
 TEST(Snapshot, WhatItLeavesOutIsWhatWhoRestoresItMakesAgain) {
   World world;
-  world.create(Weight<float>{70}, kept_by({}, 1));
+  world.create(Weight<float>{70}, kept_by({}, 1), TagValue<Model>{3});
   const auto nothing = [](const TableKey&) { return std::uint64_t{0}; };
   const auto weight = [](const TableKey&) { return type_id<Weight<float>>(); };
   const auto keeper = [](const TableKey&) { return type_id<Keeper<float>>(); };
-  const auto absent = [](const TableKey&) { return type_id<Model>(); };
+  const auto no_column = [](const TableKey&) { return type_id<Model>(); };
   const struct {
     LeftOut by_writer, by_reader;
     bool agree;
   } cases[] = {{nothing, nothing, true}, {weight, weight, true},  {nothing, weight, false},
-               {weight, nothing, false}, {weight, keeper, false}, {absent, nothing, true}};
+               {weight, nothing, false}, {weight, keeper, false}, {no_column, no_column, true}};
   for (const auto& [by_writer, by_reader, agree] : cases) {
     const SnapshotLayout layout = WorldSnapshot::layout(world, by_writer);
     std::vector<std::byte> bytes(layout.bytes());

@@ -269,6 +269,48 @@ TEST(RelevanceSleep, MusclesComeWhenOneIsToBeSimulatedAndGoAgain) {
   EXPECT_GT(bare, 0U);
 }
 
+TEST(RelevanceSleep, MusclesThatAreTakenAwayStayAway) {
+  Scene scene(true, 1, true);
+  for (int i = 0; i < 300; ++i) scene.tick();
+  std::vector<Entity> some;
+  for (const Entity human : scene.people)
+    if (some.size() < 6 && !scene.simulation.muscles(human).empty()) some.push_back(human);
+  ASSERT_EQ(some.size(), 6U);
+  LegMuscles other;
+  other.muscles = MuscleSet(2);
+  other.method = Method::none;
+  for (const Entity human : some) ASSERT_TRUE(scene.simulation.remove_leg_muscles(human));
+  for (const Entity human : std::span(some).first(3)) {
+    ASSERT_TRUE(scene.simulation.add_leg_muscles(human, other));
+    EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(2));
+  }
+  for (int i = 0; i < 600; ++i) scene.tick();
+  for (const Entity human : std::span(some).last(3)) {
+    EXPECT_TRUE(scene.simulation.muscles(human).empty());
+    EXPECT_EQ(scene.simulation.remove_leg_muscles(human), Status::missing);
+  }
+}
+
+TEST(RelevanceSleep, AHostsMethodComesToWhoIsCompactAndBare) {
+  Scene scene(true, 1, true);
+  scene.needs.compact_unseen = true;
+  std::size_t found = 0;
+  for (int i = 0; i < 400; ++i) {
+    scene.tick();
+    for (const Entity human : scene.people) {
+      const auto tiers = scene.simulation.get<Tiers>(human);
+      if (found > 5 || !tiers || !scene.simulation.is_compact(human) || (tiers->effects & tier_bare) == 0 ||
+          tiers->relative_size == 0)
+        continue;
+      ++found;
+      ASSERT_TRUE(scene.relevance->force(human, static_cast<Muscle>(0), {Method::reduced, {.vectors = 3}}));
+      EXPECT_FALSE(scene.simulation.is_compact(human));
+      EXPECT_EQ(scene.simulation.muscles(human).size(), 1U);
+    }
+  }
+  EXPECT_GT(found, 0U);
+}
+
 /// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those
 /// are who never slept, whatever the threads; one crowd is taken back to what it was half way and goes on from there.
 TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {

@@ -11,6 +11,7 @@
 #include "components/avoidance.h"
 #include "components/gait.h"
 #include "systems/avoidance/avoidance.h"
+#include "systems/people/style_limits.h"
 #include "tests/terrain/hike.h"
 
 namespace mobil {
@@ -117,6 +118,73 @@ TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
   EXPECT_NEAR(walk(last_m - 4), slope_speed(1.3F, 0.15F), 0.03F);
   EXPECT_NEAR(hike.get<Course>().speed_m_s, 1.3F, 1e-6F) << "what it wants is what was asked for";
   EXPECT_NEAR(walk(last_m + 6), 1.3F, 0.01F);
+}
+
+TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  Avoidance avoidance(hike.simulation);
+  ASSERT_TRUE(avoidance.manage(hike.human));
+  EXPECT_EQ(hike.get<Course>().speed_m_s, 1.3F);
+  EXPECT_NEAR(hike.get<Course>().usual, 1, 1e-3F);
+  for (int i = 0; i < 180; ++i) {
+    avoidance.update();
+    hike.tick();
+  }
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
+  ASSERT_TRUE(avoidance.release(hike.human));
+  walk_to(hike, last_m - 4);
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
+  walk_to(hike, last_m + 6);
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 1e-6F);
+}
+
+TEST(Slowing, AHostMayRepeatItsRequest) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < last_m - 4; ++i) {
+    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.3F}));
+    hike.tick();
+  }
+  EXPECT_NEAR(hike.get<StepPlan>().to.speed_m_s, slope_speed(1.3F, 0.15F), 0.03F);
+}
+
+TEST(Slowing, SleepersAreReleasedToTheWalkOnLevelGround) {
+  Hike hike = hike_on(plane(0, 0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, 12);
+  ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  ASSERT_EQ(hike.simulation.sleep({&hike.human, 1}).value(), 1U);
+  ASSERT_TRUE(hike.terrain.release({&hike.human, 1}));
+  ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
+  EXPECT_FLOAT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
+}
+
+TEST(Slowing, EndsWhereAnotherTerrainDoesNotSlowDown) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  Terrain other(hike.simulation, answering(hike.ground));
+  for (int i = 0; i < 120; ++i) {
+    other.update();
+    hike.simulation.tick();
+  }
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
+  EXPECT_EQ(hike.get<Footing>().slows_for, 0);
+}
+
+/// A style that is drawn toward the usual one at the slower speed is kept: who has it is not slowed.
+TEST(Slowing, StylesStay) {
+  for (int draw = 0; draw < 40; ++draw) {
+    GaitStyle style;
+    style.time_asymmetry = 0.02F * static_cast<float>(draw % 8);
+    style.toe_out_deg = 4.0F * static_cast<float>(draw % 7);
+    style.swing_knee_deg = style.swing_knee_deg + 2.0F * static_cast<float>(draw % 5);
+    Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F, .style = style});
+    const GaitStyle before = hike.get<Gait>().style;
+    walk_to(hike, last_m + 6);
+    EXPECT_TRUE(same_style(hike.get<Gait>().style, before)) << draw;
+    EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F) << draw;
+  }
 }
 
 TEST(Slowing, GoesOnFromASnapshot) {

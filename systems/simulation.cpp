@@ -365,9 +365,9 @@ Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice)
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
   if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
-  if (is_asleep(human) && follows_moments(choice) && !has_forces(*world_, human))
-    return fail("change_leg_muscles: activation by moments needs the moments at the joints; call add_forces first",
-                Status::missing);
+  if (is_asleep(human) && !has_forces(*world_, human)) {
+    if (auto ok = check_leg_moments(*world_, human, choice); !ok) return named("change_leg_muscles", std::move(ok));
+  }
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   auto done = mobil::change_leg_muscles(muscle_scene(), human, choice);
   if (done) SimulationWorld::choose_from_now(*this, human);

@@ -13,7 +13,8 @@ namespace mobil {
 /// (Footing::slows_for; assets/gait/slope_pace.h). What they were asked to do on level ground is kept on their rows. Of
 /// who avoids others (Course) nothing is asked: Avoidance slows what it wants.
 void find_slowed(World& world, std::span<const Entity> people, std::vector<WalkChange>& changes);
-/// They have been asked for that: what has become of it is kept too, so that another request is told from it.
+/// Records the gaits that these walkers have now, after `Simulation::change_walks`. A gait that differs later is a new
+/// request of the host.
 void keep_slowed(World& world, std::span<const WalkChange> changes);
 
 }  // namespace mobil

@@ -61,7 +61,7 @@ struct Terrain::Work {
   std::vector<Asking> asking;
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
-  std::vector<Entity> people;       // whose ground was answered
+  std::vector<Entity> people;       // whose speed may have to change
   std::vector<WalkChange> changes;  // of those who slow down
   TerrainReport report;
 
@@ -70,10 +70,10 @@ struct Terrain::Work {
   void ask_along(const Footholds<Lanes<float>>& at, std::size_t which, std::size_t lane, Entity human,
                  std::span<const float> ahead_m);
   void put_answers(Simulation& simulation, const TerrainOptions& options);
-  std::size_t put_answers(World& world, const Asking& one);
+  std::size_t put_answers(World& world, const Asking& one, bool slows_down);
   static void stand_up(World& world, Entity human);
-  static void set_steepness(World& world, Entity human, bool slows_down);
-  void slow_down(Simulation& simulation, const TerrainOptions& options);
+  void find_changed(const World& world);
+  void slow_down(Simulation& simulation);
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -222,33 +222,20 @@ void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& op
   people.clear();
   {
     const FlushDenormals flush;  // as in a tick
-    for (const Asking& one : asking) report.unusable += put_answers(world, one);
-    for (const Entity human : people) set_steepness(world, human, options.slows_down);
+    for (const Asking& one : asking) report.unusable += put_answers(world, one, options.slows_down);
   }
   asking.clear();
   queries.clear();
-  slow_down(simulation, options);
+  if (options.slows_down) find_changed(world);
+  if (!people.empty()) slow_down(simulation);
 }
 
-/// How steep the way is from the foothold behind to the one ahead, which kerbs are but for two steps.
-void Terrain::Work::set_steepness(World& world, Entity human, bool slows_down) {
-  constexpr float steepest = 1, shortest_m = 0.2F;
-  auto footing = *world.get<Footing>(human);
-  const auto plan = *world.get<StepPlan>(human);
-  const float way_m = std::max(plan.length_before_m + plan.step_length_m, shortest_m);
-  const float steepness = (footing.height_m[landing] - footing.height_m[leaving]) / way_m;
-  footing.slows_for = slows_down ? std::clamp(steepness, -steepest, steepest) : 0;
-  world.set(human, footing);
-}
-
-/// Whoever is on a slope and whom the host has asked for something else since, besides those whose ground is new, walks
-/// as fast as suits its steepness.
-void Terrain::Work::slow_down(Simulation& simulation, const TerrainOptions& options) {
-  World& world = world_of(simulation);
+/// Adds the walkers on a slope whose gait the host has changed since they were slowed.
+void Terrain::Work::find_changed(const World& world) {
   for (const Table& table : world.tables()) {
     const TableColumn<Footing> footings(table);
     const TableColumn<Gait> gaits(table);
-    if (!options.slows_down || !footings || !gaits) continue;
+    if (!footings || !gaits) continue;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       const auto& footing = footings.at(table, b);
       const auto& gait = gaits.at(table, b);
@@ -259,6 +246,11 @@ void Terrain::Work::slow_down(Simulation& simulation, const TerrainOptions& opti
       }
     }
   }
+}
+
+/// Changes the speed of these walkers to what suits the steepness of their ground.
+void Terrain::Work::slow_down(Simulation& simulation) {
+  World& world = world_of(simulation);
   drop_repeated(people);
   find_slowed(world, people, changes);
   if (changes.empty()) return;
@@ -268,7 +260,7 @@ void Terrain::Work::slow_down(Simulation& simulation, const TerrainOptions& opti
 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
 /// are.
-std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
+std::size_t Terrain::Work::put_answers(World& world, const Asking& one, bool slows_down) {
   const auto [table, row] = world.find(one.human);
   if (table == nullptr || !TableColumn<Footing>(*table) || !TableColumn<GaitState>(*table) ||
       !TableColumn<StepPlan>(*table))
@@ -311,7 +303,12 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one) {
   footing.landing_x_m[l] = one.landing_x_m;
   footing.landing_z_m[l] = one.landing_z_m;
   footing.known[l] = footing_all;
-  people.push_back(one.human);
+  // From the foothold behind to the one ahead: of a kerb, two steps know.
+  constexpr float steepest = 1, shortest_m = 0.2F;
+  const float way_m = std::max(plan.length_before_m[l] + plan.step_length_m[l], shortest_m);
+  const float steepness = (footing.height_m[landing][l] - footing.height_m[leaving][l]) / way_m;
+  if (slows_down || footing.slows_for[l] != 0) people.push_back(one.human);
+  footing.slows_for[l] = slows_down ? std::clamp(steepness, -steepest, steepest) : 0;
   if (all) stand_up(world, one.human);
 
   const float part = GroundProfile::part(0);

@@ -139,6 +139,7 @@ class Page {
       for (const people of everybody) world.setOnGround(people, false);
     }
     this.ground = scene.ground ? new Ground(groundNames[scene.ground], this.stage) : undefined;
+    world.setSlowing(!!scene.slow);
     if (this.ground) for (const people of everybody) world.setOnGround(people);
   }
 
@@ -248,6 +249,7 @@ class Page {
       slider('style', { id: n.name, name, title: n.meaning, holder: scene.style, key: n.name, low: n.low, high: n.high, step, unit, usual: n.usual, act: walk });
     }
     choice('walk', { id: 'ground', name: 'ground', title: 'what everybody walks on', holder: scene, key: 'ground', options: groundNames, numbers: true, act: () => this.grounded() });
+    toggle('walk', { id: 'slow', name: 'slow down', title: 'on slopes and stairs', holder: scene, key: 'slow', act: () => this.world.setSlowing(!!scene.slow) });
     groups.forEach((name, i) => choice('muscles', { id: `method${i}`, name, title: 'how it is simulated', holder: scene.methods, key: i, options: methodNames, act: () => (this.choosing ? undefined : this.setMethod(i)) }));
     slider('muscles', { id: 'vectors', name: 'vectors', title: 'of reduced muscles', holder: scene, key: 'vectors', low: 1, high: 32, step: 1, act: () => { if (!this.choosing) scene.methods.forEach((m, i) => m === 'reduced' && this.setMethod(i)); } });
     choice('muscles', { id: 'pull', name: 'pull', title: 'what makes muscles pull; they redden as they do', holder: scene, key: 'pull', options: ['not at all', 'by the phase of gait', 'by joint moments'], numbers: true, act: anew });

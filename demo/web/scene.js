@@ -2,7 +2,7 @@
 export const usual = {
   height: 1.8, mass: 80, build: 2, speed: 5, step: 0, style: {},
   methods: ['reduced', 'reduced', 'reduced', 'reduced'], vectors: 12, pull: 0, inertia: 0, forces: 1,
-  ground: 0, crowd: 60, clear: 0, choose: 0, tolerance: 1, budget: 0, heat: 0,
+  ground: 0, slow: 1, crowd: 60, clear: 0, choose: 0, tolerance: 1, budget: 0, heat: 0,
 };
 export const methodNames = ['ecd', 'icd', 'caa', 'static', 'reduced', 'finite', 'none'];
 

@@ -158,6 +158,13 @@ int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t count, int o
   });
 }
 
+int mobil_set_slowing(mobil_sim* sim, int on) {
+  return call(sim, "mobil_set_slowing", [&](mobil_sim& s) {
+    s.terrain->set_options({.slows_down = on != 0});
+    return int{MOBIL_OK};
+  });
+}
+
 int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mobil_id* who, size_t room, size_t* count) {
   return call(sim, "mobil_ask_ground", [&](mobil_sim& s) {
     const std::span<const TerrainQuery> asked = s.terrain->ask();

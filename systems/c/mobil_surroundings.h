@@ -43,6 +43,10 @@ MOBIL_API int mobil_steer(mobil_sim* sim, mobil_steered* out);
 /* From now on these walkers stand on the ground that mobil_answer_ground tells of, or (`on` 0) again on the level plane
  * through the origin. All or none. */
 MOBIL_API int mobil_set_on_ground(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
+/* From the next mobil_answer_ground on, walkers on that ground slow down on slopes and stairs, one step after they come
+ * there, and go on as asked where it is level; or no more (`on` 0). What mobil_change_walk and mobil_want ask is meant
+ * for level ground. Usual: off. */
+MOBIL_API int mobil_set_slowing(mobil_sim* sim, int on);
 /* Where the ground has to be known before the next tick: 27 places for who takes a step (33 for who is new, or was put
  * elsewhere). Rows of three floats, a place whose height is 0; `who` (may be null) is whose they are. *count is how
  * many there are. Without `places` the call writes nothing else; with too little room it writes nothing else and

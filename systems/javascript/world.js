@@ -225,6 +225,8 @@ export class World {
     });
   }
   setOnGround(people, on = true) { this.#call('set_on_ground', people.ids, people.count, on ? 1 : 0); }
+  /** On that ground people slow down on slopes and stairs, or no more. */
+  setSlowing(on = true) { this.#call('set_slowing', on ? 1 : 0); }
   /** Before each tick: `heights(places, count)` is given three numbers a place, and returns four: the height, and the
    *  normal (0 0 0: level). */
   updateGround(heights) {
@@ -232,9 +234,8 @@ export class World {
       const count = take(4);
       this.#call('ask_ground', 0, 0, 0, 0, count);
       const places = this.library.u32[count >> 2], at = take(12 * places);
-      if (places === 0) return;
-      this.#call('ask_ground', at, 0, 0, places, count);
-      const answers = heights(this.#floats(at, 3 * places).slice(), places);
+      if (places > 0) this.#call('ask_ground', at, 0, 0, places, count);
+      const answers = places > 0 ? heights(this.#floats(at, 3 * places).slice(), places) : [];
       if (answers.length !== 4 * places) throw new MobilError(`${answers.length} numbers for ${places} places; give four each`, c.MOBIL_REFUSED);
       const ground = this.#put(take, answers);
       this.#call('answer_ground', ground, 0, places, 0);

@@ -75,6 +75,8 @@ class Terrain {
   /// No more: from the next tick on they walk on the plane y = 0. All or none. Errors: a stale handle, somebody who is
   /// not managed (Status::missing).
   Result<void> release(std::span<const Entity> people);
+  /// From the next answers on. Who is slowed and should no more be goes on as asked within a step.
+  void set_options(const TerrainOptions& options) { options_ = options; }
 
   /// Asks for the ground of those whose next foothold is new, or whose ground is not known: who was placed elsewhere,
   /// who woke. Call it before each tick, last. Takes memory where more people are asked for at once than ever before.

@@ -62,11 +62,14 @@ TerrainHeight hill(float x_m, float z_m) {
   return {0.3F * std::sin(x_m) + 0.1F * z_m, 0.3F * std::cos(x_m), 0.1F};
 }
 
-TEST(CSurroundings, TheGroundIsThatOfCpp) {
+/// Everybody on the hill, and whether they slow down there: as in C++.
+void walk_on_the_hill(bool slows_down) {
   Twins twins;
-  Terrain terrain(twins.simulation, [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
+  const auto heights = [](std::span<const TerrainQuery> at, std::span<TerrainHeight> out) {
     for (std::size_t i = 0; i < at.size(); ++i) out[i] = hill(at[i].x_m, at[i].z_m);
-  });
+  };
+  Terrain terrain(twins.simulation, heights, {.slows_down = slows_down});
+  ASSERT_EQ(mobil_set_slowing(twins.sim, slows_down ? 1 : 0), MOBIL_OK);
   ASSERT_EQ(mobil_set_on_ground(twins.sim, twins.ids.data(), 5, 1), MOBIL_OK) << twins.sim.message();
   ASSERT_TRUE(terrain.manage(twins.entities));
   int bits = 0;
@@ -100,13 +103,28 @@ TEST(CSurroundings, TheGroundIsThatOfCpp) {
   }
   EXPECT_GT(all, 300U);
   std::vector<float> pose(std::size_t{7} * MOBIL_SEGMENTS);
+  int slowed = 0;
   for (std::size_t i = 0; i < 5; ++i) {
     ASSERT_EQ(mobil_poses(twins.sim, &twins.ids[i], 1, nullptr, pose.data(), 0), MOBIL_OK);
     const Vec3<float> pelvis = twins.simulation.get<Pose>(twins.entities[i])->position_m[0];
     EXPECT_NEAR(pose[0], 100 * pelvis.z, 0.01);
     EXPECT_NEAR(pose[1], -100 * pelvis.x, 0.01);
     EXPECT_NEAR(pose[2], 100 * pelvis.y, 0.01);
+    auto walk = filled<mobil_walk>(MOBIL_WALK);
+    ASSERT_EQ(mobil_get_walk(twins.sim, twins.ids[i], &walk, nullptr, 0), MOBIL_OK) << twins.sim.message();
+    EXPECT_NEAR(walk.speed_m_s, twins.simulation.get<Gait>(twins.entities[i])->speed_m_s, 1e-3);
+    slowed += walk.speed_m_s < 0.85F;  // nobody was asked for less than 0.9 m/s
   }
+  EXPECT_EQ(slowed > 0, slows_down);
+  ASSERT_EQ(mobil_set_slowing(twins.sim, 0), MOBIL_OK);
+}
+
+TEST(CSurroundings, TheGroundIsThatOfCpp) {
+  walk_on_the_hill(false);
+}
+
+TEST(CSurroundings, WalkersSlowDownAsInCpp) {
+  walk_on_the_hill(true);
 }
 
 TEST(CSurroundings, GroundThatHangsOverOrIsNoNumberIsLevel) {

@@ -246,6 +246,19 @@ class Worlds(unittest.TestCase):
         self.assertLess(over.min(axis=(1, 2)).max(), 0.5)
         terrain.release(people)
 
+    def test_walkers_slow_down_uphill_where_they_are_asked_to(self):
+        def speed_after(slows_down):
+            world = mobil.World()
+            people = crowd(world, 1)
+            terrain = mobil.Terrain(world, lambda at: (0.2 * at[:, 2], [0, 1, -0.2]), slows_down=slows_down)
+            terrain.manage(people)
+            for _ in range(240):
+                terrain.update()
+                world.tick()
+            return world.walk(people[0])["speed_m_s"]
+
+        self.assertLess(speed_after(True), 0.7 * speed_after(False))
+
     def test_choosing_follows_the_camera(self):
         world = mobil.World()
         people = crowd(world)

@@ -237,6 +237,7 @@ class WildHost {
         return mobil_start_avoidance(sim_, &options);
       }
       default:
+        mobil_set_slowing(sim_, static_cast<int>(count));
         return mobil_set_on_ground(sim_, &who, 1, numbers_.wild(2));
     }
   }

@@ -158,7 +158,17 @@ await test('people climb stairs, kerbs and hills', async () => {
     await page.screenshot({ path: `${shots}/ground${ground}.png` });
   }
   assert.ok(differ(flat, await tiles(page)) > 0.02);
-  assert.equal(await set(page, 'ground', 0), '');
+  // Over a period of the stairs, 16 m, and more.
+  const walked_m = () => page.evaluate(() => {
+    const ahead_m = () => mobilPage.world.matrices(mobilPage.person)[11], from_m = ahead_m();
+    for (let i = 0; i < 60; ++i) mobilPage.step(15);
+    return ahead_m() - from_m;
+  });
+  const slower_m = await walked_m();
+  assert.equal(await set(page, 'slow', false), '');
+  const usual_m = await walked_m();
+  assert.ok(slower_m < 0.95 * usual_m, `on stairs people go ${slower_m} m where they are slowed, and ${usual_m} m where not`);
+  assert.equal(await set(page, 'slow', true) + await set(page, 'ground', 0), '');
 });
 await test('a crowd keeps clear of each other, and goes its ways', async () => {
   assert.equal(await set(page, 'people', 120), '');

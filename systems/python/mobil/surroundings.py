@@ -91,11 +91,13 @@ class Terrain:
 
     heights: of places (n, 3) in the world's axes gives their heights (n,), or heights and normals: ((n,), (n, 3)).
     Without normals walkers stand on level patches of that height, as on stairs. Call update() before each tick.
+    slows_down: walkers slow down on slopes and stairs, and go on as asked where it is level.
     """
 
-    def __init__(self, world: World, heights: Heights) -> None:
+    def __init__(self, world: World, heights: Heights, slows_down: bool = False) -> None:
         self._world = world
         self._heights = heights
+        self._world._do(lib.mobil_set_slowing(self._world._sim, slows_down))
 
     def manage(self, people: People) -> None:
         """They are on that ground from the next update on."""
@@ -129,6 +131,6 @@ class Terrain:
         """Asks `heights` where the ground has to be known, and takes the answers; how many could not be used."""
         places, _ = self.ask()
         if not len(places):
-            return 0
+            return self.answer([])  # who was asked to walk otherwise since is looked at
         answers = self._heights(places)
         return self.answer(*answers) if isinstance(answers, tuple) else self.answer(answers)

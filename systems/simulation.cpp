@@ -183,7 +183,9 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
   auto gait = changed_gait(*world_, human, change);
   if (gait) keep_walk_limits(*world_, jobs_, human, *gait, sleep_work_->styles);
-  return ask(human, gait);
+  auto done = ask(human, gait);
+  if (done) keep_pace(*world_, human, change);
+  return done;
 }
 
 Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
@@ -365,7 +367,10 @@ Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice)
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
   if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
-  if (is_asleep(human) && !has_forces(*world_, human)) {
+  if (is_person(human) && !has_any_muscles(*world_, human))
+    return named("change_leg_muscles",
+                 Result<void>(fail("this person has no leg muscles; add them first", Status::missing)));
+  if (is_person(human) && !has_forces(*world_, human)) {
     if (auto ok = check_leg_moments(*world_, human, choice); !ok) return named("change_leg_muscles", std::move(ok));
   }
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
@@ -375,8 +380,7 @@ Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choi
 }
 
 Result<void> Simulation::remove_leg_muscles(Entity human) {
-  const bool any = world_->has<CompactMuscles>(human) || kept_choice(*world_, human) || has_muscles(*world_, human);
-  if (is_person(human) && !any) return result_of("remove_leg_muscles", Status::missing);
+  if (is_person(human) && !has_any_muscles(*world_, human)) return result_of("remove_leg_muscles", Status::missing);
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   const Status status = mobil::remove_leg_muscles(*world_, jobs_, human);
   if (status == Status::ok) SimulationWorld::choose_from_now(*this, human);

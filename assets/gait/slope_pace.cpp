@@ -16,10 +16,12 @@ float slope_speed(float asked_m_s, float steepness) {
   return std::max(asked_m_s * part, std::min(asked_m_s, on_stairs_m_s));
 }
 
+bool is_slowed(const Gait<float>& gait, const Footing<float>& footing) {
+  return footing.level_speed_m_s > 0 && gait.revision == footing.looked_at;
+}
+
 LevelWalk level_walk(const Gait<float>& gait, const Footing<float>& footing) {
-  const bool slowed = footing.level_speed_m_s > 0 && gait.speed_m_s == footing.slowed_speed_m_s &&
-                      gait.step_length_m == footing.slowed_length_m;
-  if (slowed) return {footing.level_speed_m_s, footing.level_length_m};
+  if (is_slowed(gait, footing)) return {footing.level_speed_m_s, footing.level_length_m};
   return {gait.speed_m_s, gait.step_length_m};
 }
 

@@ -13,7 +13,9 @@ namespace mobil {
 /// 1993: 0.61 up and 0.69 down).
 float slope_speed(float asked_m_s, float steepness);
 
-/// What somebody was asked to do on level ground: what their gait is, unless that is what slowing down has asked for.
+/// Whether a walker's gait is what slowing down has asked for.
+bool is_slowed(const Gait<float>& gait, const Footing<float>& footing);
+/// What somebody was asked to do on level ground: what their gait is, unless it is slowed.
 struct LevelWalk {
   float speed_m_s, step_length_m;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -45,25 +46,23 @@ Avoidance::Avoidance(Simulation& simulation, const AvoidanceOptions& options)
 Avoidance::~Avoidance() = default;
 Avoidance::Avoidance(Avoidance&&) noexcept = default;
 
-/// What somebody begins with: they go on as they were asked to, on level ground, their shoulders as they are.
+/// What somebody begins with: they go on as they were asked to, on level ground; who is managed already as they wish,
+/// their shoulders as they are.
 Course<float> Avoidance::first_course(const World& world, Entity human) const {
-  const Gait<float> gait = *world.get<Gait>(human);
-  const LevelWalk asked = level_walk(gait, world.get<Footing>(human).value_or(Footing<float>{}));
   const float height = world.get<BodySize>(human)->height_m;
   Course<float> course{};
+  if (const auto before = world.get<Course>(human)) course = *before;
+  course.radius_m = options_.radius_h * height;
+  course.shoulders_m = options_.shoulders_h * height;
+  if (world.has<Course>(human)) return course;
+  const Gait<float> gait = *world.get<Gait>(human);
+  const LevelWalk asked = level_walk(gait, world.get<Footing>(human).value_or(Footing<float>{}));
   course.speed_m_s = asked.speed_m_s;
   course.heading_rad = gait.heading_rad;
   course.usual = 1;
-  course.radius_m = options_.radius_h * height;
-  course.shoulders_m = options_.shoulders_h * height;
   if (asked.speed_m_s > 0) {
     const auto usual = resolve_gait(height, {.speed_m_s = asked.speed_m_s});
     if (usual) course.usual = asked.step_length_m / usual->step_length_m;
-  }
-  if (const auto before = world.get<Course>(human)) {
-    course.turn_rad = before->turn_rad;
-    course.turn_rad_s = before->turn_rad_s;
-    course.turn_to_rad = before->turn_to_rad;
   }
   return course;
 }
@@ -101,19 +100,25 @@ Result<void> Avoidance::manage(std::span<const Entity> people) {
   return {};
 }
 
-/// Who walks slower than they wish because of a slope goes on from it as they wished.
-static void keep_level_wish(World& world, Entity human) {
+/// Whether a slope alone has them walk slower than they wish is kept with their gait: then they go on from it as they
+/// wish, however that comes to an end (is_slowed).
+static void keep_level_wish(const Course<float>& course, const Gait<float>& asked, Footing<float>& footing) {
+  constexpr float hindered = 0.99F;
+  const float slowed_m_s = slope_speed(course.speed_m_s, footing.slows_for);
+  const bool slowed = slowed_m_s < course.speed_m_s && asked.speed_m_s >= hindered * slowed_m_s;
+  footing.looked_at = asked.revision;
+  footing.level_speed_m_s = slowed ? course.speed_m_s : 0;
+  footing.level_length_m = slowed ? asked.step_length_m : 0;
+}
+
+/// The ground of who avoids others no more, with the steps that they wish for where it is level.
+static std::optional<Footing<float>> released_footing(const World& world, Entity human) {
   auto footing = world.get<Footing>(human);
   const auto gait = world.get<Gait>(human);
-  const Course<float> course = *world.get<Course>(human);
-  if (!footing || !gait || footing->slows_for == 0 || !(gait->speed_m_s > 0) || !(course.speed_m_s > 0)) return;
-  const auto usual = resolve_gait(world.get<BodySize>(human)->height_m, {.speed_m_s = course.speed_m_s});
-  if (!usual) return;
-  footing->level_speed_m_s = course.speed_m_s;
-  footing->level_length_m = course.usual * usual->step_length_m;
-  footing->slowed_speed_m_s = gait->speed_m_s;
-  footing->slowed_length_m = gait->step_length_m;
-  world.set(human, *footing);
+  if (!footing || !gait || !is_slowed(*gait, *footing)) return {};
+  const auto usual = resolve_gait(world.get<BodySize>(human)->height_m, {.speed_m_s = footing->level_speed_m_s});
+  if (usual) footing->level_length_m = world.get<Course>(human)->usual * usual->step_length_m;
+  return *footing;
 }
 
 Result<void> Avoidance::release(Entity human) {
@@ -128,10 +133,13 @@ Result<void> Avoidance::release(std::span<const Entity> people) {
   for (const Entity human : people)
     if (!world.has<Course>(human)) return fail("Avoidance: a person is not managed", Status::missing);
   constexpr std::array part = {type_id<Course<float>>()};
-  for (const Entity human : people) keep_level_wish(world, human);
+  std::vector<std::optional<Footing<float>>> footing;
+  for (const Entity human : people) footing.push_back(released_footing(world, human));
   World::Attempt attempt(world, jobs);
   by_table(world, people, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
+  for (std::size_t i = 0; i < people.size(); ++i)
+    if (footing[i]) world.set(people[i], *footing[i]);
   return {};
 }
 
@@ -250,6 +258,12 @@ AvoidanceReport Avoidance::update() {
     asked.displacement = (before.displacement + (aside ? 1U : 0U)) & 0xFFFFU;
     asked.revision = (before.revision + (other ? 1U : 0U)) & 0xFFFFU;
     put_row(asked, gaits, lane);
+    if (const TableColumn<Footing> ground(*table); ground) {
+      auto& footings = ground.at(*table, block);
+      Footing<float> footing = row_of(footings, lane);
+      keep_level_wish(row_of(courses, lane), asked, footing);
+      put_row(footing, footings, lane);
+    }
     const bool stands = TableColumn<StepPlan>(*table).at(*table, block).to.speed_m_s[lane] <= 0;
     const bool waits = wants && stands && asked.speed_m_s <= 0;
     courses.waits_s[lane] = waits ? courses.waits_s[lane] + own.duration_s : 0;

@@ -66,13 +66,14 @@ class Avoidance {
   Avoidance(const Avoidance&) = delete;
   Avoidance& operator=(const Avoidance&) = delete;
 
-  /// From now on this walker avoids others, and wants what it was last asked to do. Errors: a stale handle, a posed
-  /// person (Status::missing); nothing has changed.
+  /// From now on this walker avoids others, and wants what it was last asked to do; who is managed already goes on to
+  /// want what they want, with the room of these options. Errors: a stale handle, a posed person (Status::missing);
+  /// nothing has changed.
   Result<void> manage(Entity human);
   /// The same of many, each named once; all or none.
   Result<void> manage(std::span<const Entity> people);
-  /// No more; the walker goes on as it now does, and faces their way. Errors: a stale handle, somebody who is not
-  /// managed.
+  /// No more; the walker goes on as it now does, and faces their way. Who is slowed down by a slope, and by nobody
+  /// else, goes on from it as they wish. Errors: a stale handle, somebody who is not managed.
   Result<void> release(Entity human);
   Result<void> release(std::span<const Entity> people);
   /// All or none. Errors: a stale handle, somebody who is not managed (Status::missing), a speed that their gait cannot

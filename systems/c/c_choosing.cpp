@@ -117,7 +117,7 @@ int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count) {
     if (const int code = s.name_people(ids, count)) return code;
     for (std::size_t i = 0; i < count; ++i) {
       if (!s.world().is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
-      if (!s.world().world().has<Needs>(s.people[i]))
+      if (!is_managed(s.world().world(), s.people[i]))
         return s.line.refuse(MOBIL_MISSING, fmt::format("person {} is not managed; mobil_manage does that", i));
     }
     for (std::size_t i = 0; i < count; ++i) {

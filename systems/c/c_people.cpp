@@ -266,7 +266,7 @@ int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
     *bits = (is_posed(world.world(), person) ? MOBIL_POSED : 0) | (world.is_asleep(person) ? MOBIL_ASLEEP : 0) |
             (world.is_compact(person) ? MOBIL_COMPACT : 0) | (muscles ? MOBIL_HAS_MUSCLES : 0) |
             (has_forces(world.world(), person) ? MOBIL_HAS_FORCES : 0) |
-            (world.world().has<Needs>(person) || world.world().has<SleepsManaged>(person) ? MOBIL_MANAGED : 0) |
+            (is_managed(world.world(), person) ? MOBIL_MANAGED : 0) |
             (is_watched(world.world(), person) ? MOBIL_WATCHED : 0) |
             (world.world().has<Course>(person) ? MOBIL_AVOIDS : 0) |
             (world.world().has<Footing>(person) ? MOBIL_ON_GROUND : 0) |

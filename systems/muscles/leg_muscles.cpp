@@ -307,9 +307,10 @@ Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person) {
     if (world.has<MuscleOwner>(member) && count < rows.size()) rows[count++] = member;
   });
   if (count == 0) return Status::missing;
-  forget_leg_moments(world, person);
-  if (world.shared<LegMuscles>(person) != nullptr)  // those that somebody who woke was to have
-    if (const Status status = world.remove_parts(person, {type_id<LegMuscles>()}); status != Status::ok) return status;
+  // At once, so that where memory runs out nothing has gone; LegMuscles: those that somebody who woke was to have.
+  const Status status = world.remove_parts(person, {type_id<LegDesign<float>>(), type_id<MomentReserve<float>>(),
+                                                    type_id<AskedForces>(), type_id<LegMuscles>()});
+  if (status != Status::ok) return status;
   return world.destroy_many(std::span(rows).first(count), jobs);
 }
 

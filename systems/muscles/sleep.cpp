@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "components/compact.h"
 #include "components/fat.h"
 #include "engine/row_hash.h"
 #include "systems/muscles/muscle_parts.h"
@@ -99,12 +100,18 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
     }
   }
   ask_sleepers(world, jobs, work.asked_sleepers, now);
+  for (const WalkChange& change : changes)
+    if (change.gait) keep_pace(world, change.human, *change.gait);
   return refused;
 }
 
 std::optional<LegMuscles> kept_choice(const World& world, Entity person) {
   const auto* const choice = world.has<MuscleOwner>(person) ? nullptr : world.shared<LegMuscles>(person);
   return choice == nullptr || has_muscles(world, person) ? std::nullopt : std::optional(*choice);
+}
+
+bool has_any_muscles(const World& world, Entity person) {
+  return world.has<CompactMuscles>(person) || kept_choice(world, person) || has_muscles(world, person);
 }
 
 std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,

@@ -92,5 +92,7 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
 /// What the muscles of a sleeper, or of somebody who woke without them, are to be; nothing where there are none to
 /// come, or they are there already.
 std::optional<LegMuscles> kept_choice(const World& world, Entity person);
+/// Whether a person has muscles, compact ones and those to come included.
+bool has_any_muscles(const World& world, Entity person);
 
 }  // namespace mobil

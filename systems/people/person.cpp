@@ -9,6 +9,7 @@
 #include "assets/body/body_composition.h"
 #include "components/avoidance.h"
 #include "components/fat.h"
+#include "components/footing.h"
 #include "components/forces.h"
 #include "engine/each.h"
 #include "engine/rows.h"
@@ -127,10 +128,24 @@ Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitCh
   return changed_gait(*asked_body(world, person), change);
 }
 
+static bool sets_pace(const GaitChange& change) {
+  return change.speed_m_s || change.step_length_m || change.step_frequency_hz;
+}
+
+void keep_pace(World& world, Entity person, const GaitChange& change) {
+  if (sets_pace(change)) return;
+  auto footing = world.get<Footing>(person);
+  if (!footing || footing->level_speed_m_s == 0) return;
+  const std::uint32_t revision = gait_of(world, person)->revision;
+  if (revision != next_request(footing->looked_at)) return;
+  footing->looked_at = revision;
+  world.set(person, *footing);
+}
+
 Result<Gait<float>> changed_gait(const AskedBody& now, const GaitChange& change) {
   GaitRequest request = request_of(now.gait);
   if (change.style) request.style = *change.style;
-  if (change.speed_m_s || change.step_length_m || change.step_frequency_hz) {
+  if (sets_pace(change)) {
     request.speed_m_s = change.speed_m_s;
     request.step_length_m = change.step_length_m;
     request.step_frequency_hz = change.step_frequency_hz;

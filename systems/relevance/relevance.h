@@ -166,6 +166,8 @@ MuscleMethod rung_method(std::size_t rung, bool control_points, bool living = fa
 /// Whether a module's systems are part of what a budget is for: bellies, their control points, and what fades after
 /// changes of method.
 bool is_deformation(std::string_view module);
+/// Whether somebody's muscles are chosen, awake or asleep.
+bool is_managed(const World& world, Entity human);
 
 /// What choosing remembers from one update to the next besides people's rows: plain data, to be kept beside a snapshot
 /// of the simulation.
@@ -218,8 +220,9 @@ class Relevance {
   /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
   /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles; nothing has changed then.
   Result<std::size_t> manage_asleep(std::span<const Entity> people);
-  /// The person is no longer managed; muscles stay as they are. Errors: a stale handle, somebody who is not managed
-  /// (Status::missing).
+  /// The person is no longer managed; muscles stay as they are, and those that were to come begin. A sleeper wakes.
+  /// Errors: a stale handle, somebody who is not managed (Status::missing), what muscles are refused for; nothing has
+  /// changed.
   Result<void> release(Entity human);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -242,14 +243,23 @@ Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonN
   return {};
 }
 
+bool is_managed(const World& world, Entity human) {
+  return world.has<Needs>(human) || world.has<SleepsManaged>(human);
+}
+
 Result<void> Relevance::release(Entity human) {
   World& world = world_of(simulation_);
   if (!world.alive(human)) return result_of("release", Status::stale_entity);
-  if (world.has<SleepsManaged>(human)) {
-    if (auto done = SimulationWorld::make_whole(simulation_, {&human, 1}); !done) return done;
+  if (!is_managed(world, human)) return result_of("release", Status::missing);
+  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
+  // Nobody else would begin the muscles that are to come.
+  if (!simulation_.is_compact(human)) {
+    if (auto done = SimulationWorld::make_muscles_whole(simulation_, {&human, 1}); !done) return done;
   }
-  if (!world.has<Needs>(human)) return result_of("release", Status::missing);
-  return result_of("release", world.remove_parts(human, {type_id<Needs<float>>(), type_id<Tiers<float>>()}));
+  constexpr std::array parts = {type_id<Needs<float>>(), type_id<Tiers<float>>()};
+  world.remake_many({&human, 1}, {}, parts, SimulationWorld::jobs(simulation_));
+  attempt.keep();
+  return {};
 }
 
 Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& method) {
@@ -258,14 +268,25 @@ Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& m
   if (!tiers || m >= most_muscles || !bit_at(tiers->muscles, m))
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
                 tiers ? Status::missing : tiers.error());
-  if ((tiers->effects & tier_bare) != 0) {
-    if (auto done = SimulationWorld::make_whole(simulation_, {&human, 1}); !done) return done;
-    if (auto done = begin_muscles(std::span(&human, 1), 0, false); !done) return done;
-    tiers = simulation_.world().get<Tiers>(human);
+  World& world = world_of(simulation_);
+  std::optional<World::Attempt> attempt;
+  const auto ask = [&]() -> Result<void> {
+    if ((tiers->effects & tier_bare) != 0) {
+      attempt.emplace(world, SimulationWorld::jobs(simulation_));
+      if (auto done = SimulationWorld::make_whole(simulation_, {&human, 1}); !done) return done;
+      if (auto done = begin_muscles(std::span(&human, 1), 0, false); !done) return done;
+    }
+    return simulation_.set_method(human, muscle, method);
+  };
+  if (auto done = ask(); !done) {
+    attempt.reset();
+    world.set(human, *tiers);
+    return done;
   }
-  if (auto done = simulation_.set_method(human, muscle, method); !done) return done;
+  if (attempt) attempt->keep();
+  tiers = world.get<Tiers>(human);
   set_rung(tiers->rung, m, forced_rung);
-  world_of(simulation_).set(human, *tiers);
+  world.set(human, *tiers);
   return {};
 }
 

@@ -257,10 +257,11 @@ void Relevance::end_muscles(RelevanceReport& report) {
       world.remake_many({&human, 1}, part, std::array{type_id<LegMuscles>()}, SimulationWorld::jobs(simulation_));
     }
   }
-  for (const Entity human : now_.idle) {
+  for (const Entity human : now_.idle)
     world.each_member(human, [&](Entity member) {
       if (world.has<MuscleOwner>(member)) people_.push_back(member);
     });
+  for (const Entity human : now_.idle) {  // who is marked must have none: nothing fails from here on
     auto tiers = *world.get<Tiers>(human);
     tiers.effects |= tier_bare;
     world.set(human, tiers);

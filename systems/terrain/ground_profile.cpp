@@ -12,6 +12,9 @@ namespace {
 
 /// What stands out less is left to the swing, which passes level ground by as much.
 constexpr float out_m = 0.005F;
+/// How far toes that hang are lifted beyond that at most. More would be of a foot that comes down just behind an edge,
+/// which no lift takes past it.
+constexpr float hangs_m = 0.06F;
 
 /// The part of the way at which a place is, 0 to 1.
 float along(const GroundProfile& ground, float x_m, float z_m) {
@@ -55,17 +58,18 @@ FootLift lift_over(const GroundProfile& ground, const BodySize<float>& size, con
                    const GaitState<float>& state, const Footing<float>& footing) {
   Footing<float> under = footing;
   under.lift_early_m = under.lift_late_m = 0;
-  bool stands_out = false;
+  float most_out_m = 0;
   for (std::size_t i = 0; i < GroundProfile::asked; ++i)
-    stands_out =
-        stands_out || ground.height_m[i + 1] >
-                          std::lerp(ground.height_m.front(), ground.height_m.back(), GroundProfile::part(i)) + out_m;
-  if (!(plan.landing > 0) || !stands_out) return {};
+    most_out_m =
+        std::max(most_out_m, ground.height_m[i + 1] -
+                                 std::lerp(ground.height_m.front(), ground.height_m.back(), GroundProfile::part(i)));
+  if (!(plan.landing > 0) || !(most_out_m > out_m)) return {};
+  const float most_m = std::min(most_out_m + hangs_m, most_lift_m);
   constexpr int rounds = 2;  // a foot that is lifted hangs otherwise
   for (int round = 0; round < rounds; ++round) {
     const FootLift more = more_lift(ground, foot_path(size, plan, state, under));
-    under.lift_early_m = std::min(under.lift_early_m + more.early_m, most_lift_m);
-    under.lift_late_m = std::min(under.lift_late_m + more.late_m, most_lift_m);
+    under.lift_early_m = std::min(under.lift_early_m + more.early_m, most_m);
+    under.lift_late_m = std::min(under.lift_late_m + more.late_m, most_m);
   }
   return {under.lift_early_m, under.lift_late_m};
 }

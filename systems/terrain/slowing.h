@@ -1,20 +1,41 @@
 #pragma once
 // Walkers who slow down on slopes and stairs, and go on as they were asked to where it is level again.
 
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "assets/gait/slope_pace.h"
+#include "engine/jobs.h"
 #include "engine/world.h"
 #include "systems/people/person.h"
+#include "systems/people/style_limits.h"
 
 namespace mobil {
 
-/// What those of `people` are to be asked for, in `changes`, whose pace is another than their steepness asks for
-/// (Footing::slows_for; assets/gait/slope_pace.h). What they were asked to do on level ground is kept on their rows. Of
-/// who avoids others (Course) nothing is asked: Avoidance slows what it wants.
-void find_slowed(World& world, std::span<const Entity> people, std::vector<WalkChange>& changes);
-/// Records the gaits that these walkers have now, after `Simulation::change_walks`. A gait that differs later is a new
-/// request of the host.
-void keep_slowed(World& world, std::span<const WalkChange> changes);
+/// What walkers are asked for because of their slopes, and what finding that works in, kept from one time to the next.
+struct Slowing {
+  struct One {
+    WalkChange change;
+    LevelWalk level;
+    Gait<float> before;
+    bool has_style;  // that is looked at
+  };
+  std::vector<One> people;
+  std::vector<WalkChange> changes;  // of each of them
+  std::vector<BodySize<float>> sizes;
+  std::vector<Gait<float>> gaits;
+  StyleWork styles;
+};
+
+/// Finds, in `to.changes`, what those of `people` are to be asked for whose pace is another than their steepness asks
+/// for (Footing::slows_for; assets/gait/slope_pace.h). Who would have to walk in another style at the slower pace is
+/// not slowed. Who avoids others (Course) is left out: Avoidance slows what it wants. Steps of usual length become
+/// those of the slower speed and longer ones shorten as much; shorter ones stay as they are, as the treads of stairs
+/// do. All that were looked at are marked (Footing::looked_at). `steepness`: of all, instead of each one's own.
+void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, Slowing& to,
+                 std::optional<float> steepness = {});
+/// Records, after `Simulation::change_walks(to.changes)`, what these walkers were asked to do on level ground.
+void keep_slowed(World& world, const Slowing& to);
 
 }  // namespace mobil

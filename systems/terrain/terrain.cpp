@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "components/avoidance.h"
 #include "components/pose.h"
 #include "engine/each.h"
 #include "engine/exact_math.h"
@@ -61,8 +62,8 @@ struct Terrain::Work {
   std::vector<Asking> asking;
   std::vector<TerrainQuery> queries;
   std::vector<TerrainHeight> answers;
-  std::vector<Entity> people;       // whose speed may have to change
-  std::vector<WalkChange> changes;  // of those who slow down
+  std::vector<Entity> people;  // whose speed may have to change
+  Slowing slowing;
   TerrainReport report;
 
   void collect(const World& world);
@@ -230,20 +231,18 @@ void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& op
   if (!people.empty()) slow_down(simulation);
 }
 
-/// Adds the walkers on a slope whose gait the host has changed since they were slowed.
+/// Adds the walkers on a slope of whom the host has asked something since they were looked at.
 void Terrain::Work::find_changed(const World& world) {
   for (const Table& table : world.tables()) {
     const TableColumn<Footing> footings(table);
     const TableColumn<Gait> gaits(table);
-    if (!footings || !gaits) continue;
+    if (!footings || !gaits || TableColumn<Course>(table)) continue;
     for (std::size_t b = 0; b < table.block_count(); ++b) {
       const auto& footing = footings.at(table, b);
       const auto& gait = gaits.at(table, b);
-      for (std::uint32_t l = 0; l < table.live(b); ++l) {
-        const bool as_slowed =
-            gait.speed_m_s[l] == footing.slowed_speed_m_s[l] && gait.step_length_m[l] == footing.slowed_length_m[l];
-        if (footing.slows_for[l] != 0 && !as_slowed) people.push_back(table.entities(b)[l]);
-      }
+      for (std::uint32_t l = 0; l < table.live(b); ++l)
+        if (footing.slows_for[l] != 0 && gait.revision[l] != footing.looked_at[l])
+          people.push_back(table.entities(b)[l]);
     }
   }
 }
@@ -252,10 +251,10 @@ void Terrain::Work::find_changed(const World& world) {
 void Terrain::Work::slow_down(Simulation& simulation) {
   World& world = world_of(simulation);
   drop_repeated(people);
-  find_slowed(world, people, changes);
-  if (changes.empty()) return;
-  (void)simulation.change_walks(changes);  // who cannot walk so goes on as before
-  keep_slowed(world, changes);
+  find_slowed(world, SimulationWorld::jobs(simulation), people, slowing);
+  if (slowing.changes.empty()) return;
+  (void)simulation.change_walks(slowing.changes);  // who cannot be asked now is asked again
+  keep_slowed(world, slowing);
 }
 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
@@ -373,16 +372,13 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   }
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
-  for (const Entity human : changes) {
-    auto footing = *world.get<Footing>(human);
-    footing.slows_for = 0;
-    world.set(human, footing);
-  }
-  find_slowed(world, changes, work_->changes);  // who is slowed goes back to the walk on level ground
+  // Who is slowed goes back to the walk on level ground: first, so that where memory runs out they are slowed again.
+  find_slowed(world, jobs, changes, work_->slowing, 0);
+  (void)simulation_.change_walks(work_->slowing.changes);
+  keep_slowed(world, work_->slowing);
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
-  (void)simulation_.change_walks(work_->changes);
   for (const Entity human : changes) settle_fat(world, human);  // they go down to the plane at once
   return {};
 }

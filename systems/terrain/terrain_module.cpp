@@ -18,8 +18,7 @@ bool is_sound(const Footing<float>& footing) {
                std::isfinite(footing.stance_x_m) && std::isfinite(footing.stance_z_m) &&
                std::isfinite(footing.landing_x_m) && std::isfinite(footing.landing_z_m) &&
                footing.known <= footing_all && within(footing.slows_for, steepest);
-  for (const float walk :
-       {footing.level_speed_m_s, footing.level_length_m, footing.slowed_speed_m_s, footing.slowed_length_m})
+  for (const float walk : {footing.level_speed_m_s, footing.level_length_m})
     sound = sound && walk >= 0 && walk <= fastest;
   for (std::size_t i = 0; i < 3; ++i)
     sound = sound && within(footing.height_m[i], highest_ground_m) && within(footing.rise_x[i], steepest) &&
@@ -37,7 +36,7 @@ Result<void> check_rows(const SavedWorld& saved, std::uint32_t table) {
 }  // namespace
 
 Module terrain_module() {
-  return {.name = "terrain", .version = 3, .parts = {component_part<Footing>()}, .check_rows = &check_rows};
+  return {.name = "terrain", .version = 4, .parts = {component_part<Footing>()}, .check_rows = &check_rows};
 }
 
 }  // namespace mobil

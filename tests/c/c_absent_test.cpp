@@ -105,6 +105,10 @@ TEST(CAbsent, MusclesOfManagedSleepersAreOneSet) {
       ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
     }
     ASSERT_NE(state(sim, ids[0]) & MOBIL_ASLEEP, 0);
+    ASSERT_NE(state(sim, ids[3]) & MOBIL_ASLEEP, 0);
+    ASSERT_EQ(mobil_release(sim, &ids[3], 1), MOBIL_OK) << sim.message();
+    EXPECT_EQ(state(sim, ids[3]) & (MOBIL_ASLEEP | MOBIL_MANAGED | MOBIL_HAS_MUSCLES), MOBIL_HAS_MUSCLES);
+    EXPECT_EQ(mobil_release(sim, &ids[3], 1), MOBIL_MISSING);
     auto others = unseen_muscles();
     others.muscles = 1U << MOBIL_QUADRICEPS;
     const mobil_id twice[] = {ids[0], ids[0], ids[1]};

@@ -285,6 +285,11 @@ TEST(RelevanceSleep, MusclesThatAreTakenAwayStayAway) {
     EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(2));
   }
   for (int i = 0; i < 600; ++i) scene.tick();
+  for (const Entity human : std::span(some).first(3))
+    if (scene.simulation.is_person(human)) {
+      EXPECT_EQ(scene.simulation.human(human)->leg_muscles.muscles, MuscleSet(2));
+      EXPECT_LE(scene.simulation.muscles(human).size(), 1U);
+    }
   for (const Entity human : std::span(some).last(3)) {
     EXPECT_TRUE(scene.simulation.muscles(human).empty());
     EXPECT_EQ(scene.simulation.remove_leg_muscles(human), Status::missing);
@@ -295,20 +300,46 @@ TEST(RelevanceSleep, AHostsMethodComesToWhoIsCompactAndBare) {
   Scene scene(true, 1, true);
   scene.needs.compact_unseen = true;
   std::size_t found = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 400 && found < 3; ++i) {
     scene.tick();
     for (const Entity human : scene.people) {
       const auto tiers = scene.simulation.get<Tiers>(human);
-      if (found > 5 || !tiers || !scene.simulation.is_compact(human) || (tiers->effects & tier_bare) == 0 ||
+      if (found > 2 || !tiers || !scene.simulation.is_compact(human) || (tiers->effects & tier_bare) == 0 ||
           tiers->relative_size == 0)
         continue;
       ++found;
-      ASSERT_TRUE(scene.relevance->force(human, static_cast<Muscle>(0), {Method::reduced, {.vectors = 3}}));
+      const MuscleMethod asked = {Method::reduced, {.vectors = 3}}, impossible = {Method::reduced, {.vectors = 9999}};
+      const std::uint64_t before = scene.simulation.state_hash();
+      EXPECT_FALSE(scene.relevance->force(human, static_cast<Muscle>(0), impossible));
+      EXPECT_EQ(scene.simulation.state_hash(), before) << "what is refused changes nobody";
+      ASSERT_TRUE(scene.relevance->force(human, static_cast<Muscle>(0), asked));
       EXPECT_FALSE(scene.simulation.is_compact(human));
       EXPECT_EQ(scene.simulation.muscles(human).size(), 1U);
+      EXPECT_TRUE(same_method(scene.simulation.method(human, static_cast<Muscle>(0)), asked));
     }
   }
   EXPECT_GT(found, 0U);
+}
+
+/// Those that were to come begin: nobody else would begin them.
+TEST(RelevanceSleep, WhoIsReleasedHasTheirMuscles) {
+  Scene scene(true, 1, true);
+  for (int i = 0; i < 300; ++i) scene.tick();
+  std::size_t asleep = 0, bare = 0;
+  for (const Entity human : scene.people) {
+    const bool sleeps = scene.simulation.is_asleep(human);
+    const MuscleSet meant = scene.simulation.human(human)->leg_muscles.muscles;
+    if (scene.simulation.is_compact(human) || meant.none() || (sleeps ? asleep : bare) > 4) continue;
+    if (!sleeps && !scene.simulation.muscles(human).empty()) continue;
+    ++(sleeps ? asleep : bare);
+    ASSERT_TRUE(scene.relevance->release(human));
+    EXPECT_FALSE(is_managed(scene.simulation.world(), human));
+    EXPECT_FALSE(scene.simulation.is_asleep(human));
+    EXPECT_EQ(scene.simulation.muscles(human).size(), meant.count());
+    EXPECT_EQ(scene.relevance->release(human).error().status, Status::missing);
+  }
+  EXPECT_GT(asleep, 0U);
+  EXPECT_GT(bare, 0U);
 }
 
 /// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
 
@@ -106,6 +107,26 @@ TEST(Moments, ComeAndGo) {
   ASSERT_TRUE(simulation.change_leg_muscles(human, following(Method::none)));
   ASSERT_TRUE(simulation.remove_leg_muscles(human));
   EXPECT_FALSE(simulation.get<MomentReserve>(human));
+}
+
+TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
+  Simulation simulation;
+  LegMuscles plain = following(Method::reduced);
+  plain.activation = ExcitationSource::none;
+  plain.reduced.control_points = false;
+  for (const bool compact : {false, true}) {
+    const Entity with = walker(simulation), without = walker(simulation);
+    ASSERT_TRUE(simulation.add_leg_muscles(with, plain));
+    for (int tick = 0; tick < 240; ++tick) simulation.tick();
+    const std::array both = {with, without};
+    ASSERT_EQ((compact ? simulation.compact(both) : simulation.sleep(both)).value(), 2U) << compact;
+    const std::uint64_t before = simulation.state_hash();
+    EXPECT_EQ(simulation.change_leg_muscles(with, following(Method::reduced)).error().status, Status::missing);
+    EXPECT_EQ(simulation.change_leg_muscles(without, plain).error().status, Status::missing);
+    EXPECT_EQ(simulation.state_hash(), before);
+    for (const Entity human : both) EXPECT_TRUE(compact ? simulation.is_compact(human) : simulation.is_asleep(human));
+    ASSERT_TRUE(simulation.despawn(both));
+  }
 }
 
 TEST(Moments, GoOnFromASnapshot) {

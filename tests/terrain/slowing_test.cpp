@@ -11,6 +11,7 @@
 #include "components/avoidance.h"
 #include "components/gait.h"
 #include "systems/avoidance/avoidance.h"
+#include "systems/gait/gait.h"
 #include "systems/people/style_limits.h"
 #include "tests/terrain/hike.h"
 
@@ -86,6 +87,44 @@ TEST(Slowing, AHostsRequestOnTheWayIsOneForLevelGround) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
 }
 
+/// However it compares with the pace that they are slowed to.
+TEST(Slowing, AHostMayAskForThePaceOfTheSlope) {
+  Hike hike = hike_on(stairs(0.16F, 0.3F, 20), {.speed_m_s = 1.3F});
+  walk_to(hike, 4);
+  ASSERT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 0.6F}));
+  walk_to(hike, 12);
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
+}
+
+TEST(Slowing, WhoGetsAStyleOnTheWayWalksAsAskedWhereItIsLevel) {
+  std::size_t drawn = 0;
+  for (const float asymmetry : {0.05F, 0.15F, 0.25F}) {
+    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 2.1F});
+    walk_to(hike, first_m + 4);
+    ASSERT_LT(hike.get<Gait>().speed_m_s, 1.5F);
+    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.style = GaitStyle{.time_asymmetry = asymmetry}}));
+    walk_to(hike, last_m - 4);
+    EXPECT_LT(hike.get<Gait>().speed_m_s, 1.5F);
+    EXPECT_EQ(hike.get<Gait>().style.time_asymmetry, asymmetry);
+    walk_to(hike, last_m + 6);
+    EXPECT_EQ(hike.get<Gait>().speed_m_s, 2.1F);
+    drawn += hike.get<Gait>().style.time_asymmetry != asymmetry;
+  }
+  EXPECT_GT(drawn, 0U) << "a style that suits the slope and not the level is what this is about";
+}
+
+TEST(Slowing, LongStepsShortenAsUsualOnesDo) {
+  const auto usual_m = [](float speed_m_s) { return resolve_gait(1.75F, {.speed_m_s = speed_m_s})->step_length_m; };
+  for (const float part : {1.02F, 1.06F}) {
+    Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F, .step_length_m = part * usual_m(1.3F)});
+    walk_to(hike, last_m - 4);
+    const Gait<float> gait = hike.get<Gait>();
+    EXPECT_LT(gait.speed_m_s, 0.7F);
+    EXPECT_NEAR(gait.step_length_m / usual_m(gait.speed_m_s), part, 0.005F);
+  }
+}
+
 TEST(Slowing, StepsAsLongAsTreadsStayAsLong) {
   Hike hike = hike_on(stairs(0.16F, 0.3F, 40), {.speed_m_s = 0.9F, .step_length_m = 0.30F});
   walk_to(hike, 8);
@@ -140,6 +179,47 @@ TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
   EXPECT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 1e-6F);
 }
 
+/// Avoidance chooses a step before the ground of the next one is known.
+TEST(Slowing, AWishIsKeptWhereverAvoidanceEnds) {
+  for (int ticks = 0; ticks < 90; ticks += 3) {
+    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+    Avoidance avoidance(hike.simulation);
+    ASSERT_TRUE(avoidance.manage(hike.human));
+    const auto walk = [&] {
+      avoidance.update();
+      hike.tick();
+    };
+    while (hike.get<GaitState>().line_z_m < last_m - 0.4F) walk();
+    for (int k = 0; k < ticks; ++k) walk();
+    ASSERT_TRUE(avoidance.release(hike.human));
+    walk_to(hike, last_m + 8);
+    ASSERT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 0.01F) << ticks;
+  }
+}
+
+/// Downhill as gently as that nobody slows down, behind somebody slow.
+TEST(Slowing, WhoIsSlowedByOthersGoesOnAsTheyDo) {
+  for (const float rise : {0.0F, -0.05F}) {
+    Hike hike = hike_on(plane(0, rise), {.speed_m_s = 1.3F});
+    Avoidance avoidance(hike.simulation);
+    ASSERT_TRUE(avoidance.manage(hike.human));
+    ASSERT_TRUE(avoidance.set_walls({{{{-0.4F, -5}, {-0.4F, 90}}, {{0.4F, -5}, {0.4F, 90}}}}));
+    for (int k = 0; k < 600; ++k) {
+      const float ahead_m = 1.5F + 0.4F * static_cast<float>(k) / 60;
+      ASSERT_TRUE(avoidance.set_discs({{{{0, ahead_m}, 0.25F, 0, 0.4F}}}));
+      avoidance.update();
+      hike.tick();
+    }
+    const float speed_m_s = hike.get<Gait>().speed_m_s;
+    ASSERT_LT(speed_m_s, 1.0F);
+    ASSERT_TRUE(avoidance.manage(hike.human));
+    EXPECT_EQ(hike.get<Course>().speed_m_s, 1.3F) << "who is managed keeps their wish";
+    ASSERT_TRUE(avoidance.release(hike.human));
+    for (int k = 0; k < 120; ++k) hike.tick();
+    EXPECT_EQ(hike.get<Gait>().speed_m_s, speed_m_s) << rise;
+  }
+}
+
 TEST(Slowing, AHostMayRepeatItsRequest) {
   Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
   for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < last_m - 4; ++i) {
@@ -174,17 +254,23 @@ TEST(Slowing, EndsWhereAnotherTerrainDoesNotSlowDown) {
 
 /// A style that is drawn toward the usual one at the slower speed is kept: who has it is not slowed.
 TEST(Slowing, StylesStay) {
-  for (int draw = 0; draw < 40; ++draw) {
+  std::size_t slowed = 0, refused = 0;
+  for (int draw = 0; draw < 16; ++draw) {
     GaitStyle style;
     style.time_asymmetry = 0.02F * static_cast<float>(draw % 8);
     style.toe_out_deg = 4.0F * static_cast<float>(draw % 7);
+    if (draw % 4 == 0) style.mid_stance_height = 0.9F;  // too low for slow walks
     style.swing_knee_deg = style.swing_knee_deg + 2.0F * static_cast<float>(draw % 5);
     Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F, .style = style});
     const GaitStyle before = hike.get<Gait>().style;
+    walk_to(hike, last_m - 4);
+    (hike.get<Gait>().speed_m_s < 1.3F ? slowed : refused) += 1;
     walk_to(hike, last_m + 6);
     EXPECT_TRUE(same_style(hike.get<Gait>().style, before)) << draw;
     EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F) << draw;
   }
+  EXPECT_GT(slowed, 0U);
+  EXPECT_GT(refused, 0U);
 }
 
 TEST(Slowing, GoesOnFromASnapshot) {

@@ -169,19 +169,22 @@ TEST(Terrain, StepsAreReportedWhereTheGroundIs) {
   EXPECT_GT(count, 8U);
 }
 
-/// Fifty on hills.
+/// Fifty on hills, every fourth of them with a style of their own.
 struct Crowd {
   Simulation simulation;
   Terrain terrain;
   std::vector<Entity> people;
 
-  explicit Crowd(int threads)
+  explicit Crowd(int threads, bool slows_down = false)
       : simulation({.threads = threads}),
         terrain(simulation, answering([](float x, float z) {
                   return TerrainHeight{0.3F * std::sin(x) + 0.1F * z, 0.3F * std::cos(x), 0.1F};
-                })) {
+                }),
+                {.slows_down = slows_down}) {
     for (int i = 0; i < 50; ++i) {
-      people.push_back(simulation.spawn({}, {.speed_m_s = 0.5F + 0.02F * static_cast<float>(i)}).value());
+      GaitRequest gait{.speed_m_s = 0.5F + 0.02F * static_cast<float>(i)};
+      if (i % 4 == 0) gait.style.time_asymmetry = 0.1F;
+      people.push_back(simulation.spawn({}, gait).value());
       EXPECT_TRUE(simulation.place(people.back(), static_cast<float>(i), 0, 0.1F * static_cast<float>(i)));
     }
     EXPECT_TRUE(terrain.manage(people));
@@ -193,36 +196,40 @@ struct Crowd {
 };
 
 TEST(Terrain, ThreadsDoNotMatterAndASnapshotGoesOnAlike) {
-  Crowd one(1), three(3);
-  std::vector<std::byte> saved;
-  for (int k = 0; k < 300; ++k) {
-    one.tick();
-    three.tick();
-    if (k != 137) continue;
-    saved.resize(one.simulation.snapshot_bytes());
-    ASSERT_TRUE(one.simulation.save(saved));
+  for (const bool slows_down : {false, true}) {
+    Crowd one(1, slows_down), three(3, slows_down);
+    std::vector<std::byte> saved;
+    for (int k = 0; k < 300; ++k) {
+      one.tick();
+      three.tick();
+      if (k != 137) continue;
+      saved.resize(one.simulation.snapshot_bytes());
+      ASSERT_TRUE(one.simulation.save(saved));
+    }
+    EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
+    ASSERT_TRUE(three.simulation.restore(saved));
+    for (int k = 138; k < 300; ++k) three.tick();
+    EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
   }
-  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
-  ASSERT_TRUE(three.simulation.restore(saved));
-  for (int k = 138; k < 300; ++k) three.tick();
-  EXPECT_EQ(one.simulation.state_hash(), three.simulation.state_hash());
 }
 
 TEST(Terrain, TheGroundIsAskedForOnceAStepAndWithoutTakingMemory) {
-  Crowd crowd(1);
-  for (int k = 0; k < 200; ++k) crowd.tick();
-  std::size_t asked = 0, requests = 0;
-  std::uint32_t steps = 0;
-  for (const Entity human : crowd.people) steps -= crowd.simulation.get<GaitState>(human)->steps;
-  for (int k = 0; k < 240; ++k) {
-    const std::size_t before = heap_requests;
-    asked += crowd.terrain.update().asked;
-    requests += heap_requests - before;
-    crowd.simulation.tick();
+  for (const bool slows_down : {false, true}) {
+    Crowd crowd(1, slows_down);
+    for (int k = 0; k < 400; ++k) crowd.tick();
+    std::size_t asked = 0, requests = 0;
+    std::uint32_t steps = 0;
+    for (const Entity human : crowd.people) steps -= crowd.simulation.get<GaitState>(human)->steps;
+    for (int k = 0; k < 240; ++k) {
+      const std::size_t before = heap_requests;
+      asked += crowd.terrain.update().asked;
+      requests += heap_requests - before;
+      crowd.simulation.tick();
+    }
+    for (const Entity human : crowd.people) steps += crowd.simulation.get<GaitState>(human)->steps;
+    EXPECT_NEAR(static_cast<double>(asked), static_cast<double>(steps), 50);
+    EXPECT_EQ(requests, 0U) << slows_down;
   }
-  for (const Entity human : crowd.people) steps += crowd.simulation.get<GaitState>(human)->steps;
-  EXPECT_NEAR(static_cast<double>(asked), static_cast<double>(steps), 50);
-  EXPECT_EQ(requests, 0U);
 }
 
 /// Who answers in halves has what others have; asking changes nothing.

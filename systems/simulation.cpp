@@ -183,9 +183,7 @@ Result<void> Simulation::ask(Entity human, const Result<Gait<float>>& gait) {
 Result<void> Simulation::change_gait(Entity human, const GaitChange& change) {
   auto gait = changed_gait(*world_, human, change);
   if (gait) keep_walk_limits(*world_, jobs_, human, *gait, sleep_work_->styles);
-  auto done = ask(human, gait);
-  if (done) keep_pace(*world_, human, change);
-  return done;
+  return ask(human, gait);
 }
 
 Result<void> Simulation::set_gait(Entity human, const GaitRequest& asked) {
@@ -366,13 +364,11 @@ Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice)
 }
 
 Result<void> Simulation::change_leg_muscles(Entity human, const LegMuscles& choice) {
-  if (auto ok = check_choice(choice, tick_s()); !ok) return named("change_leg_muscles", std::move(ok));
   if (is_person(human) && !has_any_muscles(*world_, human))
     return named("change_leg_muscles",
                  Result<void>(fail("this person has no leg muscles; add them first", Status::missing)));
-  if (is_person(human) && !has_forces(*world_, human)) {
-    if (auto ok = check_leg_moments(*world_, human, choice); !ok) return named("change_leg_muscles", std::move(ok));
-  }
+  if (auto ok = check_leg_muscles(*world_, *library_, tick_s(), human, choice); !ok)
+    return named("change_leg_muscles", std::move(ok));
   if (auto done = make_muscles_whole({&human, 1}); !done) return done;
   auto done = mobil::change_leg_muscles(muscle_scene(), human, choice);
   if (done) SimulationWorld::choose_from_now(*this, human);

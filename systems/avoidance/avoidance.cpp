@@ -100,24 +100,35 @@ Result<void> Avoidance::manage(std::span<const Entity> people) {
   return {};
 }
 
-/// Whether a slope alone has them walk slower than they wish is kept with their gait: then they go on from it as they
-/// wish, however that comes to an end (is_slowed).
-static void keep_level_wish(const Course<float>& course, const Gait<float>& asked, Footing<float>& footing) {
-  constexpr float hindered = 0.99F;
-  const float slowed_m_s = slope_speed(course.speed_m_s, footing.slows_for);
-  const bool slowed = slowed_m_s < course.speed_m_s && asked.speed_m_s >= hindered * slowed_m_s;
-  footing.looked_at = asked.revision;
-  footing.level_speed_m_s = slowed ? course.speed_m_s : 0;
-  footing.level_length_m = slowed ? asked.step_length_m : 0;
+/// How somebody wishes to walk where it is level; a length of 0: not at all.
+static LevelWalk level_wish(const Course<float>& course, float height_m) {
+  if (!(course.speed_m_s > 0)) return {};
+  const auto usual = resolve_gait(height_m, {.speed_m_s = course.speed_m_s});
+  return {course.speed_m_s, usual ? course.usual * usual->step_length_m : 0};
 }
 
-/// The ground of who avoids others no more, with the steps that they wish for where it is level.
+/// Whether a slope alone has them walk slower than they wish is kept with their gait: then they go on from it as they
+/// wish, however that comes to an end (is_slowed).
+static void keep_level_wish(const Course<float>& course, const Gait<float>& asked, float height_m,
+                            Footing<float>& footing) {
+  constexpr float hindered = 0.99F;
+  const float slowed_m_s = slope_speed(course.speed_m_s, footing.slows_for);
+  LevelWalk level{};
+  if (slowed_m_s < course.speed_m_s && asked.speed_m_s >= hindered * slowed_m_s) level = level_wish(course, height_m);
+  footing.looked_at = asked.revision;
+  footing.level_speed_m_s = level.step_length_m > 0 ? level.speed_m_s : 0;
+  footing.level_length_m = level.step_length_m;
+}
+
+/// The ground of who is slowed and avoids others no more, with what they wish now; nothing of who is not.
 static std::optional<Footing<float>> released_footing(const World& world, Entity human) {
   auto footing = world.get<Footing>(human);
   const auto gait = world.get<Gait>(human);
   if (!footing || !gait || !is_slowed(*gait, *footing)) return {};
-  const auto usual = resolve_gait(world.get<BodySize>(human)->height_m, {.speed_m_s = footing->level_speed_m_s});
-  if (usual) footing->level_length_m = world.get<Course>(human)->usual * usual->step_length_m;
+  const LevelWalk level = level_wish(*world.get<Course>(human), world.get<BodySize>(human)->height_m);
+  if (!(level.step_length_m > 0)) return {};
+  footing->level_speed_m_s = level.speed_m_s;
+  footing->level_length_m = level.step_length_m;
   return *footing;
 }
 
@@ -261,7 +272,8 @@ AvoidanceReport Avoidance::update() {
     if (const TableColumn<Footing> ground(*table); ground) {
       auto& footings = ground.at(*table, block);
       Footing<float> footing = row_of(footings, lane);
-      keep_level_wish(row_of(courses, lane), asked, footing);
+      const float height_m = TableColumn<BodySize>(*table).at(*table, block).height_m[lane];
+      keep_level_wish(row_of(courses, lane), asked, height_m, footing);
       put_row(footing, footings, lane);
     }
     const bool stands = TableColumn<StepPlan>(*table).at(*table, block).to.speed_m_s[lane] <= 0;

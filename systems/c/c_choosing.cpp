@@ -120,11 +120,8 @@ int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count) {
       if (!is_managed(s.world().world(), s.people[i]))
         return s.line.refuse(MOBIL_MISSING, fmt::format("person {} is not managed; mobil_manage does that", i));
     }
-    for (std::size_t i = 0; i < count; ++i) {
-      const auto done = chooser->release(s.people[i]);
-      if (!done) return s.line.refuse(done.error(), person_number(i));
-    }
-    return int{MOBIL_OK};
+    const auto done = chooser->release(s.people);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }
 

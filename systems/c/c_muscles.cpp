@@ -34,20 +34,11 @@ int method_from(Line& line, const mobil_method* given, MuscleMethod& to) {
   return method_of(line, known, to);
 }
 
-/// Whether a person may have these muscles. What `mobil_set_muscles` is refused for is found before anybody is changed.
+/// What `mobil_set_muscles` is refused for is found before anybody is changed.
 Result<void> check_muscles(mobil_sim& sim, Entity person, const LegMuscles& choice) {
   Simulation& simulation = sim.world();
-  const World& world = simulation.world();
-  if (auto ok = check_choice(choice, simulation.tick_s()); !ok) return ok;
-  if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
-  const Body body = *make_body(body_request(world, person));
-  for (std::size_t m = 0; m < muscles().size(); ++m) {
-    if (!choice.muscles[m]) continue;
-    const MusclePlan plan = *make_muscle_plan(body, static_cast<Muscle>(m));
-    const auto belly = SimulationWorld::library(simulation).belly(plan, choice, simulation.tick_s());
-    if (!belly) return tl::unexpected(belly.error());
-  }
-  return {};
+  return check_leg_muscles(simulation.world(), SimulationWorld::library(simulation), simulation.tick_s(), person,
+                           choice);
 }
 
 /// The same of a method of one muscle that is there.

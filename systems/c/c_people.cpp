@@ -261,10 +261,9 @@ int mobil_state(mobil_sim* sim, mobil_id id, int* bits) {
     const Simulation& world = s.world();
     const Entity person = entity_of(id);
     if (!world.is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
-    const bool muscles = world.world().has<CompactMuscles>(person) || kept_choice(world.world(), person).has_value() ||
-                         !world.muscles(person).empty();
     *bits = (is_posed(world.world(), person) ? MOBIL_POSED : 0) | (world.is_asleep(person) ? MOBIL_ASLEEP : 0) |
-            (world.is_compact(person) ? MOBIL_COMPACT : 0) | (muscles ? MOBIL_HAS_MUSCLES : 0) |
+            (world.is_compact(person) ? MOBIL_COMPACT : 0) |
+            (has_any_muscles(world.world(), person) ? MOBIL_HAS_MUSCLES : 0) |
             (has_forces(world.world(), person) ? MOBIL_HAS_FORCES : 0) |
             (is_managed(world.world(), person) ? MOBIL_MANAGED : 0) |
             (is_watched(world.world(), person) ? MOBIL_WATCHED : 0) |

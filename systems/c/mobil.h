@@ -362,7 +362,7 @@ MOBIL_API int mobil_set_scene(mobil_sim* sim, const mobil_scene* scene);
 MOBIL_API int mobil_prepare_scene(mobil_sim* sim);
 /* From the next update on muscles of these people, each named once, are chosen; `needs` may be null. */
 MOBIL_API int mobil_manage(mobil_sim* sim, const mobil_id* ids, size_t count, const mobil_needs* needs);
-/* Methods stay as they are and are no longer chosen. */
+/* Methods stay as they are and are no longer chosen. Who sleeps wakes; muscles that were to come begin. */
 MOBIL_API int mobil_release(mobil_sim* sim, const mobil_id* ids, size_t count);
 /* Before each tick, or less often. `out` may be null. */
 MOBIL_API int mobil_choose(mobil_sim* sim, mobil_chosen* out);

@@ -26,8 +26,9 @@ typedef struct mobil_steered {
  * already goes on to. */
 MOBIL_API int mobil_start_avoidance(mobil_sim* sim, const mobil_avoidance* options);
 /* From now on these walkers keep out of each other's way, and want what they were last asked to do (who does so already
- * keeps their wish and room); or no more (`on` 0), and go on as they now do, facing their way. All or none. Who avoids
- * others is asked by mobil_want: what mobil_change_walk asks lasts until the next step. */
+ * keeps their wish and room); or no more (`on` 0), and go on as they now do, facing their way; whom a slope alone slows
+ * goes on from it as they want. All or none. Who avoids others is asked by mobil_want: what mobil_change_walk asks
+ * lasts until the next step. */
 MOBIL_API int mobil_avoid(mobil_sim* sim, const mobil_id* ids, size_t count, int on);
 /* Where they want to go, all or none: rows of two floats, a speed in m/s (0: to stand) and a heading in rad. */
 MOBIL_API int mobil_want(mobil_sim* sim, const mobil_id* ids, size_t count, const float* wishes, size_t stride);
@@ -55,7 +56,8 @@ MOBIL_API int mobil_ask_ground(mobil_sim* sim, float* places, size_t stride, mob
 /* The ground at the places of the last mobil_ask_ground, in their order, before the next tick: rows of four floats, its
  * height, and its normal, of any length (0 0 0: level). Slopes above 45 degrees are taken as that. Of an answer
  * that is not a number, or whose normal does not point up, the plane of another under the same sole is taken, or level
- * ground at the height of the last foothold; `unusable` (may be null) is how many of those there were. */
+ * ground at the height of the last foothold; `unusable` (may be null) is how many of those there were.
+ * Where walkers slow down, call it also with no places: who was asked to walk otherwise since is looked at. */
 MOBIL_API int mobil_answer_ground(mobil_sim* sim, const float* ground, size_t stride, size_t count, size_t* unusable);
 
 #endif

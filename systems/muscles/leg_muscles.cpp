@@ -14,6 +14,7 @@
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 #include "systems/people/waking.h"
 
@@ -257,14 +258,29 @@ Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegM
   return begin_leg_muscles(scene, {&person, 1}, choice);
 }
 
+Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double tick_s, Entity person,
+                               const LegMuscles& choice) {
+  if (!is_person(world, person)) return not_there();
+  if (auto ok = check_choice(choice, tick_s); !ok) return ok;
+  if (!has_forces(world, person)) {
+    if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
+  }
+  const Body body = *make_body(body_request(world, person));
+  for (std::size_t m = 0; m < muscles().size(); ++m) {
+    if (!choice.muscles[m]) continue;
+    const auto muscle = static_cast<Muscle>(m);
+    const auto belly = library.belly(*make_muscle_plan(body, muscle), choice, tick_s);
+    if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
+  }
+  return {};
+}
+
 /// Muscles that are there keep their handles, others begin; those that are no longer asked for go.
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice) {
   World& world = scene.world;
   if (!is_person(world, person)) return not_there();
   const std::vector<OwnMuscle> before = muscles_of(world, person);
   if (before.empty()) return fail("this person has no leg muscles; add them first", Status::missing);
-  if (auto ok = check_choice(choice, scene.time.tick_s); !ok) return ok;
-  if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
   const Body body = *make_body(body_request(world, person));
   LegMuscles new_ones = choice;
   std::vector<OwnMuscle> stay;

@@ -55,6 +55,9 @@ Result<void> begin_leg_muscles(const MuscleScene& scene, std::span<const Entity>
 
 /// As the members of Simulation of these names (systems/simulation.h); messages without that name.
 Result<void> add_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
+/// Whether a person, awake or not, may have these muscles: whatever they would be refused for.
+Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double tick_s, Entity person,
+                               const LegMuscles& choice);
 Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const LegMuscles& choice);
 Status remove_leg_muscles(World& world, const Jobs& jobs, Entity person);
 Result<void> set_excitation(World& world, Entity person, Muscle muscle, Side side, float excitation);

@@ -44,7 +44,7 @@ AskedWalk asked_walk(const World& world, const WalkChange& wanted, const SleepTi
   asked.asleep = is_asleep(world, person);
   asked.must_wake = asked.asleep && (is_busy(world, person, now) || (change && change->style));
   if (change) {
-    const auto changed = changed_gait(*before, *change);
+    const auto changed = changed_gait(*before, change_on_level(world, person, *change));
     asked.gait = changed ? std::optional(*changed) : std::nullopt;
     asked.walks_otherwise = changed && !same_walk(*changed, before->gait);
   }
@@ -100,8 +100,6 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
     }
   }
   ask_sleepers(world, jobs, work.asked_sleepers, now);
-  for (const WalkChange& change : changes)
-    if (change.gait) keep_pace(world, change.human, *change.gait);
   return refused;
 }
 

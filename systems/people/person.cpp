@@ -7,6 +7,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/body/body_composition.h"
+#include "assets/gait/slope_pace.h"
 #include "components/avoidance.h"
 #include "components/fat.h"
 #include "components/footing.h"
@@ -125,21 +126,21 @@ std::optional<AskedBody> asked_body(const World& world, Entity person) {
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change) {
   if (auto walks = is_walker(world, person, "change_gait", "spawn a walker instead"); !walks)
     return tl::unexpected(walks.error());
-  return changed_gait(*asked_body(world, person), change);
+  return changed_gait(*asked_body(world, person), change_on_level(world, person, change));
 }
 
 static bool sets_pace(const GaitChange& change) {
   return change.speed_m_s || change.step_length_m || change.step_frequency_hz;
 }
 
-void keep_pace(World& world, Entity person, const GaitChange& change) {
-  if (sets_pace(change)) return;
-  auto footing = world.get<Footing>(person);
-  if (!footing || footing->level_speed_m_s == 0) return;
-  const std::uint32_t revision = gait_of(world, person)->revision;
-  if (revision != next_request(footing->looked_at)) return;
-  footing->looked_at = revision;
-  world.set(person, *footing);
+GaitChange change_on_level(const World& world, Entity person, const GaitChange& change) {
+  if (sets_pace(change)) return change;
+  const auto footing = world.get<Footing>(person);
+  if (!footing || footing->level_speed_m_s == 0 || !is_slowed(*gait_of(world, person), *footing)) return change;
+  GaitChange level = change;
+  level.speed_m_s = footing->level_speed_m_s;
+  level.step_length_m = footing->level_length_m;
+  return level;
 }
 
 Result<Gait<float>> changed_gait(const AskedBody& now, const GaitChange& change) {

@@ -48,8 +48,9 @@ struct WalkChange {
 /// out of range.
 Result<Gait<float>> changed_gait(const World& world, Entity person, const GaitChange& change);
 Result<Gait<float>> changed_gait(const AskedBody& now, const GaitChange& change);
-/// After such a request: who is slowed down on a slope (Footing) goes on to be, unless it names a speed or a step.
-void keep_pace(World& world, Entity person, const GaitChange& change);
+/// What is asked of a walker who is slowed down on a slope (Footing) is asked of the walk on level ground: the same
+/// change, with its speed and step where it names none.
+GaitChange change_on_level(const World& world, Entity person, const GaitChange& change);
 Result<Gait<float>> new_gait(const World& world, Entity person, const GaitRequest& gait);
 /// What a walker is to do; nothing for a stale handle and for posed people.
 std::optional<GaitRequest> gait_request(const World& world, Entity person);

@@ -224,6 +224,8 @@ class Relevance {
   /// Errors: a stale handle, somebody who is not managed (Status::missing), what muscles are refused for; nothing has
   /// changed.
   Result<void> release(Entity human);
+  /// The same of many, each named once; all or none.
+  Result<void> release(std::span<const Entity> people);
 
   /// A method of the caller's choice, until `unforce`. Errors: someone not managed, what Simulation::set_method
   /// refuses.

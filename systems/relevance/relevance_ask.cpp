@@ -10,11 +10,13 @@
 #include <string>
 #include <vector>
 
+#include "components/compact.h"
 #include "engine/each.h"
 #include "engine/jobs.h"
 #include "engine/rows.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
+#include "systems/muscles/sleep.h"
 #include "systems/people/by_table.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
@@ -248,16 +250,26 @@ bool is_managed(const World& world, Entity human) {
 }
 
 Result<void> Relevance::release(Entity human) {
+  return release(std::span(&human, 1));
+}
+
+Result<void> Relevance::release(std::span<const Entity> people) {
   World& world = world_of(simulation_);
-  if (!world.alive(human)) return result_of("release", Status::stale_entity);
-  if (!is_managed(world, human)) return result_of("release", Status::missing);
-  World::Attempt attempt(world, SimulationWorld::jobs(simulation_));
-  // Nobody else would begin the muscles that are to come.
-  if (!simulation_.is_compact(human)) {
-    if (auto done = SimulationWorld::make_muscles_whole(simulation_, {&human, 1}); !done) return done;
+  const Jobs& jobs = SimulationWorld::jobs(simulation_);
+  if (!world.alive_once(people))
+    return fail("release: somebody is not there (a stale handle), or named twice", Status::stale_entity);
+  std::vector<Entity> whole;
+  for (const Entity human : people) {
+    if (!is_managed(world, human)) return fail("release: somebody is not managed", Status::missing);
+    // Nobody else would begin the muscles that are to come.
+    const bool stays_compact =
+        simulation_.is_compact(human) && (world.has<CompactMuscles>(human) || !kept_choice(world, human));
+    if (!stays_compact) whole.push_back(human);
   }
+  World::Attempt attempt(world, jobs);
+  if (auto done = SimulationWorld::make_muscles_whole(simulation_, whole); !done) return done;
   constexpr std::array parts = {type_id<Needs<float>>(), type_id<Tiers<float>>()};
-  world.remake_many({&human, 1}, {}, parts, SimulationWorld::jobs(simulation_));
+  by_table(world, people, [&](std::span<const Entity> together) { world.remake_many(together, {}, parts, jobs); });
   attempt.keep();
   return {};
 }
@@ -269,6 +281,15 @@ Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& m
     return fail("force: that person, or that muscle of theirs, is not managed; manage it first",
                 tiers ? Status::missing : tiers.error());
   World& world = world_of(simulation_);
+  struct AsBefore {  // where it is refused, or memory runs out: once the attempt is undone
+    World& world;
+    Entity human;
+    Tiers<float> tiers;
+    bool done = false;
+    ~AsBefore() {
+      if (!done) world.set(human, tiers);
+    }
+  } as_before{world, human, *tiers};
   std::optional<World::Attempt> attempt;
   const auto ask = [&]() -> Result<void> {
     if ((tiers->effects & tier_bare) != 0) {
@@ -278,12 +299,9 @@ Result<void> Relevance::force(Entity human, Muscle muscle, const MuscleMethod& m
     }
     return simulation_.set_method(human, muscle, method);
   };
-  if (auto done = ask(); !done) {
-    attempt.reset();
-    world.set(human, *tiers);
-    return done;
-  }
+  if (auto done = ask(); !done) return done;
   if (attempt) attempt->keep();
+  as_before.done = true;
   tiers = world.get<Tiers>(human);
   set_rung(tiers->rung, m, forced_rung);
   world.set(human, *tiers);

@@ -38,7 +38,7 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
   to.sizes.clear();
   to.gaits.clear();
   for (const Entity human : people) {
-    if (world.has<Course>(human)) continue;
+    if (!steepness && world.has<Course>(human)) continue;
     const auto footing = world.get<Footing>(human);
     const auto now = asked_body(world, human);
     if (!footing || !now) continue;

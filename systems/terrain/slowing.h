@@ -31,8 +31,9 @@ struct Slowing {
 /// Finds, in `to.changes`, what those of `people` are to be asked for whose pace is another than their steepness asks
 /// for (Footing::slows_for; assets/gait/slope_pace.h). Who would have to walk in another style at the slower pace is
 /// not slowed. Who avoids others (Course) is left out: Avoidance slows what it wants. Steps of usual length become
-/// those of the slower speed and longer ones shorten as much; shorter ones stay as they are, as the treads of stairs
-/// do. All that were looked at are marked (Footing::looked_at). `steepness`: of all, instead of each one's own.
+/// those of the slower speed and longer ones shorten as much; shorter ones stay as they are, as on the treads of
+/// stairs, but become no longer than usual. All that were looked at are marked (Footing::looked_at). `steepness`: of
+/// all, instead of each one's own; then nobody is left out.
 void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people, Slowing& to,
                  std::optional<float> steepness = {});
 /// Records, after `Simulation::change_walks(to.changes)`, what these walkers were asked to do on level ground.

@@ -306,7 +306,7 @@ std::size_t Terrain::Work::put_answers(World& world, const Asking& one, bool slo
   constexpr float steepest = 1, shortest_m = 0.2F;
   const float way_m = std::max(plan.length_before_m[l] + plan.step_length_m[l], shortest_m);
   const float steepness = (footing.height_m[landing][l] - footing.height_m[leaving][l]) / way_m;
-  if (slows_down || footing.slows_for[l] != 0) people.push_back(one.human);
+  if (slows_down || footing.slows_for[l] != 0 || footing.level_speed_m_s[l] > 0) people.push_back(one.human);
   footing.slows_for[l] = slows_down ? std::clamp(steepness, -steepest, steepest) : 0;
   if (all) stand_up(world, one.human);
 

@@ -324,22 +324,39 @@ TEST(RelevanceSleep, AHostsMethodComesToWhoIsCompactAndBare) {
 /// Those that were to come begin: nobody else would begin them.
 TEST(RelevanceSleep, WhoIsReleasedHasTheirMuscles) {
   Scene scene(true, 1, true);
-  for (int i = 0; i < 300; ++i) scene.tick();
-  std::size_t asleep = 0, bare = 0;
+  scene.needs.compact_unseen = true;
+  std::size_t asleep = 0, bare = 0, compact = 0;
+  for (int i = 0; i < 400 && (compact < 3 || i < 300); ++i) {
+    scene.tick();
+    for (const Entity human : scene.people) {
+      const auto tiers = scene.simulation.get<Tiers>(human);
+      if (compact > 2 || !tiers || !scene.simulation.is_compact(human) || (tiers->effects & tier_bare) == 0) continue;
+      ++compact;
+      ASSERT_TRUE(scene.relevance->release(human));
+      EXPECT_EQ(scene.simulation.muscles(human).size(), 1U);
+    }
+  }
+  std::vector<Entity> people;
   for (const Entity human : scene.people) {
     const bool sleeps = scene.simulation.is_asleep(human);
     const MuscleSet meant = scene.simulation.human(human)->leg_muscles.muscles;
-    if (scene.simulation.is_compact(human) || meant.none() || (sleeps ? asleep : bare) > 4) continue;
-    if (!sleeps && !scene.simulation.muscles(human).empty()) continue;
+    if (!is_managed(scene.simulation.world(), human) || scene.simulation.is_compact(human) || meant.none()) continue;
+    if ((sleeps ? asleep : bare) > 4 || (!sleeps && !scene.simulation.muscles(human).empty())) continue;
     ++(sleeps ? asleep : bare);
-    ASSERT_TRUE(scene.relevance->release(human));
+    people.push_back(human);
+  }
+  ASSERT_GT(asleep * bare * compact, 0U);
+  const std::uint64_t before = scene.simulation.state_hash();
+  const std::vector<Entity> twice = {people[0], people[1], people[0]};
+  EXPECT_FALSE(scene.relevance->release(twice));
+  EXPECT_EQ(scene.simulation.state_hash(), before);
+  ASSERT_TRUE(scene.relevance->release(people));
+  for (const Entity human : people) {
     EXPECT_FALSE(is_managed(scene.simulation.world(), human));
     EXPECT_FALSE(scene.simulation.is_asleep(human));
-    EXPECT_EQ(scene.simulation.muscles(human).size(), meant.count());
+    EXPECT_EQ(scene.simulation.muscles(human).size(), scene.simulation.human(human)->leg_muscles.muscles.count());
     EXPECT_EQ(scene.relevance->release(human).error().status, Status::missing);
   }
-  EXPECT_GT(asleep, 0U);
-  EXPECT_GT(bare, 0U);
 }
 
 /// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those

@@ -123,6 +123,9 @@ TEST(Moments, WhoCannotFollowThemStaysAsleepOrCompact) {
     const std::uint64_t before = simulation.state_hash();
     EXPECT_EQ(simulation.change_leg_muscles(with, following(Method::reduced)).error().status, Status::missing);
     EXPECT_EQ(simulation.change_leg_muscles(without, plain).error().status, Status::missing);
+    LegMuscles wild = plain;
+    wild.reduced.vectors = 9999;
+    EXPECT_FALSE(simulation.change_leg_muscles(with, wild));
     EXPECT_EQ(simulation.state_hash(), before);
     for (const Entity human : both) EXPECT_TRUE(compact ? simulation.is_compact(human) : simulation.is_asleep(human));
     ASSERT_TRUE(simulation.despawn(both));

@@ -97,21 +97,48 @@ TEST(Slowing, AHostMayAskForThePaceOfTheSlope) {
   EXPECT_EQ(hike.get<Gait>().speed_m_s, 0.6F);
 }
 
-TEST(Slowing, WhoGetsAStyleOnTheWayWalksAsAskedWhereItIsLevel) {
+TEST(Slowing, AStyleThatIsAskedForOnTheWayIsThatOfLevelGround) {
   std::size_t drawn = 0;
   for (const float asymmetry : {0.05F, 0.15F, 0.25F}) {
-    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 2.1F});
+    const GaitChange change{.style = GaitStyle{.time_asymmetry = asymmetry}};
+    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 2.1F}), level = hike_on(plane(0, 0), {.speed_m_s = 2.1F});
     walk_to(hike, first_m + 4);
     ASSERT_LT(hike.get<Gait>().speed_m_s, 1.5F);
-    ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.style = GaitStyle{.time_asymmetry = asymmetry}}));
+    ASSERT_TRUE(hike.simulation.change_gait(hike.human, change));
+    ASSERT_TRUE(level.simulation.change_gait(level.human, change));
+    const GaitStyle style = level.get<Gait>().style;
     walk_to(hike, last_m - 4);
     EXPECT_LT(hike.get<Gait>().speed_m_s, 1.5F);
-    EXPECT_EQ(hike.get<Gait>().style.time_asymmetry, asymmetry);
+    EXPECT_TRUE(same_style(hike.get<Gait>().style, style));
     walk_to(hike, last_m + 6);
     EXPECT_EQ(hike.get<Gait>().speed_m_s, 2.1F);
-    drawn += hike.get<Gait>().style.time_asymmetry != asymmetry;
+    EXPECT_TRUE(same_style(hike.get<Gait>().style, style));
+    drawn += style.time_asymmetry != asymmetry;
   }
-  EXPECT_GT(drawn, 0U) << "a style that suits the slope and not the level is what this is about";
+  EXPECT_GT(drawn, 0U) << "some are drawn toward the usual style";
+}
+
+/// A style is asked for the walk on level ground: who cannot have it at a slower pace is slowed no more.
+TEST(Slowing, AStyleThatIsNoneOfTheSlopeIsKept) {
+  Hike hike = hike_on(ramp(0.2F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  ASSERT_LT(hike.get<Gait>().speed_m_s, 0.8F);
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.style = GaitStyle{.mid_stance_height = 0.9F}}));
+  for (const float z_m : {first_m + 8, last_m + 6}) {
+    walk_to(hike, z_m);
+    EXPECT_EQ(hike.get<Gait>().style.mid_stance_height, 0.9F);
+    EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
+  }
+}
+
+TEST(Slowing, WhatIsRefusedMakesNoRequestOfTheHostsASlowedOne) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {.speed_m_s = 1.0F}));
+  const WalkChange refused[] = {{hike.human, GaitChange{}, 1e9F}};
+  EXPECT_EQ(hike.simulation.change_walks(refused).value(), 1U);
+  walk_to(hike, last_m + 6);
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, 1.0F);
 }
 
 TEST(Slowing, LongStepsShortenAsUsualOnesDo) {
@@ -194,6 +221,31 @@ TEST(Slowing, AWishIsKeptWhereverAvoidanceEnds) {
     ASSERT_TRUE(avoidance.release(hike.human));
     walk_to(hike, last_m + 8);
     ASSERT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 0.01F) << ticks;
+  }
+}
+
+/// In whichever order ground and others are left, slowing is turned off, or the wish changes.
+TEST(Slowing, WhoLeavesASlopeInAnyWayGoesOnAsTheyWish) {
+  for (int way = 0; way < 4; ++way) {
+    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+    Avoidance avoidance(hike.simulation);
+    ASSERT_TRUE(avoidance.manage(hike.human));
+    const auto walk = [&] {
+      avoidance.update();
+      hike.tick();
+    };
+    while (hike.get<GaitState>().line_z_m < first_m + 4) walk();
+    ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+    float wish_m_s = 1.3F;
+    bool done = true;
+    if (way == 0) done = hike.terrain.release({&hike.human, 1}).has_value();
+    if (way == 1) hike.terrain.set_options({}), hike.tick();
+    if (way == 2) done = avoidance.want({{{hike.human, wish_m_s = 1.1F, 0}}}).has_value();
+    ASSERT_TRUE(done && avoidance.release(hike.human));
+    if (way == 3) done = hike.terrain.release({&hike.human, 1}).has_value();
+    ASSERT_TRUE(done);
+    walk_to(hike, last_m + 6);
+    EXPECT_NEAR(hike.get<Gait>().speed_m_s, wish_m_s, 0.01F) << way;
   }
 }
 

@@ -143,7 +143,7 @@ TEST(Terrain, KneesAndAnklesDownAnyKerb) {
     float high_m, speed_m_s, knee, ankle;
   };
   for (const auto& [high_m, speed_m_s, most_knee, most_ankle] :
-       {Kerb{0.15F, 1.2F, 114, 39}, {0.15F, 1.6F, 115, 39}, {0.20F, 1.2F, 123, 42}}) {
+       {Kerb{0.15F, 1.2F, 112.5F, 37}, {0.15F, 1.6F, 112.5F, 37}, {0.20F, 1.2F, 120.5F, 41}}) {
     double knee = 0, ankle = 0;
     float through_m = 0;
     for (int place = 0; place < 24; ++place) {

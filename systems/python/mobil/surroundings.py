@@ -51,7 +51,7 @@ class Avoidance:
         self._world._do(lib.mobil_avoid(self._world._sim, *_all(people), 1))
 
     def release(self, people: People) -> None:
-        """No more; they go on as they now do."""
+        """No more; they go on as they now do, and from slopes that slow them as they want."""
         self._world._do(lib.mobil_avoid(self._world._sim, *_all(people), 0))
 
     def want(self, people: People, speed_m_s: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:

@@ -18,11 +18,11 @@ constexpr std::size_t index(FootholdOf which) {
 /// By FootholdOf: the height of the ground in the world, m; how much it rises toward +X and +Z, m per m; how far the
 /// foothold is moved in the world from where it would be on level ground, m, so that no edge is under the sole.
 /// `lift_early_m`, `lift_late_m`: how much higher than straight from one foothold to the next the foot in the air
-/// passes (`swing_lift`). Where the stance foothold and the next one were when the ground was asked for, before they were
-/// moved; the step (GaitState) that it is of; and how much of it is known (FootingKnown). The steepness for which the
-/// walker is to slow down, m per m, 0: for none. The request (Gait::revision) that was last looked at for it; where that
-/// is the gait's own and `level_speed_m_s` is not 0, the gait is a slowed one, and the speed and the length of step are
-/// those asked for on level ground. All zero: level ground, nothing known yet.
+/// passes (`swing_lift`). Where the stance foothold and the next one were when the ground was asked for, before they
+/// were moved; the step (GaitState) that it is of; and how much of it is known (FootingKnown). The steepness for which
+/// the walker is to slow down, m per m, 0: for none. The request (Gait::revision) that was last looked at for it; where
+/// that is the gait's own and `level_speed_m_s` is not 0, the gait is a slowed one, and the speed and the length of
+/// step are those asked for on level ground. All zero: level ground, nothing known yet.
 template <class F>
 struct Footing {
   F height_m[3], rise_x[3], rise_z[3];

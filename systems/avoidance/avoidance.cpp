@@ -50,11 +50,11 @@ Avoidance::Avoidance(Avoidance&&) noexcept = default;
 /// their shoulders as they are.
 Course<float> Avoidance::first_course(const World& world, Entity human) const {
   const float height = world.get<BodySize>(human)->height_m;
-  Course<float> course{};
-  if (const auto before = world.get<Course>(human)) course = *before;
+  const auto before = world.get<Course>(human);
+  Course<float> course = before.value_or(Course<float>{});
   course.radius_m = options_.radius_h * height;
   course.shoulders_m = options_.shoulders_h * height;
-  if (world.has<Course>(human)) return course;
+  if (before) return course;
   const Gait<float> gait = *world.get<Gait>(human);
   const LevelWalk asked = level_walk(gait, world.get<Footing>(human).value_or(Footing<float>{}));
   course.speed_m_s = asked.speed_m_s;
@@ -100,24 +100,24 @@ Result<void> Avoidance::manage(std::span<const Entity> people) {
   return {};
 }
 
-/// How somebody wishes to walk where it is level; a length of 0: not at all.
+/// How somebody wishes to walk where it is level; zeros: not at all.
 static LevelWalk level_wish(const Course<float>& course, float height_m) {
-  if (!(course.speed_m_s > 0)) return {};
   const auto usual = resolve_gait(height_m, {.speed_m_s = course.speed_m_s});
-  return {course.speed_m_s, usual ? course.usual * usual->step_length_m : 0};
+  if (!(course.speed_m_s > 0) || !usual) return {};
+  return {course.speed_m_s, course.usual * usual->step_length_m};
 }
 
 /// Whether a slope alone has them walk slower than they wish is kept with their gait: then they go on from it as they
 /// wish, however that comes to an end (is_slowed).
 static void keep_level_wish(const Course<float>& course, const Gait<float>& asked, float height_m,
-                            Footing<float>& footing) {
+                            Footing<Lanes<float>>& footing, std::size_t lane) {
   constexpr float hindered = 0.99F;
-  const float slowed_m_s = slope_speed(course.speed_m_s, footing.slows_for);
+  const float slowed_m_s = slope_speed(course.speed_m_s, footing.slows_for[lane]);
   LevelWalk level{};
   if (slowed_m_s < course.speed_m_s && asked.speed_m_s >= hindered * slowed_m_s) level = level_wish(course, height_m);
-  footing.looked_at = asked.revision;
-  footing.level_speed_m_s = level.step_length_m > 0 ? level.speed_m_s : 0;
-  footing.level_length_m = level.step_length_m;
+  footing.looked_at[lane] = asked.revision;
+  footing.level_speed_m_s[lane] = level.speed_m_s;
+  footing.level_length_m[lane] = level.step_length_m;
 }
 
 /// The ground of who is slowed and avoids others no more, with what they wish now; nothing of who is not.
@@ -126,7 +126,7 @@ static std::optional<Footing<float>> released_footing(const World& world, Entity
   const auto gait = world.get<Gait>(human);
   if (!footing || !gait || !is_slowed(*gait, *footing)) return {};
   const LevelWalk level = level_wish(*world.get<Course>(human), world.get<BodySize>(human)->height_m);
-  if (!(level.step_length_m > 0)) return {};
+  if (!(level.speed_m_s > 0)) return {};
   footing->level_speed_m_s = level.speed_m_s;
   footing->level_length_m = level.step_length_m;
   return *footing;
@@ -270,11 +270,8 @@ AvoidanceReport Avoidance::update() {
     asked.revision = (before.revision + (other ? 1U : 0U)) & 0xFFFFU;
     put_row(asked, gaits, lane);
     if (const TableColumn<Footing> ground(*table); ground) {
-      auto& footings = ground.at(*table, block);
-      Footing<float> footing = row_of(footings, lane);
       const float height_m = TableColumn<BodySize>(*table).at(*table, block).height_m[lane];
-      keep_level_wish(row_of(courses, lane), asked, height_m, footing);
-      put_row(footing, footings, lane);
+      keep_level_wish(row_of(courses, lane), asked, height_m, ground.at(*table, block), lane);
     }
     const bool stands = TableColumn<StepPlan>(*table).at(*table, block).to.speed_m_s[lane] <= 0;
     const bool waits = wants && stands && asked.speed_m_s <= 0;

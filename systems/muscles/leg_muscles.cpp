@@ -121,6 +121,14 @@ tl::expected<void, NotMade> begin_each_choice(const MuscleScene& scene, std::spa
   return {};
 }
 
+/// What a muscle of that plan would be; errors name it.
+Result<Belly> belly_of(BellyLibrary& library, const MusclePlan& plan, Muscle muscle, const LegMuscles& choice,
+                       double tick_s) {
+  auto belly = library.belly(plan, choice, tick_s);
+  if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
+  return belly;
+}
+
 }  // namespace
 
 std::vector<OwnMuscle> muscles_of(const World& world, Entity person) {
@@ -269,8 +277,8 @@ Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (!choice.muscles[m]) continue;
     const auto muscle = static_cast<Muscle>(m);
-    const auto belly = library.belly(*make_muscle_plan(body, muscle), choice, tick_s);
-    if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
+    if (auto belly = belly_of(library, *make_muscle_plan(body, muscle), muscle, choice, tick_s); !belly)
+      return tl::unexpected(belly.error());
   }
   return {};
 }
@@ -297,8 +305,8 @@ Result<void> change_leg_muscles(const MuscleScene& scene, Entity person, const L
     }
     new_ones.muscles.reset(m);
     stay.push_back(*own);
-    auto belly = scene.library.belly(plan, choice, scene.time.tick_s);
-    if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
+    auto belly = belly_of(scene.library, plan, muscle, choice, scene.time.tick_s);
+    if (!belly) return tl::unexpected(belly.error());
     bellies.push_back(std::move(*belly));
   }
   NewRows rows(scene, 2 * size.size());
@@ -343,8 +351,8 @@ Result<void> set_method(const MuscleScene& scene, Entity person, Muscle muscle, 
   choice.method = method.method;
   choice.reduced = method.reduced;
   const MusclePlan plan = *make_muscle_plan(*make_body(body_request(world, person)), muscle);
-  const auto belly = scene.library.belly(plan, choice, scene.time.tick_s);
-  if (!belly) return fail(std::string(muscle_name(muscle)) + ": " + belly.error().message, belly.error().status);
+  const auto belly = belly_of(scene.library, plan, muscle, choice, scene.time.tick_s);
+  if (!belly) return tl::unexpected(belly.error());
   change_muscles(world, scene.library, scene.work, {person, choice, true, scene.time}, {&*belly, 1}, {&own, 1});
   return {};
 }

@@ -21,11 +21,14 @@ GaitChange change_to(float height_m, const LevelWalk& level, float speed_m_s) {
   return change;
 }
 
-/// Nobody is slowed by this look, or goes on being so.
-void mark(World& world, Entity human, const Gait<float>& gait, Footing<float> footing) {
+/// Somebody was looked at with this gait, and is slowed from such a walk on level ground; none: not slowed. Who is
+/// slowed already goes on being so.
+void mark(World& world, Entity human, const Gait<float>& gait, const LevelWalk& level) {
+  auto footing = *world.get<Footing>(human);
   if (is_slowed(gait, footing)) return;
   footing.looked_at = gait.revision;
-  footing.level_speed_m_s = footing.level_length_m = 0;
+  footing.level_speed_m_s = level.speed_m_s;
+  footing.level_length_m = level.step_length_m;
   world.set(human, footing);
 }
 
@@ -45,10 +48,14 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
     const LevelWalk level = level_walk(now->gait, *footing);
     const float speed = slope_speed(level.speed_m_s, steepness.value_or(footing->slows_for));
     const float off = std::fabs(speed - now->gait.speed_m_s);
+    if (off == 0 || (speed != level.speed_m_s && off < least_part * level.speed_m_s)) {
+      mark(world, human, now->gait, {});
+      continue;
+    }
     const GaitChange change = change_to(now->size.height_m, level, speed);
     const auto gait = changed_gait(*now, change);
-    if (off == 0 || (speed != level.speed_m_s && off < least_part * level.speed_m_s) || !gait) {
-      mark(world, human, now->gait, *footing);
+    if (!gait) {
+      mark(world, human, now->gait, {});
       continue;
     }
     const bool has_style = speed != level.speed_m_s && !same_style(gait->style, {});
@@ -61,7 +68,7 @@ void find_slowed(World& world, const Jobs& jobs, std::span<const Entity> people,
   auto kept = to.gaits.cbegin();
   std::erase_if(to.people, [&](const Slowing::One& one) {
     if (!one.has_style || same_style((kept++)->style, one.before.style)) return false;
-    mark(world, one.change.human, one.before, *world.get<Footing>(one.change.human));
+    mark(world, one.change.human, one.before, {});
     return true;
   });
   to.changes.clear();
@@ -72,12 +79,7 @@ void keep_slowed(World& world, const Slowing& to) {
   for (const auto& [change, level, before, has_style] : to.people) {
     const Gait<float> gait = asked_body(world, change.human)->gait;
     if (gait.revision == before.revision) continue;  // could not be asked
-    const bool slowed = change.gait->speed_m_s != level.speed_m_s;
-    auto footing = *world.get<Footing>(change.human);
-    footing.looked_at = gait.revision;
-    footing.level_speed_m_s = slowed ? level.speed_m_s : 0;
-    footing.level_length_m = slowed ? level.step_length_m : 0;
-    world.set(change.human, footing);
+    mark(world, change.human, gait, change.gait->speed_m_s == level.speed_m_s ? LevelWalk{} : level);
   }
 }
 

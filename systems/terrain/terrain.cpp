@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -74,7 +75,7 @@ struct Terrain::Work {
   std::size_t put_answers(World& world, const Asking& one, bool slows_down);
   static void stand_up(World& world, Entity human);
   void find_changed(const World& world);
-  void slow_down(Simulation& simulation);
+  void slow_down(Simulation& simulation, std::span<const Entity> some, std::optional<float> steepness = {});
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -228,7 +229,8 @@ void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& op
   asking.clear();
   queries.clear();
   if (options.slows_down) find_changed(world);
-  if (!people.empty()) slow_down(simulation);
+  drop_repeated(people);
+  if (!people.empty()) slow_down(simulation, people);
 }
 
 /// Adds the walkers on a slope of whom the host has asked something since they were looked at.
@@ -247,11 +249,10 @@ void Terrain::Work::find_changed(const World& world) {
   }
 }
 
-/// Changes the speed of these walkers to what suits the steepness of their ground.
-void Terrain::Work::slow_down(Simulation& simulation) {
+/// Changes the speed of these walkers to what suits the steepness of their ground, or one of all (find_slowed).
+void Terrain::Work::slow_down(Simulation& simulation, std::span<const Entity> some, std::optional<float> steepness) {
   World& world = world_of(simulation);
-  drop_repeated(people);
-  find_slowed(world, SimulationWorld::jobs(simulation), people, slowing);
+  find_slowed(world, SimulationWorld::jobs(simulation), some, slowing, steepness);
   if (slowing.changes.empty()) return;
   (void)simulation.change_walks(slowing.changes);  // who cannot be asked now is asked again
   keep_slowed(world, slowing);
@@ -373,9 +374,7 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
   // Who is slowed goes back to the walk on level ground: first, so that where memory runs out they are slowed again.
-  find_slowed(world, jobs, changes, work_->slowing, 0);
-  (void)simulation_.change_walks(work_->slowing.changes);
-  keep_slowed(world, work_->slowing);
+  work_->slow_down(simulation_, changes, 0);
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();

@@ -31,6 +31,25 @@ Hike hike_on(HeightOf ground, const GaitRequest& gait) {
   return Hike(std::move(ground), gait, {.height_m = 1.75F, .mass_kg = 75}, 1.0 / 60, 0, {.slows_down = true});
 }
 
+/// Of who avoids others.
+struct Avoider {
+  Hike hike;
+  Avoidance avoidance;
+
+  Avoider(HeightOf ground, const GaitRequest& gait)
+      : hike(hike_on(std::move(ground), gait)), avoidance(hike.simulation) {
+    EXPECT_TRUE(avoidance.manage(hike.human));
+  }
+  void tick() {
+    avoidance.update();
+    hike.tick();
+  }
+  void walk_to(float z_m) {
+    for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < z_m; ++i) tick();
+    ASSERT_GE(hike.get<GaitState>().line_z_m, z_m);
+  }
+};
+
 void walk_to(Hike& hike, float z_m) {
   for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < z_m; ++i) hike.tick();
   ASSERT_GE(hike.get<GaitState>().line_z_m, z_m);
@@ -170,20 +189,15 @@ TEST(Slowing, WhoIsReleasedWalksAsAsked) {
 }
 
 TEST(Slowing, WhoAvoidsOthersSlowsDownToo) {
-  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-  Avoidance avoidance(hike.simulation);
-  ASSERT_TRUE(avoidance.manage(hike.human));
-  const auto walk = [&](float z_m) {
-    for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < z_m; ++i) {
-      avoidance.update();
-      hike.tick();
-    }
-    return hike.get<StepPlan>().to.speed_m_s;
+  Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
+  const auto speed_at = [&](float z_m) {
+    one.walk_to(z_m);
+    return one.hike.get<StepPlan>().to.speed_m_s;
   };
-  EXPECT_NEAR(walk(first_m - 2), 1.3F, 0.01F);
-  EXPECT_NEAR(walk(last_m - 4), slope_speed(1.3F, 0.15F), 0.03F);
-  EXPECT_NEAR(hike.get<Course>().speed_m_s, 1.3F, 1e-6F) << "what it wants is what was asked for";
-  EXPECT_NEAR(walk(last_m + 6), 1.3F, 0.01F);
+  EXPECT_NEAR(speed_at(first_m - 2), 1.3F, 0.01F);
+  EXPECT_NEAR(speed_at(last_m - 4), slope_speed(1.3F, 0.15F), 0.03F);
+  EXPECT_NEAR(one.hike.get<Course>().speed_m_s, 1.3F, 1e-6F) << "what it wants is what was asked for";
+  EXPECT_NEAR(speed_at(last_m + 6), 1.3F, 0.01F);
 }
 
 TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
@@ -209,39 +223,28 @@ TEST(Slowing, AWishIsKeptWhereAvoidanceBeginsAndEndsOnASlope) {
 /// Avoidance chooses a step before the ground of the next one is known.
 TEST(Slowing, AWishIsKeptWhereverAvoidanceEnds) {
   for (int ticks = 0; ticks < 90; ticks += 3) {
-    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-    Avoidance avoidance(hike.simulation);
-    ASSERT_TRUE(avoidance.manage(hike.human));
-    const auto walk = [&] {
-      avoidance.update();
-      hike.tick();
-    };
-    while (hike.get<GaitState>().line_z_m < last_m - 0.4F) walk();
-    for (int k = 0; k < ticks; ++k) walk();
-    ASSERT_TRUE(avoidance.release(hike.human));
-    walk_to(hike, last_m + 8);
-    ASSERT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 0.01F) << ticks;
+    Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
+    one.walk_to(last_m - 0.4F);
+    for (int k = 0; k < ticks; ++k) one.tick();
+    ASSERT_TRUE(one.avoidance.release(one.hike.human));
+    walk_to(one.hike, last_m + 8);
+    ASSERT_NEAR(one.hike.get<Gait>().speed_m_s, 1.3F, 0.01F) << ticks;
   }
 }
 
 /// In whichever order ground and others are left, slowing is turned off, or the wish changes.
 TEST(Slowing, WhoLeavesASlopeInAnyWayGoesOnAsTheyWish) {
   for (int way = 0; way < 4; ++way) {
-    Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
-    Avoidance avoidance(hike.simulation);
-    ASSERT_TRUE(avoidance.manage(hike.human));
-    const auto walk = [&] {
-      avoidance.update();
-      hike.tick();
-    };
-    while (hike.get<GaitState>().line_z_m < first_m + 4) walk();
+    Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
+    Hike& hike = one.hike;
+    one.walk_to(first_m + 4);
     ASSERT_LT(hike.get<Gait>().speed_m_s, 1.0F);
     float wish_m_s = 1.3F;
     bool done = true;
     if (way == 0) done = hike.terrain.release({&hike.human, 1}).has_value();
     if (way == 1) hike.terrain.set_options({}), hike.tick();
-    if (way == 2) done = avoidance.want({{{hike.human, wish_m_s = 1.1F, 0}}}).has_value();
-    ASSERT_TRUE(done && avoidance.release(hike.human));
+    if (way == 2) done = one.avoidance.want({{{hike.human, wish_m_s = 1.1F, 0}}}).has_value();
+    ASSERT_TRUE(done && one.avoidance.release(hike.human));
     if (way == 3) done = hike.terrain.release({&hike.human, 1}).has_value();
     ASSERT_TRUE(done);
     walk_to(hike, last_m + 6);
@@ -252,15 +255,13 @@ TEST(Slowing, WhoLeavesASlopeInAnyWayGoesOnAsTheyWish) {
 /// Downhill as gently as that nobody slows down, behind somebody slow.
 TEST(Slowing, WhoIsSlowedByOthersGoesOnAsTheyDo) {
   for (const float rise : {0.0F, -0.05F}) {
-    Hike hike = hike_on(plane(0, rise), {.speed_m_s = 1.3F});
-    Avoidance avoidance(hike.simulation);
-    ASSERT_TRUE(avoidance.manage(hike.human));
+    Avoider one(plane(0, rise), {.speed_m_s = 1.3F});
+    auto& [hike, avoidance] = one;
     ASSERT_TRUE(avoidance.set_walls({{{{-0.4F, -5}, {-0.4F, 90}}, {{0.4F, -5}, {0.4F, 90}}}}));
     for (int k = 0; k < 600; ++k) {
       const float ahead_m = 1.5F + 0.4F * static_cast<float>(k) / 60;
       ASSERT_TRUE(avoidance.set_discs({{{{0, ahead_m}, 0.25F, 0, 0.4F}}}));
-      avoidance.update();
-      hike.tick();
+      one.tick();
     }
     const float speed_m_s = hike.get<Gait>().speed_m_s;
     ASSERT_LT(speed_m_s, 1.0F);

@@ -26,18 +26,21 @@ struct StyleChange {
   float asked, walked;
   WalkBound bound;
   float would_be, speed_m_s;
+  bool at_stop;  // in coming to a stop from that speed; else in walking at it
 };
-/// "time_asymmetry 0.3 was lowered to 0.11: the pelvis would be shaken with 78 m/s2 at 2.1 m/s".
+/// "time_asymmetry 0.3 was lowered to 0.11: the pelvis would be shaken with 78 m/s2 at 2.1 m/s"; "... in stopping from
+/// 2.1 m/s".
 std::string described(const StyleChange& change);
 
 /// What looking at styles works in, kept from one time to the next.
 struct StyleWork {
-  std::vector<std::size_t> unusual, near;
+  std::vector<std::size_t> near, far;  // who is looked at; far: in stopping too
   std::vector<std::uint8_t> breaks;
 };
 
 /// Moves step lengths and styles of gaits (as resolve_gait has them) so that a steady walk of that speed keeps all
-/// limits (systems/people/walk_limits.h), or goes no further than the usual walk of that speed: first the step length,
+/// limits (systems/people/walk_limits.h), and so does coming to a stop from it, or both go no further than the usual
+/// walk of that speed: first the step length,
 /// if the usual style breaks one with it; then as few numbers of the style as it takes, all by one part of their way to
 /// the usual ones, to a 256th. The usual style with steps of 0.76 to 1.12 of the usual length is not looked at. Bits
 /// depend on neither neighbours nor threads. `moved`: what was, gait by gait, as long as `gaits`; or empty.

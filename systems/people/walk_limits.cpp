@@ -103,6 +103,9 @@ static_assert([] {
 /// Steps of walks that are not the first one mirrored for ever: the first one, and two of each side when all is even.
 constexpr int uneven_steps = 4;
 
+/// As many as anybody takes who stops.
+constexpr int stopping_steps = 6;
+
 /// Heights of the pelvis, sixteen side by side, one instant after the other.
 using Heights = std::array<Lanes<float>, 2 * most_parts>;
 
@@ -115,6 +118,11 @@ class WalkLooked {
   }
 
   const Lanes<std::uint32_t>& settled() const { return plan_.settled; }
+  bool all_stand() const {
+    return std::ranges::all_of(plan_.from.speed_m_s.lane, [](float speed_m_s) { return speed_m_s <= 0; });
+  }
+  /// From the next step on everybody is to stand, in their own style.
+  void end() { gait_.speed_m_s = gait_.step_length_m = gait_.step_frequency_hz = {}; }
   const StepBounds<Lanes<float>>& bounds() const { return bounds_; }
 
   /// How far this step goes, from nothing on.
@@ -177,7 +185,7 @@ class WalkLooked {
   }
 
   const BodySize<Lanes<float>>& size_;
-  const Gait<Lanes<float>>& gait_;
+  Gait<Lanes<float>> gait_;
   std::uint32_t lag_;
   float instant_s_;
   int steps_ = 0;
@@ -195,20 +203,42 @@ std::span<const WalkLimit, bound_count> walk_limits() {
 
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes) {
-  const std::uint32_t lag = looking == Looking::closely ? most_parts : 1;
-  WalkLooked walk(size, gait, lag);
+  WalkLooked walk(size, gait, looking == Looking::roughly ? 1 : most_parts);
   const Lanes<std::uint32_t> settled = walk.settled();
+  const auto note = [&](const WalkLooked& looked, bool stops, auto whose) {
+    for (std::size_t b = 0; b < bound_count; ++b)
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const float value = looked.bounds().value[b][l];
+        if (!whose(l) || value <= extremes.value[b][l]) continue;
+        extremes.value[b][l] = value;
+        extremes.at_stop[b][l] = stops;
+      }
+  };
+  const auto everybody = [](std::size_t) { return true; };
+  const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
   walk.walk();
   std::ranges::copy(walk.bounds().value, extremes.value);
+  for (auto& of_bound : extremes.at_stop) of_bound.fill(false);
   // The left step is the right one mirrored, where all goes on so.
-  if (std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; })) return;
-  for (int step = 1; step < uneven_steps; ++step) {
+  const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
+  for (int step = 1; step < uneven_steps && !all_even; ++step) {
     walk.step();
-    for (std::size_t b = 0; b < bound_count; ++b) {
-      for (std::size_t l = 0; l < lane_count; ++l)
-        if (settled[l] == 0) extremes.value[b][l] = std::max(extremes.value[b][l], walk.bounds().value[b][l]);
-    }
+    note(walk, false, uneven);
   }
+  if (looking != Looking::at_stops_too) return;
+  const auto note_stop = [&](WalkLooked stop, auto whose) {
+    stop.end();
+    for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) {
+      stop.step();
+      note(stop, true, whose);
+    }
+  };
+  WalkLooked seldom(size, gait, 1);
+  seldom.walk();
+  note_stop(seldom, everybody);
+  if (all_even) return;
+  seldom.step();  // onto the other foot
+  note_stop(seldom, uneven);
 }
 
 }  // namespace mobil

@@ -1,6 +1,7 @@
 #pragma once
 // How far a walk may go, and how far one goes.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -24,13 +25,14 @@ struct WalkLimit {
 /// By WalkBound.
 std::span<const WalkLimit, bound_count> walk_limits();
 
-/// How far each bound goes in a steady walk, by WalkBound: two steps.
+/// How far each bound goes in a walk, by WalkBound.
 struct WalkExtremes {
   Lanes<float> value[bound_count];
+  std::array<bool, lane_count> at_stop[bound_count];  // whether it goes that far in coming to a stop
 };
-/// Sixty or 240 instants a second. Between sixty a joint goes up to 1.5° further, the pelvis is shaken up to 4 m/s²
-/// more.
-enum class Looking : std::uint8_t { roughly, closely };
+/// At sixty instants a second, or 240: between sixty a joint goes up to 1.5° further, the pelvis is shaken up to 4 m/s²
+/// more. Or at 240 of the steady walk, and at sixty of how it comes to a stop, from either foot.
+enum class Looking : std::uint8_t { roughly, closely, at_stops_too };
 /// Of sixteen walkers. A lane's bits depend on no other lane.
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes);

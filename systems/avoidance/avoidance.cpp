@@ -120,13 +120,13 @@ static void keep_level_wish(const Course<float>& course, const Gait<float>& aske
   footing.level_length_m[lane] = level.step_length_m;
 }
 
-/// The ground of who is slowed and avoids others no more, with what they wish now; nothing of who is not.
+/// The ground of who is slowed and avoids others no more, with what they wish now; nothing of who is not. Who wishes to
+/// stand goes on as they walk.
 static std::optional<Footing<float>> released_footing(const World& world, Entity human) {
   auto footing = world.get<Footing>(human);
-  const auto gait = world.get<Gait>(human);
-  if (!footing || !gait || !is_slowed(*gait, *footing)) return {};
-  const LevelWalk level = level_wish(*world.get<Course>(human), world.get<BodySize>(human)->height_m);
-  if (!(level.speed_m_s > 0)) return {};
+  const auto asked = asked_body(world, human);
+  if (!footing || !asked || !is_slowed(asked->gait, *footing)) return {};
+  const LevelWalk level = level_wish(*world.get<Course>(human), asked->size.height_m);
   footing->level_speed_m_s = level.speed_m_s;
   footing->level_length_m = level.step_length_m;
   return *footing;

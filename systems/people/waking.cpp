@@ -7,6 +7,7 @@
 #include <new>
 #include <type_traits>
 
+#include "components/footing.h"
 #include "components/leg_frames.h"
 #include "components/pose.h"
 #include "engine/exact_math.h"
@@ -30,9 +31,12 @@ struct WakingBlock {
   JointAngles<Lanes<float>> angles;
   Feet<Lanes<float>> feet;
   CentreOfMass<Lanes<float>> centre;
+  Lanes<float> ground_m{};  // that they fell asleep on, at the foot they stood on
   WalkingBlock work;
 
   void put(const World& world, Entity person, const SleepTime& time, std::size_t lane) {
+    const auto footing = world.get<Footing>(person);
+    ground_m[lane] = footing ? footing->height_m[index(FootholdOf::stance)] : 0;
     put(*world.get<Asleep>(person), sleeper_style(world, person), unsettled_of(world, person), time, lane);
   }
   void put(const Asleep<float>& asleep, const GaitStyle& style, const std::optional<Unsettled<float>>& since,
@@ -54,6 +58,20 @@ struct WakingBlock {
     if (as == Woken::compact) return;
     pose_skeleton(walkers.size, walkers.plan, walkers.state, nullptr, pose, angles, feet);
     centre_of_mass(walkers.size, pose, centre);
+    raise();
+  }
+
+ private:
+  /// Until the ground under them is known they stand as high as they did, on level feet.
+  void raise() {
+    const auto by_ground = [this](Lanes<float>& up_m) {
+      for (std::size_t l = 0; l < lane_count; ++l)
+        if (ground_m[l] != 0) up_m[l] += ground_m[l];
+    };
+    for (auto& joint : pose.position_m) by_ground(joint.y);
+    for (auto* const points : {&feet.heel_m, &feet.toe_m, &feet.tip_m})
+      for (auto& point : *points) by_ground(point.y);
+    by_ground(centre.position_m.y);
   }
 };
 

@@ -121,8 +121,8 @@ void Relevance::find_tables() {
 }
 
 RelevanceState Relevance::state() const {
-  return {crowd_, counting_,  machine_,           cost_ps_, counted_ps_, budget_ps_,       factor_,
-          turn_,  last_tick_, orders_->ordered(), eye_m_,   gaze_,       sleepers_looked_, all_sleepers_};
+  return {crowd_,     counting_,          machine_, cost_ps_, counted_ps_, budget_ps_,       factor_,      turn_,
+          last_tick_, orders_->ordered(), eye_m_,   gaze_,    saw_,        sleepers_looked_, all_sleepers_};
 }
 
 void Relevance::set_state(const RelevanceState& state) {
@@ -138,6 +138,7 @@ void Relevance::set_state(const RelevanceState& state) {
   orders_->set_ordered(state.ordered);
   eye_m_ = state.eye_m;
   gaze_ = state.gaze;
+  saw_ = state.saw;
   sleepers_looked_ = state.sleepers_looked;
   all_sleepers_ = state.all_sleepers;
 }
@@ -260,7 +261,8 @@ void Relevance::evaluate(Table& table, const Columns& at, std::size_t b, Looked&
       tiers.tolerance_m = of.tolerance_m;
       if (scene_.asleep_beyond_m && view > View::near) {
         view = View::near;  // soon, perhaps
-        if (at.plan && gap(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
+        const bool looked_at = (needs.own & own_look) != 0 && needs.looked_at != 0;
+        if (!looked_at && at.plan && gap(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
             may_be_steady(at.gait.at(table, b), at.plan.at(table, b), at.state.at(table, b), lane))
           out.drowsy.push_back(table.entities(b)[lane]);
       }

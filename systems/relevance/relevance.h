@@ -60,7 +60,7 @@ struct SceneNeeds {
   /// Of a camera: managed people who would have to come nearer than this to be seen, m, walkers and camera together,
   /// are awake; others sleep (Simulation::sleep). Who wakes so moves on unseen until they are seen. 2 and more; so far
   /// that what a muscle's beginning excites has died away by then: a second's walk and a second of the camera's. Left
-  /// out: nobody is put to sleep.
+  /// out: nobody is put to sleep, and managed people who sleep wake.
   std::optional<float> asleep_beyond_m{};
   /// Managed walkers of whom nothing is seen are compact (Simulation::compact), as soon as no change of theirs waits,
   /// and whole again when something is, or when another method is due. Handles of their muscles come and go with that.
@@ -178,7 +178,8 @@ struct RelevanceState {
   float factor = 1;
   std::uint32_t turn = 0, last_tick = 0;
   OrderedBases ordered{};
-  Vec3<float> eye_m{}, gaze{};        // of the last update; a gaze of no length: there was no camera
+  Vec3<float> eye_m{}, gaze{};  // of the last update; a gaze of no length: there was no camera
+  Vec3<float> saw{};            // then: half its angle, rad; how far it reached; beyond what distance people slept
   std::uint32_t sleepers_looked = 0;  // up to which of the sleepers' blocks
   bool all_sleepers = true;           // are looked at next
 };
@@ -197,7 +198,7 @@ class Relevance {
   Relevance& operator=(const Relevance&) = delete;
 
   /// What the scene needs, from the next update on. Errors: a tolerance, budget or camera that is not finite and
-  /// positive; nothing has changed.
+  /// positive, muscles that are not in the table; nothing has changed.
   Result<void> set_scene(const SceneNeeds& needs);
   /// What was last set.
   const SceneNeeds& scene() const { return scene_; }
@@ -304,6 +305,8 @@ class Relevance {
   void plan_budget();
   void wake_sleepers(RelevanceReport& report);
   void look_at_sleepers();
+  void list_all_sleepers();
+  Vec3<float> sees() const;  // with a camera
   Tiers<float> begin_tiers(const LegMuscles* choice) const;
   void decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
                    Looked& out) const;
@@ -350,7 +353,7 @@ class Relevance {
     Entity human;
     bool seen;
   };
-  Vec3<float> eye_m_{}, gaze_{};
+  Vec3<float> eye_m_{}, gaze_{}, saw_{};
   std::uint32_t sleepers_looked_ = 0;
   bool all_sleepers_ = true;
   std::vector<Table*> sleeping_tables_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "assets/muscles/muscle_table.h"
 #include "components/compact.h"
 #include "engine/each.h"
 #include "engine/jobs.h"
@@ -73,7 +74,7 @@ Tiers<float> tiers_of(const World& world, Entity human) {
       tiers.effects = (choice.inertia ? tier_inertia : 0U) | (pulls_alive(choice) ? tier_living : 0U);
     }
     set_bit(tiers.muscles, m, true);
-    if (!anew && rung_at(tiers.rung, m) == forced_rung) continue;
+    if (!anew && bit_at(before->muscles, m) && rung_at(tiers.rung, m) == forced_rung) continue;
     const MuscleMethod method = muscle_method(world, one);
     const std::uint32_t rung = rung_of(method, is_living(tiers));
     set_rung(tiers.rung, m, rung);
@@ -116,6 +117,10 @@ Result<void> Relevance::set_scene(const SceneNeeds& needs) {
     return fail(fmt::format("set_scene: a tolerance of {} pixels is not finite and positive", needs.tolerance_px));
   if (needs.budget_s && !positive(*needs.budget_s))
     return fail(fmt::format("set_scene: a budget of {} s a tick is not finite and positive", *needs.budget_s));
+  if ((needs.muscles >> muscles().size()).any())
+    return fail(
+        fmt::format("set_scene: there are {} muscles; take muscle_groups(), muscle_members() or find_muscle(name)",
+                    muscles().size()));
   if (needs.asleep_beyond_m && !(needs.camera && *needs.asleep_beyond_m >= 2 && *needs.asleep_beyond_m < 1e6F))
     return fail(fmt::format("set_scene: asleep beyond {} m; give 2 m or more, and a camera", *needs.asleep_beyond_m));
   if (needs.camera) {

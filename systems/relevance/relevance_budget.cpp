@@ -91,9 +91,10 @@ void Relevance::carry_out(RelevanceReport& report) {
   arrange(now_.dearer, up, true);
   const auto most_ps = static_cast<std::int64_t>(std::min(1e12 * options_.switching_s, 9e18));
   switching_ps_ = 0;
+  const std::size_t refused_before = report.refused;
   change_first(std::span(now_.cheaper).first(down), over || up == 0 ? most_ps : most_ps / 2, false, report);
   change_first(std::span(now_.dearer).first(up), most_ps, scene_.budget_s.has_value(), report);
-  report.waiting = now_.cheaper.size() + now_.dearer.size() - report.switched - report.refused;
+  report.waiting = now_.cheaper.size() + now_.dearer.size() - report.switched - (report.refused - refused_before);
 }
 
 /// Whether what a rung shares is there, or time has come for it.

@@ -10,6 +10,7 @@
 #include "engine/exact_math.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
+#include "systems/muscles/belly_library.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
@@ -49,7 +50,25 @@ float camera_moved_m(const Viewpoint& now, const Vec3<float>& eye, const Vec3<fl
   return length({p.x - eye.x, p.y - eye.y, p.z - eye.z}) + turned * now.reach_m;
 }
 
+bool same(const Vec3<float>& a, const Vec3<float>& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
 }  // namespace
+
+Vec3<float> Relevance::sees() const {
+  const Viewpoint& camera = *scene_.camera;
+  return {camera.half_angle_rad, std::max(camera.reach_m, camera.near_m), *scene_.asleep_beyond_m};
+}
+
+/// Everybody, in the order of their handles.
+void Relevance::list_all_sleepers() {
+  waking_.clear();
+  const bool seen = !scene_.camera && scene_.looked_at;
+  for (const Table* const table : sleeping_tables_)
+    for (std::size_t b = 0; b < table->block_count(); ++b)
+      for (std::uint32_t l = 0; l < table->live(b); ++l) waking_.push_back({0, table->entities(b)[l], seen});
+}
 
 /// A part of the sleepers, as large as what the camera has moved asks for: each is looked at again before camera and
 /// walkers together can have gone nine tenths of the way within which they are to be awake.
@@ -59,7 +78,8 @@ void Relevance::look_at_sleepers() {
   std::size_t blocks = 0;
   for (const Table* const table : sleeping_tables_) sleeping_blocks_.push_back(blocks += table->block_count());
   const auto tick_s = static_cast<float>(simulation_.tick_s());
-  const float moved_m = camera_moved_m(camera, eye_m_, gaze_) + fastest_m_s * tick_s;
+  // Who sees otherwise than before may see anybody.
+  const float moved_m = same(sees(), saw_) ? camera_moved_m(camera, eye_m_, gaze_) + fastest_m_s * tick_s : INFINITY;
   const float part = moved_m / (0.9F * *scene_.asleep_beyond_m);
   std::size_t looked = blocks, first = 0;
   if (!all_sleepers_ && part < 1) {
@@ -111,13 +131,15 @@ void Relevance::look_at_sleepers() {
 }
 
 void Relevance::wake_sleepers(RelevanceReport& report) {
-  if (!scene_.camera || !scene_.asleep_beyond_m) {
+  if (scene_.camera && scene_.asleep_beyond_m) {
+    look_at_sleepers();
+    eye_m_ = scene_.camera->position_m;
+    gaze_ = scene_.camera->forward;
+    saw_ = sees();
+  } else {
+    list_all_sleepers();
     gaze_ = {};
-    return;
   }
-  look_at_sleepers();
-  eye_m_ = scene_.camera->position_m;
-  gaze_ = scene_.camera->forward;
   const std::size_t now = std::min<std::size_t>(waking_.size(), options_.wakes);
   const auto nearer = [](const Waking& a, const Waking& b) {
     return a.order != b.order ? a.order < b.order : a.human.index < b.human.index;
@@ -166,8 +188,12 @@ void Relevance::make_whole(RelevanceReport& report) {
 }
 
 void Relevance::make_compact(RelevanceReport& report) {
-  now_.unseen.resize(std::min<std::size_t>(now_.unseen.size(), options_.compacts));
-  if (!now_.unseen.empty()) report.compacted = SimulationWorld::compact(simulation_, now_.unseen);
+  // Who cannot be compact stands in nobody's way.
+  for (std::span<const Entity> left(now_.unseen); !left.empty() && report.compacted < options_.compacts;) {
+    const auto some = left.first(std::min<std::size_t>(left.size(), options_.compacts - report.compacted));
+    report.compacted += SimulationWorld::compact(simulation_, some);
+    left = left.subspan(some.size());
+  }
 }
 
 /// Of who has woken without muscles; `choice`: what they are to be, null where there will be none.
@@ -299,16 +325,19 @@ Result<std::size_t> Relevance::manage_asleep(std::span<const Entity> people) {
   World& world = world_of(simulation_);
   if (!world.alive_once(people)) return fail(Status::stale_entity);
   for (const Entity human : people)
-    if (!simulation_.is_person(human) || !simulation_.muscles(human).empty())
+    if (!simulation_.is_person(human) || has_any_muscles(world, human))
       return fail("manage_asleep: somebody has muscles, or is no person; manage them instead", Status::already_there);
   LegMuscles choice = options_.leg_muscles;
   choice.muscles = scene_.muscles;
   choice.method = Method::none;
+  if (choice.muscles.any()) {
+    if (auto ok = check_choice(choice, simulation_.tick_s()); !ok) return tl::unexpected(ok.error());
+  }
   const auto kept = keep_choice(world, SimulationWorld::library(simulation_), choice);
   const std::array keeps = {key_part(TagValue<SleepsManaged>{1}), key_part(kept)};
   const std::size_t slept = SimulationWorld::sleep(simulation_, people, keeps);
   for (const Entity human : people) {
-    if (simulation_.is_asleep(human)) continue;
+    if (is_managed(world, human)) continue;
     if (auto done = manage(human); !done) return tl::unexpected(done.error());
   }
   return slept;

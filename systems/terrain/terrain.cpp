@@ -75,7 +75,7 @@ struct Terrain::Work {
   std::size_t put_answers(World& world, const Asking& one, bool slows_down);
   static void stand_up(World& world, Entity human);
   void find_changed(const World& world);
-  void slow_down(Simulation& simulation, std::span<const Entity> some, std::optional<float> steepness = {});
+  Result<void> slow_down(Simulation& simulation, std::span<const Entity> some, std::optional<float> steepness = {});
   TerrainHeight foothold(std::size_t first) const;
   struct Landing {
     TerrainHeight plane;
@@ -230,7 +230,7 @@ void Terrain::Work::put_answers(Simulation& simulation, const TerrainOptions& op
   queries.clear();
   if (options.slows_down) find_changed(world);
   drop_repeated(people);
-  if (!people.empty()) slow_down(simulation, people);
+  if (!people.empty()) (void)slow_down(simulation, people);  // who cannot be asked now is asked again
 }
 
 /// Adds the walkers on a slope of whom the host has asked something since they were looked at.
@@ -250,12 +250,15 @@ void Terrain::Work::find_changed(const World& world) {
 }
 
 /// Changes the speed of these walkers to what suits the steepness of their ground, or one of all (find_slowed).
-void Terrain::Work::slow_down(Simulation& simulation, std::span<const Entity> some, std::optional<float> steepness) {
+Result<void> Terrain::Work::slow_down(Simulation& simulation, std::span<const Entity> some,
+                                      std::optional<float> steepness) {
   World& world = world_of(simulation);
   find_slowed(world, SimulationWorld::jobs(simulation), some, slowing, steepness);
-  if (slowing.changes.empty()) return;
-  (void)simulation.change_walks(slowing.changes);  // who cannot be asked now is asked again
+  if (slowing.changes.empty()) return {};
+  const auto done = simulation.change_walks(slowing.changes);
   keep_slowed(world, slowing);
+  if (!done) return tl::unexpected(done.error());
+  return {};
 }
 
 /// Returns how many answers could not be used. Who is gone, was put elsewhere or has taken a step since is left as they
@@ -374,7 +377,7 @@ Result<void> Terrain::release(std::span<const Entity> people) {
   constexpr std::array part = {type_id<Footing<float>>()};
   const std::vector<Entity> changes = those(world, people, true);
   // Who is slowed goes back to the walk on level ground: first, so that where memory runs out they are slowed again.
-  work_->slow_down(simulation_, changes, 0);
+  if (auto done = work_->slow_down(simulation_, changes, 0); !done) return done;
   World::Attempt attempt(world, jobs);
   by_table(world, changes, [&](std::span<const Entity> together) { world.remake_many(together, {}, part, jobs); });
   attempt.keep();
@@ -396,7 +399,7 @@ Result<TerrainReport> Terrain::answer(std::span<const TerrainHeight> heights) {
         Status::not_valid);
   std::ranges::copy(heights, work.answers.begin());
   work.put_answers(simulation_, options_);
-  return work.report;
+  return std::exchange(work.report, {});
 }
 
 TerrainReport Terrain::update() {

@@ -351,6 +351,22 @@ TEST(Relevance, WhatIsForcedStaysAndWhatIsUnforcedIsChosenAgain) {
   EXPECT_EQ(scene.relevance.why(human, Muscle::hamstrings)->rung, chosen);
 }
 
+TEST(Relevance, WhatWasForcedOfAMuscleThatIsGoneIsForgotten) {
+  Scene scene(2);
+  ASSERT_TRUE(scene.ask({.tolerance_m = 0.005F}));
+  scene.manage_all();
+  scene.run(1);
+  const Entity human = scene.people[0];
+  ASSERT_TRUE(scene.relevance.force(human, Muscle::hamstrings, rung_method(10, true)));
+  LegMuscles choice;
+  for (const bool there : {false, true}) {
+    choice.muscles.set(static_cast<std::size_t>(Muscle::hamstrings), there);
+    ASSERT_TRUE(scene.simulation.change_leg_muscles(human, choice));
+    scene.run(1);
+  }
+  EXPECT_NE(scene.relevance.why(human, Muscle::hamstrings)->reason, Reason::forced);
+}
+
 TEST(Relevance, WhoIsReleasedKeepsTheirMusclesAndIsNotTouchedAgain) {
   Scene scene(2);
   ASSERT_TRUE(scene.ask({.tolerance_m = 0.001F}));

@@ -398,6 +398,74 @@ TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
   EXPECT_GT(compact, static_cast<std::size_t>(ticks));
 }
 
+/// A camera that stands: what it sees of a sudden, and nothing else, is to wake people.
+struct Standing : Scene {
+  Standing() : Scene(true) {
+    for (int i = 0; i < 60; ++i) update();
+  }
+  RelevanceReport update() {
+    EXPECT_TRUE(relevance->set_scene(needs));
+    const RelevanceReport report = relevance->update();
+    simulation.tick();
+    return report;
+  }
+  std::size_t seen_asleep() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(people, [&](Entity e) { return sees(e) && simulation.is_asleep(e); }));
+  }
+};
+
+TEST(RelevanceSleep, AWiderViewWakesWhomItShows) {
+  for (const bool zooms : {true, false}) {
+    Standing scene;
+    const std::size_t before = scene.asleep();
+    zooms ? scene.needs.camera->half_angle_rad = 1.2F : scene.needs.camera->reach_m = 90;
+    EXPECT_GT(scene.seen_asleep(), 15U);
+    for (int i = 0; i < 4; ++i) scene.update();
+    EXPECT_EQ(scene.seen_asleep(), 0U) << zooms;
+    EXPECT_GT(scene.asleep(), 100U);
+    EXPECT_LT(scene.asleep(), before);
+  }
+}
+
+TEST(RelevanceSleep, EverybodyWakesWhereNobodyIsToSleep) {
+  for (const bool camera : {true, false}) {
+    Standing scene;
+    ASSERT_GT(scene.asleep(), 100U);
+    scene.needs.asleep_beyond_m.reset();
+    if (!camera) scene.needs.camera.reset();
+    for (int i = 0; i < 4; ++i) scene.update();
+    EXPECT_EQ(scene.asleep(), 0U);
+  }
+}
+
+TEST(RelevanceSleep, WhoCountsAsSeenStaysAwake) {
+  Standing scene;
+  const auto far = std::ranges::find_if(scene.people, [&](Entity e) { return scene.simulation.is_asleep(e); });
+  ASSERT_TRUE(far != scene.people.end() && scene.simulation.wake({&*far, 1}));
+  ASSERT_TRUE(scene.relevance->manage(*far, {.looked_at = true}));
+  for (int i = 0; i < 120; ++i) scene.update();
+  EXPECT_FALSE(scene.simulation.is_asleep(*far));
+  ASSERT_TRUE(scene.relevance->manage(*far, {}));
+  for (int i = 0; i < 120; ++i) scene.update();
+  EXPECT_TRUE(scene.simulation.is_asleep(*far));
+}
+
+TEST(RelevanceSleep, WhoHasMusclesToComeIsNotPutToSleepAnew) {
+  Scene scene(true, 1, true, 20);
+  const std::size_t asleep = scene.asleep();
+  EXPECT_EQ(scene.relevance->manage_asleep(scene.people).error().status, Status::already_there);
+  EXPECT_EQ(scene.asleep(), asleep);
+  scene.needs.muscles = MuscleSet().set();
+  EXPECT_NE(scene.relevance->set_scene(scene.needs).error().message.find("muscles"), std::string::npos);
+
+  Simulation plain;
+  Relevance relevance(plain, {.leg_muscles = {.dt_s = 1e-12}});
+  const Entity human = *plain.spawn(BodyRequest{}, {});
+  EXPECT_NE(relevance.manage_asleep({&human, 1}).error().message.find("step"), std::string::npos);
+  EXPECT_FALSE(plain.is_asleep(human));
+}
+
 TEST(RelevanceSleep, WhatCannotBeIsRefused) {
   Scene scene(true);
   SceneNeeds needs;

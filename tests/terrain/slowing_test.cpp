@@ -273,6 +273,28 @@ TEST(Slowing, WhoIsSlowedByOthersGoesOnAsTheyDo) {
   }
 }
 
+/// Who avoids others on a slope and has come to wish to stand goes on as they walk when nobody asks them any more.
+TEST(Slowing, WhoWishesToStandAndIsReleasedGoesOnAsTheyWalk) {
+  Avoider one(ramp(0.15F), {.speed_m_s = 1.3F});
+  one.walk_to(first_m + 4);
+  Hike& hike = one.hike;
+  const float speed_m_s = hike.get<Gait>().speed_m_s;
+  ASSERT_LT(speed_m_s, 1.0F);
+  ASSERT_TRUE(one.avoidance.want({{{hike.human, 0, 0}}}) && one.avoidance.release(hike.human));
+  walk_to(hike, last_m + 6);
+  EXPECT_EQ(hike.get<Gait>().speed_m_s, speed_m_s);
+}
+
+TEST(Slowing, ARequestOfNothingKeepsTheWish) {
+  Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
+  walk_to(hike, first_m + 4);
+  ASSERT_TRUE(hike.simulation.change_gait(hike.human, {}));
+  walk_to(hike, last_m - 2);
+  EXPECT_LT(hike.get<Gait>().speed_m_s, 1.0F);
+  walk_to(hike, last_m + 6);
+  EXPECT_NEAR(hike.get<Gait>().speed_m_s, 1.3F, 0.01F);
+}
+
 TEST(Slowing, AHostMayRepeatItsRequest) {
   Hike hike = hike_on(ramp(0.15F), {.speed_m_s = 1.3F});
   for (int i = 0; i < 6000 && hike.get<GaitState>().line_z_m < last_m - 4; ++i) {
@@ -290,6 +312,26 @@ TEST(Slowing, SleepersAreReleasedToTheWalkOnLevelGround) {
   ASSERT_TRUE(hike.terrain.release({&hike.human, 1}));
   ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
   EXPECT_FLOAT_EQ(hike.get<Gait>().speed_m_s, 1.3F);
+}
+
+/// With Relevance, who wakes on a hill is seen where they are, not below it.
+TEST(Slowing, SleepersAreAsHighAsTheGroundThatTheyFellAsleepOn) {
+  Hike hike = hike_on([](float, float) { return TerrainHeight{50, 0, 0}; }, {.speed_m_s = 1.3F});
+  walk_to(hike, 4);
+  const auto high = [&](const char* when) {
+    EXPECT_NEAR(hike.get<Pose>().position_m[0].y, 50.95F, 0.1F) << when;
+    EXPECT_NEAR(hike.get<CentreOfMass>().position_m.y, 51, 0.2F) << when;
+    EXPECT_NEAR(hike.get<Feet>().toe_m[Side::left].y, 50.1F, 0.15F) << when;
+  };
+  high("awake");
+  ASSERT_EQ(hike.simulation.sleep({&hike.human, 1}).value(), 1U);
+  high("asleep");
+  ASSERT_TRUE(hike.simulation.wake({&hike.human, 1}));
+  high("woken");
+  for (int i = 0; i < 60; ++i) {
+    hike.tick();
+    high("on");
+  }
 }
 
 TEST(Slowing, EndsWhereAnotherTerrainDoesNotSlowDown) {

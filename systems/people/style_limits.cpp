@@ -88,9 +88,9 @@ bool is_usual(float height_m, const Gait<float>& gait) {
   return gait.step_length_m >= shortest * length_m && gait.step_length_m <= longest * length_m;
 }
 
-/// Near the usual style, and so that whoever walks within the limits stops within them too: of 12 000 random styles
-/// with each number within a tenth of the usual one, 230 broke one in stopping alone, the tallest with knees bent so
-/// far that mid-stance was at 0.910. They are looked at roughly first, the others in stopping too.
+/// Near the usual style, and so that whoever walks within the limits stops within them too. Of 12 000 random styles
+/// with each number within a tenth of the usual one, 230 broke a limit in stopping alone; mid-stance was at 0.910 or
+/// lower in all of them. Such styles are looked at roughly first, the others in stopping too.
 bool stops_as_it_walks(const GaitStyle& style) {
   constexpr float near_part = 0.101F, bent_knees = 0.93F;
   return is_within_usual(style, near_part) && style.mid_stance_height >= bent_knees;

@@ -64,6 +64,7 @@ struct WakingBlock {
  private:
   /// Until the ground under them is known they stand as high as they did, on level feet.
   void raise() {
+    if (std::ranges::none_of(ground_m.lane, [](float up_m) { return up_m != 0; })) return;
     const auto by_ground = [this](Lanes<float>& up_m) {
       for (std::size_t l = 0; l < lane_count; ++l)
         if (ground_m[l] != 0) up_m[l] += ground_m[l];

@@ -252,6 +252,7 @@ void Relevance::evaluate(Table& table, const Columns& at, std::size_t b, Looked&
     tiers.relative_size = options_.margin * height / reference_height;
 
     tiers.tolerance_m = scene_.tolerance_m.value_or(default_tolerance_m);
+    const bool own_view = (needs.own & own_look) != 0;
     View view = scene_.looked_at ? View::seen : View::near;
     if (scene_.camera) {
       const Vec3<float> pelvis = pelvis_of(table, at, b, lane);
@@ -261,13 +262,12 @@ void Relevance::evaluate(Table& table, const Columns& at, std::size_t b, Looked&
       tiers.tolerance_m = of.tolerance_m;
       if (scene_.asleep_beyond_m && view > View::near) {
         view = View::near;  // soon, perhaps
-        const bool looked_at = (needs.own & own_look) != 0 && needs.looked_at != 0;
-        if (!looked_at && at.plan && gap(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
+        if (!(own_view && needs.looked_at != 0) && at.plan && gap(pelvis) > falls_asleep * *scene_.asleep_beyond_m &&
             may_be_steady(at.gait.at(table, b), at.plan.at(table, b), at.state.at(table, b), lane))
           out.drowsy.push_back(table.entities(b)[lane]);
       }
     }
-    if ((needs.own & own_look) != 0) view = needs.looked_at != 0 ? View::seen : View::near;
+    if (own_view) view = needs.looked_at != 0 ? View::seen : View::near;
     if ((needs.own & own_tolerance) != 0) tiers.tolerance_m = needs.tolerance_m;
     tiers.view = static_cast<std::uint32_t>(view);
 

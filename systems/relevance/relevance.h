@@ -17,6 +17,7 @@
 // manage it does not touch. What it decides lies on the person's row (components/relevance.h): it is state. With
 // `machine_factor` given, decisions depend on that state and the scene alone, not on clocks or threads.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -178,8 +179,8 @@ struct RelevanceState {
   float factor = 1;
   std::uint32_t turn = 0, last_tick = 0;
   OrderedBases ordered{};
-  Vec3<float> eye_m{}, gaze{};  // of the last update; a gaze of no length: there was no camera
-  Vec3<float> saw{};            // then: half its angle, rad; how far it reached; beyond what distance people slept
+  Vec3<float> eye_m{}, gaze{};        // of the last update; a gaze of no length: there was no camera
+  std::array<float, 4> saw{};         // then: half its angle, rad; reach_m, near_m, asleep_beyond_m
   std::uint32_t sleepers_looked = 0;  // up to which of the sleepers' blocks
   bool all_sleepers = true;           // are looked at next
 };
@@ -306,7 +307,7 @@ class Relevance {
   void wake_sleepers(RelevanceReport& report);
   void look_at_sleepers();
   void list_all_sleepers();
-  Vec3<float> sees() const;  // with a camera
+  std::array<float, 4> sees() const;  // with a camera and a distance of sleep
   Tiers<float> begin_tiers(const LegMuscles* choice) const;
   void decide_bare(Entity human, const Tiers<float>& tiers, std::uint32_t wanted_muscles, bool compact,
                    Looked& out) const;
@@ -353,7 +354,8 @@ class Relevance {
     Entity human;
     bool seen;
   };
-  Vec3<float> eye_m_{}, gaze_{}, saw_{};
+  Vec3<float> eye_m_{}, gaze_{};
+  std::array<float, 4> saw_{};
   std::uint32_t sleepers_looked_ = 0;
   bool all_sleepers_ = true;
   std::vector<Table*> sleeping_tables_;

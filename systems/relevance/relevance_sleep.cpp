@@ -50,15 +50,11 @@ float camera_moved_m(const Viewpoint& now, const Vec3<float>& eye, const Vec3<fl
   return length({p.x - eye.x, p.y - eye.y, p.z - eye.z}) + turned * now.reach_m;
 }
 
-bool same(const Vec3<float>& a, const Vec3<float>& b) {
-  return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 }  // namespace
 
-Vec3<float> Relevance::sees() const {
+std::array<float, 4> Relevance::sees() const {
   const Viewpoint& camera = *scene_.camera;
-  return {camera.half_angle_rad, std::max(camera.reach_m, camera.near_m), *scene_.asleep_beyond_m};
+  return {camera.half_angle_rad, camera.reach_m, camera.near_m, *scene_.asleep_beyond_m};
 }
 
 /// Everybody, in the order of their handles.
@@ -78,8 +74,8 @@ void Relevance::look_at_sleepers() {
   std::size_t blocks = 0;
   for (const Table* const table : sleeping_tables_) sleeping_blocks_.push_back(blocks += table->block_count());
   const auto tick_s = static_cast<float>(simulation_.tick_s());
-  // Who sees otherwise than before may see anybody.
-  const float moved_m = same(sees(), saw_) ? camera_moved_m(camera, eye_m_, gaze_) + fastest_m_s * tick_s : INFINITY;
+  // After a change of the angle or of a distance anybody may be in view.
+  const float moved_m = sees() == saw_ ? camera_moved_m(camera, eye_m_, gaze_) + fastest_m_s * tick_s : INFINITY;
   const float part = moved_m / (0.9F * *scene_.asleep_beyond_m);
   std::size_t looked = blocks, first = 0;
   if (!all_sleepers_ && part < 1) {
@@ -188,7 +184,7 @@ void Relevance::make_whole(RelevanceReport& report) {
 }
 
 void Relevance::make_compact(RelevanceReport& report) {
-  // Who cannot be compact stands in nobody's way.
+  // People who cannot be compact do not count.
   for (std::span<const Entity> left(now_.unseen); !left.empty() && report.compacted < options_.compacts;) {
     const auto some = left.first(std::min<std::size_t>(left.size(), options_.compacts - report.compacted));
     report.compacted += SimulationWorld::compact(simulation_, some);

@@ -109,14 +109,14 @@ struct Scene {
     }
     return hash;
   }
-  /// Who is seen, by the camera as it is.
+  /// Who is seen by the camera as it is, or near it.
   bool sees(Entity human) const {
     const Viewpoint& camera = *needs.camera;
     const Vec3<float> at = simulation.get<Pose>(human)->position_m[0];
     const double x = at.x - camera.position_m.x, y = at.y - camera.position_m.y, z = at.z - camera.position_m.z;
     const double distance = std::sqrt(x * x + y * y + z * z);
     const double along = (x * camera.forward.x + z * camera.forward.z) / distance;
-    return distance < camera.reach_m && std::acos(along) < camera.half_angle_rad;
+    return distance < camera.near_m || (distance < camera.reach_m && std::acos(along) < camera.half_angle_rad);
   }
 
   Simulation simulation;
@@ -398,7 +398,7 @@ TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
   EXPECT_GT(compact, static_cast<std::size_t>(ticks));
 }
 
-/// A camera that stands: what it sees of a sudden, and nothing else, is to wake people.
+/// Neither the camera nor a request moves, so that only a change of the scene can wake people.
 struct Standing : Scene {
   Standing() : Scene(true) {
     for (int i = 0; i < 60; ++i) update();
@@ -416,13 +416,15 @@ struct Standing : Scene {
 };
 
 TEST(RelevanceSleep, AWiderViewWakesWhomItShows) {
-  for (const bool zooms : {true, false}) {
+  const auto wider = {+[](Viewpoint& camera) { camera.half_angle_rad = 1.2F; },
+                      +[](Viewpoint& camera) { camera.reach_m = 90; }, +[](Viewpoint& camera) { camera.near_m = 25; }};
+  for (const auto widen : wider) {
     Standing scene;
     const std::size_t before = scene.asleep();
-    zooms ? scene.needs.camera->half_angle_rad = 1.2F : scene.needs.camera->reach_m = 90;
+    widen(*scene.needs.camera);
     EXPECT_GT(scene.seen_asleep(), 15U);
     for (int i = 0; i < 4; ++i) scene.update();
-    EXPECT_EQ(scene.seen_asleep(), 0U) << zooms;
+    EXPECT_EQ(scene.seen_asleep(), 0U);
     EXPECT_GT(scene.asleep(), 100U);
     EXPECT_LT(scene.asleep(), before);
   }

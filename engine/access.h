@@ -59,11 +59,11 @@ struct Previous {
   const C<Lanes<float>>* operator->() const { return block; }
 };
 
-/// A component of the table's next block, whose values an earlier tick left there: to guess by what will be needed next
-/// and fetch it. Null at the last block.
+/// A component of the table's next blocks, whose values an earlier tick left there: to guess by what will be needed
+/// next and fetch it. Null past the last block.
 template <template <class> class C>
 struct Ahead {
-  const C<Lanes<float>>* block;
+  const C<Lanes<float>>*block, *second, *third;
 };
 
 /// A component that not every table has: null where it is missing.
@@ -112,24 +112,32 @@ class ColumnLookup {
   };
 
   ColumnLookup(const World& world, std::uint64_t id) : world_(&world), id_(id) {}
+  /// Fetches what `find` reads first.
+  void fetch(Entity entity) const { world_->fetch(entity); }
   /// Null for a stale entity and where its table has no such column.
   Found find(Entity entity) const {
-    const auto place = world_->find(entity);
-    if (!place) return {};
-    if (place.table != last_) {
-      last_ = place.table;
-      first_word_ = place.table->column(id_);
+    const auto* const at = world_->locate(entity);
+    if (at == nullptr) return {};
+    Seen& seen = seen_[at->table % seen_count];
+    if (seen.number != at->table) {
+      const Table& table = world_->tables()[at->table];
+      seen = {at->table, table.column(id_), &table};
     }
-    if (first_word_ == Table::no_column) return {};
-    return {place.table->block(place.row / lane_count) + first_word_ * lane_count,
-            static_cast<std::uint32_t>(place.row % lane_count)};
+    if (seen.first_word == Table::no_column) return {};
+    return {seen.table->block(at->row / lane_count) + seen.first_word * lane_count,
+            static_cast<std::uint32_t>(at->row % lane_count)};
   }
 
  private:
+  static constexpr std::size_t seen_count = 4;  // most that one asks for lie in few tables
+  struct Seen {
+    std::uint32_t number = ~0U, first_word = Table::no_column;
+    const Table* table = nullptr;
+  };
+
   const World* world_;
   std::uint64_t id_;
-  mutable const Table* last_ = nullptr;  // most that one asks for lie in one table
-  mutable std::uint32_t first_word_ = Table::no_column;
+  mutable Seen seen_[seen_count];
 };
 
 /// Rows of component C of any entity.
@@ -159,6 +167,9 @@ template <class T>
 class LookupPublished {
  public:
   explicit LookupPublished(const World& world) : columns_(world, type_id<T>()) {}
+
+  /// Fetches what `find` reads first.
+  void fetch(Entity entity) const { columns_.fetch(entity); }
 
   /// Null when the entity is stale or publishes no T.
   const T* find(Entity entity) const {
@@ -315,9 +326,12 @@ struct Parameter<Ahead<C>> : AnywhereParameter {
     return Parameter<const C<Lanes<float>>&>::bind(world, table, bound);
   }
   static Ahead<C> make(const BlockView& view, const Bound& bound) {
-    if (view.block + 1 == view.table.block_count()) return {nullptr};
-    const float* first = view.table.block(view.block + 1) + bound.first_word * lane_count;
-    return {reinterpret_cast<const C<Lanes<float>>*>(first)};
+    const auto next = [&](std::size_t by) -> const C<Lanes<float>>* {
+      if (view.block + by >= view.table.block_count()) return nullptr;
+      return reinterpret_cast<const C<Lanes<float>>*>(view.table.block(view.block + by) +
+                                                      bound.first_word * lane_count);
+    };
+    return {next(1), next(2), next(3)};
   }
 };
 

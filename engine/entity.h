@@ -68,6 +68,11 @@ class EntityRegister {
   Location* find(Entity entity) { return alive(entity) ? &slots_[entity.index].location : nullptr; }
   const Location* find(Entity entity) const { return alive(entity) ? &slots_[entity.index].location : nullptr; }
 
+  /// Fetches the memory that `find` reads.
+  void fetch(Entity entity) const {
+    if (entity.index < slots_.size()) __builtin_prefetch(&slots_[entity.index]);
+  }
+
   /// False for a stale handle and for the default one.
   bool alive(Entity entity) const {
     return entity.index < slots_.size() && slots_[entity.index].generation == entity.generation &&

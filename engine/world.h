@@ -222,6 +222,8 @@ class World {
 
   /// The number of its table among `tables()`, and its row; null when stale. Until the next change of structure.
   const EntityRegister::Location* locate(Entity entity) const { return entities_.find(entity); }
+  /// Fetches what `locate` reads.
+  void fetch(Entity entity) const { entities_.fetch(entity); }
   Place<Table> find(Entity entity);
   Place<const Table> find(Entity entity) const;
   /// In the order of their creation, empty ones too; a table lives and stays put as long as the world.

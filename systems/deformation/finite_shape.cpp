@@ -25,7 +25,7 @@ void blend_all(const ShapeBlock& block, ShapeBlend& blend) {
   const FiniteShape& shape = block.shape;
   const Wide across = load(block.scale.across), along = load(block.scale.along);
   const Wide length = along * shape.length_m, moved = load(block.far_end_m);
-  const Wide e = clamp(-moved / length, least_shortening, most_shortening);
+  const Wide asked = -moved / length, e = clamp(asked, least_shortening, most_shortening);
   const Wide ratio = clamp(across / along, least_slenderness, most_slenderness);
   const Wide slender = log(ratio), slender2 = slender * slender;
   const Wide root = block.activation == nullptr ? wide(0.0F) : root_of(max(load(*block.activation), 0.0F));
@@ -40,7 +40,7 @@ void blend_all(const ShapeBlock& block, ShapeBlend& blend) {
     }
     store(sum, blend.vector[v]);
   }
-  const Wide within = -(e * length);
+  const Wide within = select((asked < e) | (asked > e), -(e * length), moved);
   store(within, blend.within_m);
   store(moved - within, blend.beyond_m);
 }

@@ -42,10 +42,9 @@ bool streamed(const Table& table, std::uint32_t words) {
   return std::size_t{table.row_count()} * words * sizeof(float) > kept_bytes;
 }
 
-/// Finite shapes place control points once more: before them only who reports needs these.
+/// Finite shapes place control points once more, and find the volume of those.
 bool is_replaced(const Table& table) {
-  return find_part(table.key(), type_id<FiniteShape>()) != nullptr &&
-         find_part(table.key(), type_id<BellyReport<float>>()) == nullptr;
+  return find_part(table.key(), type_id<FiniteShape>()) != nullptr;
 }
 
 void place(const Table& table, Shared<ReducedBasis> basis, const BellyScale<Lanes<float>>& scale,
@@ -68,12 +67,13 @@ void place_still(const Table& table, Shared<ReducedBasis> basis, TagValue<Reduce
 }
 
 /// Of moving bellies and of static ones. (With several inputs the motion's participations are read.)
-void report(Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
+void report(const Table& table, Shared<ReducedBasis> basis, Shared<MuscleTemplate> control, float tick_s,
             const BellyScale<Lanes<float>>& scale, const EndDrive<Lanes<float>>& end, Maybe<FrameLoad> frame,
             MaybeField<const ReducedMotion> motion, MaybeField<const ReducedState> state,
             Field<const ReducedShape> shape, Field<const NodalDisplacement> displacement,
             BellyReport<Lanes<float>>& report) {
-  const ControlPoints points{shape.data, const_cast<float*>(displacement.data)};  // read-only here
+  float* const placed = is_replaced(table) ? nullptr : const_cast<float*>(displacement.data);  // read-only here
+  const ControlPoints points{shape.data, placed};
   report_reduced(read_only(*basis, scale, state.data, motion.data, frame.block), *control, points,
                  {basis->options.far_end, end}, tick_s, report);
 }

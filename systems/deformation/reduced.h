@@ -85,11 +85,12 @@ void place_control_points(const ReducedBlock& block, const ControlPoints& points
 void place_static(const ReducedBlock& block, const ControlPoints& points, const FarFaceDrive& end);
 
 /// What the block did, after its tick and its placing. Volume is that of the mesh of `control`, whose nodes the control
-/// points are. Reaction: of a held face the force that moves it, by the lift's virtual work; else what pulls (of a mesh
-/// without end both are the elastic force at the face). Strain energy includes the foundation's, so that both energies'
-/// sum is constant in free undamped motion. A null state is that of a static belly; with several inputs `motion` is
-/// read all the same. Of tuned bellies that move reaction and strain energy are those of the tension of A₀, and the
-/// drag in the reaction is that of the basis's damping.
+/// points are; it stays what it was where those are null, as they may be of a held end. Reaction: of a held face the
+/// force that moves it, by the lift's virtual work; else what pulls (of a mesh without end both are the elastic force
+/// at the face). Strain energy includes the foundation's, so that both energies' sum is constant in free undamped
+/// motion. A null state is that of a static belly; with several inputs `motion` is read all the same. Of tuned bellies
+/// that move reaction and strain energy are those of the tension of A₀, and the drag in the reaction is that of the
+/// basis's damping.
 void report_reduced(const ReducedBlock& block, const MuscleTemplate& control, const ControlPoints& points,
                     const FarFaceDrive& end, float tick_s, BellyReport<Lanes<float>>& report);
 

@@ -85,11 +85,14 @@ void report_of_lanes(const ReducedBlock& block, const MuscleTemplate& control, c
   } else {
     elongation = mean_of_far_face(control, points.displacement + lane);
   }
-  const V volume = enclosed_volume(control.kernel, across, along, points.displacement + lane);
   const V half = hn::Set(d, 0.5F);
   hn::Store(elongation, d, report.elongation_m.lane + lane);
   hn::Store(reaction, d, report.reaction_n.lane + lane);
-  hn::Store(hn::Div(volume, hn::Mul(mass, hn::Set(d, control.kernel.volume_m3))), d, report.volume_ratio.lane + lane);
+  if (points.displacement != nullptr) {
+    const V volume = enclosed_volume(control.kernel, across, along, points.displacement + lane);
+    const V rest = hn::Mul(mass, hn::Set(d, control.kernel.volume_m3));
+    hn::Store(hn::Div(volume, rest), d, report.volume_ratio.lane + lane);
+  }
   hn::Store(hn::Mul(half, kinetic), d, report.kinetic_energy_j.lane + lane);
   hn::Store(hn::Mul(half, strain), d, report.strain_energy_j.lane + lane);
 }

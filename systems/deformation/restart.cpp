@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "engine/rows.h"
+
 namespace mobil {
 namespace {
 
@@ -28,7 +30,7 @@ float finite_or_zero(float x) {
 }
 
 void draw_out(std::uint32_t lanes, const MuscleTemplate& shape, const EndDrive<Lanes<float>>& end, float tick_s,
-              float* displacement, float* velocity) {
+              BellyReport<Lanes<float>>& report, float* displacement, float* velocity) {
   const Cells& cells = shape.mesh.cells;
   const float* const rest = shape.kernel.rest_m.data();
   const bool held = shape.options.far_end == FarEnd::held;
@@ -36,6 +38,7 @@ void draw_out(std::uint32_t lanes, const MuscleTemplate& shape, const EndDrive<L
   for (; lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::size_t>(std::countr_zero(lanes));
     const float elongation = held ? finite_or_zero(end.to[lane]) : 0;
+    put_row(BellyReport<float>{elongation, 0, 1, 0, 0}, report, lane);
     const float speed = held ? finite_or_zero((end.to[lane] - end.from[lane]) / tick_s) : 0;
     for (std::size_t n = plane_nodes(cells); n < node_count(cells); ++n) {
       const float share = rest[3 * n + 2] / far;
@@ -51,11 +54,10 @@ void draw_out(std::uint32_t lanes, const MuscleTemplate& shape, const EndDrive<L
 }  // namespace
 
 std::uint32_t restart_bellies(const MuscleTemplate& shape, const Rows& rows, const EndDrive<Lanes<float>>& end,
-                              float tick_s, const BellyReport<Lanes<float>>& report, float* displacement,
-                              float* velocity) {
+                              float tick_s, BellyReport<Lanes<float>>& report, float* displacement, float* velocity) {
   const std::uint32_t lanes = ill_lanes(report);
   if (lanes == 0) return 0;
-  draw_out(lanes, shape, end, tick_s, displacement, velocity);
+  draw_out(lanes, shape, end, tick_s, report, displacement, velocity);
   return count_rows(lanes, rows);
 }
 

@@ -12,11 +12,11 @@
 namespace mobil {
 
 /// After a block's tick: lanes whose report is not finite are drawn out evenly from their origin to the held end, as it
-/// is and moves at the tick's end; to rest where the end slides or is not finite itself. `displacement` and `velocity`
-/// are the block's (BellyBlock); `velocity` is null where there is none. How many rows those were.
+/// is and moves at the tick's end; to rest where the end slides or is not finite itself. They report that elongation,
+/// the volume at rest, and neither energies nor a reaction. `displacement` and `velocity` are the block's (BellyBlock);
+/// `velocity` is null where there is none. How many rows those were.
 std::uint32_t restart_bellies(const MuscleTemplate& shape, const Rows& rows, const EndDrive<Lanes<float>>& end,
-                              float tick_s, const BellyReport<Lanes<float>>& report, float* displacement,
-                              float* velocity);
+                              float tick_s, BellyReport<Lanes<float>>& report, float* displacement, float* velocity);
 
 /// How many of those lanes, as bits, are rows.
 std::uint32_t count_rows(std::uint32_t lanes, const Rows& rows);

@@ -176,38 +176,37 @@ struct Walkers {
   const float tick_s;
   WalkingBlock& at;
   Lanes<std::uint32_t> tick;
-  WalkingBlock& next;  // work
+  StepPlan<Lanes<float>> next;  // work
 
-  Walkers(float tick_length_s, WalkingBlock& block, const Lanes<std::uint32_t>& asked, WalkingBlock& work)
-      : units(clock_units(tick_length_s)), tick_s(tick_length_s), at(block), tick(asked), next(work) {}
+  Walkers(float tick_length_s, WalkingBlock& block, const Lanes<std::uint32_t>& asked)
+      : units(clock_units(tick_length_s)), tick_s(tick_length_s), at(block), tick(asked) {}
 
   std::uint32_t ticks_to_strike(std::size_t lane) const {
     const std::int32_t left = units.step(at.plan.duration_s[lane]) - units.of(at.state.time_s[lane]);
     return static_cast<std::uint32_t>(std::max((left + units.per_tick - 1) / units.per_tick, 1));
   }
 
-  /// These lanes go on to their next heel strike.
+  /// These lanes go on to their next heel strike; the others mean nothing any more.
   template <class Next>
   void strike(std::uint32_t lanes, const Next& plan_next) {
-    GaitState<Lanes<float>>& state = next.state = at.state;
     for (std::size_t l = 0; l < lane_count; ++l) {
       if ((lanes >> l & 1U) == 0) continue;
       const std::uint32_t ticks = ticks_to_strike(l);
-      state.time_s[l] =
-          units.seconds(units.of(state.time_s[l]) + static_cast<std::int32_t>(ticks - 1) * units.per_tick);
+      at.state.time_s[l] =
+          units.seconds(units.of(at.state.time_s[l]) + static_cast<std::int32_t>(ticks - 1) * units.per_tick);
       tick[l] += ticks;
     }
-    advance_gait(at.plan, state, tick_s);
-    const std::uint32_t planned = lanes_to_plan(at.plan, at.gait, state, tick_s) & lanes;
-    if (planned != 0) {
-      next.plan = at.plan;
-      plan_next(at.size, at.gait, state, next.plan);
+    advance_gait(at.plan, at.state, tick_s);
+    const std::uint32_t planned = lanes_to_plan(at.plan, at.gait, at.state, tick_s) & lanes;
+    if (planned == lanes) {
+      plan_next(at.size, at.gait, at.state, at.plan);
+    } else if (planned != 0) {
+      next = at.plan;
+      plan_next(at.size, at.gait, at.state, next);
       for (std::size_t l = 0; l < lane_count; ++l)
-        if ((planned >> l & 1U) != 0) put_row(row_of(next.plan, l), at.plan, l);
+        if ((planned >> l & 1U) != 0) put_row(row_of(next, l), at.plan, l);
     }
-    turn_gait(at.size, at.plan, at.gait, state, tick_s);
-    for (std::size_t l = 0; l < lane_count; ++l)
-      if ((lanes >> l & 1U) != 0) put_row(row_of(state, l), at.state, l);
+    turn_gait(at.size, at.plan, at.gait, at.state, tick_s);
   }
 };
 
@@ -304,22 +303,24 @@ void begin_steady(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_
 void walk_on(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
              const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block,
              WalkingBlock& work) {
-  steady_state(before, asked, tick_s, block.state);
-  block.plan = {};
-  plan_first_step(block.size, gait_before, block.plan);
-  mark_met(gait_before, block.plan);
-  Walkers walkers(tick_s, block, asked, work);
-  for (;;) {
-    std::uint32_t lanes = 0;
-    for (std::size_t l = 0; l < lane_count; ++l)
-      lanes |= static_cast<std::uint32_t>(walkers.tick[l] + walkers.ticks_to_strike(l) <= tick[l]) << l;
-    if (lanes == 0) break;
-    walkers.strike(lanes, &plan_next_step);
-  }
-  const ClockUnits& units = walkers.units;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const auto left = static_cast<std::int32_t>(tick[l] - walkers.tick[l]);
-    block.state.time_s[l] = units.seconds(units.of(block.state.time_s[l]) + left * units.per_tick);
+  work = block;
+  steady_state(before, asked, tick_s, work.state);
+  work.plan = {};
+  plan_first_step(work.size, gait_before, work.plan);
+  mark_met(gait_before, work.plan);
+  Walkers walkers(tick_s, work, asked);
+  for (std::uint32_t left = 0xFFFF;;) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if ((left >> l & 1U) == 0 || walkers.tick[l] + walkers.ticks_to_strike(l) <= tick[l]) continue;
+      left &= ~(1U << l);
+      put_row(row_of(work.plan, l), block.plan, l);
+      put_row(row_of(work.state, l), block.state, l);
+      const ClockUnits& units = walkers.units;
+      block.state.time_s[l] = units.seconds(units.of(work.state.time_s[l]) +
+                                            static_cast<std::int32_t>(tick[l] - walkers.tick[l]) * units.per_tick);
+    }
+    if (left == 0) return;
+    walkers.strike(left, &plan_next_step);
   }
 }
 
@@ -330,8 +331,7 @@ void settle(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>
   block.plan = {};
   time_first_step(block.size, gait_before, block.plan);
   mark_met(gait_before, block.plan);
-  const auto work = std::make_unique<WalkingBlock>();
-  const auto walkers = std::make_unique<Walkers>(tick_s, block, asked, *work);
+  const auto walkers = std::make_unique<Walkers>(tick_s, block, asked);
   const auto fresh = std::make_unique<StepPlan<Lanes<float>>>();
   time_first_step(block.size, block.gait, *fresh);
   SteadyWalk<Lanes<float>> walk;

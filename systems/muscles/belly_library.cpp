@@ -91,6 +91,7 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
                     " muscle_members() or find_muscle(name)",
                     muscles().size()));
   }
+  if (auto ok = check_material(choice.material); !ok) return ok;
   if (!choice.dt_s) return {};
   const double least = tick_s / static_cast<double>(most_steps);
   if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {

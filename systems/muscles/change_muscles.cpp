@@ -85,25 +85,39 @@ BellyMotion shown_motion(const World& world, const OneChange& change, const Musc
   return shown;
 }
 
+/// Where the far end is along z at a tick's start and end, m: that of a held one is known, of another `computed` says.
+EndDrive<float> end_of(const World& world, const OneChange& change, const MuscleKind& was,
+                       const BellyMotion& computed) {
+  const auto drive = world.get<EndDrive>(change.muscle);
+  if (was.far_end == FarEnd::held && drive) return *drive;
+  const std::size_t nodes = plane_nodes(*cells_of(was)), first = computed.displacement.size() - 3 * nodes;
+  float to = 0, speed = 0;
+  for (std::size_t i = first + 2; i < computed.displacement.size(); i += 3) {
+    to += computed.displacement[i] / static_cast<float>(nodes);
+    speed += computed.velocity[i] / static_cast<float>(nodes);
+  }
+  return {to - speed * static_cast<float>(change.time.tick_s), to};
+}
+
 /// The far end is elsewhere at once, because its tendon stretches now or no longer does: the belly follows statically.
-void move_end(const World& world, const OneChange& change, const NextBelly& next, BellyMotion& motion) {
-  const auto was = world.get<EndDrive>(change.muscle);
-  if (!was || next.load.far_end != FarEnd::held) return;
+void move_end(const EndDrive<float>& was, const NextBelly& next, BellyMotion& motion) {
+  if (next.load.far_end != FarEnd::held) return;
   BellyLoad jump = next.load;
   jump.frame.reset();
   jump.activation = 0;  // only what moves
-  jump.from = jump.to = next.load.to - was->to;
+  jump.from = jump.to = next.load.to - was.to;
   const BellyMotion moved = deformation_method(next.choice.method)->at_rest({next.belly, next.choice, next.line, jump});
   for (std::size_t i = 0; i < motion.displacement.size(); ++i) motion.displacement[i] += moved.displacement[i];
 }
 
 /// Linear and finite strain have a belly at rest in different places, which `motion` goes from and to: what moved about
 /// the one goes on about the other.
-void change_strain(const World& world, const OneChange& change, const NextBelly& next, BellyMotion& motion) {
+void change_strain(const World& world, const OneChange& change, const EndDrive<float>& was, const NextBelly& next,
+                   BellyMotion& motion) {
   BellyLoad load = next.load;  // with the end where it was, and pulling as it did
-  if (const auto end = world.get<EndDrive>(change.muscle)) {
-    load.from = end->from;
-    load.to = end->to;
+  if (load.far_end == FarEnd::held) {
+    load.from = was.from;
+    load.to = was.to;
   }
   const auto pulls = world.get<Activation>(change.muscle);
   load.activation = pulls ? pulls->activation : 0;
@@ -137,8 +151,9 @@ Beginning beginning(const World& world, MuscleWork& work, const OneChange& chang
   past.computed = std::move(*computed);
   past.seen = world.has<NodalDisplacement>(change.muscle);
   past.apart = !same_sight;
-  if (strain_changes) change_strain(world, change, next, past.computed);
-  if (end_changes) move_end(world, change, next, past.computed);
+  const EndDrive<float> end = end_of(world, change, *was, past.computed);
+  if (strain_changes) change_strain(world, change, end, next, past.computed);
+  if (end_changes) move_end(end, next, past.computed);
   for (std::size_t i = 0; i < offset.displacement.size(); ++i) {
     past.shown.displacement[i] -= offset.displacement[i];
     past.shown.velocity[i] -= offset.velocity[i];

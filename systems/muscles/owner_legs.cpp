@@ -1,5 +1,6 @@
 #include "systems/muscles/owner_legs.h"
 
+#include "engine/fetch_ahead.h"
 #include "engine/rows.h"
 #include "systems/lines/line_of_action.h"
 
@@ -9,9 +10,15 @@ namespace {
 constexpr LegPost::Leg nobodys_leg{
     {{0, 1, 0}, {0, 0.5F, 0}, {0, 0, 0}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, 0, 1}}, {0, 0}};
 
-const LegPost::Leg& leg_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, std::size_t lane) {
-  const LegPost* post = posts.find({owner.index[lane], owner.generation[lane]});
-  return post == nullptr ? nobodys_leg : post->leg[owner.side[lane]];
+/// The legs of the owners of sixteen muscles; both legs of a person are mostly beside each other.
+void find_legs(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, const LegPost::Leg** legs) {
+  Entity last{};
+  const LegPost* post = nullptr;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const Entity person{owner.index[lane], owner.generation[lane]};
+    if (lane == 0 || person != last) post = posts.find(last = person);
+    legs[lane] = post == nullptr ? &nobodys_leg : &post->leg[owner.side[lane]];
+  }
 }
 
 }  // namespace
@@ -19,21 +26,28 @@ const LegPost::Leg& leg_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<fl
 LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner,
                                 Ahead<MuscleOwner> ahead) {
   const LegPost::Leg* from[lane_count];
-  for (std::size_t lane = 0; lane < lane_count; ++lane) from[lane] = &leg_of(posts, owner, lane);
+  find_legs(posts, owner, from);
   LegFrames<Lanes<float>> leg;
   take_legs(from, leg);
+  // Of the third block the owners arrive meanwhile, of the second where those are, of the next one their legs.
+  FetchAhead(ahead.third).fetch(sizeof(*ahead.third) / 64);
+  if (ahead.second != nullptr)
+    for (std::size_t lane = 0; lane < lane_count; ++lane)
+      posts.fetch({ahead.second->index[lane], ahead.second->generation[lane]});
   if (ahead.block == nullptr) return leg;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const LegPost::Leg& next = leg_of(posts, *ahead.block, lane);
-    __builtin_prefetch(&next);
-    __builtin_prefetch(reinterpret_cast<const char*>(&next) + 64);
+  find_legs(posts, *ahead.block, from);
+  for (const LegPost::Leg* const next : from) {
+    __builtin_prefetch(next);
+    __builtin_prefetch(reinterpret_cast<const char*>(next) + 64);
   }
   return leg;
 }
 
 LegClock<Lanes<float>> clocks_of(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner) {
+  const LegPost::Leg* from[lane_count];
+  find_legs(posts, owner, from);
   LegClock<Lanes<float>> clocks;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) put_row(leg_of(posts, owner, lane).clock, clocks, lane);
+  for (std::size_t lane = 0; lane < lane_count; ++lane) put_row(from[lane]->clock, clocks, lane);
   return clocks;
 }
 

@@ -212,15 +212,16 @@ class Relevance {
                        const std::function<void(std::size_t done, std::size_t of)>& progress = {});
 
   /// From the next update on this person's muscles are chosen; asked again, by other needs. A person without
-  /// muscles gets them. Errors: a stale handle, a tolerance that is not positive, what Simulation::add_leg_muscles
-  /// refuses.
+  /// muscles gets those of the needs or the scene, where these name some. Errors: a stale handle, a tolerance that is
+  /// not positive, what Simulation::add_leg_muscles refuses.
   Result<void> manage(Entity human, const PersonNeeds& needs = {});
   /// The same of many, each named once, with the simulation's jobs. Errors, besides: somebody named twice; nobody is
   /// managed then who was not, nor has other needs.
   Result<void> manage(std::span<const Entity> people, const PersonNeeds& needs = {});
   /// The same of many walkers without muscles, who fall asleep at once: they get muscles, and are managed, from waking
   /// on. `options.leg_muscles` and the scene say which. Who cannot fall asleep is managed awake. Returns how many
-  /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles; nothing has changed then.
+  /// sleep. Errors: a stale handle, somebody named twice, somebody with muscles, what Simulation::add_leg_muscles
+  /// refuses; nothing has changed then.
   Result<std::size_t> manage_asleep(std::span<const Entity> people);
   /// The person is no longer managed; muscles stay as they are, and those that were to come begin. A sleeper wakes.
   /// Errors: a stale handle, somebody who is not managed (Status::missing), what muscles are refused for; nothing has

@@ -243,7 +243,7 @@ Result<void> Relevance::make_ready(std::span<const Entity> people, const PersonN
   choice.muscles = needs.muscles.value_or(scene_.muscles);
   choice.method = Method::none;
   for (const Entity human : people) {
-    if (world.alive(world.first_member(human))) continue;
+    if (choice.muscles.none() || world.alive(world.first_member(human))) continue;
     if (auto done = simulation_.add_leg_muscles(human, choice); !done) return done;
   }
   attempt.keep();

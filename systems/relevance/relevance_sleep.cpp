@@ -11,6 +11,7 @@
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/muscles/belly_library.h"
+#include "systems/muscles/leg_moments.h"
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
@@ -328,7 +329,10 @@ Result<std::size_t> Relevance::manage_asleep(std::span<const Entity> people) {
   choice.method = Method::none;
   if (choice.muscles.any()) {
     if (auto ok = check_choice(choice, simulation_.tick_s()); !ok) return tl::unexpected(ok.error());
+    for (const Entity human : people)
+      if (auto ok = check_leg_moments(world, human, choice); !ok) return tl::unexpected(ok.error());
   }
+  all_sleepers_ = true;  // some may be in view of a camera that stands still
   const auto kept = keep_choice(world, SimulationWorld::library(simulation_), choice);
   const std::array keeps = {key_part(TagValue<SleepsManaged>{1}), key_part(kept)};
   const std::size_t slept = SimulationWorld::sleep(simulation_, people, keeps);

@@ -10,7 +10,6 @@
 #include <string_view>
 #include <vector>
 
-#include "assets/fem/stiffness_terms.h"
 #include "components/leg_muscles.h"
 #include "components/muscle.h"
 #include "systems/muscles/muscle_parts.h"
@@ -143,7 +142,7 @@ Result<void> check_steps(const TableKey& key, const World& world, double tick_s,
   const KeyPart* const part = find_part(key, type_id<LegMuscles>());
   const auto* const choice = part == nullptr ? nullptr : static_cast<const LegMuscles*>(world.resource(part->value));
   if (choice != nullptr && choice->muscles.any()) {
-    if (!check_choice(*choice, tick_s) || !check_material(choice->material)) return damaged("a choice of muscles");
+    if (!check_choice(*choice, tick_s)) return damaged("a choice of muscles");
     steps = std::max(
         steps, choice->dt_s ? static_cast<double>(steps_of(tick_s, *choice->dt_s)) : likely_steps(*choice, tick_s));
   }

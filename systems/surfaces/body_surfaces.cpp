@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "assets/body/anthropometry.h"
@@ -184,7 +185,9 @@ SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body) {
                   stretch(limbs.upper_arm_m, was.upper_arm_m), stretch(limbs.forearm_m, was.forearm_m)},
                  {}};
   for (const BodySurfaces::Driver& driver : bound.driver) {
-    const BellyScale<float> own = make_muscle_plan(body, driver.muscle)->scale;
+    const auto plan = make_muscle_plan(body, driver.muscle);
+    assert(plan);
+    const BellyScale<float> own = plan->scale;
     fit.belly.push_back({own.across / driver.scale.across, own.along / driver.scale.along});
   }
   return fit;

@@ -107,7 +107,8 @@ struct SurfaceFit {
 /// limbs of their own as long as they are, bellies grow with their meshes, and tendons go from the one to the other.
 /// Two microseconds. Against surfaces drawn for that body bones are where they were, and muscles off by less than a
 /// millimetre in the mean where its build is alike; by four where an athlete shows those of a usual build, for muscles
-/// are drawn away from their bones (surface_fit_test): bind one body of each build.
+/// are drawn away from their bones (surface_fit_test): bind one body of each build. `body` is one that `make_body`
+/// made.
 SurfaceFit fit_surfaces(const BodySurfaces& bound, const Body& body);
 
 /// Binds. To draw and to bind one body takes some tens of milliseconds, two thirds of it drawing; a crowd shares what

@@ -26,9 +26,9 @@ Result<void> check_skin(const World& world, const SkinRequest& request) {
     if (lie_over(request.positions, bytes, request.normals, bytes, vertices))
       return fail("normals lie over positions; put them into slots of their own, or into other memory");
   }
+  if (!world.alive(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
   if (request.pose == nullptr && !world.has<Pose>(request.person))
-    return fail("the person is not there (a stale handle), or has no pose on their row; give one",
-                Status::stale_entity);
+    return fail("the person has no pose on their row; give one", Status::stale_entity);
   return {};
 }
 

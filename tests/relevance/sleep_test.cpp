@@ -460,12 +460,6 @@ TEST(RelevanceSleep, WhoHasMusclesToComeIsNotPutToSleepAnew) {
   EXPECT_EQ(scene.asleep(), asleep);
   scene.needs.muscles = MuscleSet().set();
   EXPECT_NE(scene.relevance->set_scene(scene.needs).error().message.find("muscles"), std::string::npos);
-
-  Simulation plain;
-  Relevance relevance(plain, {.leg_muscles = {.dt_s = 1e-12}});
-  const Entity human = *plain.spawn(BodyRequest{}, {});
-  EXPECT_NE(relevance.manage_asleep({&human, 1}).error().message.find("step"), std::string::npos);
-  EXPECT_FALSE(plain.is_asleep(human));
 }
 
 TEST(RelevanceSleep, WhatCannotBeIsRefused) {

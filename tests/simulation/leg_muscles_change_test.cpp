@@ -106,6 +106,36 @@ TEST(Change, OfMethodKeepsHandlesAndShapesAndLeavesNothingBehind) {
   EXPECT_EQ(rows(world), 1U);
 }
 
+/// What drives an end is newtons before and metres after, or the other way round.
+TEST(Change, OfDriveLeavesTheBellyWhereItIs) {
+  const LegMuscles pulled{.drive = Drive::force}, drawn{}, pulls{.activation = ExcitationSource::phase},
+      close{.method = Method::finite}, pulled_close{.drive = Drive::force, .method = Method::finite};
+  const std::array<std::array<LegMuscles, 2>, 6> ways = {{{pulled, pulls},
+                                                          {pulled, close},
+                                                          {pulled_close, drawn},
+                                                          {pulls, pulled},
+                                                          {close, pulled},
+                                                          {drawn, pulled_close}}};
+  for (std::size_t way = 0; way < ways.size(); ++way) {
+    Simulation simulation;
+    const Entity human = join_with(simulation, person(9), ways[way][0]);
+    for (int i = 0; i < 40; ++i) simulation.tick();
+    ASSERT_TRUE(simulation.change_leg_muscles(human, ways[way][1]));
+    for (int i = 0; i < 30; ++i) {
+      simulation.tick();
+      float most = 0, fastest = 0;
+      for (const Entity muscle : muscles_of(simulation, human)) {
+        for (const float at_m : displacement(simulation, muscle)) most = std::max(most, std::abs(at_m));
+        std::vector<float> velocity(simulation.world().get<NodalVelocity>(muscle).value_or(0));
+        simulation.world().get_field<NodalVelocity>(muscle, velocity);
+        for (const float m_s : velocity) fastest = std::max(fastest, std::abs(m_s));
+      }
+      EXPECT_LT(most, 0.15F) << way << " " << i;
+      EXPECT_LT(fastest, 6.0F) << way << " " << i;
+    }
+  }
+}
+
 TEST(Change, ARefusedChangeChangesNothing) {
   Simulation simulation;
   const Entity human = join_with(simulation, person(9), {.inertia = true}), bare = join(simulation, person(1), false);

@@ -132,13 +132,29 @@ void write_state(Scene& scene, std::mt19937& random, float value) {
 constexpr float no_numbers[] = {std::numeric_limits<float>::quiet_NaN(), -std::numeric_limits<float>::infinity(),
                                 3e38F};
 
+/// A report has numbers in the tick of a restart too, and so has what is saved then.
+void expect_reported_and_saved(Scene& scene, const std::string& what) {
+  const auto report = scene.simulation.get<BellyReport>(scene.muscle());
+  ASSERT_TRUE(report);
+  for (const float number : {report->elongation_m, report->reaction_n, report->volume_ratio, report->kinetic_energy_j,
+                             report->strain_energy_j})
+    EXPECT_TRUE(std::isfinite(number)) << what;
+  std::vector<std::byte> bytes(scene.simulation.snapshot_bytes());
+  const auto saved = scene.simulation.save(bytes);
+  ASSERT_TRUE(saved) << what << ": " << saved.error().message;
+  const auto restored = scene.simulation.restore(bytes);
+  EXPECT_TRUE(restored) << what << ": " << restored.error().message;
+}
+
 /// Within three ticks all is finite, and it was counted; in three seconds the belly comes to where its twin is.
-void expect_restarted(Scene& scene, Scene& twin, const std::string& what) {
+/// `numbers`: what the host wrote is gone after a tick.
+void expect_restarted(Scene& scene, Scene& twin, const std::string& what, bool numbers) {
   const std::uint64_t before = scene.simulation.report().total_restarted_bellies;
   for (int i = 0; i < 3; ++i) {
     scene.simulation.tick();
     twin.simulation.tick();
     EXPECT_EQ(scene.shown_of_others(), twin.shown_of_others()) << what;
+    if (numbers) expect_reported_and_saved(scene, what);
   }
   EXPECT_TRUE(finite(scene.shown(scene.muscle()))) << what;
   EXPECT_EQ(scene.simulation.report().restarted_bellies, 0U) << what;
@@ -167,9 +183,9 @@ TEST(Restart, ABellyThatIsNotFiniteBeginsAnew) {
       } else {
         write_state<NodalVelocity>(scene, random, value);
       }
-      expect_restarted(scene, twin, what);
+      expect_restarted(scene, twin, what, true);
       ASSERT_TRUE(scene.simulation.set(scene.muscle(), Poison<float>{value}));
-      expect_restarted(scene, twin, what + " at its end");
+      expect_restarted(scene, twin, what + " at its end", false);
     }
   }
 }

@@ -130,6 +130,13 @@ TEST(SkinFat, IsShownOfWhoHasItAndIsAwakeAndWhole) {
   ASSERT_TRUE(simulation.sleep(people));
   write();
   EXPECT_EQ(farthest(), 0);
+
+  ASSERT_TRUE(simulation.despawn(people[1]));
+  const Pose<float> kept = *simulation.get<Pose>(people[0]);
+  SkinRequest gone{people[1], shape, {std::as_writable_bytes(std::span(drawn[0])), sizeof(Vec3<float>)}};
+  gone.pose = &kept;
+  SkinWriter writer;
+  EXPECT_EQ(writer.write(simulation.world(), {&gone, 1}).error().status, Status::stale_entity);
 }
 
 }  // namespace

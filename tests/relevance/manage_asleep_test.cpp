@@ -1,0 +1,95 @@
+// People who are managed asleep: who is in view wakes, and who is refused leaves everybody as they were.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "components/relevance.h"
+#include "systems/relevance/relevance.h"
+#include "systems/simulation.h"
+
+namespace mobil {
+namespace {
+namespace manage_asleep {
+
+/// One walks on, one turns and cannot sleep.
+struct Two {
+  Simulation simulation{SimulationOptions{.threads = 1}};
+  std::vector<Entity> people;
+
+  Two() {
+    for (int i = 0; i < 2; ++i) people.push_back(*simulation.spawn(BodyRequest{}, {}));
+    for (int i = 0; i < 120; ++i) simulation.tick();
+    EXPECT_TRUE(simulation.turn_to(people[1], 1.5F));
+    for (int i = 0; i < 40; ++i) simulation.tick();
+  }
+};
+
+/// Nobody is managed or asleep after it.
+void expect_refused(const RelevanceOptions& options, const std::string& word) {
+  Two two;
+  Relevance relevance(two.simulation, options);
+  const std::uint64_t before = two.simulation.state_hash();
+  const auto done = relevance.manage_asleep(two.people);
+  ASSERT_FALSE(done) << word;
+  EXPECT_NE(done.error().message.find(word), std::string::npos) << done.error().message;
+  EXPECT_EQ(two.simulation.state_hash(), before) << word;
+  EXPECT_FALSE(relevance.release(two.people[0])) << word;
+}
+
+TEST(ManageAsleep, WhatMusclesCannotBeIsRefusedBeforeAnybodySleeps) {
+  expect_refused({.leg_muscles = {.dt_s = 1e-12}}, "step");
+  expect_refused({.leg_muscles = {.material = {.young_pa = 0}}}, "Young");
+  expect_refused({.leg_muscles = {.activation = ExcitationSource::moments}}, "add_forces");
+}
+
+TEST(ManageAsleep, ASceneWithoutMusclesManagesWhoCannotSleepToo) {
+  Two two;
+  Relevance relevance(two.simulation);
+  SceneNeeds needs;
+  needs.muscles = 0;
+  ASSERT_TRUE(relevance.set_scene(needs));
+  EXPECT_EQ(relevance.manage_asleep(two.people).value(), 1U);
+  relevance.update();
+  two.simulation.tick();
+  for (const Entity human : two.people) EXPECT_TRUE(relevance.release(human));
+}
+
+TEST(ManageAsleep, WhoComesIntoAViewThatStandsStillWakes) {
+  Two two;
+  Relevance relevance(two.simulation);
+  SceneNeeds needs;
+  needs.muscles = 0;
+  Viewpoint camera;
+  camera.forward = {0, 0, 1};
+  camera.half_angle_rad = 0.5F;
+  camera.reach_m = 50;
+  needs.camera = camera;
+  needs.asleep_beyond_m = 30;
+  ASSERT_TRUE(relevance.set_scene(needs));
+  std::vector<SpawnRequest> far(400);
+  for (SpawnRequest& request : far) request.z_m = -500;
+  std::vector<Entity> unseen(far.size());
+  ASSERT_TRUE(two.simulation.spawn(far, unseen));
+  ASSERT_TRUE(relevance.manage_asleep(unseen));
+  for (int i = 0; i < 30; ++i) {
+    relevance.update();
+    two.simulation.tick();
+  }
+  SpawnRequest request;
+  request.z_m = 20;
+  Entity seen;
+  ASSERT_TRUE(two.simulation.spawn({&request, 1}, {&seen, 1}));
+  ASSERT_EQ(relevance.manage_asleep({&seen, 1}).value(), 1U);
+  for (int i = 0; i < 3 && two.simulation.is_asleep(seen); ++i) {
+    relevance.update();
+    two.simulation.tick();
+  }
+  EXPECT_FALSE(two.simulation.is_asleep(seen));
+}
+
+}  // namespace manage_asleep
+}  // namespace
+}  // namespace mobil

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "assets/fem/critical_step.h"
+#include "assets/fem/stencil_matrix.h"
 #include "engine/exact_math.h"
 
 namespace mobil {
@@ -14,31 +15,29 @@ namespace {
 using Displacements = std::vector<double>;
 
 /// A belly of one body, and ω² of what holds it sideways.
-struct Sized {
-  const StiffnessTerms& terms;
-  double across, along, sideways_1_s2 = 0;
-};
+class Sized {
+ public:
+  Sized(const StiffnessTerms& terms, double across, double along, double sideways_1_s2 = 0)
+      : terms_(terms),
+        stiffness_(terms.cells,
+                   [&](std::uint32_t n, std::uint32_t, std::size_t slot) {
+                     return stiffness_block(terms.pair[n * stencil_size + slot], across, along);
+                   }),
+        sideways_(sideways_1_s2 * across * across * along) {}
 
-/// y = K·x over all displacements, constrained ones too.
-void multiply(const Sized& belly, const Displacements& x, Displacements& y) {
-  const StiffnessTerms& terms = belly.terms;
-  const Cells& cells = terms.cells;
-  const double sideways = belly.sideways_1_s2 * belly.across * belly.across * belly.along;
-  for_each_node(cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-    const std::uint32_t n = node_index(cells, i, j, k);
-    double f[3] = {0, 0, 0};
-    for_each_neighbour(cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
-      const auto b = stiffness_block(terms.pair[n * stencil_size + slot], belly.across, belly.along);
-      for (std::size_t r = 0; r < 3; ++r) {
-        f[r] += b[3 * r] * x[3 * m] + b[3 * r + 1] * x[3 * m + 1] + b[3 * r + 2] * x[3 * m + 2];
-      }
-    });
-    if (sideways > 0) {
-      for (std::size_t r = 0; r < 2; ++r) f[r] += sideways * terms.lumped_mass_kg[n] * x[3 * n + r];
-    }
-    for (std::size_t r = 0; r < 3; ++r) y[3 * n + r] = f[r];
-  });
-}
+  const Cells& cells() const { return terms_.cells; }
+  /// y = K·x over all displacements, constrained ones too.
+  void multiply(const Displacements& x, Displacements& y) const {
+    stiffness_.multiply(x, y);
+    for (std::size_t n = 0; sideways_ > 0 && n < terms_.lumped_mass_kg.size(); ++n)
+      for (std::size_t r = 0; r < 2; ++r) y[3 * n + r] += sideways_ * terms_.lumped_mass_kg[n] * x[3 * n + r];
+  }
+
+ private:
+  const StiffnessTerms& terms_;
+  StencilMatrix stiffness_;
+  double sideways_;
+};
 
 double product(const Displacements& a, const Displacements& b) {
   double sum = 0;
@@ -48,7 +47,7 @@ double product(const Displacements& a, const Displacements& b) {
 
 /// u such that K·u = `load` where it is free to move, from a u that has the prescribed ends.
 void solve(const Sized& belly, FarEnd end, const Displacements& load, Displacements& u) {
-  const Cells& cells = belly.terms.cells;
+  const Cells& cells = belly.cells();
   const auto hold = [&](Displacements& v) {  // zero where the displacement is prescribed
     for (std::uint32_t n = 0; n < node_count(cells); ++n) {
       for (std::size_t c = 0; c < 3; ++c) {
@@ -58,14 +57,14 @@ void solve(const Sized& belly, FarEnd end, const Displacements& load, Displaceme
   };
   const std::size_t size = u.size();
   Displacements r(size), q(size);
-  multiply(belly, u, r);
+  belly.multiply(u, r);
   for (std::size_t i = 0; i < size; ++i) r[i] = load[i] - r[i];
   hold(r);
   Displacements p = r;
   double rr = product(r, r);
   const double enough = 1e-20 * rr;
   for (std::size_t step = 0; step < 4 * size && rr > enough; ++step) {
-    multiply(belly, p, q);
+    belly.multiply(p, q);
     hold(q);
     const double alpha = rr / product(p, q);
     for (std::size_t i = 0; i < size; ++i) {
@@ -83,7 +82,7 @@ void solve(const Sized& belly, FarEnd end, const Displacements& load, Displaceme
 StaticStretch static_stretch(const StiffnessTerms& terms, double across, double along, double foundation_hz) {
   const Cells& cells = terms.cells;
   const double circular = 2 * std::numbers::pi * foundation_hz;
-  const Sized belly{terms, across, along, circular * circular};
+  const Sized belly(terms, across, along, circular * circular);
   const std::size_t size = 3 * std::size_t{node_count(cells)};
   // The uniform stretch already has the prescribed ends.
   Displacements u(size, 0.0), force(size);
@@ -91,7 +90,7 @@ StaticStretch static_stretch(const StiffnessTerms& terms, double across, double 
     u[3 * node_index(cells, i, j, k) + 2] = static_cast<double>(k) / cells[2];
   });
   solve(belly, FarEnd::held, Displacements(size, 0.0), u);
-  multiply(belly, u, force);
+  belly.multiply(u, force);
   StaticStretch stretch{std::move(u), 0};
   for (std::uint32_t n = first_insertion_node(cells); n < node_count(cells); ++n) {
     stretch.stiffness_n_per_m += force[3 * n + 2];
@@ -104,7 +103,7 @@ double pulled_stiffness(const StiffnessTerms& terms, std::span<const float> far_
   const std::size_t far = first_insertion_node(terms.cells);
   Displacements u(size, 0.0), load(size, 0.0);
   for (std::size_t i = 0; i < far_share.size(); ++i) load[3 * (far + i) + 2] = static_cast<double>(far_share[i]);
-  solve({terms, across, along}, FarEnd::sliding, load, u);
+  solve(Sized(terms, across, along), FarEnd::sliding, load, u);
   return 1 / product(load, u);
 }
 

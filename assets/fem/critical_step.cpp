@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "assets/fem/top_eigenvalue.h"
 #include "engine/exact_math.h"
@@ -49,8 +51,9 @@ StencilPencil make_pencil(const StiffnessTerms& terms, double across, double alo
   return pencil;
 }
 
-double top_eigenvalue(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
-  return top_eigenvalue_bound(make_pencil(terms, across, along, step_case));
+double top_eigenvalue(const StiffnessTerms& terms, double across, double along, const StepCase& step_case,
+                      std::span<const double> start) {
+  return top_eigenvalue_bound(make_pencil(terms, across, along, step_case), start);
 }
 
 /// How far below its chord from x[i] to x[i + 1] a convex h(x) may lie: it is above the chords on either side,
@@ -63,7 +66,10 @@ double sag(double before, double slope, double after, double width) {
 class Tabulation {
  public:
   Tabulation(CriticalSteps& table, const StiffnessTerms& terms, const StepCase& step_case)
-      : table_(table), terms_(terms), step_case_(step_case) {}
+      : table_(table),
+        terms_(terms),
+        step_case_(step_case),
+        start_(lanczos_start(moving_components(terms.cells, step_case.end))) {}
 
   void insert_ratio(std::size_t place, double r) {
     for (std::size_t level = table_.foundation.size(); level-- > 0;) {
@@ -125,12 +131,13 @@ class Tabulation {
   double top(double r, double q) const {
     StepCase step_case = step_case_;
     step_case.foundation_1_s = std::sqrt(q) / r;
-    return r * r * top_eigenvalue(terms_, r, 1, step_case);
+    return r * r * top_eigenvalue(terms_, r, 1, step_case, start_);
   }
 
   CriticalSteps& table_;
   const StiffnessTerms& terms_;
   const StepCase& step_case_;
+  std::vector<double> start_;
 };
 
 }  // namespace
@@ -142,7 +149,9 @@ double central_difference_limit(double top_1_s2, double stiffness_damping_s) {
 }
 
 double critical_step(const StiffnessTerms& terms, double across, double along, const StepCase& step_case) {
-  return central_difference_limit(top_eigenvalue(terms, across, along, step_case), step_case.stiffness_damping_s);
+  const double top =
+      top_eigenvalue(terms, across, along, step_case, lanczos_start(moving_components(terms.cells, step_case.end)));
+  return central_difference_limit(top, step_case.stiffness_damping_s);
 }
 
 CriticalSteps tabulate_critical_steps(const StiffnessTerms& terms, const StepCase& step_case, double lowest,

@@ -1,6 +1,5 @@
 #include "assets/fem/top_eigenvalue.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "assets/fem/stencil_matrix.h"
 #include "assets/fem/stiffness_terms.h"
 #include "engine/exact_math.h"
 
@@ -17,9 +17,15 @@ namespace {
 
 using Numbers = std::vector<double>;
 
+/// Eight sums beside each other, for one after the other would wait for itself; in this order on any machine.
 double inner(const double* a, const double* b, std::size_t count) {
-  const auto n = static_cast<Eigen::Index>(count);
-  return Eigen::Map<const Eigen::VectorXd>(a, n).dot(Eigen::Map<const Eigen::VectorXd>(b, n));
+  constexpr std::size_t sums = 8;
+  double sum[sums] = {}, rest = 0;
+  std::size_t i = 0;
+  for (; i + sums <= count; i += sums)
+    for (std::size_t s = 0; s < sums; ++s) sum[s] += a[i + s] * b[i + s];
+  for (; i < count; ++i) rest += a[i] * b[i];
+  return ((sum[0] + sum[4]) + (sum[2] + sum[6])) + ((sum[1] + sum[5]) + (sum[3] + sum[7])) + rest;
 }
 
 double inner(const Numbers& a, const Numbers& b) {
@@ -85,16 +91,10 @@ BandCholesky mass_factor(const StencilPencil& pencil, std::size_t component) {
 /// v ↦ L⁻¹·K·L⁻ᵀ·v, whose spectrum is the pencil's.
 class SymmetricOperator {
  public:
-  explicit SymmetricOperator(const StencilPencil& pencil) : work_(pencil.moving.size()) {
-    first_.push_back(0);
-    for_each_node(pencil.cells, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
-      const std::uint32_t n = node_index(pencil.cells, i, j, k);
-      for_each_neighbour(pencil.cells, i, j, k, [&](std::uint32_t m, std::size_t slot) {
-        neighbour_.push_back(3 * m);
-        block_.push_back(pencil.stiffness[n * stencil_size + slot]);
-      });
-      first_.push_back(neighbour_.size());
-    });
+  explicit SymmetricOperator(const StencilPencil& pencil)
+      : stiffness_(pencil.cells, [&](std::uint32_t n, std::uint32_t,
+                                     std::size_t slot) { return pencil.stiffness[n * stencil_size + slot]; }),
+        work_(pencil.moving.size()) {
     if (pencil.mass.empty()) return;
     for (const std::size_t component : {std::size_t{0}, std::size_t{2}})
       factor_.push_back(mass_factor(pencil, component));
@@ -102,28 +102,16 @@ class SymmetricOperator {
 
   void apply(const Numbers& x, Numbers& y) {
     if (factor_.empty()) {
-      multiply(x, y);
+      stiffness_.multiply(x, y);
       return;
     }
     work_ = x;
     for (std::size_t c = 0; c < 3; ++c) solve_transposed(factor_[c / 2], c, work_);
-    multiply(work_, y);
+    stiffness_.multiply(work_, y);
     for (std::size_t c = 0; c < 3; ++c) solve(factor_[c / 2], c, y);
   }
 
  private:
-  void multiply(const Numbers& x, Numbers& y) const {
-    for (std::size_t n = 0; n + 1 < first_.size(); ++n) {
-      double f[3] = {0, 0, 0};
-      for (std::size_t p = first_[n]; p < first_[n + 1]; ++p) {
-        const auto& b = block_[p];
-        const double* u = &x[neighbour_[p]];
-        for (std::size_t r = 0; r < 3; ++r) f[r] += b[3 * r] * u[0] + b[3 * r + 1] * u[1] + b[3 * r + 2] * u[2];
-      }
-      for (std::size_t r = 0; r < 3; ++r) y[3 * n + r] = f[r];
-    }
-  }
-
   static void solve(const BandCholesky& factor, std::size_t component, Numbers& x) {
     const std::size_t nodes = x.size() / 3, band = factor.band();
     for (std::size_t i = 0; i < nodes; ++i) {
@@ -143,8 +131,7 @@ class SymmetricOperator {
     }
   }
 
-  std::vector<std::size_t> first_, neighbour_;
-  std::vector<std::array<double, 9>> block_;
+  StencilMatrix stiffness_;
   std::vector<BandCholesky> factor_;  // of x and y, of z
   Numbers work_;
 };
@@ -169,24 +156,10 @@ double tridiagonal_top(const Numbers& diagonal, const Numbers& off) {
   return low;
 }
 
-/// A direction drawn from the sphere alike in all directions, over what moves.
-Numbers random_start(const std::vector<bool>& moving) {
-  std::mt19937 bits;  // NOLINT: always the same draw
-  const auto uniform = [&] { return (static_cast<double>(bits()) + 0.5) / 4294967296.0; };
-  Numbers v(moving.size());
-  for (std::size_t i = 0; i < v.size(); ++i) {
-    const double radius = std::sqrt(-2 * exact::log(uniform())), angle = 2 * std::numbers::pi * uniform();
-    if (moving[i]) v[i] = radius * exact::cos(angle);
-  }
-  const double norm = std::sqrt(inner(v, v));
-  for (double& x : v) x /= norm;
-  return v;
-}
-
 /// Largest Ritz value: never above the largest eigenvalue. Stops early, once it has all but stood still over sixteen
 /// steps, only if `patient` is false.
-double lanczos_top(SymmetricOperator& op, const std::vector<bool>& moving, std::size_t longest, bool patient) {
-  Numbers now = random_start(moving), before(now.size()), next(now.size()), diagonal, off;
+double lanczos_top(SymmetricOperator& op, const Numbers& start, std::size_t longest, bool patient) {
+  Numbers now = start, before(now.size()), next(now.size()), diagonal, off;
   double top = 0;
   longest = std::min(longest, now.size());
   for (std::size_t step = 1; step <= longest; ++step) {
@@ -243,7 +216,20 @@ bool exceeds_spectrum(const StencilPencil& pencil, double sigma) {
 
 }  // namespace
 
-double top_eigenvalue_bound(const StencilPencil& pencil) {
+std::vector<double> lanczos_start(const std::vector<bool>& moving) {
+  std::mt19937 bits;  // NOLINT: always the same draw
+  const auto uniform = [&] { return (static_cast<double>(bits()) + 0.5) / 4294967296.0; };
+  Numbers v(moving.size());
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    const double radius = std::sqrt(-2 * exact::log(uniform())), angle = 2 * std::numbers::pi * uniform();
+    if (moving[i]) v[i] = radius * exact::cos(angle);
+  }
+  const double norm = std::sqrt(inner(v, v));
+  for (double& x : v) x /= norm;
+  return v;
+}
+
+double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start) {
   if (std::find(pencil.moving.begin(), pencil.moving.end(), true) == pencil.moving.end()) return 0;
   SymmetricOperator op(pencil);
   const auto size = static_cast<double>(pencil.moving.size());
@@ -252,9 +238,10 @@ double top_eigenvalue_bound(const StencilPencil& pencil) {
   if (size * band * band > 2e10) {
     constexpr double share = 0.02, risk = 1e-12;
     const double steps = 0.5 * (1 + exact::log(1.648 * std::sqrt(size) / risk) / std::sqrt(share));
-    return lanczos_top(op, pencil.moving, static_cast<std::size_t>(std::ceil(steps)), true) / (1 - share);
+    return lanczos_top(op, Numbers(start.begin(), start.end()), static_cast<std::size_t>(std::ceil(steps)), true) /
+           (1 - share);
   }
-  const double below = lanczos_top(op, pencil.moving, 240, false);
+  const double below = lanczos_top(op, Numbers(start.begin(), start.end()), 240, false);
   constexpr double first_margin = 2e-4, tight = 1e-3;
   double low = below, high = below * (1 + first_margin);
   for (double margin = first_margin; std::isfinite(high) && !exceeds_spectrum(pencil, high); margin *= 2) {

@@ -36,6 +36,12 @@ HWY_INLINE V Load(Tag, const double* p) {
 HWY_INLINE void Store(V v, Tag, double* p) {
   *p = v;
 }
+HWY_INLINE V LoadU(Tag, const double* p) {
+  return *p;
+}
+HWY_INLINE void StoreU(V v, Tag, double* p) {
+  *p = v;
+}
 HWY_INLINE V Add(V a, V b) {
   return a + b;
 }
@@ -105,6 +111,13 @@ HWY_INLINE V load(const double* p) {
 }
 HWY_INLINE void store(V v, double* p) {
   dn::Store(v, Tag{}, p);
+}
+/// The same at any address.
+HWY_INLINE V load_any(const double* p) {
+  return dn::LoadU(Tag{}, p);
+}
+HWY_INLINE void store_any(V v, double* p) {
+  dn::StoreU(v, Tag{}, p);
 }
 HWY_INLINE V mul(V a, V b) {
   return dn::Mul(a, b);

@@ -12,9 +12,11 @@ namespace mobil {
 using Columns = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Lower half of a symmetric matrix whose entries lie within `reach` of the diagonal, and then its factor in its place.
-/// No sum depends on the machine: products are cut to block_width terms.
+/// No sum depends on the machine.
 class BandCholesky {
  public:
+  static constexpr std::size_t block_width = 48, most_strip = 16;
+
   BandCholesky(std::size_t size, std::size_t reach);
 
   /// Entry on or below the diagonal, within reach. Zero at first.
@@ -27,15 +29,9 @@ class BandCholesky {
   void solve(Eigen::Ref<Columns> columns) const;
 
  private:
-  static constexpr Eigen::Index block_width = 48;
-  template <class Matrix>
-  void solve_all(Matrix& columns) const;
-  using Block = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-  using ConstBlock = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-
-  // Entry (row, column) stands at column · stride + row, so that blocks of the band are dense matrices.
-  Eigen::Index size_, reach_;
-  std::size_t stride_;
+  // Entry (row, column) stands at column · stride + row, so that blocks of the band are dense matrices. What a strip of
+  // rows writes above the diagonal lies behind all that those blocks read.
+  std::size_t size_, reach_, stride_;
   std::vector<double> entry_;
 };
 

@@ -112,6 +112,8 @@ class Apart {
       : contacts_(contacts), position_(position), normal_(normal), work_(work) {
     work_.touches.assign(position.size(), 0);
     work_.taken.assign(contacts.bands, 0);
+    work_.other.clear();
+    for (const ContactPair& pair : contacts.pair) work_.other.push_back(pair.other);
     find_areas();
   }
 
@@ -201,7 +203,10 @@ class Apart {
   }
   void find_pushes() {
     work_.push.assign(position_.size(), {0, 0, 0});
-    for (const ContactPair& pair : contacts_.pair) push(pair);
+    for (std::size_t p = 0; p < contacts_.pair.size(); ++p) {
+      work_.other[p] = nearest(contacts_.pair[p].vertex, work_.other[p]);
+      push(contacts_.pair[p], work_.other[p]);
+    }
   }
   /// Between the middles of its band and of the next one.
   Vec3<float> shift_of(std::size_t v) const {
@@ -213,15 +218,15 @@ class Apart {
   }
   bool is_free(std::size_t v) const { return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] == 0; }
 
-  /// From where the other surface was nearest at rest, along its edges to where it is now.
-  std::uint32_t nearest(const ContactPair& pair) const {
+  /// From where the other surface was nearest, at rest or in the pass before, along its edges to where it is now.
+  std::uint32_t nearest(std::uint32_t vertex, std::uint32_t other) const {
     constexpr int most_steps = 12;
-    const Vec3<float>& at = position_[pair.vertex];
+    const Vec3<float>& at = position_[vertex];
     const auto square = [&](std::uint32_t v) {
       const Vec3<float> off = at - position_[v];
       return dot(off, off);
     };
-    std::uint32_t best = pair.other;
+    std::uint32_t best = other;
     float least = square(best);
     for (int step = 0; step < most_steps; ++step) {
       const std::uint32_t from = best;
@@ -237,9 +242,8 @@ class Apart {
     return best;
   }
 
-  void push(const ContactPair& pair) {
+  void push(const ContactPair& pair, std::uint32_t other) {
     constexpr float near_by_m = 0.004F, deepest_m = 0.045F;
-    const std::uint32_t other = nearest(pair);
     const Vec3<float> off = position_[pair.vertex] - position_[other], &out = normal_[other];
     const float gap = dot(off, out), beside = dot(off, off) - gap * gap, depth = pair.rest_m - gap;
     const float most_beside = contacts_.edge_m[other];  // farther it is beside the other's edge

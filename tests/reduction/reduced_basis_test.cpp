@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "assets/reduction/reduced_belly.h"
-#include "assets/reduction/reduced_cholesky.h"
 #include "systems/deformation/reference.h"
 #include "tests/fem/oracle.h"
 
@@ -427,25 +426,6 @@ TEST(ReducedBasis, BadOptionsGiveOneLineThatSaysWhatCanBe) {
     EXPECT_EQ(got.find('\n'), std::string::npos) << got;
     EXPECT_EQ(got.empty(), part.empty()) << got;
   }
-}
-
-RC_GTEST_PROP(BandCholesky, SolvesAsADenseMatrixDoes, ()) {
-  const auto any = [](int low, int high) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(low, high)); };
-  const Index size = any(1, 160), reach = any(0, 70), columns = any(1, 5);
-  BandCholesky band(static_cast<std::size_t>(size), static_cast<std::size_t>(reach));
-  Matrix dense = Matrix::Zero(size, size);
-  for (Index c = 0; c < size; ++c) {
-    for (Index r = c; r <= std::min(size - 1, c + reach); ++r) {
-      dense(r, c) = dense(c, r) = r == c ? 2.0 * static_cast<double>(reach) + 1 : any(-100, 101) / 100.0;
-      band.at(static_cast<std::size_t>(r), static_cast<std::size_t>(c)) = dense(r, c);
-    }
-  }
-  Columns solution(size, columns);
-  for (Index i = 0; i < solution.size(); ++i) solution.data()[i] = any(-100, 101) / 10.0;
-  const Matrix right = solution;
-  RC_ASSERT(band.factorise());
-  band.solve(solution);
-  RC_ASSERT((dense * solution - right).norm() <= 1e-11 * (1 + right.norm()));
 }
 
 }  // namespace mobil::reduced_basis_test

@@ -17,19 +17,6 @@ double determinant(const Vec& a, const Vec& b, const Vec& c) {
   return dot(a, cross(b, c));
 }
 
-Result<void> check_cells(const Cells& cells) {
-  for (const auto n : cells) {
-    if (n < 1 || n > 256) {
-      return fail(fmt::format("cells {}x{}x{}: each must be 1 to 256", cells[0], cells[1], cells[2]));
-    }
-  }
-  if (node_count(cells) > largest_mesh_nodes) {
-    return fail(fmt::format("cells {}x{}x{} make {} nodes; at most {} are taken, use fewer cells", cells[0], cells[1],
-                            cells[2], node_count(cells), largest_mesh_nodes));
-  }
-  return {};
-}
-
 Result<void> check_stations(std::span<const CageStation> stations) {
   if (stations.size() < 2) return fail("a bent block needs at least two stations, at t = 0 and t = 1");
   for (std::size_t s = 0; s < stations.size(); ++s) {
@@ -98,6 +85,19 @@ constexpr std::array<std::array<std::uint8_t, 4>, 8> corner_edges = {
     {{0, 1, 3, 4}, {1, 2, 0, 5}, {2, 3, 1, 6}, {3, 0, 2, 7}, {4, 7, 5, 0}, {5, 4, 6, 1}, {6, 5, 7, 2}, {7, 6, 4, 3}}};
 
 }  // namespace
+
+Result<void> check_cells(const Cells& cells) {
+  for (const auto n : cells) {
+    if (n < 1 || n > 256) {
+      return fail(fmt::format("cells {}x{}x{}: each must be 1 to 256", cells[0], cells[1], cells[2]));
+    }
+  }
+  if (node_count(cells) > largest_mesh_nodes) {
+    return fail(fmt::format("cells {}x{}x{} make {} nodes; at most {} are taken, use fewer cells", cells[0], cells[1],
+                            cells[2], node_count(cells), largest_mesh_nodes));
+  }
+  return {};
+}
 
 Hexahedron element_nodes(const Cells& cells, std::uint32_t element) {
   const std::uint32_t i = element % cells[0];

@@ -82,6 +82,9 @@ struct Grading {
 /// outside 1–256 cells a side, beyond `largest_mesh_nodes`, for a size outside 1e-6–10 m or a grading outside 0.01–100.
 Result<HexahedralMesh> make_block(const Cells& cells, double cell_size_m, const Grading& grading = {});
 
+/// Fails unless each is from 1 to 256, and the nodes are no more than largest_mesh_nodes.
+Result<void> check_cells(const Cells& cells);
+
 /// A belly along z from 0 to `length_m`: rounded cross-sections through the stations (t ascending from 0 to 1, linear
 /// between them). A section blends a square grid with its elliptical image (2 : 3), so that its edges' middles touch
 /// the ellipse and its corners stay elements. Fails on a bad station or grading, or, naming the element, where one

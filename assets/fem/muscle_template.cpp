@@ -6,9 +6,8 @@
 #include <utility>
 
 namespace mobil {
-namespace {
 
-Result<void> check_options(const MuscleOptions& options) {
+Result<void> check_muscle_options(const MuscleOptions& options) {
   const auto within = [](double value, double low, double high) { return value >= low && value <= high; };
   if (!within(options.damping_per_s, 0, 1000)) {
     return fail(fmt::format("mass damping {} 1/s must lie between 0 and 1000", options.damping_per_s));
@@ -28,15 +27,13 @@ Result<void> check_options(const MuscleOptions& options) {
   return {};
 }
 
-}  // namespace
-
 StepCase step_case(const MuscleOptions& options) {
   return {options.far_end, options.mass, options.stiffness_damping_s, 2 * std::numbers::pi * options.foundation_hz};
 }
 
 Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material, const MuscleOptions& options,
                                             std::optional<CriticalSteps> known) {
-  if (auto ok = check_options(options); !ok) return tl::unexpected(ok.error());
+  if (auto ok = check_muscle_options(options); !ok) return tl::unexpected(ok.error());
   auto terms = assemble(mesh, material, options.element);
   if (!terms) return tl::unexpected(terms.error());
   FiniteKernel finite;

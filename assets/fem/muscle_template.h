@@ -49,6 +49,9 @@ constexpr std::size_t nodal_width(const Cells& cells) {
   return 3 * std::size_t{node_count(cells)};
 }
 
+/// Fails where a number is not in its range, naming that.
+Result<void> check_muscle_options(const MuscleOptions& options);
+
 /// Fails on an inverted element, a bad material, damping or range of ratios. `known`: the critical steps of just such a
 /// template, which take most of the time to find.
 Result<MuscleTemplate> make_muscle_template(HexahedralMesh mesh, const Material& material, const MuscleOptions& options,

@@ -28,7 +28,7 @@ std::vector<double> lanczos_start(const std::vector<bool>& moving);
 /// and then bisected. Beyond 2e10 operations for one factor (some 12000 nodes of usual shape) no proof is
 /// attempted: Lanczos runs on for so long that its estimate, from a start drawn at random, lies 2 % too low with a
 /// probability below 1e-12 whatever the spectrum (Kuczyński and Woźniakowski, SIAM J. Matrix Anal. Appl. 13, 1992);
-/// 2 % are added. `start`: lanczos_start(pencil.moving), which takes longer than a step.
+/// 2 % are added. `start`: lanczos_start(pencil.moving), which takes longer than a Lanczos step.
 double top_eigenvalue_bound(const StencilPencil& pencil, std::span<const double> start);
 
 }  // namespace mobil

@@ -73,7 +73,7 @@ class Avoidance {
   /// The same of many, each named once; all or none.
   Result<void> manage(std::span<const Entity> people);
   /// No more; the walker goes on as it now does, and faces their way. Who is slowed down by a slope, and by nobody
-  /// else, goes on from it as they wish; to who wishes to stand their walk of now is their wish. Errors: a stale
+  /// else, goes on from it as they wish. Whoever wishes to stand goes on as they walk now. Errors: a stale
   /// handle, somebody who is not managed.
   Result<void> release(Entity human);
   Result<void> release(std::span<const Entity> people);

@@ -303,7 +303,8 @@ void begin_steady(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_
 void walk_on(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
              const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block,
              WalkingBlock& work) {
-  work = block;
+  work.size = block.size;
+  work.gait = block.gait;
   steady_state(before, asked, tick_s, work.state);
   work.plan = {};
   plan_first_step(work.size, gait_before, work.plan);

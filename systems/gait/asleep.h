@@ -45,7 +45,8 @@ struct WalkingBlock {
 void begin_steady(const SteadyWalk<Lanes<float>>& walk, const Lanes<std::uint32_t>& tick, float tick_s,
                   WalkingBlock& block);
 /// Walkers who were steady at tick `asked`, by `before`, and were asked then for block.gait: as they are at `tick`, not
-/// before `asked`. Their steps are solved as those of anybody. `work`: memory to work in.
+/// before `asked`. Their steps are solved as those of anybody. `work`: memory to work in, which is not `block` and does
+/// not hold `gait_before`.
 void walk_on(const Gait<Lanes<float>>& gait_before, const SteadyWalk<Lanes<float>>& before,
              const Lanes<std::uint32_t>& asked, const Lanes<std::uint32_t>& tick, float tick_s, WalkingBlock& block,
              WalkingBlock& work);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <utility>
 
@@ -63,6 +64,20 @@ Result<std::uint32_t> steps(const MuscleTemplate& shape, const LegMuscles& choic
   return steps_of(tick_s, *choice.dt_s);
 }
 
+MuscleOptions options_of(const LegMuscles& choice, Muscle muscle) {
+  MuscleOptions options;
+  options.far_end = far_end_of(choice);
+  options.damping_per_s = choice.damping_per_s;
+  options.lowest_ratio = lowest_ratio;
+  options.highest_ratio = highest_ratio;
+  options.element = choice.element;
+  options.mass = stepped_mass(choice);
+  options.strain = strain_of(choice);
+  options.stiffness_damping_s = choice.stiffness_damping_s;
+  options.foundation_hz = foundation_of(choice, muscle);
+  return options;
+}
+
 }  // namespace
 
 std::uint32_t steps_of(double tick_s, double dt_s) {
@@ -92,6 +107,9 @@ Result<void> check_choice(const LegMuscles& choice, double tick_s) {
                     muscles().size()));
   }
   if (auto ok = check_material(choice.material); !ok) return ok;
+  if (auto ok = check_cells(choice.cells); !ok) return ok;
+  const auto first = static_cast<Muscle>(std::countr_zero(choice.muscles.to_ulong()));
+  if (auto ok = check_muscle_options(options_of(choice, first)); !ok) return ok;
   if (!choice.dt_s) return {};
   const double least = tick_s / static_cast<double>(most_steps);
   if (!(*choice.dt_s >= least && std::isfinite(*choice.dt_s))) {
@@ -137,16 +155,7 @@ Result<std::unique_ptr<BellyTemplate>> BellyLibrary::make_shape(Muscle muscle, c
                                                                 std::optional<ShapeTables> known) {
   auto mesh = bend_block(choice.cells, muscle_cage(muscle), reference_belly_m(muscle), belly_grading);
   if (!mesh) return tl::unexpected(mesh.error());
-  MuscleOptions options;
-  options.far_end = far_end_of(choice);
-  options.damping_per_s = choice.damping_per_s;
-  options.lowest_ratio = lowest_ratio;
-  options.highest_ratio = highest_ratio;
-  options.element = choice.element;
-  options.mass = stepped_mass(choice);
-  options.strain = strain_of(choice);
-  options.stiffness_damping_s = choice.stiffness_damping_s;
-  options.foundation_hz = foundation_of(choice, muscle);
+  const MuscleOptions options = options_of(choice, muscle);
   std::optional<CriticalSteps> steps;
   if (known) steps = std::move(known->critical_steps);
   auto shape = make_muscle_template(std::move(*mesh), choice.material, options, std::move(steps));

@@ -114,7 +114,8 @@ void move_end(const EndDrive<float>& was, const NextBelly& next, BellyMotion& mo
 /// the one goes on about the other.
 void change_strain(const World& world, const OneChange& change, const EndDrive<float>& was, const NextBelly& next,
                    BellyMotion& motion) {
-  BellyLoad load = next.load;  // with the end where it was, and pulling as it did
+  // A held end is where it was; a sliding one is pulled as it will be. The muscle pulls as it did.
+  BellyLoad load = next.load;
   if (load.far_end == FarEnd::held) {
     load.from = was.from;
     load.to = was.to;

@@ -29,7 +29,7 @@ LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lan
   find_legs(posts, owner, from);
   LegFrames<Lanes<float>> leg;
   take_legs(from, leg);
-  // Of the third block the owners arrive meanwhile, of the second where those are, of the next one their legs.
+  // Fetched meanwhile: the third block's owners, the places of the second's owners, the legs of the next block's.
   FetchAhead(ahead.third).fetch(sizeof(*ahead.third) / 64);
   if (ahead.second != nullptr)
     for (std::size_t lane = 0; lane < lane_count; ++lane)

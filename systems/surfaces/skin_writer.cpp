@@ -28,7 +28,7 @@ Result<void> check_skin(const World& world, const SkinRequest& request) {
   }
   if (!world.alive(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
   if (request.pose == nullptr && !world.has<Pose>(request.person))
-    return fail("the person has no pose on their row; give one", Status::stale_entity);
+    return fail("the person has no pose on their row; give one", Status::missing);
   return {};
 }
 

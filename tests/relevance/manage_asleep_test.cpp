@@ -42,7 +42,21 @@ void expect_refused(const RelevanceOptions& options, const std::string& word) {
 TEST(ManageAsleep, WhatMusclesCannotBeIsRefusedBeforeAnybodySleeps) {
   expect_refused({.leg_muscles = {.dt_s = 1e-12}}, "step");
   expect_refused({.leg_muscles = {.material = {.young_pa = 0}}}, "Young");
+  expect_refused({.leg_muscles = {.damping_per_s = -1}}, "damping");
+  expect_refused({.leg_muscles = {.cells = {0, 2, 2}}}, "cells");
   expect_refused({.leg_muscles = {.activation = ExcitationSource::moments}}, "add_forces");
+}
+
+TEST(ManageAsleep, WhoSleepsWithForcesHasMoments) {
+  Simulation simulation(SimulationOptions{.threads = 1});
+  const Entity human = *simulation.spawn(BodyRequest{}, {});
+  ASSERT_TRUE(simulation.add_forces(human));
+  simulation.tick(120);
+  ASSERT_TRUE(simulation.sleep({&human, 1}));
+  ASSERT_TRUE(simulation.is_asleep(human));
+  Relevance relevance(simulation, {.leg_muscles = {.activation = ExcitationSource::moments}});
+  const auto done = relevance.manage_asleep({&human, 1});
+  EXPECT_TRUE(done) << done.error().message;
 }
 
 TEST(ManageAsleep, ASceneWithoutMusclesManagesWhoCannotSleepToo) {

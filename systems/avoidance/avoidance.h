@@ -72,9 +72,9 @@ class Avoidance {
   Result<void> manage(Entity human);
   /// The same of many, each named once; all or none.
   Result<void> manage(std::span<const Entity> people);
-  /// No more; the walker goes on as it now does, and faces their way. Who is slowed down by a slope, and by nobody
-  /// else, goes on from it as they wish. Whoever wishes to stand goes on as they walk now. Errors: a stale
-  /// handle, somebody who is not managed.
+  /// No more; walkers keep the gait they have, and face their way. A walker whom only a slope slows down takes the gait
+  /// they wish for once it ends; one who wishes to stand keeps the gait they have. Errors: a stale handle, somebody who
+  /// is not managed.
   Result<void> release(Entity human);
   Result<void> release(std::span<const Entity> people);
   /// All or none. Errors: a stale handle, somebody who is not managed (Status::missing), a speed that their gait cannot

@@ -26,6 +26,13 @@ BellyLoad at_start(BellyLoad load) {
 
 }  // namespace
 
+std::array<float, 3> plane_mean(std::span<const float> three_a_node, std::size_t plane, std::size_t nodes) {
+  std::array<float, 3> mean{};
+  for (std::size_t i = 3 * plane * nodes; i < 3 * (plane + 1) * nodes; ++i)
+    mean[i % 3] += three_a_node[i] / static_cast<float>(nodes);
+  return mean;
+}
+
 void solve_static(const StaticBelly& belly, const BellyLoad& load, int solutions, std::vector<float>& displacement) {
   std::vector<Words> block(displacement.size());
   for (std::size_t i = 0; i < block.size(); ++i) std::fill_n(block[i].lane, lane_count, displacement[i]);

@@ -2,7 +2,9 @@
 // How a belly's control points move between ticks, by whatever method, and static answers of one belly: what methods
 // begin with and what they hand over to each other.
 
+#include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "assets/reduction/reduced_basis.h"
@@ -43,6 +45,9 @@ std::vector<float> field_of(const World& world, Entity entity) {
   world.get_field<Tag>(entity, values);
   return values;
 }
+
+/// Mean over the `nodes` nodes of a plane of cells, by axis.
+std::array<float, 3> plane_mean(std::span<const float> three_a_node, std::size_t plane, std::size_t nodes);
 
 /// Static solutions, each of which takes away most of what the last left: from nothing, from nearby under a frame's
 /// load, and where a shape in proportion is all but right.

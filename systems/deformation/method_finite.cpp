@@ -56,14 +56,6 @@ bool recognise(const TableKey& key, MuscleKind& kind) {
   return kind.steps == steps->value;
 }
 
-/// Mean over the nodes of a plane, by axis.
-std::array<float, 3> plane_mean(std::span<const float> three_a_node, std::size_t plane, std::size_t nodes) {
-  std::array<float, 3> mean{};
-  for (std::size_t i = 3 * plane * nodes; i < 3 * (plane + 1) * nodes; ++i)
-    mean[i % 3] += three_a_node[i] / static_cast<float>(nodes);
-  return mean;
-}
-
 /// A linear displacement with sections between the ends as wide as their plane's stretch along leaves them.
 std::vector<float> keep_volume(const MuscleTemplate& shape, const BellyScale<float>& scale, std::vector<float> linear) {
   const std::size_t nodes = plane_nodes(shape.mesh.cells), last = shape.mesh.cells[2];

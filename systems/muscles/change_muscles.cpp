@@ -90,12 +90,9 @@ EndDrive<float> end_of(const World& world, const OneChange& change, const Muscle
                        const BellyMotion& computed) {
   const auto drive = world.get<EndDrive>(change.muscle);
   if (was.far_end == FarEnd::held && drive) return *drive;
-  const std::size_t nodes = plane_nodes(*cells_of(was)), first = computed.displacement.size() - 3 * nodes;
-  float to = 0, speed = 0;
-  for (std::size_t i = first + 2; i < computed.displacement.size(); i += 3) {
-    to += computed.displacement[i] / static_cast<float>(nodes);
-    speed += computed.velocity[i] / static_cast<float>(nodes);
-  }
+  const Cells cells = *cells_of(was);
+  const float to = plane_mean(computed.displacement, cells[2], plane_nodes(cells))[2];
+  const float speed = plane_mean(computed.velocity, cells[2], plane_nodes(cells))[2];
   return {to - speed * static_cast<float>(change.time.tick_s), to};
 }
 

@@ -13,6 +13,7 @@
 #include "systems/lines/line_motion.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/muscles/member_design.h"
+#include "systems/people/ground_forces.h"
 
 namespace mobil {
 namespace {
@@ -87,7 +88,7 @@ Module leg_moments_module() {
 }
 
 Result<void> check_leg_moments(const World& world, Entity person, const LegMuscles& choice) {
-  if (!follows_moments(choice) || world.has<JointMoments>(person)) return {};
+  if (!follows_moments(choice) || has_forces(world, person)) return {};
   return fail("activation by moments needs the moments at the joints; call add_forces first", Status::missing);
 }
 

@@ -15,7 +15,7 @@ Module leg_moments_module();
 inline bool follows_moments(const LegMuscles& choice) {
   return choice.activation == ExcitationSource::moments;
 }
-/// Whether a person may have such muscles: moments are of who has forces (JointMoments).
+/// Whether a person may have such muscles: moments are of who has forces, asleep too.
 Result<void> check_leg_moments(const World& world, Entity person, const LegMuscles& choice);
 /// Gives the person's row these parts, from its body, or takes them, as a checked choice asks.
 void set_leg_moments(World& world, Entity person, const Body& body, const LegMuscles& choice);

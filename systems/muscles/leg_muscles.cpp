@@ -14,7 +14,6 @@
 #include "systems/muscles/finite_shape_effect.h"
 #include "systems/muscles/leg_moments.h"
 #include "systems/muscles/muscle_parts.h"
-#include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
 #include "systems/people/waking.h"
 
@@ -270,9 +269,7 @@ Result<void> check_leg_muscles(const World& world, BellyLibrary& library, double
                                const LegMuscles& choice) {
   if (!is_person(world, person)) return not_there();
   if (auto ok = check_choice(choice, tick_s); !ok) return ok;
-  if (!has_forces(world, person)) {
-    if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
-  }
+  if (auto ok = check_leg_moments(world, person, choice); !ok) return ok;
   const Body body = *make_body(body_request(world, person));
   for (std::size_t m = 0; m < muscles().size(); ++m) {
     if (!choice.muscles[m]) continue;

@@ -12,11 +12,11 @@ constexpr LegPost::Leg nobodys_leg{
 
 /// The legs of the owners of sixteen muscles; both legs of a person are mostly beside each other.
 void find_legs(const LegsOfOwners& posts, const MuscleOwner<Lanes<float>>& owner, const LegPost::Leg** legs) {
-  Entity last{};
+  Entity last{};  // nobody, who has none
   const LegPost* post = nullptr;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const Entity person{owner.index[lane], owner.generation[lane]};
-    if (lane == 0 || person != last) post = posts.find(last = person);
+    if (person != last) post = posts.find(last = person);
     legs[lane] = post == nullptr ? &nobodys_leg : &post->leg[owner.side[lane]];
   }
 }

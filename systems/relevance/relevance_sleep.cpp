@@ -15,7 +15,6 @@
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/muscle_parts.h"
 #include "systems/muscles/sleep.h"
-#include "systems/people/ground_forces.h"
 #include "systems/relevance/packed_rungs.h"
 #include "systems/relevance/relevance.h"
 #include "systems/relevance/sight.h"
@@ -330,10 +329,8 @@ Result<std::size_t> Relevance::manage_asleep(std::span<const Entity> people) {
   choice.method = Method::none;
   if (choice.muscles.any()) {
     if (auto ok = check_choice(choice, simulation_.tick_s()); !ok) return tl::unexpected(ok.error());
-    for (const Entity human : people) {
-      if (has_forces(world, human)) continue;  // a sleeper's moments are not on their row
+    for (const Entity human : people)
       if (auto ok = check_leg_moments(world, human, choice); !ok) return tl::unexpected(ok.error());
-    }
   }
   all_sleepers_ = true;  // some may be in view of a camera that stands still
   const auto kept = keep_choice(world, SimulationWorld::library(simulation_), choice);

@@ -140,10 +140,15 @@ class StyleBlock {
     halve(is_shortened, [](Walker& walker, float share) { walker.step_share = share; });
     for (Walker& walker : walkers()) walker.style = walker.asked;
     if (std::ranges::any_of(walkers(), is_shortened)) asked_broken_ = still_broken();
-    for (std::size_t w = 0; w < people_; ++w)
-      for (std::size_t p = 0; p < parameter_count; ++p)
-        walkers_[w].moved[p] =
-            asked_broken_[w] && walkers_[w].asked.*gait_parameters[p].value != usual_.*gait_parameters[p].value;
+    for (std::size_t w = 0; w < people_; ++w) {
+      Walker& walker = walkers_[w];
+      if (!asked_broken_[w] || walker.step_why) walker.culprit.reset();
+      for (std::size_t p = 0; p < parameter_count; ++p) {
+        const auto value = gait_parameters[p].value;
+        walker.moved[p] = asked_broken_[w] &&
+                          (walker.culprit ? value == without[*walker.culprit] : walker.asked.*value != usual_.*value);
+      }
+    }
     give_back();
     halve([](const Walker& walker) { return walker.is_moved(); },
           [](Walker& walker, float share) { walker.style = walker.at(share); });
@@ -169,7 +174,11 @@ class StyleBlock {
 
  private:
   static constexpr GaitStyle usual_{};
-  static constexpr std::size_t try_usual_walk = 0, try_usual_style = 1, try_as_asked = 2, tries = 3;
+  static constexpr std::size_t try_usual_walk = 0, try_usual_style = 1, try_as_asked = 2, try_without = 3;
+  /// Of 100 styles near the usual one that break a limit, 99 keep it with one of these as usual, the first before the
+  /// second.
+  static constexpr std::array without = {&GaitStyle::pelvis_tilt_deg, &GaitStyle::double_support_scale};
+  static constexpr std::size_t tries = try_without + without.size();
 
   struct Walker {
     GaitStyle asked{}, style{};  // `style`, `step_share`: what is tried, and at the end what is kept
@@ -177,6 +186,7 @@ class StyleBlock {
     std::optional<Break> step_why;
     std::array<bool, parameter_count> moved{};
     std::array<Break, parameter_count> why{};
+    std::optional<std::size_t> culprit;  // of `without`: all the others may stay as asked
 
     bool is_moved() const {
       return std::ranges::any_of(moved, [](bool is) { return is; });
@@ -211,14 +221,16 @@ class StyleBlock {
     for (std::size_t l = 0; l < lane_count; ++l) try_in(l, walkers_[walker_of(l)]);
     look();
   }
-  /// The usual walk, which limits are to allow; the usual style with the steps asked for; all as asked.
+  /// The usual walk, which limits are to allow; the usual style with the steps asked for; all as asked; all but one
+  /// number as asked.
   void look_at_usual_and_asked() {
     const auto together = std::min(each_, tries);
     for (std::size_t first = 0; first < tries; first += together) {
       for (std::size_t l = 0; l < lane_count; ++l) {
-        const std::size_t which = std::min(first + l % each_, try_as_asked);
+        const std::size_t which = std::min(first + l % each_, tries - 1);
         Walker walker = walkers_[walker_of(l)];
-        if (which != try_as_asked) walker.style = usual_;
+        if (which < try_as_asked) walker.style = usual_;
+        if (which >= try_without) walker.style.*without[which - try_without] = usual_.*without[which - try_without];
         walker.step_share = which == try_usual_walk ? 0 : 1;
         try_in(l, walker);
       }
@@ -229,8 +241,12 @@ class StyleBlock {
     for (Walker& walker : walkers()) walker.style = usual_;
   }
   void note_try(std::size_t which, std::size_t w, std::size_t lane) {
-    if (which == try_usual_style) walkers_[w].step_why = worst(lane);
-    if (which == try_as_asked) asked_broken_[w] = worst(lane).has_value();
+    const auto breaks = which == try_usual_walk ? std::nullopt : worst(lane);
+    Walker& walker = walkers_[w];
+    if (which == try_usual_style) walker.step_why = breaks;
+    if (which == try_as_asked) asked_broken_[w] = breaks.has_value();
+    if (which == try_as_asked && breaks) walker.why.fill(*breaks);
+    if (which >= try_without && !breaks && !walker.culprit) walker.culprit = which - try_without;
     for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b)
       for (std::size_t l = w * each_; l < (w + 1) * each_; ++l)
         held_[b][l] = std::max(held_[b][l], found_.value[b][lane]);
@@ -270,6 +286,7 @@ class StyleBlock {
       bool any = false;
       for (std::size_t w = 0; w < people_; ++w) {
         Walker walker = walkers_[w];
+        if (walker.culprit) continue;
         for (std::size_t k = next[w]; k < parameter_count && count[w] < each_; ++k) {
           if (!walker.moved[order[k]]) continue;
           walker.moved[order[k]] = false;

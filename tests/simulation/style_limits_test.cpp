@@ -4,6 +4,7 @@
 #include <rapidcheck/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -300,6 +301,32 @@ TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
     }
   }
   EXPECT_GT(moved, 150U);
+}
+
+/// Where all is well with the pelvis' tilt or the double support as usual, no other number is touched.
+TEST(StyleLimits, OneNumberMovesWhereThatIsEnough) {
+  Dice dice{std::mt19937(21)};
+  constexpr std::array numbers = {&GaitStyle::pelvis_tilt_deg, &GaitStyle::double_support_scale};
+  std::size_t found = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const BodyRequest body{.height_m = dice.single(1.5, 2)};
+    GaitRequest walk{.speed_m_s = dice.single(1.2, 1.75)};
+    for (const GaitParameter& p : gait_parameters)
+      walk.style.*p.value = std::clamp(walk.style.*p.value * dice.single(0.9, 1.1), p.low, p.high);
+    const auto changes = Simulation::style_changes(body, walk);
+    if (!changes || changes->empty()) continue;
+    std::optional<float GaitStyle::*> enough;
+    for (const auto number : numbers) {
+      GaitRequest without = walk;
+      without.style.*number = GaitStyle{}.*number;
+      if (!enough && Simulation::style_changes(body, without)->empty()) enough = number;
+    }
+    if (!enough) continue;
+    ++found;
+    ASSERT_EQ(changes->size(), 1U) << i;
+    EXPECT_TRUE(gait_parameters[changes->front().parameter].value == *enough) << i;
+  }
+  EXPECT_GT(found, 5U);
 }
 
 /// Where the estimate says that a style keeps all limits, a walk of it at 240 instants a second keeps them.

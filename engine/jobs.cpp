@@ -1,5 +1,9 @@
 #include "engine/jobs.h"
 
+#include <atomic>
+#include <cassert>
+#include <exception>
+
 #if defined(__SSE2__)
 #include <pmmintrin.h>
 #include <xmmintrin.h>
@@ -32,7 +36,37 @@ unsigned long control() {
 }
 void set_control(unsigned long) {}
 #endif
+
+struct Guarded {
+  std::size_t count;
+  Jobs::Body body;
+  void* context;
+  std::atomic<bool> thrown{false};
+  std::exception_ptr first;
+#ifndef NDEBUG
+  std::atomic<std::size_t> done{0};
+#endif
+};
+void run_guarded(void* context, std::size_t begin, std::size_t end) noexcept {
+  Guarded& of = *static_cast<Guarded*>(context);
+  assert(begin < end && end <= of.count && "a host's parallel_for gave a range outside of what was asked");
+  try {
+    of.body(of.context, begin, end);
+  } catch (...) {
+    if (!of.thrown.exchange(true)) of.first = std::current_exception();
+  }
+#ifndef NDEBUG
+  of.done += end - begin;
+#endif
+}
 }  // namespace
+
+void run_in_parallel(const Jobs& jobs, std::size_t count, Jobs::Body body, void* context) {
+  Guarded guarded{count, body, context, {}, {}};
+  jobs.parallel_for(jobs.user, count, &run_guarded, &guarded);
+  assert(guarded.done == count && "a host's parallel_for left a part out, or did it twice");
+  if (guarded.thrown) std::rethrow_exception(guarded.first);
+}
 
 FlushDenormals::FlushDenormals() : before_(control()) {
   set_control(before_ | flush_bits);

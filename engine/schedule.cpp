@@ -141,7 +141,7 @@ void Schedule::run_chosen(void* context, std::size_t begin, std::size_t end) {
 void Schedule::run_packed(Pass& pass, std::size_t tiles, std::size_t blocks, const Jobs& jobs) {
   chosen_lanes_.resize(blocks);
   pass.chosen_lanes = chosen_lanes_.data();
-  jobs.parallel_for(jobs.user, tiles, &choose_lanes, &pass);
+  run_in_parallel(jobs, tiles, &choose_lanes, &pass);
   chosen_.clear();
   chosen_.reserve(blocks * lane_count);
   for (const Match& match : pass.matches) {
@@ -154,7 +154,7 @@ void Schedule::run_packed(Pass& pass, std::size_t tiles, std::size_t blocks, con
   timings_[pass.packed].last_rows = chosen_.size();
   if (chosen_.empty()) return;
   pass.chosen = chosen_;
-  jobs.parallel_for(jobs.user, (chosen_.size() + lane_count - 1) / lane_count, &run_chosen, &pass);
+  run_in_parallel(jobs, (chosen_.size() + lane_count - 1) / lane_count, &run_chosen, &pass);
 }
 
 void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
@@ -192,7 +192,7 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     if (systems_[pass.packed].choose) {
       run_packed(pass, tiles, blocks, jobs);
     } else {
-      jobs.parallel_for(jobs.user, tiles, &run_tiles, &pass);
+      run_in_parallel(jobs, tiles, &run_tiles, &pass);
     }
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {

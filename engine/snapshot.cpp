@@ -376,7 +376,7 @@ void WorldSnapshot::commit(World& world, const SavedWorld& saved, const Jobs& jo
   };
   const std::size_t pieces = (saved.blocks.size() + piece_bytes - 1) / piece_bytes;
   try {
-    jobs.parallel_for(jobs.user, pieces, copy, &blocks);
+    run_in_parallel(jobs, pieces, copy, &blocks);
   } catch (...) {  // a host's jobs that throw, though they must not
     copy(&blocks, 0, pieces);
   }

@@ -63,13 +63,6 @@ struct Checking {
   }
 };
 
-template <class Work>
-void run_all(const Jobs& jobs, std::size_t count, Work& work) {
-  jobs.parallel_for(
-      jobs.user, count, [](void* to, std::size_t begin, std::size_t end) { static_cast<Work*>(to)->run(begin, end); },
-      &work);
-}
-
 /// The layout that a header of that many bytes tells of, if it is one.
 bool read_layout(const Header& header, std::size_t bytes, SnapshotLayout& layout) {
   layout = {header.front, header.world, header.blocks};
@@ -87,7 +80,7 @@ void seal_snapshot(const SnapshotLayout& layout, std::span<std::byte> out, const
   std::memset(&out[world_end], 0, layout.blocks_at() - world_end);
   std::memset(&out[blocks_end], 0, layout.seals_at() - blocks_end);
   Sealing sealing{layout, out, fill, context};
-  run_all(jobs, layout.chunks(), sealing);
+  in_parallel(jobs, layout.chunks(), [&](std::size_t begin, std::size_t end) { sealing.run(begin, end); });
   Header header{magic, format_version, byte_order, layout.bytes(), 0, layout.front, layout.world, layout.blocks, 0};
   header.seal = seal_of(header, out.subspan(layout.seals_at(), 8 * layout.chunks()));
   std::memcpy(out.data(), &header, sizeof(header));
@@ -112,7 +105,7 @@ Result<OpenSnapshot> open_snapshot(std::span<const std::byte> in, const Jobs& jo
   SnapshotLayout layout;
   if (!read_layout(header, in.size(), layout)) return fail(std::string("the snapshot's header is damaged") + give);
   Checking checking{layout, in};
-  run_all(jobs, layout.chunks(), checking);
+  in_parallel(jobs, layout.chunks(), [&](std::size_t begin, std::size_t end) { checking.run(begin, end); });
   if (!checking.sound || header.seal != seal_of(header, in.subspan(layout.seals_at(), 8 * layout.chunks())))
     return fail(std::string("the snapshot was altered or damaged: its checksum does not fit") + give);
   return OpenSnapshot{in.subspan(layout.front_at(), layout.front), in.subspan(layout.world_at(), layout.world),

@@ -146,7 +146,7 @@ std::uint32_t World::add_rows(std::uint32_t table, std::span<const PartValue> pa
     of.table.write_new(at + begin, at + end, of.count, of.parts);
   };
   try {
-    jobs.parallel_for(jobs.user, blocks, write, &work);
+    run_in_parallel(jobs, blocks, write, &work);
   } catch (...) {
     work.table.drop_last(0);
     throw;

@@ -231,8 +231,7 @@ Result<void> Simulation::step_aside(Entity human, float left_m, float ahead_m) {
 
 Result<std::size_t> Simulation::sleep(std::span<const Entity> people) {
   if (!world_->alive_once(people)) return fail(Status::stale_entity);
-  if (auto done = expand(people); !done) return tl::unexpected(done.error());
-  return sleep_people(muscle_scene(), people, false, {}, awake_parts_, *sleep_work_);
+  return sleep_people(muscle_scene(), people, false, {}, awake_parts_, *sleep_work_, [&] { return expand(people); });
 }
 
 Result<void> Simulation::wake(std::span<const Entity> people, float within_m) {
@@ -339,17 +338,6 @@ Result<void> Simulation::set_fat_wobble(std::span<const Entity> people, bool on)
 
 Result<void> Simulation::roots(std::span<const Entity> people, std::span<Root> out, double ahead_s) const {
   return read_roots(*world_, people, {tick_, static_cast<float>(tick_s())}, ahead_s, out);
-}
-
-Result<void> Simulation::add_forces(Entity human) {
-  if (auto done = make_whole_for(human); !done) return done;
-  return result_of("add_forces", mobil::add_forces(*world_, human));
-}
-
-Result<void> Simulation::remove_forces(Entity human) {
-  if (is_person(human) && !has_forces(*world_, human)) return result_of("remove_forces", Status::missing);
-  if (auto done = make_whole_for(human); !done) return done;
-  return result_of("remove_forces", mobil::remove_forces(*world_, human));
 }
 
 Result<void> Simulation::add_leg_muscles(Entity human, const LegMuscles& choice) {

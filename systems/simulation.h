@@ -271,6 +271,9 @@ class Simulation {
   /// pose before every tick, for one that stays is a stop, and near the origin, for places of single precision are 8 µm
   /// apart 64 m from there, which is 0.03 m/s². The masses of limbs of their own lie where the height has them.
   Result<void> add_forces(Entity human);
+  /// The same for people named once each, or (on false) no more; who has them already, or none, is left alone. All of
+  /// them, or nobody. Errors: stale handles.
+  Result<void> set_forces(std::span<const Entity> people, bool on);
   /// Errors: a stale handle, or they are not there (Status::missing).
   Result<void> remove_forces(Entity human);
 

@@ -8,6 +8,7 @@
 #include "systems/muscles/leg_muscles.h"
 #include "systems/muscles/sleep.h"
 #include "systems/people/by_table.h"
+#include "systems/people/ground_forces.h"
 #include "systems/relevance/relevance_module.h"
 
 namespace mobil {
@@ -48,9 +49,33 @@ Result<void> Simulation::make_muscles_whole(std::span<const Entity> people) {
   return {};
 }
 
+Result<void> Simulation::set_forces(std::span<const Entity> people, bool on) {
+  if (!world_->alive_once(people)) return fail(Status::stale_entity);
+  std::vector<Entity> changes;
+  for (const Entity human : people) {
+    if (!is_person(human)) return fail(Status::stale_entity);
+    if (has_forces(*world_, human) != on) changes.push_back(human);
+  }
+  World::Attempt attempt(*world_, jobs_);
+  if (auto done = make_whole(changes); !done) return done;
+  auto done = result_of(on ? "add_forces" : "remove_forces", mobil::set_forces(*world_, jobs_, changes, on));
+  if (done) attempt.keep();
+  return done;
+}
+
+Result<void> Simulation::add_forces(Entity human) {
+  return set_forces({&human, 1}, true);
+}
+
+Result<void> Simulation::remove_forces(Entity human) {
+  if (is_person(human) && !has_forces(*world_, human)) return result_of("remove_forces", Status::missing);
+  return set_forces({&human, 1}, false);
+}
+
 std::size_t SimulationWorld::sleep(Simulation& simulation, std::span<const Entity> people,
                                    std::span<const KeyPart> keeps) {
-  return sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.awake_parts_, *simulation.sleep_work_);
+  return *sleep_people(simulation.muscle_scene(), people, true, keeps, simulation.awake_parts_,
+                       *simulation.sleep_work_);
 }
 
 Result<void> SimulationWorld::wake(Simulation& simulation, std::span<const Entity> people, Woken as) {

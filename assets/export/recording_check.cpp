@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ bool finite(const Vec3<float>& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-bool all_finite(const std::vector<Vec3<float>>& positions) {
+bool all_finite(std::span<const Vec3<float>> positions) {
   return std::all_of(positions.begin(), positions.end(), finite);
 }
 
@@ -81,6 +82,9 @@ Result<void> check_skin(const SkinnedSurface& surface) {
   const std::size_t vertices = surface.position.size();
   if (!all_finite(surface.position) || !all_finite(surface.normal))
     return fail(fmt::format("skin '{}': a vertex or a normal is not finite", surface.name));
+  const auto is_unit = [](const Vec3<float>& n) { return std::fabs(n.x * n.x + n.y * n.y + n.z * n.z - 1) < 0.01F; };
+  if (!std::ranges::all_of(surface.normal, is_unit))
+    return fail(fmt::format("skin '{}': a normal has not length 1", surface.name));
   if (surface.normal.size() != vertices || surface.joint.size() != vertices || surface.weight.size() != vertices) {
     return fail(fmt::format("skin '{}': {} vertices, {} normals, {} joints, {} weights; give each vertex all of them",
                             surface.name, vertices, surface.normal.size(), surface.joint.size(),
@@ -132,6 +136,11 @@ Result<void> check_figure(const SeenFigure& figure) {
     if (figure.cloth_of(i) >= most_cloths) {
       return fail(fmt::format("bone '{}': cloth {}; the range is 0–{}", mesh.name, figure.cloth[i], most_cloths - 1));
     }
+  }
+  if (!figure.skin.empty()) {
+    const auto& standing = *figure.standing_m;
+    if (!all_finite(standing) || standing[index(Segment::head)].y == standing[index(Segment::foot_right)].y)
+      return fail("a figure's skin is drawn about segments at places that are not finite, or not given (standing_m)");
   }
   for (const SkinnedSurface& surface : figure.skin) {
     if (auto ok = check_skin(surface); !ok) return ok;

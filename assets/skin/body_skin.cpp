@@ -144,8 +144,9 @@ double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::ve
 
 SkinBuild skin_build(const BodyRequest& body, float index_step) {
   constexpr float least_index = 13.5F, most_index = 64.5F, most_kg = 200;
-  const float index = std::clamp(body.mass_kg / (body.height_m * body.height_m), least_index, most_index);
-  const int step = static_cast<int>(std::lround(index / index_step));
+  const float index = body.mass_kg / (body.height_m * body.height_m);
+  const int step = static_cast<int>(std::clamp(std::round(index / index_step), std::ceil(least_index / index_step),
+                                               std::floor(most_index / index_step)));
   const float tall = skin_body(body.sex).height_m;
   BodyRequest usual{.height_m = tall,
                     .mass_kg = std::min(index_step * static_cast<float>(step) * tall * tall, most_kg)};

@@ -197,7 +197,7 @@ class Mesher {
     }
     if (corner.front() == corner.back()) corner.pop_back();
     if (corner.size() < 3) return;
-    if (a > 0) std::ranges::reverse(corner);
+    if (!(a < 0)) std::ranges::reverse(corner);
     for (std::size_t k = 1; k + 1 < corner.size(); ++k) {
       for (const std::uint32_t v : {corner[0], corner[k], corner[k + 1]}) mesh_.triangle.push_back(v);
     }

@@ -194,8 +194,8 @@ float top_of(const SurfaceMesh& mesh) {
   return std::ranges::max_element(mesh.position, {}, &Vec3<float>::y)->y;
 }
 
-void add_leg(const SurfaceMesh& whole, const LegSkin& skin, bool shorts_stay, OwnSkin& own) {
-  const double top = double{top_of(whole)};
+/// `top`: of the leg, of which `whole` is a piece, m.
+void add_leg(const SurfaceMesh& whole, double top, const LegSkin& skin, bool shorts_stay, OwnSkin& own) {
   const float covered = skin.hem() + over_hem_m;
   SurfaceMesh mesh{whole.name, whole.position, {}};
   for (std::size_t t = 0; t < whole.triangle.size(); t += 3) {
@@ -224,12 +224,13 @@ OwnSkin bind_own_skin(const BodySkin& skin, std::span<const Vec3<float>> positio
                       std::span<const SurfaceMesh> legs, bool shorts_stay) {
   OwnSkin own;
   float top = -std::numeric_limits<float>::infinity();
+  for (const SurfaceMesh& mesh : legs)
+    if (!mesh.triangle.empty()) top = std::max(top, top_of(mesh));
   for (const std::size_t side : {std::size_t{Side::right}, std::size_t{Side::left}}) {
     const LegSkin leg(skin, position, normal, side);
     for (const SurfaceMesh& mesh : legs) {
-      if (mesh.triangle.empty()) continue;
-      top = std::max(top, top_of(mesh));
-      add_leg(side == Side::right ? mesh : mirror_image(mesh), leg, shorts_stay, own);
+      if (!mesh.triangle.empty())
+        add_leg(side == Side::right ? mesh : mirror_image(mesh), double{top}, leg, shorts_stay, own);
     }
   }
   const SkinMesh& shared = skin_mesh(skin.sex, skin.detail);

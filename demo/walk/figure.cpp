@@ -7,6 +7,7 @@
 #include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_binding.h"
+#include "systems/skin/rest_surfaces.h"
 
 namespace mobil {
 namespace {
@@ -47,21 +48,6 @@ WrittenSurfaces written(const BodySurfaces& surfaces, const Simulation& simulati
   return to;
 }
 
-/// Who may touch whom: as the same body stands, its muscles at rest.
-Result<SurfaceContacts> contacts_of(const BodySurfaces& surfaces, const Human& human) {
-  Simulation still;
-  const auto model = still.spawn_posed(human.body.request);
-  if (!model) return tl::unexpected(model.error());
-  LegMuscles choice = human.leg_muscles;
-  choice.method = Method::none;
-  choice.activation = ExcitationSource::none;
-  choice.inertia = false;
-  if (auto done = still.add_leg_muscles(*model, choice); !done) return tl::unexpected(done.error());
-  still.tick();
-  const WrittenSurfaces rest = written(surfaces, still, *model);
-  return find_contacts(surfaces, rest.position, rest.normal);
-}
-
 Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const SurfaceChoice& choice, bool contact) {
   Figure figure;
   figure.bones = std::move(drawn.bones);
@@ -72,7 +58,7 @@ Result<Figure> bound_figure(const Human& human, DrawnSurfaces drawn, const Surfa
   for (const SurfacePart& part : figure.muscles.part)
     figure.colours.push_back(is_tendon(part.name) ? tendon_colour : belly_colour);
   if (!contact) return figure;
-  auto contacts = contacts_of(figure.muscles, human);
+  auto contacts = find_contacts(figure.muscles, human.body, human.leg_muscles);
   if (!contacts) return tl::unexpected(contacts.error());
   figure.contacts = std::move(*contacts);
   return figure;

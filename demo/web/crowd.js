@@ -153,8 +153,8 @@ export class Crowd {
     this.world.want(this.people.slice(i), [[asked.speed_m_s, heading_rad]]);
   }
   pose(x, z) {
-    const matrices = this.world.matrices(this.people);
-    this.texture.image.data = matrices;
+    const matrices = this.texture.image.data;
+    matrices.set(this.world.matrices(this.people));  // a copy: what the library shows ends where its memory grows
     this.texture.needsUpdate = true;
     this.wrap(x, z, matrices);
   }

@@ -219,21 +219,34 @@ class Page {
   run() {
     let last = performance.now(), rest = 0, told = 0;
     const frame = (now) => {
-      if (!this.paused) {
-        rest = Math.min(rest + ((now - last) / 1000) * +element('pace').value, 0.1);
-        const ticks = Math.floor(rest / this.world.tick_s);
-        rest -= ticks * this.world.tick_s;
-        this.step(ticks);
-      }
+      requestAnimationFrame(frame);  // first, so that nothing thrown below stops the page
+      const passed_s = (now - last) / 1000;
       last = now;
-      this.draw();
-      if (now - told > 90) {
-        this.tell();
-        told = now;
+      try {
+        if (!this.paused) {
+          rest = Math.min(rest + passed_s * +element('pace').value, 0.1);
+          const ticks = Math.floor(rest / this.world.tick_s);
+          rest -= ticks * this.world.tick_s;
+          this.step(ticks);
+        }
+        this.draw();
+        if (now - told > 90) {
+          this.tell();
+          told = now;
+        }
+      } catch (error) {
+        this.#failed(error);
       }
-      requestAnimationFrame(frame);
     };
     requestAnimationFrame(frame);
+  }
+  // The next frame mostly fails alike: each line is said once.
+  #failures = new Set();
+  #failed(error) {
+    if (this.#failures.has(error.message)) return;
+    this.#failures.add(error.message);
+    element('refusal').textContent = error.message;
+    console.error(error);
   }
 
   // ---- Controls

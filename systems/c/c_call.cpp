@@ -94,6 +94,8 @@ int row_stride(Line& line, const void* rows, std::size_t count, std::size_t floa
   if (rows == nullptr && count > 0) return line.refuse_null(name);
   const std::size_t close = floats * sizeof(float);
   if (stride == 0) stride = close;
+  if (stride % sizeof(float) != 0)
+    return line.refuse(MOBIL_REFUSED, fmt::format("{} lie {} bytes apart; give a multiple of 4, or 0", name, stride));
   if (stride >= close) return MOBIL_OK;
   return line.refuse(MOBIL_REFUSED,
                      fmt::format("{} lie {} bytes apart and are {} long; give a stride of at least {}, or 0", name,
@@ -279,6 +281,14 @@ mobil_skin_target usual() {
   target.sex = -1;
   return target;
 }
+template <>
+mobil_leg_mesh usual() {
+  mobil_leg_mesh mesh{};
+  mesh.size = sizeof mesh;
+  mesh.detail = MOBIL_NEAR;
+  return mesh;
+}
+
 template <>
 mobil_avoidance usual() {
   const AvoidanceOptions as;

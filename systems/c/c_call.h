@@ -126,6 +126,8 @@ mobil_limits usual();
 template <>
 mobil_skin_target usual();
 template <>
+mobil_leg_mesh usual();
+template <>
 mobil_avoidance usual();
 template <>
 mobil_steered usual();

@@ -211,7 +211,8 @@ int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int 
                          const float* excitation, size_t stride) {
   return call(sim, "mobil_set_excitation", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
-    if (excitation == nullptr && count > 0) return s.line.refuse_null("excitation");
+    std::size_t apart = stride;
+    if (const int code = row_stride(s.line, excitation, count, 1, "excitation", apart)) return code;
     Muscle of{};
     if (const int code = muscle_number(s.line, muscle, of)) return code;
     Side on{};
@@ -223,13 +224,13 @@ int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int 
         return fail(
             fmt::format("this person has no {} of MOBIL_BY_HOST; mobil_set_muscles makes it so", muscle_name(of)),
             Status::missing);
-      if (const float e = *row_at(excitation, i, stride, sizeof(float)); !std::isfinite(e))
+      if (const float e = *row_at(excitation, i, apart, sizeof(float)); !std::isfinite(e))
         return fail(fmt::format("an excitation of {}; choose 0.01 to 1", e));
       return {};
     };
     if (const int code = check_whole(s, check)) return code;
     for (std::size_t i = 0; i < count; ++i) {
-      const auto done = s.world().set_excitation(s.people[i], of, on, *row_at(excitation, i, stride, sizeof(float)));
+      const auto done = s.world().set_excitation(s.people[i], of, on, *row_at(excitation, i, apart, sizeof(float)));
       if (!done) return s.line.refuse(done.error(), person_number(i));
     }
     return int{MOBIL_OK};

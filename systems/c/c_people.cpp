@@ -374,32 +374,9 @@ int mobil_set_fat_wobble(mobil_sim* sim, const mobil_id* ids, size_t count, int 
 int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on) {
   return call(sim, "mobil_set_forces", [&](mobil_sim& s) {
     if (const int code = s.name_people(ids, count)) return code;
-    Simulation& world = s.world();
-    std::size_t next = 0;
-    const auto set = [&](Entity person, bool to) {
-      return to ? world.add_forces(person) : world.remove_forces(person);
-    };
     for (std::size_t i = 0; i < count; ++i)
-      if (!world.is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
-    std::vector<Entity> changed;
-    changed.reserve(count);
-    const auto undo = [&] {
-      for (const Entity person : changed) (void)set(person, on == 0);
-    };
-    try {
-      for (; next < count; ++next) {
-        if (has_forces(world.world(), s.people[next]) == (on != 0)) continue;
-        const auto done = set(s.people[next], on != 0);
-        if (!done) {
-          undo();
-          return s.line.refuse(done.error(), person_number(next));
-        }
-        changed.push_back(s.people[next]);
-      }
-    } catch (const std::bad_alloc&) {
-      undo();
-      throw;
-    }
-    return int{MOBIL_OK};
+      if (!s.world().is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+    const auto done = s.world().set_forces(s.people, on != 0);
+    return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });
 }

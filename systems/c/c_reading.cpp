@@ -171,6 +171,8 @@ int layout_of(mobil_sim& s, const mobil_pose_layout* given, std::vector<Segment>
   to.units_per_m = s.axes.units_per_m;
   to.to_parent = layout.to_parent != 0;
   if (layout.segments == nullptr && layout.segment_count > 0) return s.line.refuse_null("segments");
+  if (layout.segments != nullptr && layout.segment_count == 0)
+    return s.line.refuse(MOBIL_REFUSED, "segment_count is 0; name some segments, or leave segments null for all");
   for (std::size_t i = 0; i < layout.segment_count; ++i) {
     Segment segment{};
     if (const int code = one_of(s.line, layout.segments[i], Segment::thumb_left, "segment", segment)) return code;

@@ -97,6 +97,8 @@ int mobil_defaults(int which, void* filled, size_t size) {
       return fill<mobil_limits>(filled, size);
     case MOBIL_SKIN_TARGET:
       return fill<mobil_skin_target>(filled, size);
+    case MOBIL_LEG_MESH:
+      return fill<mobil_leg_mesh>(filled, size);
     case MOBIL_AVOIDANCE:
       return fill<mobil_avoidance>(filled, size);
     case MOBIL_STEERED:
@@ -121,20 +123,21 @@ int mobil_create(const mobil_options* options, mobil_sim** out, char* line, size
   }
   *out = nullptr;
   mobil_memory host{};
-  mobil_options known;
-  if (options != nullptr && read_struct(nobody, options, "options", known) == MOBIL_OK) {
-    host = known.memory;
-    if ((host.allocate == nullptr) != (host.release == nullptr)) {
-      const int code = nobody.refuse(MOBIL_REFUSED, "memory needs both allocate and release, or neither");
-      say(nobody);
-      return code;
-    }
+  int refused = MOBIL_OK;
+  std::unique_ptr<mobil_sim> sim;
+  try {
+    mobil_options known;
+    if (options != nullptr && read_struct(nobody, options, "options", known) == MOBIL_OK) host = known.memory;
+    if ((host.allocate == nullptr) != (host.release == nullptr))
+      refused = nobody.refuse(MOBIL_REFUSED, "memory needs both allocate and release, or neither");
+    else
+      sim = std::make_unique<mobil_sim>(host);
+  } catch (const std::bad_alloc&) {
+    refused = nobody.refuse(MOBIL_MEMORY, status_text(Status::no_memory));
   }
-  std::unique_ptr<mobil_sim> sim(new (std::nothrow) mobil_sim(host));
-  if (sim == nullptr) {
-    const int code = nobody.refuse(MOBIL_MEMORY, status_text(Status::no_memory));
+  if (refused != MOBIL_OK) {
     say(nobody);
-    return code;
+    return refused;
   }
   const int code = call(sim.get(), "mobil_create", [&](mobil_sim& made) { return make(made, options); });
   say(sim->line);

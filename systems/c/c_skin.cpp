@@ -7,42 +7,57 @@
 #include <new>
 #include <vector>
 
-#include "systems/c/c_call.h"
+#include "systems/c/c_skin.h"
 #include "systems/people/person.h"
-#include "systems/surfaces/skin_writer.h"
 
 namespace {
 
 using namespace mobil;
 using namespace mobil::c;
 
-/// Null for none such, and where there is no memory for it.
-const SkinMesh* mesh_of(int sex, int detail) noexcept try {
+/// Null for none such.
+const SkinMesh* mesh_of(int sex, int detail) {
   if (sex < 0 || sex > static_cast<int>(Sex::woman) || detail < 0 || detail >= static_cast<int>(skin_details))
     return nullptr;
   return &skin_mesh(static_cast<Sex>(sex), static_cast<SkinDetail>(detail));
-} catch (const std::bad_alloc&) {
-  return nullptr;
 }
 
-/// A person's pose, and muscles' vertices in our axes, from the world's origin.
-struct Posed {
-  Pose<float> pose;
-  std::array<std::vector<Vec3<float>>, 2> of_side;
-};
+/// A number of it; 0, too, where there is no memory for it.
+template <class Count>
+std::size_t count_of(int sex, int detail, Count count) noexcept try {
+  const SkinMesh* const mesh = mesh_of(sex, detail);
+  return mesh == nullptr ? 0 : count(*mesh);
+} catch (const std::bad_alloc&) {
+  return 0;
+}
 
-int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequest& to) {
-  to.person = entity_of(as.id);
-  if (!s.world().is_person(to.person)) return s.line.refuse(Error{{}, Status::stale_entity});
+int request_of(mobil_sim& s, const mobil_skin_target& as, PosedSkin& posed, SkinRequest& to) {
   SkinDetail detail{};
   if (const int code = one_of(s.line, as.detail, SkinDetail::distant, "detail", detail)) return code;
-  if (as.positions == nullptr) return s.line.refuse_null("positions");
-  const BodyRequest body = body_request(s.world().world(), to.person);
-  if (as.sex >= 0 && as.sex != static_cast<int>(body.sex))
-    return s.line.refuse(MOBIL_REFUSED, "the person is of the other sex, whose triangles are others");
-  const auto shape = s.skins.of(body, detail);
+  if (const int code = skin_person(s, as, as.sex, posed, to)) return code;
+  const auto shape = s.skins.of(body_request(s.world().world(), to.person), detail);
   if (!shape) return s.line.refuse(shape.error());
   to.shape = *shape;
+  return skin_streams(s, as, to.positions, to.normals);
+}
+
+}  // namespace
+
+int mobil::c::skin_streams(mobil_sim& s, const mobil_skin_target& as, VertexStream& positions, VertexStream& normals) {
+  if (as.positions == nullptr) return s.line.refuse_null("positions");
+  constexpr std::size_t three = 3 * sizeof(float);
+  if (const int code =
+          stream_of(s.line, as.positions, as.position_stride, as.position_bytes, three, "positions", positions))
+    return code;
+  return stream_of(s.line, as.normals, as.normal_stride, as.normal_bytes, three, "normals", normals);
+}
+
+int mobil::c::skin_person(mobil_sim& s, const mobil_skin_target& as, int sex, PosedSkin& posed, SkinRequest& to) {
+  to.person = entity_of(as.id);
+  if (!s.world().is_person(to.person)) return s.line.refuse(Error{{}, Status::stale_entity});
+  const BodyRequest body = body_request(s.world().world(), to.person);
+  if (sex >= 0 && sex != static_cast<int>(body.sex))
+    return s.line.refuse(MOBIL_REFUSED, "the person is of the other sex, whose triangles are others");
   if (as.flexing != 0) {
     const auto table = s.skin_tables.of(body);
     if (!table) return s.line.refuse(table.error());
@@ -52,12 +67,6 @@ int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequ
   if (!pose) return s.line.refuse(pose.error());
   posed.pose = *pose;
   to.pose = &posed.pose;
-  constexpr std::size_t three = 3 * sizeof(float);
-  if (const int code =
-          stream_of(s.line, as.positions, as.position_stride, as.position_bytes, three, "positions", to.positions))
-    return code;
-  if (const int code = stream_of(s.line, as.normals, as.normal_stride, as.normal_bytes, three, "normals", to.normals))
-    return code;
   to.origin_m = s.axes.place_from(as.origin);
   for (std::size_t side = 0; side < 2; ++side) {
     if (as.muscles[side] == nullptr) continue;
@@ -71,16 +80,12 @@ int request_of(mobil_sim& s, const mobil_skin_target& as, Posed& posed, SkinRequ
   return MOBIL_OK;
 }
 
-}  // namespace
-
 size_t mobil_skin_vertex_count(int sex, int detail) {
-  const SkinMesh* const mesh = mesh_of(sex, detail);
-  return mesh == nullptr ? 0 : mesh->vertex.size();
+  return count_of(sex, detail, [](const SkinMesh& mesh) { return mesh.vertex.size(); });
 }
 
 size_t mobil_skin_index_count(int sex, int detail) {
-  const SkinMesh* const mesh = mesh_of(sex, detail);
-  return mesh == nullptr ? 0 : mesh->triangle.size();
+  return count_of(sex, detail, [](const SkinMesh& mesh) { return mesh.triangle.size(); });
 }
 
 int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, size_t room, unsigned int* first) {
@@ -104,7 +109,7 @@ int mobil_skin_indices(mobil_sim* sim, int sex, int detail, unsigned int* out, s
 int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count) {
   return call(sim, "mobil_write_skin", [&](mobil_sim& s) {
     if (const int code = struct_stride(s.line, targets, count, "targets", stride)) return code;
-    std::vector<Posed> posed(count);
+    std::vector<PosedSkin> posed(count);
     std::vector<SkinRequest> requests(count);
     for (std::size_t i = 0; i < count; ++i) {
       mobil_skin_target as;

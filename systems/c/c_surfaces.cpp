@@ -1,12 +1,6 @@
 // Bones and muscles as triangles in the host's buffers.
 
-#include "systems/c/c_call.h"
-
-/// What a mobil_surfaces* points to.
-struct mobil_surfaces {
-  mobil::BodySurfaces bound;
-  bool mirrored = false;  // the host's axes: triangles turn round
-};
+#include "systems/c/c_surfaces.h"
 
 namespace {
 
@@ -22,6 +16,7 @@ struct Target {
 int request_of(mobil_sim& s, Target& target, SurfaceRequest& to) {
   const mobil_surface_target& as = target.as;
   if (as.surfaces == nullptr) return s.line.refuse_null("surfaces");
+  if (as.positions == nullptr) return s.line.refuse_null("positions");
   const Entity person = entity_of(as.id);
   const auto human = s.world().human(person);
   if (!human) return s.line.refuse(Error{{}, Status::stale_entity});
@@ -75,7 +70,7 @@ int mobil_bind_surfaces(mobil_sim* sim, mobil_id like, const mobil_surface_choic
     if (!human) return s.line.refuse(Error{{}, Status::stale_entity});
     auto bound = bind_surfaces(human->body, as);
     if (!bound) return s.line.refuse(bound.error());
-    *out = new mobil_surfaces{std::move(*bound), s.axes.mirrored()};
+    *out = new mobil_surfaces{std::move(*bound), as.simulated, as.cells, s.axes.mirrored()};
     return int{MOBIL_OK};
   });
 }

@@ -30,7 +30,7 @@
 #define MOBIL_H
 
 #include <stddef.h>
-#if defined(MOBIL_STATIC)
+#if defined(MOBIL_STATIC_LIBRARY)
 #define MOBIL_API
 #elif defined(_WIN32) && defined(MOBIL_BUILD)
 #define MOBIL_API __declspec(dllexport)
@@ -123,9 +123,10 @@ enum {
   MOBIL_LIMITS,
   MOBIL_SKIN_TARGET,
   MOBIL_AVOIDANCE,
-  MOBIL_STEERED
+  MOBIL_STEERED,
+  MOBIL_LEG_MESH
 };
-/* Fills a struct of that kind, as large as the caller knows it, with usual values. */
+/* Fills a struct of that kind, as large as the caller knows it. */
 MOBIL_API int mobil_defaults(int which, void* filled, size_t size);
 
 /* `line` (`room` bytes, may be null) says why nothing was made. */
@@ -301,7 +302,7 @@ MOBIL_API int mobil_set_method(mobil_sim* sim, const mobil_id* ids, size_t count
                                const mobil_method* method);
 /* The method that a muscle has now. */
 MOBIL_API int mobil_get_method(mobil_sim* sim, mobil_id id, int muscle, mobil_method* out);
-/* How hard a muscle of MOBIL_BY_HOST is to pull, 0.01 to 1, one number a person. */
+/* How hard a muscle of MOBIL_BY_HOST is to pull, one number a person; what is beyond 0.01 to 1 is taken as the end. */
 MOBIL_API int mobil_set_excitation(mobil_sim* sim, const mobil_id* ids, size_t count, int muscle, int side,
                                    const float* excitation, size_t stride);
 
@@ -398,8 +399,7 @@ MOBIL_API double mobil_tick_s(const mobil_sim* sim); /* of one tick */
 
 /* ---- Reading --------------------------------------------------------------------------------------------------- */
 
-/* How many segments a skeleton has. */
-enum { MOBIL_SEGMENTS = 48 };
+enum { MOBIL_SEGMENTS = 48 }; /* of a skeleton */
 /* Names, parents and numbers of segments, 0 to MOBIL_SEGMENTS - 1. */
 MOBIL_API const char* mobil_segment_name(int segment); /* null behind the last */
 MOBIL_API int mobil_segment_parent(int segment);       /* the pelvis is its own */
@@ -417,7 +417,7 @@ typedef struct mobil_pose_layout {
   int form;
   int to_parent;       /* 1: relative to the segment's parent, the pelvis to the world */
   double ahead_s;      /* so long after the last tick, 0 to 0.2: alpha times tick_s for a frame */
-  const int* segments; /* null: all 48 */
+  const int* segments; /* null: all 48; else one at least */
   size_t segment_count;
   size_t segment_stride; /* bytes; 0: close together */
 } mobil_pose_layout;

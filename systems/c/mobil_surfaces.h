@@ -40,7 +40,7 @@ MOBIL_API int mobil_surface_part(const mobil_surfaces* surfaces, int part,
                                  mobil_part* out); /* MOBIL_MISSING behind the last */
 
 /* One person's vertices: three floats each, of tangents four, `…_stride` bytes apart (0: close together), in memory of
- * so many bytes. What is null is left out. */
+ * so many bytes. Null normals and tangents are left out. Streams, also those of several targets, lie apart. */
 typedef struct mobil_surface_target {
   size_t size;
   mobil_id id;

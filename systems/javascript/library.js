@@ -11,6 +11,7 @@ export class MobilError extends Error {
 }
 
 const views = { pointer: 'Uint32', size_t: 'Uint32', int: 'Int32', 'unsigned int': 'Uint32', float: 'Float32', double: 'Float64' };
+const bytesOf = (type) => (type === 'double' ? 8 : 4);
 
 /** Whether this engine runs the library: SIMD of 128 bits. */
 export function canRun() {
@@ -94,12 +95,14 @@ export class Library {
     const place = structs[name].fields[field];
     if (!place) throw new MobilError(`${name} has no ${field}; it has ${Object.keys(structs[name].fields).join(', ')}`, constants.MOBIL_REFUSED);
     const put = `set${views[place.type]}`;
-    if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + 4 * i, value[i], true);
+    if (place.count && value?.length !== place.count) throw new MobilError(`${field} of ${name} is ${place.count} numbers`, constants.MOBIL_REFUSED);
+    if (place.count) for (let i = 0; i < place.count; ++i) this.data[put](at + place.at + bytesOf(place.type) * i, value[i], true);
     else this.data[put](at + place.at, Number(value), true);
   }
+  /** A number, or of a field that holds several an array of them. */
   get(name, at, field) {
-    const place = structs[name].fields[field];
-    return this.data[`get${views[place.type]}`](at + place.at, true);
+    const { at: begin, type, count } = structs[name].fields[field], one = (i) => this.data[`get${views[type]}`](at + begin + bytesOf(type) * i, true);
+    return count ? Array.from({ length: count }, (_, i) => one(i)) : one(0);
   }
   /** A struct as an object; strings are read. */
   object(name, at, strings = []) {

@@ -1,5 +1,6 @@
 // Bones and muscles of one body as triangles: bound once, written for anybody of similar build.
-import { structs } from './interface.js';
+import { constants as c, structs } from './interface.js';
+import { MobilError } from './library.js';
 
 export class Surfaces {
   constructor(world, like, choice) {
@@ -8,7 +9,7 @@ export class Surfaces {
     library.within((take) => {
       const at = take(structs.mobil_surface_choice.size), out = take(4), id = take(8);
       library.fill('mobil_surface_choice', 'MOBIL_SURFACE_CHOICE', at, choice);
-      library.u32.copyWithin(id >> 2, like.ids >> 2, (like.ids >> 2) + 2);
+      library.u32.set(like.handle(), id >> 2);
       world.must(library.x.mobil_bind_surfaces(world.at, id, at, out));
       this.at = library.u32[out >> 2];
       this.vertices = library.x.mobil_vertex_count(this.at);
@@ -26,6 +27,7 @@ export class Surfaces {
   /** Of each vertex place and normal, six floats, after the last tick: a view, good until the next call. `origin` is
    *  subtracted first. */
   write(person, origin = [0, 0, 0]) {
+    if (!this.at) throw new MobilError('these surfaces were dropped; make others by World.surfaces', c.MOBIL_REFUSED);
     const { library } = this.world, bytes = 24 * this.vertices;
     library.within((take) => {
       const at = take(structs.mobil_surface_target.size);
@@ -33,7 +35,7 @@ export class Surfaces {
         surfaces: this.at, positions: this.buffer, normals: this.buffer + 12, position_stride: 24, normal_stride: 24,
         position_bytes: bytes, normal_bytes: bytes - 12, origin,
       });
-      library.u32.copyWithin((at + structs.mobil_surface_target.fields.id.at) >> 2, person.ids >> 2, (person.ids >> 2) + 2);
+      library.u32.set(person.handle(), (at + structs.mobil_surface_target.fields.id.at) >> 2);
       this.world.must(library.x.mobil_write_surfaces(this.world.at, at, 0, 1));
     });
     return library.f32.subarray(this.buffer >> 2, (this.buffer >> 2) + 6 * this.vertices);
@@ -41,5 +43,6 @@ export class Surfaces {
   drop() {
     this.world.library.x.mobil_drop_surfaces(this.at);
     this.world.library.release(this.buffer);
+    this.at = this.buffer = 0;
   }
 }

@@ -10,21 +10,52 @@ export const CONSTITUTIONS = ['thin', 'average', 'athletic', 'heavy'];
 const given = { speed_m_s: c.MOBIL_SPEED, step_length_m: c.MOBIL_STEP_LENGTH, step_frequency_hz: c.MOBIL_STEP_FREQUENCY, heading_rad: c.MOBIL_HEADING };
 const idBytes = structs.mobil_id.size;
 
-/** Some people of one world: their handles, in the library's memory. */
+/** Some people of one world: handles in the library's memory. Those that spawn gives own it; a slice is a view of it. */
 export class People {
-  constructor(library, ids, count) {
+  #at;
+  #owner;
+  #rows = 0;
+  #room = 0;
+  /** `owner`: whose handles a slice looks at. */
+  constructor(library, at, count, owner = null) {
     this.library = library;
-    this.ids = ids;
     this.count = count;
+    this.#at = at;
+    this.#owner = owner;
   }
-  /** One of them, or some: a view, good as long as these are. */
+  /** Where the handles are. */
+  get ids() {
+    if (this.#at === 0 || this.#owner?.#at === 0) throw new MobilError('these people were despawned or forgotten; use handles that spawn gave since', c.MOBIL_STALE);
+    return this.#at;
+  }
+  /** The first one's handle: two numbers. */
+  handle() {
+    if (this.count < 1) throw new MobilError('one person is wanted, and there is nobody among these', c.MOBIL_REFUSED);
+    return this.library.u32.slice(this.ids >> 2, (this.ids >> 2) + 2);
+  }
+  /** One of them, or some: a view, which owns nothing, and is refused once these are despawned or forgotten. */
   slice(begin, end = begin + 1) {
-    return new People(this.library, this.ids + idBytes * begin, Math.min(end, this.count) - begin);
+    const last = Math.min(end, this.count);
+    if (!Number.isInteger(begin) || !Number.isInteger(last) || begin < 0 || last < begin) {
+      throw new MobilError(`there is no slice from ${begin} to ${end} of ${this.count} people`, c.MOBIL_REFUSED);
+    }
+    return new People(this.library, this.ids + idBytes * begin, last - begin, this.#owner ?? this);
   }
-  /** These handles are forgotten; the people stay. */
+  /** Memory for so many floats. A slice uses that of whom it is of, so that nobody has to forget slices. */
+  room(floats) {
+    const owner = this.#owner ?? this, wanted = Math.max(floats, 1);
+    if (this.ids && owner.#room < wanted) {
+      this.library.release(owner.#rows);
+      owner.#rows = owner.#room = 0;
+      owner.#rows = this.library.allocate(4 * wanted);
+      owner.#room = wanted;
+    }
+    return owner.#rows;
+  }
+  /** These handles are forgotten, and their memory is freed; the people stay. A slice frees nothing. */
   forget() {
-    this.library.release(this.ids);
-    this.library.release(this.rows ?? 0);
+    if (!this.#owner) for (const at of [this.#at, this.#rows]) this.library.release(at);
+    this.#at = this.#rows = this.#room = 0;
   }
 }
 
@@ -56,9 +87,20 @@ export class World {
   }
   #muscles(take, fields) { return fields ? this.#struct(take, 'mobil_muscles', 'MOBIL_MUSCLES', fields) : 0; }
   #put(take, numbers) {
-    const at = take(4 * numbers.length);
-    this.library.f32.set(numbers, at >> 2);
+    const own = numbers.buffer === this.library.memory.buffer ? numbers.slice() : numbers;  // a view ends where memory grows
+    const at = take(4 * own.length);
+    this.library.f32.set(own, at >> 2);
     return at;
+  }
+  /** The library reads so many, whatever there is. */
+  #exactly(take, numbers, wanted, what) {
+    if (numbers.length !== wanted) throw new MobilError(`${what}: ${wanted} numbers are wanted, and there are ${numbers.length}`, c.MOBIL_REFUSED);
+    return this.#put(take, numbers);
+  }
+  #table(take, rows, width, what) {
+    const odd = rows.find((row) => row.length !== width);
+    if (odd) throw new MobilError(`${what} are rows of ${width} numbers, and one has ${odd.length}`, c.MOBIL_REFUSED);
+    return this.#put(take, rows.flatMap((row) => [...row]));
   }
   /** Which numbers are said, and the style's place; `at` is a filled mobil_person or mobil_walk. */
   #walk(take, name, at, request) {
@@ -93,6 +135,8 @@ export class World {
       return new People(this.library, ids, requests.length);
     });
   }
+  /** All go or none; then these handles are forgotten. Those whom a slice was of keep its stale handles: name the others
+   *  by slices, and forget() all last. */
   despawn(people) {
     this.#call('despawn', people.ids, people.count);
     people.forget();
@@ -108,9 +152,28 @@ export class World {
   /** Puts a walker elsewhere at once; no inertia is felt. */
   place(person, place, heading_rad) {
     this.library.within((take) => {
-      const at = take(12);
-      this.library.f32.set(place, at >> 2);
-      this.#call('place', ...this.#passed(take, this.#id(person)), at, heading_rad);
+      const at = this.#exactly(take, place, 3, 'place');
+      this.#call('place', ...this.#passed(take, person.handle()), at, heading_rad);
+    });
+  }
+  /** The origin moves there, three numbers: every place becomes so much less. */
+  shiftOrigin(to) { this.library.within((take) => this.#call('shift_origin', this.#exactly(take, to, 3, 'origin'))); }
+  /** Poses of posed people at the end of the next tick, as poses() gives them: 48 times place and quaternion, 336 numbers
+   *  a person. `jumped`: muscles and fat feel no inertia of the way there. */
+  setPoses(people, poses, jumped = false) {
+    this.library.within((take) => this.#call('set_poses', people.ids, people.count, this.#exactly(take, poses, 7 * c.MOBIL_SEGMENTS * people.count, 'poses'), 0, jumped ? 1 : 0));
+  }
+  /** What a walker is to do, as changeWalk takes it. */
+  walk(person) {
+    return this.library.within((take) => {
+      const at = this.#struct(take, 'mobil_walk', 'MOBIL_WALK'), number = take(structs.mobil_style_number.size);
+      let many = 0;
+      while (this.library.x.mobil_style(many, number) === 0) ++many;
+      const style = take(4 * many);
+      this.#call('get_walk', ...this.#passed(take, person.handle()), at, style, many);
+      const { given: said, ...all } = this.library.object('mobil_walk', at), walk = { style: Array.from(this.#floats(style, many)) };
+      for (const [field, bit] of Object.entries(given)) if (said & bit) walk[field] = all[field];
+      return walk;
     });
   }
   /** Their steps are watched from the next tick on, or no more: events() tells what happens in them. */
@@ -138,6 +201,11 @@ export class World {
   /** Another method of one muscle, both sides: fields of mobil_method. */
   setMethod(people, muscle, method) {
     this.library.within((take) => this.#call('set_method', people.ids, people.count, muscle, this.#struct(take, 'mobil_method', 'MOBIL_METHOD', method)));
+  }
+  /** How hard a muscle of MOBIL_BY_HOST is to pull, 0.01 to 1 (beyond: the nearer end): one number for all, or one a person. */
+  setExcitation(people, muscle, side, excitation) {
+    const each = typeof excitation === 'number' ? new Float32Array(people.count).fill(excitation) : excitation;
+    this.library.within((take) => this.#call('set_excitation', people.ids, people.count, muscle, side, this.#exactly(take, each, people.count, 'excitations'), 0));
   }
   /** Makes what these muscles share, so that nobody waits for it later. */
   prepare(muscles) { this.library.within((take) => this.#call('prepare', this.#muscles(take, muscles))); }
@@ -181,8 +249,8 @@ export class World {
   /** Why a muscle has its method, its predicted error and its cost. */
   why(person, muscle) {
     return this.library.within((take) => {
-      const line = take(256), error = take(4), cost = take(8), id = this.#id(person);
-      this.#call('why', ...this.#passed(take, id), muscle, line, 256, error, cost);
+      const line = take(256), error = take(4), cost = take(8);
+      this.#call('why', ...this.#passed(take, person.handle()), muscle, line, 256, error, cost);
       return { why: this.library.text(line), error_m: this.library.f32[error >> 2], cost_us: this.library.data.getFloat64(cost, true) };
     });
   }
@@ -190,11 +258,10 @@ export class World {
   method(person, muscle) {
     return this.library.within((take) => {
       const at = this.#struct(take, 'mobil_method', 'MOBIL_METHOD');
-      this.#call('get_method', ...this.#passed(take, this.#id(person)), muscle, at);
+      this.#call('get_method', ...this.#passed(take, person.handle()), muscle, at);
       return this.library.object('mobil_method', at);
     });
   }
-  #id(person) { return this.library.u32.slice(person.ids >> 2, (person.ids >> 2) + 2); }
   // A struct by value goes by pointer to a copy, as wasm's C convention has it.
   #passed(take, id) {
     const at = take(idBytes);
@@ -210,12 +277,12 @@ export class World {
   /** Where they want to go: an array of [speed in m/s, heading in rad], one a person. */
   want(people, wishes) {
     if (wishes.length !== people.count) throw new MobilError(`${wishes.length} wishes for ${people.count} people; give one each`, c.MOBIL_REFUSED);
-    this.library.within((take) => this.#call('want', people.ids, people.count, this.#put(take, wishes.flat()), 0));
+    this.library.within((take) => this.#call('want', people.ids, people.count, this.#table(take, wishes, 2, 'wishes'), 0));
   }
   /** Instead of those before: arrays of six numbers, two places. */
-  setWalls(walls) { this.library.within((take) => this.#call('set_walls', this.#put(take, walls.flat()), 0, walls.length)); }
+  setWalls(walls) { this.library.within((take) => this.#call('set_walls', this.#table(take, walls, 6, 'walls'), 0, walls.length)); }
   /** Instead of those before: arrays of seven numbers, place, velocity, radius. */
-  setDiscs(discs) { this.library.within((take) => this.#call('set_discs', this.#put(take, discs.flat()), 0, discs.length)); }
+  setDiscs(discs) { this.library.within((take) => this.#call('set_discs', this.#table(take, discs, 7, 'discs'), 0, discs.length)); }
   /** Before each tick: fields of mobil_steered. */
   steer() {
     return this.library.within((take) => {
@@ -263,10 +330,10 @@ export class World {
       const many = this.library.u32[count >> 2], at = take(size * many);
       this.#call('events', at, many, count);
       return Array.from({ length: many }, (_, i) => {
-        const one = at + size * i, id = (one + fields.id.at) >> 2, place = (one + fields.place.at) >> 2;
+        const one = at + size * i, id = (one + fields.id.at) >> 2;
         const event = { person: { index: this.library.u32[id], generation: this.library.u32[id + 1] } };
-        for (const field of ['kind', 'side', 'tick', 'part', 'heading_rad']) event[field] = this.library.get('mobil_event', one, field);
-        return { ...event, place: Array.from(this.library.f32.subarray(place, place + 3)) };
+        for (const field of ['kind', 'side', 'tick', 'part', 'heading_rad', 'place']) event[field] = this.library.get('mobil_event', one, field);
+        return event;
       });
     });
   }
@@ -279,37 +346,32 @@ export class World {
       return new Float64Array(this.library.memory.buffer.slice(at, at + structs.mobil_root.size * people.count));
     });
   }
-  #rows(people, floats) {
-    if (!(people.room >= floats * people.count)) {
-      this.library.release(people.rows ?? 0);
-      people.rows = this.library.allocate(4 * floats * people.count);
-      people.room = floats * people.count;
-    }
-    return people.rows;
-  }
   #floats(at, count) { return this.library.f32.subarray(at >> 2, (at >> 2) + count); }
   /** Three rows of four a segment, 48 a person: 576 floats, as a shader's texels take them. `ahead_s`: an instant after
    *  the last tick. */
-  matrices(people, ahead_s = 0) {
-    const out = this.#rows(people, 576);
+  matrices(people, ahead_s = 0) { return this.#poses(people, c.MOBIL_MATRIX, 12, ahead_s); }
+  /** The same as place x y z and quaternion x y z w a segment: 336 floats a person. */
+  poses(people, ahead_s = 0) { return this.#poses(people, c.MOBIL_PLACE_AND_QUATERNION, 7, ahead_s); }
+  #poses(people, form, each, ahead_s) {
+    const floats = each * c.MOBIL_SEGMENTS * people.count, out = people.room(floats);
     this.library.within((take) => {
-      const layout = this.#struct(take, 'mobil_pose_layout', 'MOBIL_POSE_LAYOUT', { form: c.MOBIL_MATRIX, ahead_s });
+      const layout = this.#struct(take, 'mobil_pose_layout', 'MOBIL_POSE_LAYOUT', { form, ahead_s });
       this.#call('poses', people.ids, people.count, layout, out, 0);
     });
-    return this.#floats(out, 576 * people.count);
+    return this.#floats(out, floats);
   }
   /** Rows of MOBIL_JOINTS, MOBIL_FEET and so on. */
   read(what, people) {
-    const floats = this.library.x.mobil_row_floats(what), out = this.#rows(people, floats);
+    const floats = Math.max(this.library.x.mobil_row_floats(what), 0) * people.count, out = people.room(floats);
     this.#call('read', what, people.ids, people.count, out, 0);
-    return this.#floats(out, floats * people.count);
+    return this.#floats(out, floats);
   }
   /** Rows of MOBIL_LINE, MOBIL_REPORT and so on, of one muscle and side. */
   readMuscle(what, people, muscle, side = c.MOBIL_RIGHT) {
-    const floats = this.library.within((take) => this.must(this.library.x.mobil_muscle_row_floats(this.at, what, ...this.#passed(take, this.#id(people)), muscle, side)));
-    const out = this.#rows(people, floats);
+    const one = this.library.within((take) => this.must(this.library.x.mobil_muscle_row_floats(this.at, what, ...this.#passed(take, people.handle()), muscle, side)));
+    const floats = one * people.count, out = people.room(floats);
     this.#call('read_muscles', what, people.ids, people.count, muscle, side, out, 0);
-    return this.#floats(out, floats * people.count);
+    return this.#floats(out, floats);
   }
   /** What each system cost in the last tick: {name, module, seconds, entities}. */
   cost() {

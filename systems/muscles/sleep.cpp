@@ -112,9 +112,15 @@ bool has_any_muscles(const World& world, Entity person) {
   return world.has<CompactMuscles>(person) || kept_choice(world, person) || has_muscles(world, person);
 }
 
-std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
-                         std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work) {
+Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
+                                 std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work,
+                                 const std::function<Result<void>()>& first) {
   World& world = scene.world;
+  // Who sleeps is made before muscles go: that takes memory, and what it has done can be undone.
+  World::Attempt attempt(world, scene.jobs);
+  if (first) {
+    if (auto done = first(); !done) return tl::unexpected(done.error());
+  }
   work.sleepers.clear();
   find_steady(world, people, sleep_time(scene), work.sleepers);
   if (!managed) std::erase_if(work.sleepers, [&](const Sleeper& one) { return !have_one_method(world, one.entity); });
@@ -132,24 +138,22 @@ std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> peopl
     if (choice) group.choice = key_part(keep_choice(world, scene.library, *choice));
     work.groups.push_back(group);
   }
-  // Who sleeps is made before muscles go: that takes memory, and what it has done can be undone.
-  World::Attempt attempt(world, scene.jobs);
   const auto order = [](const SleepWork::Group& group) {
     return std::tuple(group.table, group.packed, group.choice ? group.choice->value + 1 : 0);
   };
   std::ranges::stable_sort(work.groups, {}, order);
-  for (auto first = work.groups.begin(); first != work.groups.end();) {
-    const auto end = std::find_if(first, work.groups.end(), [&](const auto& g) { return order(g) != order(*first); });
+  for (auto group = work.groups.begin(); group != work.groups.end();) {
+    const auto end = std::find_if(group, work.groups.end(), [&](const auto& g) { return order(g) != order(*group); });
     std::vector<KeyPart>& more = work.parts;
     more.clear();
-    if (first->choice) more.push_back(*first->choice);
-    if (has_forces(world, first->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithForces>{1}));
-    if (is_watched(world, first->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWatched>{1}));
-    if (has_fat(world, first->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithFat>{1}));
+    if (group->choice) more.push_back(*group->choice);
+    if (has_forces(world, group->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithForces>{1}));
+    if (is_watched(world, group->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWatched>{1}));
+    if (has_fat(world, group->sleeper->entity)) more.push_back(key_part(TagValue<SleepsWithFat>{1}));
     for (const KeyPart& part : keeps)
-      if (!first->choice || part.id != first->choice->id) more.push_back(part);
+      if (!group->choice || part.id != group->choice->id) more.push_back(part);
     work.together.clear();
-    for (; first != end; ++first) work.together.push_back(first->sleeper);
+    for (; group != end; ++group) work.together.push_back(group->sleeper);
     put_to_sleep(world, scene.jobs, work.together, more, owned, work.falling);
   }
   attempt.keep();
@@ -182,8 +186,10 @@ Result<void> wake_people(const MuscleScene& scene, std::span<const Entity> peopl
     wake_walkers(world, scene.jobs, work.alike, how.as, sleep_time(scene), work.parts,
                  later ? work.all_but_choice : owned, work.waking);
   }
+  work.alike.clear();
   for (const SleepWork::Sleeping& one : waking)
-    if (one.forces) add_forces(world, one.entity);
+    if (one.forces) work.alike.push_back(one.entity);
+  set_forces(world, scene.jobs, work.alike, true);
   // Each choice together.
   std::vector<Entity> humans;
   for (std::size_t first = 0; first < waking.size() && !later; ++first) {

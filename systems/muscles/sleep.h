@@ -73,9 +73,11 @@ std::size_t ask_walks(World& world, const Jobs& jobs, std::span<const WalkChange
 
 /// Walkers, named once each, fall asleep who may (systems/people/sleepers.h); who has muscles of several methods may
 /// not, unless `managed`: they then begin again with the first one's. Of their parts that are among `owned` (ids,
-/// sorted) they keep those of `keeps` alone. Returns how many fell asleep. Where memory runs out, nobody did.
-std::size_t sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
-                         std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work);
+/// sorted) they keep those of `keeps` alone. Returns how many fell asleep. Where memory runs out, nobody did, and what
+/// `first` has done is undone, too. Errors: those of `first`.
+Result<std::size_t> sleep_people(const MuscleScene& scene, std::span<const Entity> people, bool managed,
+                                 std::span<const KeyPart> keeps, std::span<const std::uint64_t> owned, SleepWork& work,
+                                 const std::function<Result<void>()>& first = {});
 /// Sleepers, named once each, wake where they are, with `more` parts (wake_walkers), and have their forces again.
 /// Muscles begin at rest where their person stands in the stride, or `later`: then what they are to be stays on the
 /// person's row (kept_choice). Errors: what muscles are refused for; those concerned are awake then, and have none.

@@ -2,28 +2,81 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "components/activation.h"
 #include "components/sleep.h"
 #include "engine/rows.h"
 #include "systems/forces/forces.h"
 #include "systems/kinematics/body_motion.h"
+#include "systems/people/by_table.h"
 #include "systems/people/person.h"
 
 namespace mobil {
 namespace {
 
-Status add_to_posed(World& world, Entity person) {
-  if (world.has<PosedPast>(person)) return Status::ok;
-  PosedPast<Lanes<float>> past{};
-  GroundReaction<Lanes<float>> ground;
-  JointMoments<Lanes<float>> moments;
-  constexpr float no_matter_s = 1;
-  press_posed(broadcast(*world.get<BodySize>(person)), broadcast(*world.get<Pose>(person)),
-              broadcast(*world.get<Feet>(person)), past, no_matter_s, ground, moments);
-  return world.add_parts(person,
-                         std::array<PartValue, 3>{part_value(PosedPast<float>{}), part_value(first_lane(ground)),
-                                                  part_value(first_lane(moments))});
+/// What people of one table have of forces from the first on, sixteen together.
+struct Beginning {
+  std::vector<BodyMotion<Lanes<float>>> motion;
+  std::vector<GroundReaction<Lanes<float>>> ground;
+  std::vector<JointMoments<Lanes<float>>> moments;
+
+  void work_out(const World& world, std::span<const Entity> some, bool posed, std::size_t block) {
+    const auto read = [&]<template <class> class C>(C<Lanes<float>>& lanes) {
+      for (std::size_t l = 0; l < lane_count; ++l) put_row(*world.get<C>(some[l < some.size() ? l : 0]), lanes, l);
+    };
+    BodySize<Lanes<float>> size;
+    read(size);
+    if (posed) {
+      PosedPast<Lanes<float>> past{};
+      Pose<Lanes<float>> pose;
+      Feet<Lanes<float>> feet;
+      read(pose);
+      read(feet);
+      constexpr float no_matter_s = 1;
+      return press_posed(size, pose, feet, past, no_matter_s, ground[block], moments[block]);
+    }
+    StepPlan<Lanes<float>> plan;
+    GaitState<Lanes<float>> state;
+    Footing<Lanes<float>> under;
+    read(plan);
+    read(state);
+    const bool has_ground = world.has<Footing>(some.front());
+    if (has_ground) read(under);
+    walker_motion(size, plan, state, has_ground ? &under : nullptr, motion[block]);
+    joint_forces(size, motion[block], plan, state, has_ground ? &under : nullptr, ground[block], moments[block]);
+  }
+};
+
+void begin_forces(World& world, const Jobs& jobs, std::span<const Entity> people) {
+  const bool posed = is_posed(world, people.front());
+  const std::size_t blocks = (people.size() + lane_count - 1) / lane_count;
+  Beginning at;
+  at.motion.resize(posed ? 0 : blocks);
+  at.ground.resize(blocks);
+  at.moments.resize(blocks);
+  in_parallel(jobs, blocks, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t b = begin; b < end; ++b)
+      at.work_out(world, people.subspan(b * lane_count, std::min(lane_count, people.size() - b * lane_count)), posed,
+                  b);
+  });
+  const std::array<PartValue, 3> parts = {{posed ? PartValue{component_part<PosedPast>(), nullptr}
+                                                 : PartValue{component_part<BodyMotion>(), at.motion.data()},
+                                           {component_part<GroundReaction>(), at.ground.data()},
+                                           {component_part<JointMoments>(), at.moments.data()}}};
+  world.remake_many(people, parts, {}, jobs);
+}
+
+/// What goes with forces, and what needs them: their ids, sorted.
+std::span<const std::uint64_t> force_part_ids() {
+  static const auto ids = [] {
+    std::array all = {type_id<PosedPast<float>>(),    type_id<BodyMotion<float>>(), type_id<GroundReaction<float>>(),
+                      type_id<JointMoments<float>>(), type_id<LegDesign<float>>(),  type_id<MomentReserve<float>>(),
+                      type_id<AskedForces>()};
+    std::ranges::sort(all);
+    return all;
+  }();
+  return ids;
 }
 
 /// A pose near the origin, where single precision is finest, in the lanes that `from` is to be taken.
@@ -88,33 +141,21 @@ bool has_forces(const World& world, Entity person) {
   return world.has<GroundReaction>(person) || world.has<SleepsWithForces>(person);
 }
 
-Status add_forces(World& world, Entity person) {
-  if (!is_person(world, person)) return Status::stale_entity;
-  if (is_posed(world, person)) return add_to_posed(world, person);
-  if (world.has<BodyMotion>(person)) return Status::ok;
-  const auto size = broadcast(*world.get<BodySize>(person));
-  const auto plan = broadcast(*world.get<StepPlan>(person));
-  const auto state = broadcast(*world.get<GaitState>(person));
-  BodyMotion<Lanes<float>> motion;
-  GroundReaction<Lanes<float>> ground;
-  JointMoments<Lanes<float>> moments;
-  const auto footing = world.get<Footing>(person);
-  const auto under = broadcast(footing.value_or(Footing<float>{}));
-  walker_motion(size, plan, state, footing ? &under : nullptr, motion);
-  joint_forces(size, motion, plan, state, footing ? &under : nullptr, ground, moments);
-  return world.add_parts(person,
-                         std::array<PartValue, 3>{part_value(first_lane(motion)), part_value(first_lane(ground)),
-                                                  part_value(first_lane(moments))});
-}
-
-Status remove_forces(World& world, Entity person) {
-  if (!is_person(world, person)) return Status::stale_entity;
-  const bool posed = is_posed(world, person);
-  if (posed ? !world.has<PosedPast>(person) : !world.has<BodyMotion>(person)) return Status::missing;
-  const std::uint64_t motion = posed ? type_id<PosedPast<float>>() : type_id<BodyMotion<float>>();
-  return world.remove_parts(
-      person, {motion, type_id<GroundReaction<float>>(), type_id<JointMoments<float>>(), type_id<LegDesign<float>>(),
-               type_id<MomentReserve<float>>(), type_id<AskedForces>()});
+Status set_forces(World& world, const Jobs& jobs, std::span<const Entity> people, bool on) {
+  std::vector<Entity> changes;
+  for (const Entity person : people) {
+    if (!is_person(world, person)) return Status::stale_entity;
+    if (has_forces(world, person) != on) changes.push_back(person);
+  }
+  World::Attempt attempt(world, jobs);
+  by_table(world, changes, [&](std::span<const Entity> together) {
+    if (on)
+      begin_forces(world, jobs, together);
+    else
+      world.remake_many(together, {}, force_part_ids(), jobs);
+  });
+  attempt.keep();
+  return Status::ok;
 }
 
 void forget_past(World& world, Entity person) {

@@ -14,6 +14,7 @@
 #include "assets/body/anthropometry.h"
 #include "assets/body/bent_legs.h"
 #include "assets/skin/body_skin.h"
+#include "assets/surfaces/coarser_surface.h"
 #include "systems/simulation.h"
 #include "systems/skinning/cover_muscles.h"
 #include "systems/surfaces/surfaces.h"
@@ -129,7 +130,7 @@ Result<std::unique_ptr<SkinTable>> make_skin_table(const BodyRequest& request) {
   if (!model) return tl::unexpected(model.error());
   if (auto done = simulation.add_leg_muscles(*model, choice); !done) return tl::unexpected(done.error());
   const Body body = simulation.human(*model)->body;
-  auto bound = bind_surfaces(body, {.bones = false, .sides = {true, false}, .detail = 0.3});
+  auto bound = bind_surfaces(body, {.bones = false, .sides = {true, false}, .detail = can_be_coarser() ? 0.3F : 1.0F});
   if (!bound) return tl::unexpected(bound.error());
   auto skin = make_body_skin(body, SkinDetail::distant);
   if (!skin) return tl::unexpected(skin.error());

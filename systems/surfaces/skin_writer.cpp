@@ -63,6 +63,7 @@ struct SkinWriter::Work {
 SkinWriter::SkinWriter(std::pmr::memory_resource* memory) : scratch_(memory) {}
 
 void SkinWriter::write_people(void* context, std::size_t begin, std::size_t end) {
+  const FlushDenormals flush;
   const auto& work = *static_cast<const Work*>(context);
   const ScratchLease scratch(&work.scratch);
   for (std::size_t i = begin; i < end; ++i) {
@@ -91,7 +92,7 @@ Result<void> SkinWriter::write(const World& world, std::span<const SkinRequest> 
   }
   scratch_.prepare(frames * sizeof(FrameMap) / sizeof(float), jobs.threads);
   Work work{scratch_, world, requests};
-  jobs.parallel_for(jobs.user, requests.size(), write_people, &work);
+  run_in_parallel(jobs, requests.size(), write_people, &work);
   return {};
 }
 

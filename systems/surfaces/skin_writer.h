@@ -73,8 +73,9 @@ class SkinWriter {
   explicit SkinWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
   /// Writes each request's vertices, as they are after the last tick, with `jobs`; the same bytes for any number of
-  /// threads. Errors, in one line that names the request, before anything is written: a stale person, one without a
-  /// pose on their row where none is given (Status::missing), no skin, a stride or a buffer that is too small.
+  /// threads. Streams of different requests must not lie over each other, which is not looked at. Errors, in one line
+  /// that names the request, before anything is written: a stale person, one without a pose on their row where none is
+  /// given (Status::missing), no skin, a stride or a buffer that is too small.
   Result<void> write(const World& world, std::span<const SkinRequest> requests, const Jobs& jobs = {});
 
  private:

@@ -158,8 +158,10 @@ SurfaceWriter::SurfaceWriter(std::pmr::memory_resource* memory) : person_(memory
 
 Result<void> SurfaceWriter::resolve(const World& world, const SurfaceRequest& request) {
   if (auto done = check_buffers(request); !done) return done;
+  if (!world.alive(request.person)) return fail("the person is not there (a stale handle)", Status::stale_entity);
   const Resolved person{lane_of<Pose>(world, request.person), line_.size()};
-  if (person.pose == nullptr) return fail("the person is not there (a stale handle)", Status::stale_entity);
+  if (person.pose == nullptr)
+    return fail("the person has no pose; who is compact or asleep must be whole first", Status::missing);
   person_.push_back(person);
   for (const BodySurfaces::Driver& driver : request.surfaces->driver) {
     const auto own = std::ranges::find(request.muscles, driver.muscle, &SurfaceMuscle::muscle);
@@ -211,7 +213,7 @@ Result<void> SurfaceWriter::write(const World& world, std::span<const SurfaceReq
   }
   scratch_.prepare(4 * places + 3 * nodes, jobs.threads);
   Work work{*this, requests};
-  jobs.parallel_for(jobs.user, pieces * requests.size(), write_pieces, &work);
+  run_in_parallel(jobs, pieces * requests.size(), write_pieces, &work);
   return {};
 }
 

@@ -54,12 +54,13 @@ class SurfaceWriter {
   explicit SurfaceWriter(std::pmr::memory_resource* memory = std::pmr::get_default_resource());
 
   /// Writes each request's vertices, as they are after the last tick, with `jobs`; the same bytes for any number of
-  /// threads. A muscle without control points (Method::none, or nobody asked for them) is drawn as it is at rest, as
-  /// much longer as its line is. Takes memory only where there are more requests or larger surfaces than ever before.
-  /// Errors, in one line that names the request, before anything is written: a stale person or muscle; a driving
-  /// muscle that is not in the list, another person's, or of other cells than the surfaces were bound to; a stride
-  /// or a buffer that is too small, streams that lie over each other, tangents without normals or of surfaces that are
-  /// not textured.
+  /// threads. Streams of different requests must not lie over each other, which is not looked at. A muscle without
+  /// control points (Method::none, or nobody asked for them) is drawn as it is at rest, as much longer as its line is.
+  /// Takes memory only where there are more requests or larger surfaces than ever before. Errors, in one line that
+  /// names the request, before anything is written: a stale person or muscle; a person without a pose (Status::missing:
+  /// who is compact or asleep); a driving muscle that is not in the list, another person's, or of other cells than the
+  /// surfaces were bound to; a stride or a buffer that is too small, streams that lie over each other, tangents without
+  /// normals or of surfaces that are not textured.
   Result<void> write(const World& world, std::span<const SurfaceRequest> requests, const Jobs& jobs = {});
 
  private:

@@ -266,7 +266,15 @@ TEST(CHost, WhereMemoryRunsOutAtAnyRequestNothingHasChanged) {
     absent();
     until_done("expand", [&] { return mobil_expand(sim, ids.data(), 20); });
     until_done("wake", [&] { return mobil_wake(sim, &ids[20], 20, 0.005F); });
-    until_done("forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 1); });
+    absent();
+    for (const int on : {1, 0}) until_done("forces", [&] { return mobil_set_forces(sim, &ids[15], 10, on); });
+    until_done("sleep of the compact", [&] { return mobil_sleep(sim, ids.data(), 15, nullptr); });
+    ASSERT_EQ(mobil_wake(sim, ids.data(), ids.size(), 0.005F), MOBIL_OK);
+    auto moments = muscles;
+    moments.activation = MOBIL_BY_MOMENTS;
+    ASSERT_EQ(mobil_set_forces(sim, ids.data(), 5, 1), MOBIL_OK);
+    ASSERT_EQ(mobil_set_muscles(sim, ids.data(), 5, &moments), MOBIL_OK) << sim.message();
+    until_done("no forces", [&] { return mobil_set_forces(sim, ids.data(), 5, 0); });
     until_done("fat", [&] { return mobil_set_fat_wobble(sim, ids.data(), 5, 1); });
     std::vector<std::byte> bytes(mobil_snapshot_bytes(sim));
     std::size_t used = 0;

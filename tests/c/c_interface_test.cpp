@@ -323,9 +323,10 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
   const std::array both_posed = {posed, posed};
   ASSERT_EQ(mobil_spawn(sim, both_posed.data(), 0, 2, nullptr, dolls.data()), MOBIL_OK) << sim.message();
   const auto before = sim.hash();
-  const auto refused = [&](const char* what, int expected, const std::function<int()>& request) {
+  // `what` begins with the call's name.
+  const auto refused = [&](const std::string& what, int expected, const std::function<int()>& request) {
     EXPECT_EQ(request(), expected) << what << ": " << sim.message();
-    EXPECT_NE(sim.message(), "") << what;
+    EXPECT_EQ(sim.message().find("mobil_" + what.substr(0, what.find(' ')) + ":"), 0U) << sim.message();
     EXPECT_EQ(sim.message().find('\n'), std::string::npos) << what;
     EXPECT_EQ(sim.hash(), before) << what;
   };
@@ -359,20 +360,20 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
   auto walk = filled<mobil_walk>(MOBIL_WALK);
   walk.given = MOBIL_SPEED;
   walk.speed_m_s = 1.4F;
-  refused("walk", MOBIL_STALE, [&] { return mobil_change_walk(sim, with_gone.data(), n, &walk); });
-  refused("walk of the posed", MOBIL_MISSING, [&] { return mobil_change_walk(sim, with_posed.data(), n, &walk); });
-  refused("walks", MOBIL_REFUSED, [&] {
+  refused("change_walk", MOBIL_STALE, [&] { return mobil_change_walk(sim, with_gone.data(), n, &walk); });
+  refused("change_walk (posed)", MOBIL_MISSING, [&] { return mobil_change_walk(sim, with_posed.data(), n, &walk); });
+  refused("change_walks", MOBIL_REFUSED, [&] {
     std::vector walks(n, walk);
     walks.back().speed_m_s = 40;
     return mobil_change_walks(sim, ids.data(), n, walks.data(), 0);
   });
-  refused("heading", MOBIL_REFUSED, [&] {
+  refused("change_walks of no heading", MOBIL_REFUSED, [&] {
     std::vector walks(n, walk);
     walks.back().given = MOBIL_HEADING;
     walks.back().heading_rad = std::numeric_limits<float>::quiet_NaN();
     return mobil_change_walks(sim, ids.data(), n, walks.data(), 0);
   });
-  refused("poses", MOBIL_REFUSED, [&] {
+  refused("set_poses", MOBIL_REFUSED, [&] {
     std::vector<float> poses(2 * 48 * 7);
     for (std::size_t s = 0; s < 2 * 48; ++s) poses[7 * s + 6] = s < 95 ? 1.0F : 2.0F;
     return mobil_set_poses(sim, dolls.data(), 2, poses.data(), 0, 0);
@@ -380,24 +381,24 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
   auto fixed = muscles;
   fixed.method = MOBIL_ECD;
   fixed.dt_s = 0.009;
-  refused("muscles", MOBIL_REFUSED, [&] { return mobil_set_muscles(sim, ids.data(), n, &fixed); });
-  refused("muscles of a stale one", MOBIL_STALE, [&] { return mobil_set_muscles(sim, with_gone.data(), n, nullptr); });
+  refused("set_muscles", MOBIL_REFUSED, [&] { return mobil_set_muscles(sim, ids.data(), n, &fixed); });
+  refused("set_muscles (stale)", MOBIL_STALE, [&] { return mobil_set_muscles(sim, with_gone.data(), n, nullptr); });
   auto moments = muscles;
   moments.activation = MOBIL_BY_MOMENTS;
-  refused("moments", MOBIL_MISSING, [&] { return mobil_set_muscles(sim, ids.data(), n, &moments); });
+  refused("set_muscles by moments", MOBIL_MISSING, [&] { return mobil_set_muscles(sim, ids.data(), n, &moments); });
   auto method = filled<mobil_method>(MOBIL_METHOD);
   method.method = MOBIL_REDUCED;
   method.vectors = 99;
-  refused("method", MOBIL_REFUSED, [&] { return mobil_set_method(sim, ids.data(), n, MOBIL_HAMSTRINGS, &method); });
+  refused("set_method", MOBIL_REFUSED, [&] { return mobil_set_method(sim, ids.data(), n, MOBIL_HAMSTRINGS, &method); });
   method.vectors = 8;
-  refused("method of none", MOBIL_MISSING,
+  refused("set_method of none", MOBIL_MISSING,
           [&] { return mobil_set_method(sim, with_posed.data(), n, MOBIL_HAMSTRINGS, &method); });
-  refused("excitation", MOBIL_MISSING, [&] {
+  refused("set_excitation", MOBIL_MISSING, [&] {
     const std::vector<float> pull(n, 0.5F);
     return mobil_set_excitation(sim, ids.data(), n, MOBIL_HAMSTRINGS, MOBIL_RIGHT, pull.data(), 0);
   });
-  refused("forces", MOBIL_STALE, [&] { return mobil_set_forces(sim, with_gone.data(), n, 1); });
-  refused("fat", MOBIL_STALE, [&] { return mobil_set_fat_wobble(sim, with_gone.data(), n, 1); });
+  refused("set_forces", MOBIL_STALE, [&] { return mobil_set_forces(sim, with_gone.data(), n, 1); });
+  refused("set_fat_wobble", MOBIL_STALE, [&] { return mobil_set_fat_wobble(sim, with_gone.data(), n, 1); });
   refused("sleep", MOBIL_STALE, [&] { return mobil_sleep(sim, with_gone.data(), n, nullptr); });
   refused("poses of a stale one", MOBIL_STALE, [&] {
     std::vector<float> poses(n * 48 * 7, 5);
@@ -405,7 +406,7 @@ TEST(CInterface, WhereOneIsRefusedNobodyIsChanged) {
     EXPECT_EQ(poses, std::vector<float>(poses.size(), 5));
     return code;
   });
-  refused("rows", MOBIL_MISSING, [&] {
+  refused("read", MOBIL_MISSING, [&] {
     std::vector<float> out(n * 12, 5);
     const int code = mobil_read(sim, MOBIL_GROUND, ids.data(), n, out.data(), 0);
     EXPECT_EQ(out, std::vector<float>(out.size(), 5));

@@ -303,6 +303,42 @@ class Worlds(unittest.TestCase):
         with self.assertRaises(ValueError):
             mobil.Skin(world, "woman", "huge")
 
+    def test_a_mesh_of_ones_own_moves_with_the_skin(self):
+        world = mobil.World()
+        person = world.spawn(1, posed=1)
+        standing = mobil.Skin(world, "man", "far")
+        rest = standing.vertices(world, person)[0, :, :3]
+        right_leg = (rest[:, 0] < -0.02) & (rest[:, 0] > -0.3) & (rest[:, 1] < 0.7)
+        corners = standing.triangles[right_leg[standing.triangles].all(axis=1)]
+        used, triangles = np.unique(corners, return_inverse=True)
+        own = mobil.OwnSkin(world, person, rest[used], triangles.reshape(-1, 3), detail="far")
+        walkers = world.spawn(2)
+        world.tick(30)
+        vertices = own.vertices(world, walkers)
+        self.assertEqual(vertices.shape, (2, own.vertex_count, 6))
+        body = standing.vertices(world, walkers)[0, :, :3]
+        bare = vertices[0, (vertices[0, :, 1] > 0.15) & (vertices[0, :, 1] < 0.55), :3]
+        off = np.linalg.norm(bare[:, None] - body[None], axis=2).min(axis=1)
+        self.assertLess(float(off.max()), 0.04)
+        self.assertLess(len(own.rest), len(standing.triangles))
+        with self.assertRaises(ValueError):
+            mobil.OwnSkin(world, person, rest[used].ravel(), triangles)
+        with self.assertRaises(mobil.RefusedError):
+            mobil.OwnSkin(world, person, rest[:3], [[0, 1, 3]])
+
+    def test_muscles_are_kept_apart_on_request(self):
+        world = mobil.World()
+        members = sum(
+            1 << mobil.MUSCLES.index(name) for name in ("vastus_lateralis", "vastus_medialis", "rectus_femoris")
+        )
+        chosen = mobil.muscles(method="static", muscles=members)
+        people = world.spawn(1, muscles=chosen)
+        world.tick(40)
+        free = mobil.Surfaces(world, people[0], muscles=members)
+        apart = mobil.Surfaces(world, people[0], muscles=members, contact=True)
+        moved = np.abs(apart.vertices(world, people) - free.vertices(world, people))[..., :3].max()
+        self.assertTrue(1e-4 < moved < 0.05, moved)
+
     def test_worlds_live_side_by_side_in_threads(self):
         hashes = [0] * 4
 
@@ -331,6 +367,128 @@ class Worlds(unittest.TestCase):
         self.assertGreater(ground.lines[0].get_ydata().max(), 9)
         with tempfile.TemporaryDirectory() as folder:
             figure.savefig(pathlib.Path(folder, "walk.svg"))
+
+
+class Arrays(unittest.TestCase):
+    def test_people_of_more_than_one_dimension_are_refused_everywhere(self):
+        world = mobil.World()
+        muscles = mobil.muscles(method="reduced", activation="host")
+        people = crowd(world, 6, muscles=muscles)
+        posed = world.spawn(6, posed=True)
+        world.tick()
+        surfaces, skin = mobil.Surfaces(world, people[0], detail=0.3), mobil.Skin(world, "man", "distant")
+        avoidance, terrain = mobil.Avoidance(world), mobil.Terrain(world, lambda at: np.zeros(len(at)))
+        world.start_choosing(machine_factor=1)
+        before = world.hash()
+        roots = world.roots(people)
+        still = world.poses(posed)
+        for shape in ((2, 3), (6, 1), (1, 6), (1, 2, 3)):
+            grid, posed_grid = people.reshape(shape), posed.reshape(shape)
+            for call in (
+                lambda: world.poses(grid),
+                lambda: world.poses(grid, segments=[]),
+                lambda: world.joints(grid),
+                lambda: world.feet(grid),
+                lambda: world.centre_of_mass(grid),
+                lambda: world.muscle_rows("line", grid, "quadriceps"),
+                lambda: world.roots(grid),
+                lambda: world.root_motion(grid, roots),
+                lambda: world.root_motion(grid, roots.reshape(shape)),
+                lambda: world.place(grid, (1, 0, 1), 0),
+                lambda: world.set_poses(posed_grid, still),
+                lambda: world.set_excitation(grid, "quadriceps", "right", 0.5),
+                lambda: world.change_walk(grid, speed_m_s=1.2),
+                lambda: world.set_muscles(grid, None),
+                lambda: world.watch(grid),
+                lambda: world.sleep(grid),
+                lambda: world.manage(grid),
+                lambda: world.despawn(grid),
+                lambda: avoidance.manage(grid),
+                lambda: avoidance.want(grid, 1.0, 0.0),
+                lambda: terrain.manage(grid),
+                lambda: surfaces.vertices(world, grid),
+                lambda: skin.vertices(world, grid),
+            ):
+                with self.assertRaises(ValueError) as caught:
+                    call()
+                self.assertRegex(str(caught.exception), "^people are arrays of one dimension.*shape")
+                self.assertNotIn("\n", str(caught.exception))
+        self.assertEqual(world.hash(), before)
+        np.testing.assert_array_equal(world.joints(people.reshape(2, 3).ravel()), world.joints(people))
+
+    def test_people_may_lie_anywhere_and_be_one_or_nobody(self):
+        world = mobil.World()
+        people = crowd(world, 6)
+        world.tick(5)
+        all_rows = world.joints(people)
+        table = np.zeros(6, [("name", np.uint8), ("person", mobil.PERSON)])  # packed: handles are not aligned
+        table["person"] = people
+        for some, rows in (
+            (people[::-2], all_rows[::-2]),
+            (table["person"], all_rows),
+            (people[3], all_rows[3:4]),
+            ([people[4], people[1]], all_rows[[4, 1]]),
+            (people[:0], all_rows[:0]),
+        ):
+            np.testing.assert_array_equal(world.joints(some), rows)
+        for other in (np.arange(3), [], people.view(np.uint32), "people"):
+            for call in (world.joints, world.poses, world.roots, world.sleep):
+                with self.assertRaises(TypeError):
+                    call(other)
+
+    def test_no_segments_are_no_floats(self):
+        world = mobil.World()
+        people = crowd(world, 3)
+        world.tick()
+        for form, shape in (("quaternion", (7,)), ("matrix", (3, 4)), ("dual_quaternion", (8,))):
+            self.assertEqual(world.poses(people, form=form, segments=[]).shape, (3, 0, *shape))
+        room = np.zeros((3, 48, 7), np.float32)
+        out = room[:, :0]
+        self.assertIs(world.poses(people, segments=[], out=out), out)
+        np.testing.assert_array_equal(room, 0)  # all segments would have had room
+
+    def test_what_is_too_short_for_a_call_is_refused_before_it(self):
+        world = mobil.World()
+        people = crowd(world, 3, muscles=mobil.muscles(method="reduced", activation="host"))
+        posed = world.spawn(3, posed=True)
+        world.tick()
+        before = world.hash()
+        roots = world.roots(people)
+        skin = mobil.Skin(world, "man", "distant")
+        joints = np.zeros((3, 14), np.float32)
+        for call in (
+            lambda: world.shift_origin([1, 2]),
+            lambda: world.shift_origin([[1, 2, 3]]),
+            lambda: world.shift_origin([1, 2, 3, 4]),
+            lambda: world.set_poses(posed, np.zeros((2, 48, 7))),
+            lambda: world.set_poses(posed, np.zeros((3, 47, 7))),
+            lambda: world.set_excitation(people, "quadriceps", "right", [0.5, 0.5]),
+            lambda: world.set_excitation(people, "quadriceps", "right", [[0.5], [0.5], [0.5]]),
+            lambda: world.place(people, [[0, 0, 0], [1, 0, 0]], 0),
+            lambda: world.root_motion(people, roots[:2]),
+            lambda: world.root_motion(people, roots[::-1]),
+            lambda: world.root_motion(people, list(roots)),
+            lambda: world.joints(people, out=[0.0] * 39),
+            lambda: world.joints(people, out=joints[:, 1:].tolist()),
+            lambda: world.joints(people, out=np.zeros(3 * 52 + 1, np.uint8)[1:].view(np.float32).reshape(3, 13)),
+            lambda: skin.vertices(world, people, out=np.zeros((2, skin.vertex_count, 6), np.float32)),
+            lambda: skin.vertices(world, people, out=[0.0]),
+        ):
+            with self.assertRaises(ValueError):
+                call()
+        self.assertEqual(world.hash(), before)
+        one_backwards = np.zeros((2, 13), np.float32)[::-1][:1]
+        np.testing.assert_array_equal(world.joints(people[0], out=one_backwards), world.joints(people[0]))
+
+    def test_bytes_may_be_an_array_of_any_shape(self):
+        world = mobil.World()
+        people = crowd(world, 3)
+        state, before = world.save(), world.hash()
+        for given in (bytearray(state), memoryview(state), np.frombuffer(state, np.uint8).reshape(1, -1)):
+            world.change_walk(people, heading_rad=1.0)
+            world.restore(given)
+            self.assertEqual(world.hash(), before)
+        mobil.World().load_baked(np.frombuffer(world.bake(), np.uint8).reshape(1, -1))
 
 
 if __name__ == "__main__":

@@ -3,8 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <atomic>
 #include <limits>
+#include <new>
+#include <thread>
 #include <vector>
 
 #include "engine/schedule.h"
@@ -82,6 +85,29 @@ TEST(EngineJobs, EveryIndexIsDoneOnce) {
           },
           &done);
       EXPECT_EQ(done, std::vector<int>(size, 1));
+    }
+  }
+}
+
+/// A host's own threads, one a part, which no exception may leave.
+TEST(EngineJobs, WhatWorkThrowsComesBackToTheCaller) {
+  const Jobs own{nullptr,
+                 [](void*, std::size_t count, Jobs::Body body, void* context) {
+                   std::vector<std::thread> threads;
+                   for (std::size_t i = 0; i < count; ++i) threads.emplace_back(body, context, i, i + 1);
+                   for (std::thread& thread : threads) thread.join();
+                 },
+                 4};
+  const Threads pool(2);
+  for (const Jobs& jobs : {own, pool.jobs(), Jobs{}}) {
+    for (int round = 0; round < 50; ++round) {
+      std::array<std::atomic<int>, 8> begun{};
+      const auto work = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) ++begun[i];
+        if (begin <= 5 && 5 < end) throw std::bad_alloc();
+      };
+      EXPECT_THROW(in_parallel(jobs, begun.size(), work), std::bad_alloc);
+      for (const auto& times : begun) EXPECT_EQ(times, 1);
     }
   }
 }

@@ -211,6 +211,16 @@ TEST(Export, ASkinLiesOverItsAtlasAndHasTangents) {
   crowd.figures[0].skin[1] = recorded_skin(skin)[1];
   crowd.figures[0].skin[1].texture[3][0] = 1.5F;
   EXPECT_FALSE(write_glb(folder.path / "skin.glb", crowd));
+  crowd.figures[0].skin[1] = recorded_skin(skin)[1];
+  crowd.figures[0].skin[1].normal[2] = {0, 0, 0};
+  EXPECT_FALSE(write_glb(folder.path / "skin.glb", crowd));
+  crowd.figures[0].skin[1] = recorded_skin(skin)[1];
+  crowd.figures[0].standing_m[3].y = NAN;
+  EXPECT_FALSE(write_glb(folder.path / "skin.glb", crowd));
+  crowd.figures[0].standing_m = {};
+  EXPECT_FALSE(write_glb(folder.path / "skin.glb", crowd));
+  crowd.figures[0].standing_m = standing_of(skin);
+  EXPECT_TRUE(write_glb(folder.path / "skin.glb", crowd));
 }
 
 TEST(Export, WorldPosesComeBackAtEveryKeyAndFixedJointsHaveNoTranslationKeys) {

@@ -100,9 +100,9 @@ TEST(SkinAtlas, IsStretchedAndFoldedLittle) {
         twice += of.most > 2 * scale || of.least < scale / 2 ? area : 0;
         fourfold += of.most > 4 * scale || of.least < scale / 4 ? area : 0;
       }
-      EXPECT_LT(folded / all, 0.02);
-      EXPECT_LT(twice / all, 0.11);
-      EXPECT_LT(fourfold / all, 0.025);
+      EXPECT_LT(folded / all, detail == SkinDetail::hero ? 0.01 : 0.018);
+      EXPECT_LT(twice / all, detail == SkinDetail::hero ? 0.08 : 0.095);
+      EXPECT_LT(fourfold / all, detail == SkinDetail::hero ? 0.02 : 0.022);
       if (detail == SkinDetail::hero)
         std::printf("[ atlas ] %s: %.1f %% folded, %.1f %% stretched twofold, %.1f %% fourfold\n",
                     sex == Sex::man ? "man" : "woman", 100 * folded / all, 100 * twice / all, 100 * fourfold / all);
@@ -110,11 +110,10 @@ TEST(SkinAtlas, IsStretchedAndFoldedLittle) {
   }
 }
 
-/// Where two details have a vertex at one place of the body, in one chart, it is at one place of the texture.
-TEST(SkinAtlas, OneTextureFitsEveryDetail) {
-  const SkinMesh &fine = skin_mesh(Sex::man, SkinDetail::hero), &coarse = skin_mesh(Sex::man, SkinDetail::far);
-  const SkinAtlas &fine_atlas = skin_atlas(Sex::man, SkinDetail::hero),
-                  &coarse_atlas = skin_atlas(Sex::man, SkinDetail::far);
+/// How much of a detail's atlas, by vertices looked at, lies elsewhere than a man's finest one.
+void expect_one_texture(Sex sex, SkinDetail detail) {
+  const SkinMesh &fine = skin_mesh(Sex::man, SkinDetail::hero), &coarse = skin_mesh(sex, detail);
+  const SkinAtlas &fine_atlas = skin_atlas(Sex::man, SkinDetail::hero), &coarse_atlas = skin_atlas(sex, detail);
   const auto chart_of = [](const SkinAtlas& atlas) {
     std::vector<SkinChart> chart(atlas.vertex.size());
     for (std::size_t i = 0; i < atlas.triangle.size(); ++i) chart[atlas.triangle[i]] = atlas.chart[i / 3];
@@ -136,8 +135,17 @@ TEST(SkinAtlas, OneTextureFitsEveryDetail) {
     compared += there ? 1 : 0;
     apart += there && off > 0.01 ? 1 : 0;
   }
-  EXPECT_GT(compared, 200U);
-  EXPECT_LT(apart, compared / 30);
+  EXPECT_GT(compared, 50U);
+  EXPECT_LT(apart, compared / 10) << "where charts of coarse triangles end";
+}
+
+/// Where two details have a vertex at one place of the body, in one chart, it is at one place of the texture.
+TEST(SkinAtlas, OneTextureFitsEveryDetail) {
+  for (const Sex sex : {Sex::man, Sex::woman})
+    for (const SkinDetail detail : {SkinDetail::hero, SkinDetail::near, SkinDetail::far, SkinDetail::distant}) {
+      SCOPED_TRACE(static_cast<int>(sex) * 10 + static_cast<int>(detail));
+      expect_one_texture(sex, detail);
+    }
 }
 
 TEST(SkinAtlas, TangentsPointToTheRightAndAreNoNormals) {

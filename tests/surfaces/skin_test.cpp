@@ -1,5 +1,6 @@
 // People's skin: closed, as large as the survey has people, as heavy as they are, whole in every pose.
 #include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -341,6 +342,19 @@ TEST(BodyMeasures, AreThoseOfTheSurveysMeanPeople) {
   EXPECT_NEAR(1e3 * woman.foot_breadth, 92.7, 1);
   EXPECT_NEAR(1e3 * woman.hand_breadth, 78.2, 1);
   EXPECT_GT(woman.hip_breadth, body_measures(person(1.6285F, 67.76F)).hip_breadth);
+}
+
+/// However many steps a build is cut into, none is beyond the ends that are promised.
+RC_GTEST_PROP(Skin, BuildsStayWithinTheirEnds, ()) {
+  BodyRequest body{.height_m = static_cast<float>(*rc::gen::inRange(1200, 2201)) / 1000,
+                   .mass_kg = static_cast<float>(*rc::gen::inRange(300, 2001)) / 10};
+  const auto index_of = [](const BodyRequest& of) { return of.mass_kg / (of.height_m * of.height_m); };
+  for (const float step : {1.5F, 3.0F}) {
+    const SkinBuild build = skin_build(body, step);
+    RC_ASSERT(index_of(build.body) >= 13.499F);
+    RC_ASSERT(index_of(build.body) <= 64.501F);
+    if (index_of(body) > 15 && index_of(body) < 60) RC_ASSERT(std::fabs(index_of(build.body) - index_of(body)) <= step);
+  }
 }
 
 }  // namespace mobil::skin_test

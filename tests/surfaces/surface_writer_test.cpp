@@ -400,6 +400,12 @@ TEST(SurfaceWriter, ErrorsSayWhatIsWrongAndNothingIsWritten) {
     EXPECT_TRUE(std::ranges::all_of(other.out, [](const Vertex& v) { return same(v.normal, {}); }));
   };
   refused(gone.request(), "stale");
+  Shown asleep = show(simulation, bodies()[0]);
+  for (int i = 0; i < 900; ++i) simulation.tick();
+  ASSERT_TRUE(simulation.sleep({&asleep.person, 1}));
+  refused(asleep.request(), "no pose");
+  const auto no_pose = writer.write(simulation.world(), std::array{asleep.request()});
+  EXPECT_EQ(no_pose.error().status, Status::missing);
   SurfaceRequest request = shown.request();
   request.surfaces = nullptr;
   refused(request, "bind_surfaces");

@@ -194,6 +194,18 @@ await test('a crowd keeps clear of each other, and goes its ways', async () => {
   assert.ok(nearest > 0.3 && gone.filter((d) => d > 3).length > 0.9 * gone.length);
   assert.equal(await set(page, 'clear', false) + await set(page, 'people', 0), '');
 });
+await test('the crowd is drawn from memory of its own', async () => {
+  assert.equal(await set(page, 'people', 60), '');
+  await look(page, 1);
+  const [own, kept, moves] = await page.evaluate(() => {
+    const { crowd, mobil: { library } } = mobilPage, { image } = crowd.texture, before = image.data, first = before.slice();
+    library.memory.grow(1);  // views of the library's memory end here
+    mobilPage.step(2);
+    mobilPage.draw();
+    return [before.buffer !== library.memory.buffer, image.data === before && before.length === 576 * crowd.people.count, before.some((v, i) => v !== first[i])];
+  });
+  assert.ok(own && kept && moves, `own ${own}, kept ${kept}, moves ${moves}`);
+});
 await test('five thousand people walk', async () => {
   assert.equal(await set(page, 'people', 5000), '');
   await look(page, 3);
@@ -275,6 +287,25 @@ await test('time runs', async () => {
   const marks = await live.evaluate(() => ['library', 'people'].map((name) => Math.round(performance.getEntriesByName(name)[0].startTime)));
   console.log(`        from the address, files in the cache: library ${marks[0]} ms, people ${marks[1]} ms, first picture (without a graphics card) ${await live.evaluate(() => document.body.dataset.ready)} ms; ${await live.textContent('#told')}`);
   await visitor.close();
+});
+await test('a frame that fails does not stop the page, and says so once', async () => {
+  const live = await open('crowd=0'), before = said.length;
+  const { frames, changes } = await live.evaluate(async () => {
+    const refusal = document.getElementById('refusal'), { draw } = mobilPage;
+    let frames = 0, changes = 0;
+    new MutationObserver(() => ++changes).observe(refusal, { childList: true });
+    mobilPage.draw = () => { ++frames; throw new Error('nothing can be drawn'); };
+    for (let i = 0; frames < 5 && i < 500; ++i) await new Promise((done) => { setTimeout(done, 20); });
+    mobilPage.draw = draw;
+    return { frames, changes };
+  });
+  assert.equal(said.splice(before).length, 1);
+  assert.ok(frames >= 5, `${frames} frames`);
+  assert.equal(await live.textContent('#refusal'), 'nothing can be drawn');
+  assert.equal(changes, 1, `in ${frames} frames`);
+  const time_s = await live.evaluate(() => mobilPage.world.time_s);
+  await live.waitForFunction((t) => mobilPage.world.time_s > t + 0.1, time_s, { timeout: 60000 });
+  await live.close();
 });
 await test('no console error', () => assert.deepEqual(said, []));
 await browser.close();

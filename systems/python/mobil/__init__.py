@@ -15,6 +15,7 @@ SI units, radians. People are numpy arrays of handles; what is read goes into nu
 """
 
 from ._library import Error, MissingError, OutOfMemoryError, RefusedError, StaleError, lib, text
+from .arrays import EVENT, PERSON, ROOT
 from .names import (
     ACTIVATION,
     EVENTS,
@@ -31,11 +32,12 @@ from .names import (
     StyleParameter,
 )
 from .plots import plot_walk
-from .skin import Skin
+from .skin import OwnSkin, Skin
+from .structs import method, muscles
 from .surfaces import Part, Surfaces
 from .surroundings import Avoidance, Steered, Terrain
 from .walks import Walk, walk
-from .world import EVENT, PERSON, ROOT, Choice, SystemCost, Ticks, World, method, muscles
+from .world import Choice, SystemCost, Ticks, World
 
 __version__ = text(lib.mobil_library_version())
 __all__ = [
@@ -52,6 +54,7 @@ __all__ = [
     "MUSCLES",
     "MissingError",
     "OutOfMemoryError",
+    "OwnSkin",
     "PARENTS",
     "PERSON",
     "Part",

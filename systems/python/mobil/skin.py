@@ -2,16 +2,26 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import numpy.typing as npt
 
 from . import names
-from ._library import ffi, lib
+from ._library import ffi, lib, struct
+from .arrays import People, _one, _people
 from .surfaces import aim, room
-from .world import People, World, _one
+from .world import World
 
 DETAILS = ("hero", "near", "far", "distant")
 PARTS = ("skin", "legs", "lips", "hair", "shirt", "shorts", "shoes")
+
+
+def _target(target: Any, person: People, out: npt.NDArray[np.float32], flexing: bool) -> None:
+    target.size = ffi.sizeof("mobil_skin_target")
+    target.id = _one(person)
+    target.sex, target.flexing = -1, flexing
+    aim(target, out)
 
 
 class Skin:
@@ -40,14 +50,65 @@ class Skin:
     ) -> npt.NDArray[np.float32]:
         """(n, vertices, 6): positions and unit normals after the last tick, of people of this sex. `flexing`: legs
         move as if muscles moved under their skin; a second for the first person of a build."""
-        people = np.atleast_1d(people)
-        out = room(out, len(people), self.vertex_count)
-        targets = ffi.new("mobil_skin_target[]", max(len(people), 1))
-        for i in range(len(people)):
-            target = targets[i]
-            target.size = ffi.sizeof("mobil_skin_target")
-            target.id = _one(people[i])
-            target.detail, target.sex, target.flexing = self.detail, self.sex, flexing
-            aim(target, out[i])
-        world._do(lib.mobil_write_skin(world._sim, targets, 0, len(people)))
+        people = _people(people)
+        out = room(out, people.size, self.vertex_count)
+        targets = ffi.new("mobil_skin_target[]", max(people.size, 1))
+        for i in range(people.size):
+            _target(targets[i], people[i], out[i], flexing)
+            targets[i].detail, targets[i].sex = self.detail, self.sex
+        world._do(lib.mobil_write_skin(world._sim, targets, 0, people.size))
+        return out
+
+
+class OwnSkin:
+    """A mesh of one's own of a right leg, as from a scan, and its mirror image, which move with the body's skin.
+
+    positions: (vertices, 3) in the world's axes and unit, the person standing at the origin in the anatomical position
+    and heading ahead. triangles: (n, 3), wound outwards. Bound to the body of one person, good for people of the same
+    sex and of similar build. shorts_stay: the body's shorts are drawn over it.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        like: People,
+        positions: npt.ArrayLike,
+        triangles: npt.ArrayLike,
+        *,
+        detail: str | int = "near",
+        shorts_stay: bool = False,
+    ) -> None:
+        at = np.ascontiguousarray(positions, np.float32)
+        corners = np.ascontiguousarray(triangles, np.uint32)
+        if at.ndim != 2 or at.shape[1] != 3 or corners.ndim != 2 or corners.shape[1] != 3:
+            raise ValueError("positions must be of shape (vertices, 3), triangles of shape (n, 3)")
+        mesh = struct("leg_mesh")
+        mesh.positions, mesh.vertices = ffi.from_buffer("float[]", at), len(at)
+        mesh.indices, mesh.index_count = ffi.from_buffer("unsigned int[]", corners), corners.size
+        mesh.detail = names.number_of(detail, DETAILS, "detail")
+        mesh.shorts_stay = shorts_stay
+        made = ffi.new("mobil_own_skin**")
+        world._do(lib.mobil_bind_own_skin(world._sim, _one(like), mesh, made))
+        self._skin = ffi.gc(made[0], lib.mobil_drop_own_skin)
+        self.vertex_count: int = lib.mobil_own_skin_vertex_count(self._skin)
+        index: npt.NDArray[np.uint32] = np.empty(lib.mobil_own_skin_index_count(self._skin), np.uint32)
+        lib.mobil_own_skin_indices(self._skin, ffi.from_buffer("unsigned int[]", index), index.size)
+        self.triangles = index.reshape(-1, 3)
+        count = ffi.new("size_t*")
+        lib.mobil_own_skin_rest(self._skin, ffi.NULL, 0, count)
+        rest: npt.NDArray[np.uint32] = np.empty(count[0], np.uint32)
+        lib.mobil_own_skin_rest(self._skin, ffi.from_buffer("unsigned int[]", rest), rest.size, ffi.NULL)
+        self.rest = rest.reshape(-1, 3)
+        """Of the triangles of Skin(world, sex, detail), those that are to be drawn besides."""
+
+    def vertices(
+        self, world: World, people: People, out: npt.NDArray[np.float32] | None = None, *, flexing: bool = False
+    ) -> npt.NDArray[np.float32]:
+        """(n, vertices, 6): positions and unit normals after the last tick, of both legs."""
+        people = _people(people)
+        out = room(out, people.size, self.vertex_count)
+        targets = ffi.new("mobil_skin_target[]", max(people.size, 1))
+        for i in range(people.size):
+            _target(targets[i], people[i], out[i], flexing)
+        world._do(lib.mobil_write_own_skin(world._sim, self._skin, targets, 0, people.size))
         return out

@@ -9,14 +9,16 @@ import numpy.typing as npt
 
 from . import names
 from ._library import fail, ffi, lib, text
-from .world import People, World, _fill, _one
+from .arrays import People, _one, _people
+from .structs import _fill
+from .world import World
 
 
 def room(out: npt.NDArray[np.float32] | None, people: int, vertices: int) -> npt.NDArray[np.float32]:
     """(people, vertices, 6), for positions and normals: the caller's or a new one."""
     shape = (people, vertices, 6)
     out = np.empty(shape, np.float32) if out is None else out
-    if out.shape != shape or out.dtype != np.float32 or not out.flags.c_contiguous or not out.flags.writeable:
+    if not isinstance(out, np.ndarray) or out.shape != shape or out.dtype != np.float32 or not out.flags.carray:
         raise ValueError(f"out must be a writable float32 array of shape {shape}, its numbers close together")
     return out
 
@@ -46,10 +48,11 @@ class Surfaces:
     """Bound once to the body of one person, good for everybody of similar build.
 
     choice: fields of mobil_surface_choice: bones, side ("right", "left" or 2 for both), muscles, cells, detail,
-    textured.
+    textured. contact: single muscles are kept out of each other and of bones, for close views; half a second here, and
+    some 10 ms a person and call.
     """
 
-    def __init__(self, world: World, like: People, **choice: Any) -> None:
+    def __init__(self, world: World, like: People, *, contact: bool = False, **choice: Any) -> None:
         if "side" in choice:
             choice["side"] = names.number_of(choice["side"], names.SIDES, "side")
         made = ffi.new("mobil_surfaces**")
@@ -64,6 +67,11 @@ class Surfaces:
         self.triangles = self.triangles.reshape(-1, 3)
         self.vertex_count: int = lib.mobil_vertex_count(self._surfaces)
         self.parts = tuple(self._parts())
+        self._contacts: Any = None
+        if contact:
+            found = ffi.new("mobil_contacts**")
+            world._do(lib.mobil_find_contacts(world._sim, _one(like), self._surfaces, found))
+            self._contacts = ffi.gc(found[0], lib.mobil_drop_contacts)
 
     def _parts(self):
         part = ffi.new("mobil_part*")
@@ -82,14 +90,16 @@ class Surfaces:
         self, world: World, people: People, out: npt.NDArray[np.float32] | None = None
     ) -> npt.NDArray[np.float32]:
         """(n, vertices, 6): positions and unit normals after the last tick."""
-        people = np.atleast_1d(people)
-        out = room(out, len(people), self.vertex_count)
-        targets = ffi.new("mobil_surface_target[]", max(len(people), 1))
-        for i in range(len(people)):
+        people = _people(people)
+        out = room(out, people.size, self.vertex_count)
+        targets = ffi.new("mobil_surface_target[]", max(people.size, 1))
+        for i in range(people.size):
             target = targets[i]
             target.size = ffi.sizeof("mobil_surface_target")
             target.id = _one(people[i])
             target.surfaces = self._surfaces
             aim(target, out[i])
-        world._do(lib.mobil_write_surfaces(world._sim, targets, 0, len(people)))
+        world._do(lib.mobil_write_surfaces(world._sim, targets, 0, people.size))
+        if self._contacts is not None:
+            world._do(lib.mobil_keep_apart(world._sim, self._contacts, targets, 0, people.size))
         return out

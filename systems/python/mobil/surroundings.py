@@ -8,7 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ._library import ffi, lib, struct
-from .world import PERSON, Floats, People, World, _all, _floats, _ids
+from .arrays import PERSON, Floats, People, _all, _floats, _ids, _people
+from .world import World
 
 
 class Steered(NamedTuple):
@@ -56,7 +57,7 @@ class Avoidance:
 
     def want(self, people: People, speed_m_s: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
         """Where they want to go, and how fast (0: to stand)."""
-        people = np.ravel(people)
+        people = _people(people)
         rows = np.empty((people.size, 2), np.float32)
         rows[:, 0] = speed_m_s
         rows[:, 1] = heading_rad

@@ -2,37 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any, Iterable, Mapping, NamedTuple, Sequence
+from typing import Any, Mapping, NamedTuple, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from . import names
 from ._library import fail, ffi, lib, struct, text
-from .names import muscle_bits, number_of
-
-PERSON = np.dtype([("index", np.uint32), ("generation", np.uint32)])
-"""One person's handle; people are arrays of these."""
-
-EVENT = np.dtype(
-    [
-        ("person", PERSON),
-        ("kind", np.int32),
-        ("side", np.int32),
-        ("tick", np.uint32),
-        ("part", np.float32),
-        ("place", np.float32, 3),
-        ("heading_rad", np.float32),
-    ]
-)
-"""What happened in somebody's steps: kind by names.EVENTS, side by names.SIDES, in which tick (from 1 on) and what part
-of it was over, where the foot stands, or the line is, and where it points."""
-
-ROOT = np.dtype([("place", np.float64, 3), ("heading_rad", np.float64)])
-"""Where somebody is on the ground, and heads."""
-
-People = npt.NDArray[np.void]
-Floats = npt.NDArray[np.float32]
+from .arrays import EVENT, PERSON, ROOT, Floats, People
+from .arrays import _all, _floats, _ids, _one, _out, _people, _stride, _style_rows
+from .names import number_of
+from .structs import _fill
 
 
 class Ticks(NamedTuple):
@@ -56,44 +36,6 @@ class Choice(NamedTuple):
     why: str
     error_m: float
     cost_us: float
-
-
-_NAMED = {
-    "method": names.METHODS,
-    "element": names.ELEMENTS,
-    "mass": names.MASSES,
-    "drive": names.DRIVES,
-    "activation": names.ACTIVATIONS,
-}
-
-
-def _fill(kind: str, given: Mapping[str, Any]) -> Any:
-    """A struct of the C interface with these fields; names for numbers where there are names."""
-    made = struct(kind)
-    for field, value in given.items():
-        if field == "size" or not hasattr(made, field):
-            known = [name for name, _ in ffi.typeof(made).item.fields if name != "size"]
-            raise TypeError(f"{kind} has no '{field}'; it has {', '.join(known)}")
-        if field == "muscles":
-            value = muscle_bits(value)
-        elif field in _NAMED:
-            value = number_of(value, _NAMED[field], field)
-        setattr(made, field, list(value) if isinstance(value, (tuple, np.ndarray)) else value)
-    return made
-
-
-def muscles(**fields: Any) -> Any:
-    """How leg muscles deform: muscles(method="reduced", vectors=8, activation="phase").
-
-    `muscles`: names (names.MUSCLES), usual the four groups; `method`: "static", "ecd", "icd", "caa", "reduced",
-    "none" or "finite"; all other fields are those of mobil_muscles in mobil.h, in SI units.
-    """
-    return _fill("muscles", fields)
-
-
-def method(name: str, **fields: Any) -> Any:
-    """How one muscle is simulated: method("reduced", vectors=4, control_points=0)."""
-    return _fill("method", {"method": name, **fields})
 
 
 class World:
@@ -238,7 +180,8 @@ class World:
 
     def set_poses(self, people: People, poses: npt.ArrayLike, *, jumped: bool = False) -> None:
         """Of posed people, at the end of the next tick: (n, 48, 7), place x y z and quaternion x y z w in the world."""
-        rows = np.ascontiguousarray(poses, np.float32).reshape(len(np.atleast_1d(people)), len(names.SEGMENTS), 7)
+        people = _people(people)
+        rows = np.ascontiguousarray(poses, np.float32).reshape(people.size, len(names.SEGMENTS), 7)
         self._do(lib.mobil_set_poses(self._sim, *_all(people), _floats(rows), 0, int(jumped)))
 
     def walk(self, person: People) -> dict[str, Any]:
@@ -254,15 +197,18 @@ class World:
 
     def place(self, people: People, place: npt.ArrayLike, heading_rad: npt.ArrayLike) -> None:
         """Puts walkers elsewhere at once, all or none; no inertia is felt. place: (…, 3) in the world's axes."""
-        people = np.atleast_1d(people)
-        rows = np.empty((len(people), 4), np.float32)
+        people = _people(people)
+        rows = np.empty((people.size, 4), np.float32)
         rows[:, :3] = place
         rows[:, 3] = heading_rad
         self._do(lib.mobil_place_many(self._sim, *_all(people), _floats(rows), 0))
 
-    def shift_origin(self, to: Sequence[float]) -> None:
+    def shift_origin(self, to: npt.ArrayLike) -> None:
         """The origin moves there: every place becomes so much less."""
-        self._do(lib.mobil_shift_origin(self._sim, list(to)))
+        at = np.ascontiguousarray(to, np.float32)
+        if at.shape != (3,):
+            raise ValueError(f"the origin moves to a place of three numbers, and this has the shape {at.shape}")
+        self._do(lib.mobil_shift_origin(self._sim, _floats(at)))
 
     def watch(self, people: People, on: bool = True) -> None:
         """Their steps are watched from the next tick on, or no more: events() tells of them."""
@@ -313,8 +259,8 @@ class World:
         return names.METHODS[to.method]
 
     def set_excitation(self, people: People, muscle: str, side: str, excitation: npt.ArrayLike) -> None:
-        """0.01 to 1, of muscles with activation="host"."""
-        people = np.atleast_1d(people)
+        """0.01 to 1 (beyond: the nearer end), of muscles with activation="host"."""
+        people = _people(people)
         values = np.ascontiguousarray(np.broadcast_to(np.asarray(excitation, np.float32), people.shape))
         self._do(
             lib.mobil_set_excitation(
@@ -340,7 +286,8 @@ class World:
         return bytes(out)
 
     def load_baked(self, baked: bytes) -> None:
-        self._do(lib.mobil_load_baked(self._sim, ffi.from_buffer(baked), len(baked)))
+        data = ffi.from_buffer(baked)  # len() of it is bytes, and of an array rows
+        self._do(lib.mobil_load_baked(self._sim, data, len(data)))
 
     # Choosing
 
@@ -406,7 +353,8 @@ class World:
         return bytes(out[: used[0]])
 
     def restore(self, state: bytes) -> None:
-        self._do(lib.mobil_restore(self._sim, ffi.from_buffer(state), len(state)))
+        data = ffi.from_buffer(state)
+        self._do(lib.mobil_restore(self._sim, data, len(data)))
 
     def hash(self) -> int:
         """Of the whole state, 64 bits: equal states have equal ones, on any machine and threads."""
@@ -446,9 +394,11 @@ class World:
         numbers = ffi.new("int[]", [number_of(s, names.SEGMENTS, "segment") for s in chosen])
         layout.segments = numbers
         layout.segment_count = len(numbers)
+        people = _people(people)
         shape = ((7,), (3, 4), (8,))[layout.form]
-        out = _out(out, (len(np.atleast_1d(people)), len(numbers), *shape))
-        self._do(lib.mobil_poses(self._sim, *_all(people), layout, _floats(out), out.strides[0] if out.size else 0))
+        out = _out(out, (people.size, len(numbers), *shape))
+        if out.size:
+            self._do(lib.mobil_poses(self._sim, *_all(people), layout, _floats(out), _stride(out)))
         return out
 
     def events(self) -> People:
@@ -462,7 +412,8 @@ class World:
 
     def roots(self, people: People, ahead_s: float = 0.0) -> People:
         """Where people are on the ground and head, without the sway of the hips: an array of ROOT."""
-        found = np.zeros(len(np.atleast_1d(people)), ROOT)
+        people = _people(people)
+        found = np.zeros(people.size, ROOT)
         at = ffi.from_buffer("mobil_root[]", found) if found.size else ffi.NULL
         self._do(lib.mobil_roots(self._sim, *_all(people), ahead_s, at))
         return found
@@ -470,8 +421,10 @@ class World:
     def root_motion(self, people: People, roots: People, ahead_s: float = 0.0) -> Floats:
         """(n, 4): the way from `roots` to where people are now, in the world's axes as if they headed along the axis
         ahead, and by how much they turned, rad, to the left. Where they are now is written over `roots`."""
-        out = np.empty((len(np.atleast_1d(people)), 4), np.float32)
-        if roots.dtype != ROOT or roots.shape != (len(out),) or not roots.flags.c_contiguous or not roots.flags.writeable:
+        people = _people(people)
+        out = np.empty((people.size, 4), np.float32)
+        fits = isinstance(roots, np.ndarray) and roots.dtype == ROOT and roots.shape == people.shape
+        if not fits or not roots.flags.carray:
             raise ValueError("roots must be what roots() gave of as many people")
         if not out.size:
             return out
@@ -481,8 +434,9 @@ class World:
         return out
 
     def _rows(self, what: int, people: People, out: Floats | None) -> Floats:
-        out = _out(out, (len(np.atleast_1d(people)), lib.mobil_row_floats(what)))
-        self._do(lib.mobil_read(self._sim, what, *_all(people), _floats(out), out.strides[0] if out.size else 0))
+        people = _people(people)
+        out = _out(out, (people.size, lib.mobil_row_floats(what)))
+        self._do(lib.mobil_read(self._sim, what, *_all(people), _floats(out), _stride(out)))
         return out
 
     def joints(self, people: People, out: Floats | None = None) -> Floats:
@@ -518,58 +472,9 @@ class World:
         kinds = ("line", "line_motion", "report", "activation", "tendon", "nodes")
         number, of = number_of(what, kinds, "row"), number_of(muscle, names.MUSCLES, "muscle")
         on = number_of(side, names.SIDES, "side")
-        people = np.atleast_1d(people)
-        floats = lib.mobil_muscle_row_floats(self._sim, number, _one(people[0]), of, on) if len(people) else 0
+        people = _people(people)
+        floats = lib.mobil_muscle_row_floats(self._sim, number, _one(people[0]), of, on) if people.size else 0
         self._do(min(floats, 0))
-        out = _out(out, (len(people), floats))
-        stride = out.strides[0] if out.size else 0
-        self._do(lib.mobil_read_muscles(self._sim, number, *_all(people), of, on, _floats(out), stride))
+        out = _out(out, (people.size, floats))
+        self._do(lib.mobil_read_muscles(self._sim, number, *_all(people), of, on, _floats(out), _stride(out)))
         return out
-
-
-def _ids(people: People) -> Any:
-    return ffi.from_buffer("mobil_id[]", people)
-
-
-def _one(person: People) -> Any:
-    people = np.atleast_1d(person)
-    if people.dtype != PERSON or people.size != 1:
-        raise TypeError("one person is wanted: an element of what spawn returns")
-    return {"index": int(people["index"][0]), "generation": int(people["generation"][0])}
-
-
-def _all(people: People) -> tuple[Any, int]:
-    """Handles and how many, for a call. The array lives as long as the expression that names it."""
-    people = np.atleast_1d(people)
-    if people.dtype != PERSON:
-        raise TypeError("people are arrays of mobil.PERSON, as spawn returns them")
-    if not people.flags.c_contiguous:
-        people = np.ascontiguousarray(people)
-    return (_ids(people) if people.size else ffi.NULL), people.size
-
-
-def _floats(values: Floats) -> Any:
-    return ffi.cast("float*", values.ctypes.data)
-
-
-def _out(out: Floats | None, shape: tuple[int, ...]) -> Floats:
-    """The caller's array where it fits, rows at any distance; a new one where there is none."""
-    if out is None:
-        return np.empty(shape, np.float32)
-    rows_close = out.dtype == np.float32 and out.shape == shape and (out.size == 0 or out[0].flags.c_contiguous)
-    if not rows_close or not out.flags.writeable or (len(out) > 1 and out.strides[0] < out[0].nbytes):
-        raise ValueError(f"out must be a writable float32 array of shape {shape} whose rows lie together")
-    return out
-
-
-def _style_rows(style: Mapping[str, npt.ArrayLike] | None) -> tuple[Floats, int]:
-    """One row a person (or one for all) of all style numbers, and how many these are; 0 without a style."""
-    if not style:
-        return np.zeros((1, 0), np.float32), 0
-    known = list(names.STYLE)
-    values = {number_of(name, tuple(known), "style parameter"): np.atleast_1d(v) for name, v in style.items()}
-    rows = np.array([p.usual for p in names.STYLE.values()], np.float32)
-    rows = np.tile(rows, (max(len(v) for v in values.values()), 1))
-    for column, value in values.items():
-        rows[:, column] = value
-    return rows, rows.shape[1]

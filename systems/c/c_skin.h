@@ -1,0 +1,23 @@
+#pragma once
+// What the calls of skins share.
+
+#include <array>
+#include <vector>
+
+#include "systems/c/c_call.h"
+#include "systems/surfaces/skin_writer.h"
+
+namespace mobil::c {
+
+/// A person's pose, and muscles' vertices in our axes, from the world's origin.
+struct PosedSkin {
+  Pose<float> pose;
+  std::array<std::vector<Vec3<float>>, 2> of_side;
+};
+
+/// All of a target but its shape and streams; `posed` must live as long as the request. `sex`: of the triangles, below
+/// 0 any.
+int skin_person(mobil_sim& s, const mobil_skin_target& as, int sex, PosedSkin& posed, SkinRequest& to);
+int skin_streams(mobil_sim& s, const mobil_skin_target& as, VertexStream& positions, VertexStream& normals);
+
+}  // namespace mobil::c

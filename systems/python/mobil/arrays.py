@@ -1,0 +1,97 @@
+"""Arrays that go to the C interface and come from it: what they hold, and how long they have to be."""
+
+from __future__ import annotations
+
+from typing import Any, Mapping
+
+import numpy as np
+import numpy.typing as npt
+
+from . import names
+from ._library import ffi
+from .names import number_of
+
+PERSON = np.dtype([("index", np.uint32), ("generation", np.uint32)])
+"""One person's handle; people are arrays of these, of one dimension."""
+
+EVENT = np.dtype(
+    [
+        ("person", PERSON),
+        ("kind", np.int32),
+        ("side", np.int32),
+        ("tick", np.uint32),
+        ("part", np.float32),
+        ("place", np.float32, 3),
+        ("heading_rad", np.float32),
+    ]
+)
+"""What happened in somebody's steps: kind by names.EVENTS, side by names.SIDES, in which tick (from 1 on) and what part
+of it was over, where the foot stands, or the line is, and where it points."""
+
+ROOT = np.dtype([("place", np.float64, 3), ("heading_rad", np.float64)])
+"""Where somebody is on the ground, and heads."""
+
+People = npt.NDArray[np.void]
+Floats = npt.NDArray[np.float32]
+
+
+def _people(people: People) -> People:
+    """Handles as calls take them: one dimension, close together; one person becomes an array of one. Calls read and
+    write as many rows as this array's size."""
+    handles = np.atleast_1d(people)
+    if handles.dtype != PERSON:
+        raise TypeError("people are arrays of mobil.PERSON, as spawn returns them")
+    if handles.ndim != 1:
+        raise ValueError(f"people are arrays of one dimension, and this has the shape {handles.shape}; give its ravel()")
+    return np.require(handles, requirements=["C", "A"])
+
+
+def _ids(people: People) -> Any:
+    return ffi.from_buffer("mobil_id[]", people)
+
+
+def _all(people: People) -> tuple[Any, int]:
+    """Handles and how many, for a call. The array lives as long as the expression that names it."""
+    people = _people(people)
+    return (_ids(people) if people.size else ffi.NULL), people.size
+
+
+def _one(person: People) -> Any:
+    if np.size(person) != 1:
+        raise TypeError("one person is wanted: an element of what spawn returns")
+    people = _people(person)
+    return {"index": int(people["index"][0]), "generation": int(people["generation"][0])}
+
+
+def _floats(values: Floats) -> Any:
+    return ffi.cast("float*", values.ctypes.data)
+
+
+def _out(out: Floats | None, shape: tuple[int, ...]) -> Floats:
+    """The caller's array where it fits, rows at any distance; a new one where there is none."""
+    if out is None:
+        return np.empty(shape, np.float32)
+    fits = isinstance(out, np.ndarray) and out.dtype == np.float32 and out.shape == shape
+    if fits and out.size:
+        fits = out[0].flags.c_contiguous and (len(out) == 1 or out.strides[0] >= out[0].nbytes)
+    if not fits or not out.flags.writeable or not out.flags.aligned:
+        raise ValueError(f"out must be a writable float32 array of shape {shape} whose rows lie together")
+    return out
+
+
+def _stride(rows: Floats) -> int:
+    """Bytes from row to row, for a call; 0: close together. numpy gives a lone row any stride."""
+    return rows.strides[0] if rows.size and len(rows) > 1 else 0
+
+
+def _style_rows(style: Mapping[str, npt.ArrayLike] | None) -> tuple[Floats, int]:
+    """One row a person (or one for all) of all style numbers, and how many these are; 0 without a style."""
+    if not style:
+        return np.zeros((1, 0), np.float32), 0
+    known = list(names.STYLE)
+    values = {number_of(name, tuple(known), "style parameter"): np.atleast_1d(v) for name, v in style.items()}
+    rows = np.array([p.usual for p in names.STYLE.values()], np.float32)
+    rows = np.tile(rows, (max(len(v) for v in values.values()), 1))
+    for column, value in values.items():
+        rows[:, column] = value
+    return rows, rows.shape[1]

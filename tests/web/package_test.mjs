@@ -1,0 +1,192 @@
+// The JavaScript package in Node: whose memory handles are, what structs read back, what setPoses and others do.
+// Usage: node --experimental-wasm-relaxed-simd package_test.mjs PACKAGE. Exit status 1: something is wrong.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import path from 'node:path';
+import test from 'node:test';
+import { pathToFileURL } from 'node:url';
+
+const folder = path.resolve(process.argv[2]);
+const { METHODS, MobilError, constants: c, load } = await import(pathToFileURL(path.join(folder, 'mobil.js')));
+const mobil = await load(new Uint8Array(readFileSync(path.join(folder, 'mobil.wasm'))), true);
+
+// Every block of the library's memory that JavaScript takes, and that it gives back.
+const live = new Set();
+const { library } = mobil, { allocate, release } = library;
+let wrongly = 0;
+library.allocate = (bytes) => {
+  const at = allocate.call(library, bytes);
+  live.add(at);
+  return at;
+};
+library.release = (at) => {
+  if (at === 0) return;
+  if (live.delete(at)) release.call(library, at);
+  else ++wrongly;
+};
+const spawned = (world, count = 5, more = {}) => world.spawn(Array.from({ length: count }, (_, i) => ({ height_m: 1.8, mass_kg: 80, speed_m_s: 1.2, place: [2 * i, 0, 0], ...more })));
+const refused = (line, code) => (error) => error instanceof MobilError && !error.message.includes('\n') && line.test(error.message) && (code === undefined || error.code === code);
+const gone = refused(/despawned or forgotten/, c.MOBIL_STALE);
+
+test('a slice owns nothing, and what has gone is refused', () => {
+  const world = mobil.world(), before = live.size, people = spawned(world);
+  assert.equal(live.size, before + 1);
+  const some = people.slice(2);
+  world.tick();
+  world.matrices(some);
+  world.despawn(some);
+  assert.throws(() => world.matrices(some), gone);
+  assert.throws(() => world.despawn(some), gone);
+  assert.throws(() => some.slice(0), gone);
+  assert.throws(() => world.matrices(people), refused(/gone|stale|person 2/i, c.MOBIL_STALE));
+  assert.equal(world.read(c.MOBIL_CENTRE, people.slice(0, 2)).length, 6);
+  world.despawn(people.slice(0, 2));
+  assert.equal(world.read(c.MOBIL_CENTRE, people.slice(3, 5)).length, 6);
+  const others = spawned(world, 3);  // where handles were freed wrongly, these would take their place
+  const last = people.slice(3, 5);
+  world.despawn(last);
+  people.forget();
+  people.forget();
+  assert.throws(() => people.slice(0), gone);
+  assert.throws(() => world.despawn(people), gone);
+  assert.equal(world.matrices(others).length, 3 * 576);
+  const view = others.slice(0), of_view = others.slice(0, 2).slice(1);
+  world.despawn(others);
+  assert.throws(() => world.despawn(others), gone);
+  for (const old of [view, of_view]) assert.throws(() => world.matrices(old), gone);
+  for (const call of [() => world.walk(view), () => world.surfaces(view), () => world.want(others, [[1, 0], [1, 0], [1, 0]]), () => world.watch(others)]) assert.throws(call, gone);
+  others.forget();
+  assert.equal(live.size, before);
+  assert.equal(wrongly, 0);
+  world.destroy();
+});
+
+test('reading many slices takes no memory', () => {
+  const world = mobil.world(), people = spawned(world, 20);
+  world.tick();
+  const all = world.read(c.MOBIL_CENTRE, people).slice(), before = live.size;
+  for (let i = 0; i < 20; ++i) assert.deepEqual([...world.read(c.MOBIL_CENTRE, people.slice(i))], [...all.subarray(3 * i, 3 * i + 3)]);
+  world.matrices(people.slice(0, 7));
+  assert.equal(live.size, before);
+  people.forget();
+  assert.equal(live.size, before - 2);
+  world.destroy();
+});
+
+test('slices lie within those whom they are of', () => {
+  const world = mobil.world(), people = spawned(world, 3);
+  for (const [begin, end] of [[-1], [4], [2, 1], [0.5], [NaN]]) assert.throws(() => people.slice(begin, end), refused(/no slice from/, c.MOBIL_REFUSED));
+  assert.equal(people.slice(1, 99).count, 2);
+  for (const call of [(nobody) => world.place(nobody, [0, 0, 0], 0), (nobody) => world.walk(nobody), (nobody) => world.surfaces(nobody)]) {
+    assert.throws(() => call(people.slice(3)), refused(/nobody among these/));
+  }
+  world.despawn(people);
+  world.destroy();
+});
+
+test('surfaces are dropped once', () => {
+  const world = mobil.world(), people = spawned(world, 1), before = live.size;
+  const surfaces = world.surfaces(people, { bones: 1, muscles: 0 });
+  world.tick();
+  assert.ok(surfaces.write(people).length > 0);
+  surfaces.drop();
+  surfaces.drop();
+  assert.throws(() => surfaces.write(people), refused(/were dropped/));
+  assert.equal(live.size, before);
+  assert.equal(wrongly, 0);
+  world.destroy();
+});
+
+test('fields that hold several numbers come back as arrays', () => {
+  const world = mobil.world(), people = world.spawn([{ height_m: 1.8, mass_kg: 80 }], { method: METHODS.reduced, vectors: 8, control_points: 1 });
+  const method = world.method(people, 1);
+  assert.equal(method.method, METHODS.reduced);
+  assert.ok(method.reduced_cells.length === 3 && method.reduced_cells.every((n) => n > 0), `${method.reduced_cells}`);
+  world.tick(5);
+  const before = world.hash();
+  world.setMethod(people, 1, method);
+  assert.deepEqual(world.method(people, 1), method);
+  assert.equal(world.hash(), before);
+  assert.throws(() => world.setMethod(people, 1, { ...method, reduced_cells: [4] }), refused(/reduced_cells.*3 numbers/));
+  world.destroy();
+});
+
+test('events say where feet strike', () => {
+  const world = mobil.world(), people = spawned(world, 1);
+  world.watch(people);
+  const places = [];
+  for (let i = 0; i < 120; ++i) {
+    world.tick();
+    for (const { kind, place } of world.events()) if (kind === c.MOBIL_HEEL_STRIKE) places.push(place);
+  }
+  assert.ok(places.length >= 2 && places.every((p) => p.length === 3));
+  assert.ok(places.every((p, i) => i === 0 || p[2] > places[i - 1][2] + 0.3));
+  world.destroy();
+});
+
+test('posed people take the poses of a walker', () => {
+  const world = mobil.world(), walker = spawned(world, 1), posed = spawned(world, 2, { posed: 1, speed_m_s: undefined });
+  world.tick(20);
+  const pose = world.poses(walker).slice();
+  assert.equal(pose.length, 7 * 48);
+  world.setPoses(posed, [...pose, ...pose]);
+  world.tick();
+  const got = world.poses(posed);
+  for (let i = 0; i < got.length; ++i) assert.ok(Math.abs(got[i] - pose[i % pose.length]) < 1e-5, `float ${i}: ${got[i]} is not ${pose[i % pose.length]}`);
+  world.setPoses(posed.slice(0), world.poses(walker), true);  // a view of the library's memory
+  world.tick();
+  assert.ok(Math.abs(world.poses(posed.slice(0))[2] - world.poses(posed.slice(1))[2]) > 0.005);
+  const before = world.hash();
+  assert.throws(() => world.setPoses(posed, pose), refused(/poses: 672 numbers are wanted, and there are 336/));
+  assert.throws(() => world.setPoses(walker, pose), refused(/./));
+  assert.equal(world.hash(), before);
+  world.destroy();
+});
+
+test('muscles of the host pull as they are told', () => {
+  const world = mobil.world(), people = world.spawn([0, 1].map((i) => ({ height_m: 1.8, mass_kg: 80, place: [i, 0, 0] })), { method: METHODS.ecd, activation: c.MOBIL_BY_HOST });
+  const excitation = () => Array.from({ length: 2 }, (_, i) => world.readMuscle(c.MOBIL_ACTIVATION, people.slice(i), c.MOBIL_QUADRICEPS)[0]);
+  world.setExcitation(people, c.MOBIL_QUADRICEPS, c.MOBIL_RIGHT, [0.25, 0.75]);
+  world.tick();
+  assert.deepEqual(excitation(), [0.25, 0.75]);
+  world.setExcitation(people, c.MOBIL_QUADRICEPS, c.MOBIL_RIGHT, 0.5);
+  world.tick();
+  assert.deepEqual(excitation(), [0.5, 0.5]);
+  assert.throws(() => world.setExcitation(people, c.MOBIL_QUADRICEPS, c.MOBIL_RIGHT, [0.5]), refused(/excitations: 2 numbers/));
+  world.destroy();
+});
+
+test('a walk is read back as it is asked for', () => {
+  const world = mobil.world(), style = mobil.style.map((n) => n.usual), toes = mobil.style.findIndex((n) => n.name === 'toe_out_deg');
+  style[toes] = 12;
+  const people = spawned(world, 2, { style });
+  world.changeWalk(people, { heading_rad: 0.5 });
+  const walk = world.walk(people.slice(1));
+  assert.equal(walk.heading_rad, 0.5);
+  assert.ok(Math.abs(walk.speed_m_s - 1.2) < 1e-6 && walk.step_length_m > 0.4 && walk.step_length_m < 0.9);
+  assert.equal(walk.style.length, mobil.style.length);
+  assert.equal(walk.style[toes], 12);
+  world.changeWalk(people.slice(1), { speed_m_s: 1.5 });
+  world.changeWalk(people.slice(1), walk);
+  assert.deepEqual(world.walk(people.slice(1)), walk);
+  const posed = spawned(world, 1, { posed: 1, speed_m_s: undefined });
+  assert.throws(() => world.walk(posed), refused(/does not walk/, c.MOBIL_MISSING));
+  world.destroy();
+});
+
+test('the origin moves, and rows have the length that the library reads', () => {
+  const world = mobil.world(), people = spawned(world, 2);
+  world.startAvoidance();
+  world.avoid(people);
+  world.shiftOrigin([64, 0, 0]);
+  const roots = world.roots(people);
+  assert.deepEqual([roots[0], roots[4]], [-64, -62]);
+  const before = world.hash();
+  for (const call of [() => world.shiftOrigin([1, 2]), () => world.place(people, [1, 2, 3, 4], 0), () => world.want(people, [[1], [1, 0, 0]]),
+    () => world.setWalls([[0, 0, 0]]), () => world.setDiscs([[0, 0, 0, 0]]), () => world.changeWalk(people, { speed_m_s: 1, nothing: 2 })]) {
+    assert.throws(call, refused(/number|has no/, c.MOBIL_REFUSED));
+  }
+  assert.equal(world.hash(), before);
+  world.want(people, [new Float32Array([1, 0]), [1, 0]]);
+  world.destroy();
+});

@@ -70,8 +70,8 @@ typedef struct mobil_leg_mesh {
   /* Whose muscles the skin moves over when it is written (mobil_skin_target.muscles); null: without. */
   const mobil_surfaces* surfaces;
 } mobil_leg_mesh;
-/* Bound once to a person's body, a quarter of a second to one; good for people of the same sex and of similar build. Outlives the
- * person and the surfaces. */
+/* Bound once to a person's body, a quarter of a second to one; good for people of the same sex and of similar build.
+ * Outlives the person and the surfaces. */
 MOBIL_API int mobil_bind_own_skin(mobil_sim* sim, mobil_id like, const mobil_leg_mesh* mesh, mobil_own_skin** out);
 MOBIL_API void mobil_drop_own_skin(mobil_own_skin* skin);                /* null is allowed */
 MOBIL_API size_t mobil_own_skin_vertex_count(const mobil_own_skin* skin); /* of both legs */

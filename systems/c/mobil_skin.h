@@ -1,5 +1,6 @@
-/* Skin, clothes and hair as triangles, a skin of one's own, contact of muscles; WebAssembly is without. A part of mobil.h: in the header that hosts have it
- * stands in the place of its include. Since interface 2. */
+/* Skin, clothes and hair as triangles, a skin of one's own, contact of muscles; WebAssembly is without. A part of
+ * mobil.h: in the header that hosts have it stands in the place of its include. Since interface 2, a skin of one's own
+ * and contact since 3. */
 #ifndef MOBIL_SKIN_H
 #define MOBIL_SKIN_H
 
@@ -51,7 +52,7 @@ typedef struct mobil_skin_target {
  * first of a build (1.5 kg/m2) a quarter to half a second. */
 MOBIL_API int mobil_write_skin(mobil_sim* sim, const mobil_skin_target* targets, size_t stride, size_t count);
 
-/* ---- A skin of one's own ------------------------------------------------------------------------------------------ */
+/* ---- A skin of one's own ----------------------------------------------------------------------------------------- */
 
 /* A mesh of legs, as from a scan, that moves with the skin of a body. */
 typedef struct mobil_own_skin mobil_own_skin;
@@ -84,7 +85,7 @@ MOBIL_API int mobil_own_skin_rest(const mobil_own_skin* skin, unsigned int* out,
 MOBIL_API int mobil_write_own_skin(mobil_sim* sim, const mobil_own_skin* skin, const mobil_skin_target* targets,
                                    size_t stride, size_t count);
 
-/* ---- Contact ------------------------------------------------------------------------------------------------------ */
+/* ---- Contact ----------------------------------------------------------------------------------------------------- */
 
 /* Single muscles kept out of each other and of bones, on what is drawn: which vertices may touch which. */
 typedef struct mobil_contacts mobil_contacts;

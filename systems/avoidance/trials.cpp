@@ -19,7 +19,7 @@ constexpr float beside[] = {0, 12 * pi / 180, -12 * pi / 180, 27 * pi / 180, -27
 /// The slowest walk, m/s at a leg of leg_m.
 constexpr float slowest = 0.3F;
 /// How long steps are, of the walker's own, where there is no room for those.
-constexpr float short_step = 0.6F;
+constexpr float short_step = 0.5F;
 /// Nobody turns on the spot for less, rad.
 constexpr float least_turn = 0.1F;
 

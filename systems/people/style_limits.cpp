@@ -22,6 +22,14 @@ namespace {
 constexpr std::size_t parameter_count = gait_parameters.size();
 constexpr int halvings = 8;
 
+/// Besides, of styles far from the usual one: turns and changes of speed, which are not looked at, bend hips and ankles
+/// so much further.
+double for_turns(WalkBound bound, Looking looking) {
+  using enum WalkBound;
+  if (looking != Looking::at_stops_too) return 0;
+  return bound == ankle_up || bound == ankle_down ? 0.12 : bound == hip_back || bound == hip_forward ? 0.04 : 0;
+}
+
 /// What is kept free below the limits, for a walk goes a little further between the instants that are looked at.
 /// The usual style with other steps moves smoothly.
 float held_to(std::size_t bound, Looking looking, bool usual_style) {
@@ -33,7 +41,7 @@ float held_to(std::size_t bound, Looking looking, bool usual_style) {
   const Spare& spare = looking == Looking::roughly ? rough : usual_style ? smooth : close;
   const double free = limit.bound == WalkBound::under_ground    ? spare.m
                       : limit.bound == WalkBound::pelvis_shaken ? spare.m_s2
-                                                                : spare.rad;
+                                                                : spare.rad + for_turns(limit.bound, looking);
   return static_cast<float>(limit.limit - free);
 }
 

@@ -75,11 +75,13 @@ TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
   });
 }
 
-/// Of any style nearly all do: in steps that turn or change speed it is nearer to the usual one.
+/// Of any style nearly all do: in steps that turn or change speed it is nearer to the usual one, and styles far from it
+/// keep more clear of limits. Some hundred; 4800 with MOBIL_LONG in the environment.
 TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
   Dice dice{std::mt19937(6)};
   std::vector<Asked> asked;
-  for (unsigned i = 0; i < 480; ++i) asked.push_back(anyone(dice, i % 6, false));
+  const std::size_t tens = std::getenv("MOBIL_LONG") != nullptr ? 10 : 1;
+  for (unsigned i = 0; i < 480 * tens; ++i) asked.push_back(anyone(dice, i % 6, false));
   std::map<std::string, std::vector<Walked>> walked;  // by phase
   std::vector<std::unique_ptr<Watch>> watches(asked.size());
   play(asked, [&](const Simulation& simulation, Entity person, std::size_t i, const char* name) {
@@ -89,13 +91,13 @@ TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
     watches[i]->look(of_phase[i]);
   });
   ASSERT_EQ(walked.size(), 6U);
-  const std::map<std::string, std::size_t> at_most = {{"walks", 0}, {"starts", 1},    {"slows down", 2},
-                                                      {"turns", 5}, {"speeds up", 8}, {"stops", 2}};
+  const std::map<std::string, std::size_t> at_most = {{"walks", 0}, {"starts", 1},    {"slows down", 1},
+                                                      {"turns", 1}, {"speeds up", 2}, {"stops", 1}};
   for (const auto& [name, of_phase] : walked) {
     const auto broken = static_cast<std::size_t>(
         std::ranges::count_if(of_phase, [](const Walked& one) { return !one.keeps_limits(); }));
     std::printf("%s: %zu of %zu beyond a limit\n", name.c_str(), broken, of_phase.size());
-    EXPECT_LE(broken, at_most.at(name)) << name;
+    EXPECT_LE(broken, tens * at_most.at(name)) << name;
   }
 }
 

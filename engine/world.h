@@ -74,8 +74,8 @@ class World {
   /// While one lives, what create_many and remake_many do, and what becomes of entities remade, can be undone,
   /// and is at its end unless it was kept: rows and handles are those of before, also handles given out later. Undoing
   /// and keeping take no memory. Until then the old rows of who was remade stay in their tables: nobody goes over
-  /// tables, nobody is destroyed, and nobody comes into a table that others left. One within another is part of it:
-  /// what the inner one kept is undone with the outer one.
+  /// tables, nobody is destroyed, and in a table that others left nobody is created, or leaves but by remake_many. One
+  /// within another is part of it: what the inner one kept is undone with the outer one.
   class Attempt {
    public:
     explicit Attempt(World& world, const Jobs& jobs = {});

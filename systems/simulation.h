@@ -132,7 +132,7 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   /// What of a walk's manner is otherwise than asked, in that order, because a limit of joints or ground would be
-  /// broken (systems/people/style_limits.h): spawn, change_gait, set_gait and change_walks keep to it, `gait_request`
+  /// broken or all but reached (systems/people/style_limits.h): spawn, change_gait, set_gait and change_walks keep to it, `gait_request`
   /// then says what is walked. Empty: nothing. Errors: as of spawn.
   static Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
 

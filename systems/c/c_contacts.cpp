@@ -55,6 +55,8 @@ int written_of(mobil_sim& s, const mobil_contacts& contacts, const void* target,
     return s.line.refuse(MOBIL_REFUSED, "a target's surfaces are not those that contacts were found for");
   for (const auto& [name, stream] : {std::pair{"positions", to.positions}, std::pair{"normals", to.normals}})
     if (auto ok = check_stream(name, stream, contacts.vertices, three); !ok) return s.line.refuse(ok.error());
+  if (lie_over(to.positions, three, to.normals, three, contacts.vertices))
+    return s.line.refuse(MOBIL_REFUSED, "normals lie over positions; put them into slots or memory of their own");
   return MOBIL_OK;
 }
 

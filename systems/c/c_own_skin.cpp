@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "assets/skin/own_skin.h"
+#include "assets/surfaces/surface_mesh.h"
+#include "engine/geometry.h"
 #include "systems/c/c_skin.h"
 #include "systems/c/c_surfaces.h"
 #include "systems/people/person.h"
@@ -24,6 +26,8 @@ namespace {
 using namespace mobil;
 using namespace mobil::c;
 
+constexpr float furthest_m = 5;  // of a leg's vertex from the origin between the feet
+
 /// A skin's vertices, close together.
 struct Vertices {
   std::vector<Vec3<float>> position, normal;
@@ -33,7 +37,7 @@ struct Vertices {
   VertexStream normals() { return {std::as_writable_bytes(std::span(normal))}; }
 };
 
-/// In our axes. Errors: what is null, or no triangle of such vertices.
+/// In our axes, what its triangles name. Errors: what is null, or no triangle of such vertices.
 int mesh_of(mobil_sim& s, const mobil_leg_mesh& given, SurfaceMesh& to) {
   if (given.positions == nullptr) return s.line.refuse_null("positions");
   if (given.indices == nullptr) return s.line.refuse_null("indices");
@@ -41,9 +45,12 @@ int mesh_of(mobil_sim& s, const mobil_leg_mesh& given, SurfaceMesh& to) {
     return s.line.refuse(MOBIL_REFUSED, fmt::format("{} indices; give three a triangle", given.index_count));
   for (std::size_t v = 0; v < given.vertices; ++v) {
     const float* const at = given.positions + 3 * v;
-    if (!(std::isfinite(at[0]) && std::isfinite(at[1]) && std::isfinite(at[2])))
-      return s.line.refuse(MOBIL_REFUSED, fmt::format("vertex {} is not finite", v));
-    to.position.push_back(s.axes.place_from(at));
+    const Vec3<float>& place = to.position.emplace_back(s.axes.place_from(at));
+    if (!(geometry::length(place) <= furthest_m))
+      return s.line.refuse(MOBIL_REFUSED,
+                           fmt::format("vertex {} is at ({}, {}, {}), more than {} m from the origin; is "
+                                       "it in the unit of mobil_options?",
+                                       v, at[0], at[1], at[2], furthest_m));
   }
   to.triangle.resize(given.index_count);
   for (std::size_t i = 0; i < given.index_count; ++i) {
@@ -52,6 +59,7 @@ int mesh_of(mobil_sim& s, const mobil_leg_mesh& given, SurfaceMesh& to) {
                            fmt::format("index {} is of vertex {}; there are {}", i, given.indices[i], given.vertices));
   }
   wind({given.indices, given.index_count}, s.axes.mirrored(), to.triangle.data());
+  drop_unused(to);  // which would count for where the leg ends
   return MOBIL_OK;
 }
 
@@ -157,6 +165,8 @@ int mobil_write_own_skin(mobil_sim* sim, const mobil_own_skin* skin, const mobil
       if (auto ok = check_stream("positions", one.positions, vertices, three); !ok) return s.line.refuse(ok.error());
       if (!one.normals.bytes.empty()) {
         if (auto ok = check_stream("normals", one.normals, vertices, three); !ok) return s.line.refuse(ok.error());
+        if (lie_over(one.positions, three, one.normals, three, vertices))
+          return s.line.refuse(MOBIL_REFUSED, "normals lie over positions; put them into slots or memory of their own");
       }
       const float height_m = body_request(s.world().world(), requests[i].person).height_m;
       requests[i].shape = {&skin->bare, height_m / skin->height_m};

@@ -10,6 +10,7 @@
 #include "components/sleep.h"
 #include "systems/c/c_call.h"
 #include "systems/muscles/sleep.h"
+#include "systems/people/by_table.h"
 #include "systems/people/fat_wobble.h"
 #include "systems/people/ground_forces.h"
 #include "systems/people/person.h"
@@ -376,6 +377,7 @@ int mobil_set_forces(mobil_sim* sim, const mobil_id* ids, size_t count, int on) 
     if (const int code = s.name_people(ids, count)) return code;
     for (std::size_t i = 0; i < count; ++i)
       if (!s.world().is_person(s.people[i])) return s.line.refuse(Error{{}, Status::stale_entity}, person_number(i));
+    drop_repeated(s.people);
     const auto done = s.world().set_forces(s.people, on != 0);
     return done ? int{MOBIL_OK} : s.line.refuse(done.error());
   });

@@ -274,9 +274,12 @@ class StyleBlock {
   std::optional<Break> worst(std::size_t lane) const {
     std::optional<Break> worst;
     double most = 0;
+    // The usual style with the steps asked for needs nothing free for turns.
+    const bool usual = looking_ == Looking::at_stops_too && same_style(gait_row_[lane].style, usual_);
     for (std::size_t b = 0; b < bound_count; ++b) {
       const float value = found_.value[b][lane];
-      const double by = static_cast<double>(value - held_[b][lane]) / std::max(walk_limits()[b].limit, 0.1);
+      const float held = usual ? std::max(held_[b][lane], held_to(b, Looking::closely, false)) : held_[b][lane];
+      const double by = static_cast<double>(value - held) / std::max(walk_limits()[b].limit, 0.1);
       if (by <= most) continue;
       most = by;
       worst = Break{static_cast<WalkBound>(b), value, found_.at_stop[b][lane]};

@@ -1,5 +1,5 @@
-// What close views want through the C interface: a skin of the host's own, and muscles kept out of each other. As in
-// C++, in the host's axes.
+// What close views want through the C interface: a skin of the host's own, and muscles kept out of each other; alike in
+// all axes.
 
 #include <algorithm>
 #include <array>

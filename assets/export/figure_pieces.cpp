@@ -71,11 +71,14 @@ Result<std::vector<FigurePiece>> figure_pieces(const SeenFigure& figure, const S
     piece.cloth = cloth;
     for (std::size_t i = 0; i < figure.surfaces.size(); ++i) {
       if (figure.cloth_of(i) != cloth) continue;
+      piece.name = "bones";
       auto added = append_bone(figure.surfaces[i], standing[index(figure.surfaces[i].segment)], piece);
       if (!added) return tl::unexpected(added.error());
     }
     for (const SkinnedSurface& surface : figure.skin) {
-      if (surface.cloth == cloth) append_skin(surface, piece);
+      if (surface.cloth != cloth) continue;
+      if (piece.name.empty()) piece.name = surface.name;
+      append_skin(surface, piece);
     }
     if (piece.triangle.empty()) continue;
     if (piece.tangent.size() != piece.position.size()) {  // not all of it has an atlas

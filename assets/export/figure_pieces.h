@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "assets/export/recorded_people.h"
@@ -17,6 +18,7 @@ using StandingPlaces = std::array<Eigen::Vector3d, segment_count>;
 
 struct FigurePiece {
   std::size_t cloth = 0;
+  std::string name;  // bones, or what a skin's part is
   std::vector<Vec3<float>> position, normal;
   std::vector<TexturePlace> texture;               // folded; or of an atlas, to the right and down
   std::vector<std::array<float, 4>> tangent;       // or none

@@ -94,10 +94,14 @@ Result<std::string> gl_bytes(const WalkRecording& recording) {
   std::string bytes = "MOBILGL1";
   bytes.reserve(28 + 92 * parts.size() + 4 * indices + 24 * vertices * recording.frames.size());
   for (const std::size_t count : {recording.frames.size(), parts.size(), vertices, indices}) put_size(bytes, count);
-  put_number(bytes, recording.frame_s);
+  put_number(bytes, static_cast<float>(recording.frame_s));
   std::size_t first_vertex = 0, first_index = 0;
   for (const GlPart& part : parts) {
-    std::string name = part.name->substr(0, name_room - 1);
+    std::string name = *part.name;
+    if (std::size_t cut = name_room - 1; name.size() > cut) {
+      while (cut > 0 && (static_cast<unsigned char>(name[cut]) & 0xC0U) == 0x80U) --cut;  // a character's beginning
+      name.resize(cut);
+    }
     name.resize(name_room, '\0');
     bytes += name;
     for (const std::size_t count : {first_vertex, part.vertices, first_index, part.triangle->size()}) {

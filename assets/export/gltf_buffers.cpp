@@ -119,13 +119,16 @@ SkinAccessors add_joints(GltfDraft& draft, const std::vector<std::array<std::uin
                          const std::vector<std::array<float, 4>>& weight) {
   std::vector<std::uint8_t> joints(4 * joint.size(), 0), weights(4 * joint.size(), 0);
   for (std::size_t v = 0; v < joint.size(); ++v) {
+    const auto heaviest = static_cast<std::size_t>(std::ranges::max_element(weight[v]) - weight[v].begin());
     int left = 255;
-    for (std::size_t k = 4; k-- > 0;) {  // the first, which is the heaviest, takes what rounding leaves
-      const int share = k == 0 ? left : std::min(left, static_cast<int>(std::lround(255 * weight[v][k])));
+    const auto set = [&](std::size_t k, int share) {
       left -= share;
       weights[4 * v + k] = static_cast<std::uint8_t>(share);
       joints[4 * v + k] = share == 0 ? std::uint8_t{0} : joint[v][k];
-    }
+    };
+    for (std::size_t k = 4; k-- > 0;)
+      if (k != heaviest) set(k, std::min(left, static_cast<int>(std::lround(255 * weight[v][k]))));
+    set(heaviest, left);  // it takes what rounding leaves
   }
   const auto add = [&](const std::vector<std::uint8_t>& value) {
     const std::size_t offset = append(draft.skin, value.data(), value.size());
@@ -170,7 +173,7 @@ void add_channel(GltfDraft& draft, GltfAnimation& animation, int node, const std
   if (animation.time_accessor < 0) {
     std::vector<float> time_s;
     for (std::size_t f = 0; f < animation.frames; ++f) {
-      time_s.push_back(static_cast<float>(static_cast<double>(f) * static_cast<double>(animation.frame_s)));
+      time_s.push_back(static_cast<float>(static_cast<double>(f) * animation.frame_s));
     }
     animation.time_accessor = add_keys(draft, time_s, TINYGLTF_TYPE_SCALAR, true);
   }

@@ -46,7 +46,7 @@ int add_bind_matrices(GltfDraft& draft, const std::vector<float>& matrix);
 struct GltfAnimation {
   tinygltf::Animation animation;
   std::size_t frames = 0;
-  float frame_s = 0;
+  double frame_s = 0;
   int time_accessor = -1;
 };
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "assets/export/figure_pieces.h"
 #include "assets/export/mesh_shading.h"
 #include "assets/export/morph_targets.h"
@@ -13,18 +15,16 @@ int number_of(std::size_t i) {
   return static_cast<int>(i);
 }
 
-/// A material per name and colour, made when first asked for.
-int material(tinygltf::Model& model, const std::string& name, const Vec3<float>& colour, double roughness) {
-  const std::vector<double> factor = {static_cast<double>(colour.x), static_cast<double>(colour.y),
-                                      static_cast<double>(colour.z), 1.0};
-  for (std::size_t m = 0; m < model.materials.size(); ++m) {
-    if (model.materials[m].pbrMetallicRoughness.baseColorFactor == factor && model.materials[m].name == name) {
-      return number_of(m);
-    }
-  }
+/// A material per thing and colour, made when first asked for.
+int material(GltfScene& scene, const std::string& of, const Vec3<float>& colour, double roughness) {
+  tinygltf::Model& model = scene.draft.model;
+  const auto [known, is_new] =
+      scene.materials.try_emplace({of, {colour.x, colour.y, colour.z}}, number_of(model.materials.size()));
+  if (!is_new) return known->second;
   tinygltf::Material made;
-  made.name = name;
-  made.pbrMetallicRoughness.baseColorFactor = factor;
+  made.name = scene.material_names.take(of);
+  made.pbrMetallicRoughness.baseColorFactor = {static_cast<double>(colour.x), static_cast<double>(colour.y),
+                                               static_cast<double>(colour.z), 1.0};
   made.pbrMetallicRoughness.metallicFactor = 0.0;
   made.pbrMetallicRoughness.roughnessFactor = roughness;
   model.materials.push_back(std::move(made));
@@ -134,6 +134,8 @@ Result<GltfFigure> make_gltf_figure(GltfDraft& draft, const SeenFigure& seen, co
       return Eigen::Map<const Eigen::Matrix3Xf>(&v.front().x, 3, static_cast<Eigen::Index>(v.size()));
     };
     figure.cloth.push_back(piece.cloth);
+    figure.name.push_back(piece.name);
+    figure.rigid.push_back(piece.rigid);
     figure.primitive.push_back(primitive(draft, columns(piece.position), columns(piece.normal), piece.texture,
                                          piece.joint, piece.weight, piece.triangle));
     if (!piece.tangent.empty()) figure.primitive.back().attributes["TANGENT"] = add_tangents(draft, piece.tangent);
@@ -143,14 +145,19 @@ Result<GltfFigure> make_gltf_figure(GltfDraft& draft, const SeenFigure& seen, co
 
 void add_figure(GltfScene& scene, const GltfFigure& figure, const SeenPerson& person, int skin,
                 const std::string& prefix) {
-  if (figure.primitive.empty()) return;
-  tinygltf::Mesh mesh;
-  const std::string name = person.colours.empty() ? "bones" : "figure";
-  for (std::size_t i = 0; i < figure.primitive.size(); ++i) {
-    mesh.primitives.push_back(figure.primitive[i]);
-    mesh.primitives.back().material = material(scene.draft.model, name, person.colour(figure.cloth[i]), 0.7);
-  }
-  add_skinned_node(scene, prefix + name, std::move(mesh), skin);
+  const bool dressed_bones = std::ranges::find(figure.rigid, true) != figure.rigid.end() &&
+                             std::ranges::find(figure.rigid, false) != figure.rigid.end();
+  const auto add = [&](const std::string& name, const auto& is_part) {
+    tinygltf::Mesh mesh;
+    for (std::size_t i = 0; i < figure.primitive.size(); ++i) {
+      if (!is_part(i)) continue;
+      mesh.primitives.push_back(figure.primitive[i]);
+      mesh.primitives.back().material = material(scene, figure.name[i], person.colour(figure.cloth[i]), 0.7);
+    }
+    if (!mesh.primitives.empty()) add_skinned_node(scene, prefix + name, std::move(mesh), skin);
+  };
+  if (dressed_bones) add("bones", [&](std::size_t i) { return figure.rigid[i]; });
+  add(person.colours.empty() ? "bones" : "figure", [&](std::size_t i) { return !dressed_bones || !figure.rigid[i]; });
 }
 
 /// A column per frame: the vertices in the frame of the segment's node, x y z below one another.
@@ -201,7 +208,7 @@ Result<void> add_muscle(GltfScene& scene, const RecordedMuscle& muscle, const Sk
 
   tinygltf::Mesh mesh;
   auto shape = standing_muscle(draft, surface, muscle.segment, figure.standing_m[index(muscle.segment)], triangle);
-  shape.material = material(draft.model, "muscle", muscle.colour, 0.5);
+  shape.material = material(scene, "muscle", muscle.colour, 0.5);
   tinygltf::Value::Array target_names;
   for (const auto& target : surface.target) {
     auto& attributes = shape.targets.emplace_back();

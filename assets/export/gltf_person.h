@@ -4,6 +4,7 @@
 #include <array>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "assets/export/gltf_buffers.h"
@@ -20,6 +21,8 @@ namespace mobil {
 struct GltfFigure {
   std::array<Eigen::Vector3d, segment_count> standing_m;
   std::vector<std::size_t> cloth;  // of each primitive
+  std::vector<std::string> name;   // and what it is
+  std::vector<bool> rigid;         // and whether it is of bones
   std::vector<tinygltf::Primitive> primitive;
 };
 
@@ -28,8 +31,9 @@ struct GltfScene {
   GltfDraft draft;
   GltfAnimation animation;
   tinygltf::Scene scene;
-  UniqueNames names;
-  std::map<std::size_t, GltfFigure> figures;  // by their number
+  UniqueNames names, material_names;
+  std::map<std::pair<std::string, std::array<float, 3>>, int> materials;  // by what is made of it, and colour
+  std::map<std::size_t, GltfFigure> figures;                              // by their number
 };
 
 /// Adds a person: nodes, skin, meshes and channels of the animation. Names of all begin with `prefix`. Errors: a

@@ -50,7 +50,7 @@ std::string table_text(const OpensimTable& table, const WalkRecording& recording
   for (const auto& name : table.name) text += "\t" + name;
   auto out = std::back_inserter(text);
   for (std::size_t row = 0; row < rows; ++row) {
-    const double time_s = recording.start_s + static_cast<double>(row) * static_cast<double>(recording.frame_s);
+    const double time_s = recording.start_s + static_cast<double>(row) * recording.frame_s;
     fmt::format_to(out, "\n{:.6f}", time_s);
     for (const auto& column : table.column) fmt::format_to(out, "\t{:.6f}", column[row]);
   }

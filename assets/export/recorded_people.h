@@ -34,7 +34,7 @@ struct SeenPerson {
 };
 
 struct RecordedPeople {
-  float frame_s = 0;
+  double frame_s = 0;
   std::vector<SeenFigure> figures;
   std::vector<SeenPerson> people;
   /// What the names of a person's parts begin with: the person's own where there are several.

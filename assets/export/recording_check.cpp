@@ -82,7 +82,7 @@ Result<void> check_skin(const SkinnedSurface& surface) {
   const std::size_t vertices = surface.position.size();
   if (!all_finite(surface.position) || !all_finite(surface.normal))
     return fail(fmt::format("skin '{}': a vertex or a normal is not finite", surface.name));
-  const auto is_unit = [](const Vec3<float>& n) { return std::fabs(n.x * n.x + n.y * n.y + n.z * n.z - 1) < 0.01F; };
+  const auto is_unit = [](const Vec3<float>& n) { return std::fabs(n.x * n.x + n.y * n.y + n.z * n.z - 1) < 1e-3F; };
   if (!std::ranges::all_of(surface.normal, is_unit))
     return fail(fmt::format("skin '{}': a normal has not length 1", surface.name));
   if (surface.normal.size() != vertices || surface.joint.size() != vertices || surface.weight.size() != vertices) {
@@ -178,7 +178,7 @@ Result<void> check_person(const RecordedPeople& recorded, const SeenPerson& pers
 
 Result<void> check_recording(const RecordedPeople& recorded) {
   if (recorded.people.empty()) return fail("the recording has nobody in it; record at least one person");
-  if (!(recorded.frame_s >= 0.001F && recorded.frame_s <= 10.0F)) {
+  if (!(recorded.frame_s >= 0.001 && recorded.frame_s <= 10)) {
     return fail(fmt::format("frames {} s apart cannot be written; the range is 0.001–10 s", recorded.frame_s));
   }
   std::set<std::string> names;

@@ -178,7 +178,7 @@ void add_cloth(UsdText& usd, const FigurePiece& piece) {
   const std::string each = fmt::format(" (elementSize = {}; interpolation = \"vertex\")", joints);
   usd.line("int[] primvars:skel:jointIndices = " + usd_numbers(joint) + each);
   usd.line("float[] primvars:skel:jointWeights = " +
-           usd_array(weight, [](auto out, float w) { fmt::format_to(out, "{:.5g}", w); }) + each);
+           usd_array(weight, [](auto out, float w) { fmt::format_to(out, "{:.9g}", w); }) + each);
   usd.line("matrix4d primvars:skel:geomBindTransform = " +
            usd_matrix(Eigen::Vector3d::Ones(), Eigen::Vector3d::Zero()));
 }
@@ -220,7 +220,11 @@ void add_body(UsdScene& scene, const SeenPerson& person, const std::string& path
   const SkeletonKeys keys = skeleton_keys(*person.frames);
   const std::string body = path + "/Body";
   usd.open("def SkelRoot", "Body");
-  add_skeleton(usd, standing_places(keys, figure.surfaces), scene.standing[person.figure], person.scale, body);
+  // At rest each person's joints are where their own skeleton has them, as high as the figure stands.
+  StandingPlaces rest = standing_places(keys, figure.surfaces);
+  const double up_m = person.scale.y * scene.standing[person.figure][index(Segment::pelvis)].y() - rest[0].y();
+  for (auto& place : rest) place.y() += figure.skin.empty() ? 0 : up_m;
+  add_skeleton(usd, rest, scene.standing[person.figure], person.scale, body);
   add_animation(usd, keys);
   for (const FigurePiece& piece : scene.pieces[person.figure]) {
     const std::size_t cloth = piece.cloth;
@@ -282,7 +286,7 @@ Result<std::string> usda_text(const RecordedPeople& recorded) {
     }
     wearers.push_back(&person);
   }
-  const double a_second = 1.0 / static_cast<double>(recorded.frame_s);
+  const double a_second = 1.0 / recorded.frame_s;
   scene.usd.text = fmt::format(
       "#usda 1.0\n(\n    defaultPrim = \"walk\"\n    upAxis = \"Y\"\n    metersPerUnit = 1\n    startTimeCode = 0\n"
       "    endTimeCode = {}\n    timeCodesPerSecond = {:.6g}\n    framesPerSecond = {:.6g}\n)\n\n",

@@ -50,7 +50,7 @@ struct RecordedFigure {
 
 /// A walk sampled every `frame_s` seconds; frame i is at i · frame_s.
 struct WalkRecording {
-  float frame_s = 1.0F / 30.0F;
+  double frame_s = 1.0 / 30;
   std::vector<Pose<float>> frames;
   std::vector<BoneSurface> bones;
   std::vector<RecordedMuscle> muscles;        // each with as many frames as `frames`
@@ -75,7 +75,7 @@ struct RecordedPerson {
 
 /// Several people over the same time: as many frames each, sampled as in WalkRecording.
 struct CrowdRecording {
-  float frame_s = 1.0F / 30.0F;
+  double frame_s = 1.0 / 30;
   std::vector<RecordedFigure> figures;
   std::vector<RecordedPerson> people;
 };

@@ -112,7 +112,7 @@ void add_segment(MovingScene& scene, const WalkRecording& recording, const Skele
   scene.text.close();
 }
 
-void add_movement(MovingScene& scene, float frame_s) {
+void add_movement(MovingScene& scene, double frame_s) {
   if (scene.interpolators.empty()) return;
   SceneText& text = scene.text;
   const std::size_t last = scene.frames - 1;
@@ -122,7 +122,7 @@ void add_movement(MovingScene& scene, float frame_s) {
   }
   const std::string clock = scene.names.take("clock");
   text.open("TimeSensor", clock);
-  text.field("cycleInterval", fmt::format("{:.6f}", static_cast<double>(last) * static_cast<double>(frame_s)));
+  text.field("cycleInterval", fmt::format("{:.6f}", static_cast<double>(last) * frame_s));
   text.field("loop", "TRUE");
   text.close();
   for (const auto& [type, name, values] : scene.interpolators) {

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
+#include <set>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -166,10 +170,27 @@ Result<OutputFolder> OutputFolder::make(const fs::path& folder) {
   return made;
 }
 
-Result<void> OutputFolder::put() {
+namespace {
+
+/// What a file is called after its number: .png of frame_0012.png; nothing where it is not called so.
+std::optional<std::string> after_number(const std::string& name, std::string_view before) {
+  if (before.empty() || !name.starts_with(before)) return std::nullopt;
+  const auto first = name.begin() + static_cast<std::ptrdiff_t>(before.size());
+  const auto end = std::find_if_not(first, name.end(), [](char c) { return c >= '0' && c <= '9'; });
+  if (end == first) return std::nullopt;
+  return std::string(end, name.end());
+}
+
+}  // namespace
+
+Result<void> OutputFolder::put(std::string_view numbered) {
   std::error_code error;
   std::vector<std::pair<fs::path, OutputFile>> moves;
+  std::set<std::string> names, endings;
   for (const auto& entry : fs::directory_iterator(inside_, error)) {
+    const std::string name = entry.path().filename().string();
+    names.insert(name);
+    if (const auto ending = after_number(name, numbered)) endings.insert(*ending);
     auto place = OutputFile::at(path_ / entry.path().filename());
     if (!place) return tl::unexpected(place.error());
     moves.emplace_back(entry.path(), std::move(*place));
@@ -179,6 +200,14 @@ Result<void> OutputFolder::put() {
   for (auto& [from, place] : moves) {
     if (auto moved = move_file(from, place); !moved) return moved;
   }
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(path_, error)) {
+    const std::string name = entry.path().filename().string();
+    const auto ending = after_number(name, numbered);
+    if (ending && endings.contains(*ending) && !names.contains(name) && entry.is_regular_file(error))
+      old.push_back(entry.path());
+  }
+  for (const fs::path& file : old) fs::remove(file, error);
   remove_with_folders(inside_, {});
   forget_unfinished(inside_);
   inside_.clear();

@@ -49,9 +49,10 @@ class OutputFolder {
   const std::filesystem::path& inside() const { return inside_; }
   const std::filesystem::path& path() const { return path_; }
 
-  /// Moves all files to their place, over files of their names; links and devices as OutputFile. Error: a folder has
-  /// one of the names, and then none is moved; or the disk fails half way.
-  Result<void> put();
+  /// Moves all files to their place, over files of their names; links and devices as OutputFile. Where there are some
+  /// called `numbered`, a number and an ending (frame_0012.png), those of an earlier run that are not among them go.
+  /// Error: a folder has one of the names, and then none is moved; or the disk fails half way.
+  Result<void> put(std::string_view numbered = {});
 
   OutputFolder(OutputFolder&& other) noexcept;
   OutputFolder& operator=(OutputFolder&& other) noexcept;

@@ -63,7 +63,7 @@ Result<void> take_pictures(const CrowdOptions& options, CrowdScene& scene) {
   }
   show("");
   if (results) {
-    if (auto done = results->put(); !done) return done;
+    if (auto done = results->put("frame_"); !done) return done;
   }
   say_written(options.capture);
   return {};

@@ -54,7 +54,7 @@ Result<void> check_crowd_exports(const std::vector<std::filesystem::path>& files
 
 Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const CrowdScene::Progress& progress) {
   CrowdRecording recording;
-  recording.frame_s = static_cast<float>(recorded_frame_s);
+  recording.frame_s = recorded_frame_s;
   BodySkins skins;
   std::map<const BodySkin*, std::size_t> known;
   for (const CrowdWalker& walker : scene.walkers()) {
@@ -68,7 +68,8 @@ Result<CrowdRecording> record_crowd(CrowdScene& scene, double seconds, const Cro
     person.scale = {shape->lengths, shape->lengths, shape->lengths};
     for (const Colour& colour : skin_colours(walker.number)) person.colours.push_back(linear_colour(colour));
   }
-  const auto frames = static_cast<std::size_t>(std::max(1L, std::lround(seconds / recorded_frame_s)));
+  const auto frames =
+      static_cast<std::size_t>(std::max(1L, std::lround(seconds / recorded_frame_s))) + 1;  // the first at 0
   const auto ticks_a_frame = std::lround(recorded_frame_s / scene.simulation().tick_s());
   for (std::size_t f = 0; f < frames; ++f) {
     for (long tick = 0; f > 0 && tick < ticks_a_frame; ++tick) {

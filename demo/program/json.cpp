@@ -99,7 +99,7 @@ void Json::update(const Json& object) {
 }
 
 std::string Json::dump(int indent) const {
-  return JsonWriter::tree(*this).dump(indent);
+  return JsonWriter::tree(*this).dump(indent, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
 }  // namespace mobil

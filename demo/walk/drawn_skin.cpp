@@ -76,17 +76,21 @@ void DrawnSkin::pose(const Pose<float>& pose, const LegVertices& muscles, const 
   follow_skin(*own, under.position, under.normal, own_position, own_normal);
 }
 
+LegVertices legs_at_rest(std::span<const Vec3<float>> right_m) {
+  LegVertices at_rest;
+  for (const Vec3<float>& at : right_m) {
+    at_rest[Side::right].push_back(at);
+    at_rest[Side::left].push_back({-at.x, at.y, at.z});
+  }
+  return at_rest;
+}
+
 Result<void> DrawnSkin::follow(const Body& body, std::span<const SurfaceMesh> legs, std::span<const Vec3<float>> rest_m,
                                bool shorts_stay) {
   auto made = make_body_skin(body, skin->detail, {.dressed = false});
   if (!made) return tl::unexpected(made.error());
   bare = std::move(*made);
-  LegVertices at_rest;
-  for (const Vec3<float>& at : rest_m) {
-    at_rest[Side::right].push_back(at);
-    at_rest[Side::left].push_back({-at.x, at.y, at.z});
-  }
-  const PosedSkin under = posed(*bare, 1, bare->standing, at_rest, nullptr);
+  const PosedSkin under = posed(*bare, 1, bare->standing, legs_at_rest(rest_m), nullptr);
   own = bind_own_skin(*bare, under.position, under.normal, legs, shorts_stay);
   return {};
 }

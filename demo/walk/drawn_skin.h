@@ -34,6 +34,9 @@ constexpr std::array<float, skin_parts> opacity_of(float share) {
 /// Muscles' vertices of the right leg and the left one, world, m.
 using LegVertices = std::array<std::vector<Vec3<float>>, 2>;
 
+/// Of a right leg's, and of their mirror images.
+LegVertices legs_at_rest(std::span<const Vec3<float>> right_m);
+
 struct DrawnSkin {
   const BodySkin* skin = nullptr;  // as in SkinShape
   float lengths = 1;

@@ -127,7 +127,7 @@ Result<Figure> make_figure(const Simulation& simulation, const Human& human,
   return bound_figure(human, std::move(*drawn), choice, contact);
 }
 
-WalkRecording begin_recording(const Figure& figure, float frame_s) {
+WalkRecording begin_recording(const Figure& figure, double frame_s) {
   WalkRecording recording;
   recording.frame_s = frame_s;
   recording.bones = figure.bones;

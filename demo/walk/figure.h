@@ -29,7 +29,7 @@ Result<Figure> make_figure(const Simulation& simulation, const Human& human,
                            const std::optional<std::filesystem::path>& anatomy, bool contact = false);
 
 /// Begins a recording of the figure: bones, and each muscle's name, triangles and colour, right then left.
-WalkRecording begin_recording(const Figure& figure, float frame_s);
+WalkRecording begin_recording(const Figure& figure, double frame_s);
 
 /// Adds the person's present pose and surfaces as one frame.
 void record_frame(const Figure& figure, const Simulation& simulation, const Human& human, WalkRecording& recording);

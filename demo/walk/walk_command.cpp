@@ -122,7 +122,7 @@ Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std
 /// Begins to record each tick.
 WalkRecording begin_ticks(const Simulation& simulation, const Human& human) {
   WalkRecording ticks;
-  ticks.frame_s = static_cast<float>(simulation.tick_s());
+  ticks.frame_s = simulation.tick_s();
   ticks.start_s = simulation.time_s() + simulation.tick_s();
   ticks.tip_m.assign(human.body.tip_m.begin(), human.body.tip_m.end());
   return ticks;
@@ -131,6 +131,15 @@ WalkRecording begin_ticks(const Simulation& simulation, const Human& human) {
 void record_tick(const Simulation& simulation, Entity entity, WalkRecording& ticks) {
   ticks.frames.push_back(*simulation.get<Pose>(entity));
   if (const auto ground = simulation.get<GroundReaction>(entity)) ticks.ground.push_back(*ground);
+}
+
+/// The skin where it stands; with legs of the person's own where the anatomy has them.
+Result<DrawnSkin> own_legs(const BodySkin& skin, const Body& body, const Figure& figure) {
+  DrawnSkin standing{&skin};
+  if (figure.skins.empty()) return standing;
+  if (auto done = standing.follow(body, figure.skins, figure.rest_m, true); !done) return tl::unexpected(done.error());
+  standing.pose(skin.standing, legs_at_rest(figure.rest_m));
+  return standing;
 }
 
 Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& figure, const WalkOptions& options,
@@ -147,14 +156,20 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   outcome.gait = human.gait;
   outcome.anatomy_said = figure.said;
   tell_style_changes(options.body, options.gait, outcome.style_changes);
-  walked.recording = begin_recording(figure, static_cast<float>(ticks_per_frame * simulation.tick_s()));
+  walked.recording = begin_recording(figure, ticks_per_frame * simulation.tick_s());
   if (options.skin) {
     const auto skin = make_body_skin(human.body, SkinDetail::near);
     if (!skin) return tl::unexpected(skin.error());
-    walked.recording.skin = recorded_skin(*skin, 1);
+    auto own = own_legs(*skin, human.body, figure);
+    if (!own) return tl::unexpected(own.error());
+    walked.recording.skin = recorded_skin(*skin, 1, own->own ? &*own->own : nullptr);
+    if (own->own)
+      walked.recording.skin.push_back(
+          recorded_own_skin(*own->bare, *own->own, own->own_position, own->own_normal, 1 + skin_parts));
     walked.recording.standing_m = standing_of(*skin);
     walked.recording.colours = {ivory_colour};
     for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
+    walked.recording.colours.push_back(walked.recording.colours[1]);  // of a skin of one's own
   }
   walked.ticks = begin_ticks(simulation, human);
   const bool all_ticks = std::ranges::any_of(options.exports, of_every_tick);
@@ -229,7 +244,7 @@ Result<void> write_results(const Walked& walked, const Simulation& simulation, c
   outcome.wall_s = seconds_since(start);
   const auto summary = summary_json(options, simulation, human, outcome, exported->muscles);
   if (auto done = write_file(folder / "summary.json", summary); !done) return done;
-  if (auto done = results.put(); !done) return done;
+  if (auto done = results.put("frame_"); !done) return done;
 
   for (const std::string& note : body_notes(human.body)) fmt::print("note: {}\n", note);
   print_said(outcome.anatomy_said, options);

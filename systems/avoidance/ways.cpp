@@ -74,9 +74,10 @@ struct StrikeAhead {
   Wide speed, pace, advance, hips, length;
 };
 
-/// Steps that are shorter than a walker's own are so down to 0.12 of the height, which is the least that a gait may ask
-/// for, and as long as no more than two a second are made: people in a dense file make 0.8 to 1.6 (Jelić et al. 2012).
-constexpr float shortest_h = 0.12F, most_steps_hz = 2;
+/// Steps that are shorter than a walker's own are so down to a quarter of the leg, which is the least that a gait may ask
+/// for (and a little more, for rounding), and as long as no more than two a second are made: people in a dense file make
+/// 0.8 to 1.6 (Jelić et al. 2012).
+constexpr float shortest_h = 0.2505F * static_cast<float>(fraction::thigh + fraction::shank), most_steps_hz = 2;
 
 HWY_NOINLINE StrikeAhead strike_at(const StrikePlace<Lanes<float>>& at, const Wide& speed, const Wide& length_part) {
   const Wide leg = static_cast<float>(fraction::hip_height) * load(at.height_m), to_unit = 1.0F / sqrt(gravity * leg);

@@ -255,9 +255,14 @@ class StyleBlock {
     if (which == try_as_asked) asked_broken_[w] = breaks.has_value();
     if (which == try_as_asked && breaks) walker.why.fill(*breaks);
     if (which >= try_without && !breaks && !walker.culprit) walker.culprit = which - try_without;
-    for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b)
-      for (std::size_t l = w * each_; l < (w + 1) * each_; ++l)
-        held_[b][l] = std::max(held_[b][l], found_.value[b][lane]);
+    for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b) {
+      // What is kept free for turns is not asked of who goes little further than the usual walk, which turns as well.
+      constexpr float little_rad = 0.05F;
+      const float usual = found_.value[b][lane];
+      const bool more = for_turns(static_cast<WalkBound>(b), looking_) > 0;
+      const float near = more ? std::min(usual + little_rad, held_to(b, Looking::closely, false)) : usual;
+      for (std::size_t l = w * each_; l < (w + 1) * each_; ++l) held_[b][l] = std::max({held_[b][l], usual, near});
+    }
   }
   void try_in(std::size_t lane, const Walker& walker) {
     Gait<float>& row = gait_row_[lane];

@@ -42,8 +42,8 @@ struct StyleWork {
 /// limits (systems/people/walk_limits.h), and so does coming to a stop from it, or both go no further than the usual
 /// walk of that speed: first the step length, if the usual style breaks one with it; then as few numbers of the style
 /// as it takes, all by one part of their way to the usual ones, to a 256th. Styles far from the usual one keep 7° clear
-/// of the ends of ankles and 3° of hips, for turns and changes of speed, which are not looked at. The usual style with
-/// steps of 0.76 to 1.12 of the usual length is not looked at. Styles near the usual one whose knees bend little are
+/// of the ends of ankles and 3° of hips, for turns and changes of speed, which are not looked at, but may always go 3°
+/// further than the usual walk. The usual style with steps of 0.76 to 1.12 of the usual length is not looked at. Styles near the usual one whose knees bend little are
 /// looked at in walking only. A stop is looked at sixty times a second, and may go some half a degree further between.
 /// Bits depend on neither neighbours nor threads. `moved`: what was, gait by gait, as long as `gaits`; or empty. Takes
 /// memory in `work` alone, which keeps it, and for what is moved.

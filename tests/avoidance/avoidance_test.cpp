@@ -119,7 +119,8 @@ RC_GTEST_PROP(Trial, LeadsWhereItWasSaidTo, ()) {
   const bool go = trials.kind[l] == TrialKind::go;
   GaitChange change{.speed_m_s = go ? trials.trial.speed_m_s[l] : 0.0F};
   if (go) change.step_length_m = end.step_length_m[l];
-  RC_ASSERT(simulation.change_gait(one, change).has_value());
+  const auto changed = simulation.change_gait(one, change);
+  RC_ASSERT((changed ? std::string() : changed.error().message) == "");
   RC_ASSERT(simulation.turn_to(one, footing.heading_rad[0] + trials.trial.turn_rad[l]).has_value());
   if (trials.kind[l] == TrialKind::aside) {
     RC_ASSERT(simulation

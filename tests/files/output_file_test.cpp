@@ -8,6 +8,7 @@
 
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <string>
 #include <thread>
 
@@ -167,4 +168,22 @@ TEST(OneLine, ControlCharactersAreShownAndLongWordsCut) {
 }
 
 }  // namespace
+/// Pictures of a longer run before go; whatever else is there stays.
+TEST_F(Output, OfANumberedSeriesNothingOldStays) {
+  const fs::path out = folder / "out";
+  const auto put = [&](std::initializer_list<const char*> names, std::string_view numbered) {
+    auto results = OutputFolder::make(out);
+    ASSERT_TRUE(results) << results.error().message;
+    for (const char* name : names) ASSERT_TRUE(write_file(results->inside() / name, name));
+    ASSERT_TRUE(results->put(numbered));
+  };
+  put({"frame_0.png", "frame_1.png", "frame_2.png", "frame_2.txt", "frame_x.png", "frame_.png", "walk.csv"}, {});
+  put({"walk.csv"}, "frame_");
+  EXPECT_TRUE(fs::exists(out / "frame_2.png")) << "there is no new one";
+  put({"frame_0.png", "walk.csv"}, "frame_");
+  std::set<std::string> left;
+  for (const auto& entry : fs::directory_iterator(out)) left.insert(entry.path().filename().string());
+  EXPECT_EQ(left, (std::set<std::string>{"frame_0.png", "frame_2.txt", "frame_x.png", "frame_.png", "walk.csv"}));
+}
+
 }  // namespace mobil

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "assets/body/anthropometry.h"
+#include "assets/export/recorded_skin.h"
 #include "assets/skin/own_skin.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "systems/skinning/follow_skin.h"
@@ -90,6 +91,31 @@ TEST(OwnSkin, StandsWhereItWasAndComesToTheBodysAtItsTop) {
   }
   EXPECT_LT(furthest, 1e-5);
   EXPECT_LT(most_top, 0.004) << "drawn in by what it stood off";
+}
+
+/// In files a leg of one's own hangs as the skin does that it was cut out of, which is left out there.
+TEST(OwnSkin, HangsInFilesAsTheBodysSkinDoes) {
+  const Followed one({.height_m = 1.75F, .mass_kg = 75}, 0);
+  const Placed at = one.follow(one.skin.standing);
+  const SkinnedSurface own = recorded_own_skin(one.skin, one.own, at.position, at.normal, 4);
+  EXPECT_EQ(own.cloth, 4U);
+  EXPECT_EQ(own.triangle, one.own.triangle);
+  ASSERT_EQ(own.weight.size(), one.own.vertex.size());
+  const std::size_t shin = index(Segment::shank_right);
+  int shins = 0;
+  for (std::size_t v = 0; v < own.weight.size() / 2; ++v) {
+    EXPECT_NEAR(own.weight[v][0] + own.weight[v][1] + own.weight[v][2] + own.weight[v][3], 1, 1e-5F);
+    if (at.position[v].y < 0.25F || at.position[v].y > 0.4F) continue;
+    ++shins;
+    EXPECT_EQ(own.joint[v][0], shin) << v;
+    EXPECT_GT(own.weight[v][0], 0.9F) << v;
+  }
+  EXPECT_GT(shins, 50);
+  std::size_t all = 0, left = 0;
+  for (const SkinnedSurface& part : recorded_skin(one.skin)) all += part.triangle.size();
+  for (const SkinnedSurface& part : recorded_skin(one.skin, 0, &one.own)) left += part.triangle.size();
+  EXPECT_EQ(left, one.own.left.size());
+  EXPECT_LT(left, all);
 }
 
 /// A leg in two pieces, cut through at the knee, follows as it does in one: only the leg's top is a seam.

@@ -62,6 +62,7 @@ void run_guarded(void* context, std::size_t begin, std::size_t end) noexcept {
 }  // namespace
 
 void run_in_parallel(const Jobs& jobs, std::size_t count, Jobs::Body body, void* context) {
+  if (count == 0) return;
   Guarded guarded{count, body, context, {}, {}};
   jobs.parallel_for(jobs.user, count, &run_guarded, &guarded);
   assert(guarded.done == count && "a host's parallel_for left a part out, or did it twice");

@@ -27,7 +27,6 @@ void run_in_parallel(const Jobs& jobs, std::size_t count, Jobs::Body body, void*
 /// `work(begin, end)` on parts of [0, count), likewise.
 template <class Work>
 void in_parallel(const Jobs& jobs, std::size_t count, Work work) {
-  if (count == 0) return;
   if (count == 1) return work(std::size_t{0}, std::size_t{1});
   run_in_parallel(
       jobs, count,

@@ -89,6 +89,13 @@ TEST(EngineJobs, EveryIndexIsDoneOnce) {
   }
 }
 
+TEST(EngineJobs, OfNothingNobodyIsAsked) {
+  const Jobs never{nullptr, [](void*, std::size_t, Jobs::Body, void*) { ADD_FAILURE() << "asked"; }, 2};
+  in_parallel(never, 0, [](std::size_t, std::size_t) { ADD_FAILURE() << "worked"; });
+  run_in_parallel(
+      never, 0, [](void*, std::size_t, std::size_t) { ADD_FAILURE() << "worked"; }, nullptr);
+}
+
 /// A host's own threads, one a part, which no exception may leave.
 TEST(EngineJobs, WhatWorkThrowsComesBackToTheCaller) {
   const Jobs own{nullptr,

@@ -119,7 +119,7 @@ Result<std::string> encode(const BasisRecording& recording) {
   GltfAnimation motion;
   motion.animation.name = "motion";
   motion.frames = recording.weight.size();
-  motion.frame_s = static_cast<float>(recording.frame_s);
+  motion.frame_s = recording.frame_s;
   std::vector<float> weights;
   for (const auto& frame : recording.weight) {
     for (std::size_t t = 0; t < frame.size(); ++t) weights.push_back(frame[t] / scale[t]);

@@ -49,6 +49,11 @@ void set_bounds(tinygltf::Accessor& accessor, const float* value, std::size_t wi
   }
 }
 
+Result<void> check_size(std::size_t bytes) {
+  if (bytes <= static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) return {};
+  return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames, people or triangles");
+}
+
 /// Joins the arrays.
 Result<void> pack_buffers(GltfDraft& draft) {
   const std::array<std::vector<unsigned char>*, array_count> arrays = {
@@ -66,9 +71,7 @@ Result<void> pack_buffers(GltfDraft& draft) {
   std::size_t total = 0;
   for (const auto* array : arrays) total += array->size();
   if (total == 0) return {};
-  if (total > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max())) {
-    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames, people or triangles");
-  }
+  if (auto ok = check_size(total); !ok) return ok;
   tinygltf::Buffer buffer;
   buffer.data.reserve(total);
   for (std::size_t a = 0; a < arrays.size(); ++a) {
@@ -199,7 +202,9 @@ Result<std::string> glb_bytes(GltfDraft& draft) {
   } catch (const std::exception& e) {  // its JSON library refuses names that are not UTF-8
     return fail(fmt::format("a name cannot be written, it must be UTF-8 text ({})", e.what()));
   }
-  return std::move(bytes).str();
+  std::string text = std::move(bytes).str();
+  if (auto ok = check_size(text.size()); !ok) return tl::unexpected(ok.error());  // names and numbers count, too
+  return text;
 }
 
 }  // namespace mobil

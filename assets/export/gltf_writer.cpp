@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <limits>
-
 #include "assets/export/gltf_person.h"
 #include "assets/export/recording_check.h"
 #include "assets/files/output_file.h"
@@ -42,10 +40,7 @@ Result<std::string> encode_people(const RecordedPeople& recorded, const ExportOp
   model.scenes.push_back(std::move(scene.scene));
   model.defaultScene = 0;
   if (!scene.animation.animation.channels.empty()) model.animations.push_back(std::move(scene.animation.animation));
-  auto bytes = glb_bytes(scene.draft);
-  if (bytes && bytes->size() > static_cast<std::size_t>(std::numeric_limits<std::int32_t>::max()))
-    return fail("the recording makes more than the 2 GiB that a GLB holds; record fewer frames, people or triangles");
-  return bytes;
+  return glb_bytes(scene.draft);
 }
 
 Result<ExportReport> write_people(const std::filesystem::path& path, const RecordedPeople& recorded,

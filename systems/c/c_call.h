@@ -227,6 +227,16 @@ void turn_vertices(const VertexStream& stream, std::size_t begin, std::size_t en
   }
 }
 
+/// Vertices of ours into a stream, if there is one, in the host's axes.
+template <class F>
+void write_vertices(std::span<const Vec3<float>> from, const VertexStream& to, const F& convert) {
+  for (std::size_t v = 0; v < from.size() && !to.bytes.empty(); ++v) {
+    float value[3];
+    convert(from[v], value);
+    std::memcpy(to.bytes.data() + v * to.stride, value, sizeof value);
+  }
+}
+
 int muscle_set(Line& line, unsigned int bits, MuscleSet& out);
 int muscle_number(Line& line, int muscle, Muscle& out);
 int leg_muscles(Line& line, const mobil_muscles& given, LegMuscles& out);

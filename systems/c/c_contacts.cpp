@@ -31,14 +31,6 @@ void read_vertices(const VertexStream& from, std::vector<Vec3<float>>& to, const
     to[v] = turn(value);
   }
 }
-template <class Turn>
-void write_vertices(const std::vector<Vec3<float>>& from, const VertexStream& to, const Turn& turn) {
-  for (std::size_t v = 0; v < from.size(); ++v) {
-    float value[3];
-    turn(from[v], value);
-    std::memcpy(to.bytes.data() + v * to.stride, value, sizeof value);
-  }
-}
 
 int written_of(mobil_sim& s, const mobil_contacts& contacts, const void* target, Written& to) {
   mobil_surface_target as;

@@ -87,15 +87,6 @@ struct Following {
   VertexStream positions{}, normals{};
 };
 
-template <class Turn>
-void put(const std::vector<Vec3<float>>& from, const VertexStream& to, const Turn& turn) {
-  for (std::size_t v = 0; v < from.size() && !to.bytes.empty(); ++v) {
-    float value[3];
-    turn(from[v], value);
-    std::memcpy(to.bytes.data() + v * to.stride, value, sizeof value);
-  }
-}
-
 }  // namespace
 
 int mobil_bind_own_skin(mobil_sim* sim, mobil_id like, const mobil_leg_mesh* mesh, mobil_own_skin** out) {
@@ -179,8 +170,10 @@ int mobil_write_own_skin(mobil_sim* sim, const mobil_own_skin* skin, const mobil
       for (std::size_t i = begin; i < end; ++i) {
         Following& one = following[i];
         follow_skin(skin->own, one.beneath.position, one.beneath.normal, one.own.position, one.own.normal);
-        put(one.own.position, one.positions, [&](const Vec3<float>& v, float* to) { s.axes.place_to(v, to); });
-        put(one.own.normal, one.normals, [&](const Vec3<float>& v, float* to) { s.axes.direction_to(v, to); });
+        write_vertices(one.own.position, one.positions,
+                       [&](const Vec3<float>& v, float* to) { s.axes.place_to(v, to); });
+        write_vertices(one.own.normal, one.normals,
+                       [&](const Vec3<float>& v, float* to) { s.axes.direction_to(v, to); });
       }
     });
     return int{MOBIL_OK};

@@ -167,7 +167,6 @@ TEST(OneLine, ControlCharactersAreShownAndLongWordsCut) {
   EXPECT_EQ(kept.find("..."), 60U) << "a character of three bytes was cut";
 }
 
-}  // namespace
 /// Pictures of a longer run before go; whatever else is there stays.
 TEST_F(Output, OfANumberedSeriesNothingOldStays) {
   const fs::path out = folder / "out";
@@ -186,4 +185,5 @@ TEST_F(Output, OfANumberedSeriesNothingOldStays) {
   EXPECT_EQ(left, (std::set<std::string>{"frame_0.png", "frame_2.txt", "frame_x.png", "frame_.png", "walk.csv"}));
 }
 
+}  // namespace
 }  // namespace mobil

@@ -1,13 +1,24 @@
 #include "assets/skin/body_form.h"
 
+#include <array>
+#include <numbers>
+#include <vector>
+
 namespace mobil::form {
+namespace {
+
+constexpr double head_blend_m = 0.030, leg_blend_m = 0.065;  // how widely head and legs are rounded into the trunk
+constexpr double lowest_head = 1.44;                         // below there is no head, m of a body of 1.75 m
+constexpr double middle_m = -0.02;                           // of the trunk, ahead of the hips: tapes are laid round it
+
+}  // namespace
 
 using namespace geometry;
 
-BodyForm::BodyForm(const Body& body, double fuller_trunk, bool shod)
+BodyForm::BodyForm(const Body& body, const TrunkFit& fit, bool shod)
     : size_(static_cast<double>(body.request.height_m) / 1.75),
       sex_(body.request.sex),
-      trunk_(body, body_measures(body.request), fuller_trunk),
+      trunk_(body, body_measures(body.request), fit),
       leg_(body, body_measures(body.request), shod),
       arm_(body, body_measures(body.request)) {}
 
@@ -22,23 +33,54 @@ BodyForm::Parts BodyForm::parts(const Vec& p) const {
   constexpr double far = 1;  // parts that are nowhere near
   Parts parts{far, far, far, far};
   if (p.y > 0.78 * size_ && q.x > -trunk_.reach()) parts.trunk = trunk_.distance(p);
-  if (p.y > 1.44 * size_) parts.head = size_ * head_distance((1 / size_) * p, sex_);
+  if (p.y > lowest_head * size_) parts.head = size_ * head_distance((1 / size_) * p, sex_);
   if (p.y < 1.12 * size_) parts.leg = leg_.distance(in_leg(q));
   if (q.x < -0.08 * size_ && p.y > 0.70 * size_) parts.arm = arm_.distance(in_arm(q));
   return parts;
 }
 
 double BodyForm::united(const Parts& part) {
-  double d = smooth_union(part.trunk, part.head, 0.030);
-  d = smooth_union(d, part.leg, 0.065);
+  double d = smooth_union(part.trunk, part.head, head_blend_m);
+  d = smooth_union(d, part.leg, leg_blend_m);
   return smooth_union(d, part.arm, 0.035);
 }
 
 double BodyForm::rest_distance(const Vec& p) const {
   const Vec right{-std::abs(p.x), p.y, p.z};
   Parts part{trunk_.distance(p), leg_.distance(right), arm_.distance(right), 1};
-  if (p.y > 1.44 * size_) part.head = size_ * head_distance((1 / size_) * p, sex_);
+  if (p.y > lowest_head * size_) part.head = size_ * head_distance((1 / size_) * p, sex_);
   return united(part);
+}
+
+double BodyForm::girth(double y) const {
+  constexpr int rays = 60, halvings = 14;
+  constexpr double longest_m = 0.6;
+  const auto is_inside = [&](const Vec& p) {
+    const double trunk = smooth_union(trunk_.distance(p), leg_.distance({-std::abs(p.x), p.y, p.z}), leg_blend_m);
+    return (p.y > lowest_head * size_ ? smooth_union(trunk, size_ * head_distance((1 / size_) * p, sex_), head_blend_m)
+                                      : trunk) < 0;
+  };
+  // From the back round the right side to the front: a tape spans hollows, so points that lie within are left out.
+  std::vector<std::array<double, 2>> tape;
+  for (int i = 0; i <= rays; ++i) {
+    const double angle = std::numbers::pi * i / rays, out = std::sin(angle), ahead = -std::cos(angle);
+    double within = 0, beyond = longest_m;
+    for (int k = 0; k < halvings; ++k) {
+      const double middle = 0.5 * (within + beyond);
+      (is_inside({middle * out, y, middle_m * size_ + middle * ahead}) ? within : beyond) = middle;
+    }
+    const std::array<double, 2> p = {within * out, within * ahead};
+    while (tape.size() > 1) {
+      const auto &a = tape[tape.size() - 2], &b = tape.back();
+      if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;
+      tape.pop_back();
+    }
+    tape.push_back(p);
+  }
+  double half = 0;
+  for (std::size_t i = 1; i < tape.size(); ++i)
+    half += std::hypot(tape[i][0] - tape[i - 1][0], tape[i][1] - tape[i - 1][1]);
+  return 2 * half;
 }
 
 Vec BodyForm::slope(const Vec& p) const {

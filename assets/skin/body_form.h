@@ -13,12 +13,14 @@ inline constexpr double arm_out = 0.70, leg_out = 0.17;
 
 class BodyForm {
  public:
-  explicit BodyForm(const Body& body, double fuller_trunk = 1, bool shod = false);
+  explicit BodyForm(const Body& body, const TrunkFit& fit = {}, bool shod = false);
 
   /// Distance of a place in the pose that is meshed; negative inside.
   double distance(const Vec& p) const { return united(parts(p)); }
   /// The same of a place in the anatomical position, where arms and thighs may lie in each other.
   double rest_distance(const Vec& p) const;
+  /// A tape's length round trunk, legs and neck, without the arms, at that height.
+  double girth(double y) const;
   /// Its gradient, by differences.
   Vec slope(const Vec& p) const;
   struct Parts {

@@ -10,6 +10,7 @@
 #include "assets/skin/fat_places.h"
 #include "assets/skin/leg_grid.h"
 #include "assets/skin/skin_binding.h"
+#include "assets/skin/trunk_form.h"
 #include "components/body.h"
 #include "components/pose.h"
 #include "engine/error.h"
@@ -60,15 +61,15 @@ struct SkinDress {
   bool dressed = true;  // shirt, shorts, shoes and hair stand off the skin
 };
 
-/// The skin of a body: the shared surface is drawn onto the body's own form, and its trunk made as much fuller or
-/// thinner as makes the volume, without the air in the lungs, weigh the body's mass at its density (Siri 1961, from its
-/// fat). Errors: as make_body; limbs of their own (BodyRequest::limbs).
+/// The skin of a body: the shared surface is drawn onto the body's own form, whose trunk has the survey's girths at
+/// hips, waist, chest and neck. Between them it is made as much fuller or thinner as makes the volume, without the air
+/// in the lungs, weigh the body's mass at its density (Siri 1961, from its fat). Errors: as make_body; limbs of their
+/// own (BodyRequest::limbs).
 Result<BodySkin> make_body_skin(const Body& body, SkinDetail detail, const SkinDress& dress = {});
-/// The same; `fullness`: from `trunk_fullness` for this body or one like it, `body` from make_body.
-BodySkin make_body_skin(const Body& body, double fullness, SkinDetail detail, const SkinDress& dress);
-/// By how much the trunk's breadths and depths are more than the survey has them, for the body's mass; 0.8 to 1.25,
-/// where a mass beyond is not met.
-double trunk_fullness(const Body& body);
+/// The same; `fit`: from `fit_trunk` for this body or one like it, `body` from make_body.
+BodySkin make_body_skin(const Body& body, const form::TrunkFit& fit, SkinDetail detail, const SkinDress& dress);
+/// What meets the girths and the mass; each number 0.7 to 1.4, where what lies beyond is not met.
+form::TrunkFit fit_trunk(const Body& body);
 
 /// Volume within a closed surface, m³.
 double enclosed_volume(const std::vector<std::uint32_t>& triangle, const std::vector<Vec3<double>>& place);

@@ -101,10 +101,13 @@ ArmForm::ArmForm(const Body& body, const BodyMeasures& m)
   const double fore = length_m_ - elbow, biceps = m.biceps_girth / tau, forearm = m.forearm_girth / tau,
                wrist = m.wrist_girth / tau;
   const double deltoid = 1.10 * biceps;
-  ring_ = {{-0.022, 0.46 * deltoid, 0.52 * deltoid, 0.006, 0},
-           {-0.002, 0.84 * deltoid, 0.90 * deltoid, 0, 0},
-           {0.032, 1.00 * deltoid, 1.07 * deltoid, -0.006, 0},
-           {0.080, 0.96 * deltoid, 1.03 * deltoid, -0.006, 0.001},
+  // Toward the trunk it reaches as far as it is thick, outward as far as the shoulders are broad.
+  const double inward = deltoid - 0.006, outward = 0.5 * m.shoulder_breadth + shoulder_.x - 0.004;
+  const double across = 0.5 * (inward + outward), middle = 0.5 * (inward - outward);
+  ring_ = {{-0.022, 0.46 * across, 0.52 * deltoid, 0.006 + 0.5 * middle, 0},
+           {-0.002, 0.84 * across, 0.90 * deltoid, 0.006 + middle, 0},
+           {0.032, 1.00 * across, 1.07 * deltoid, middle, 0},
+           {0.080, 0.98 * across, 1.03 * deltoid, middle, 0.001},
            {0.40 * elbow, 0.98 * biceps, 1.09 * biceps, -0.001, 0.003},
            {0.62 * elbow, 0.91 * biceps, 1.04 * biceps, 0, 0.005},
            {elbow - 0.045, 0.83 * biceps, 0.84 * biceps, 0, 0.002},

@@ -37,51 +37,62 @@ double exponent_of(double half, double deep, double length_m) {
 
 }  // namespace
 
-TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, double fuller)
+TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fit)
     : size_(static_cast<double>(body.request.height_m) / 1.75),
       shoulder_(to_double(standing_pose(body).position_m[index(Segment::upper_arm_right)])),
       woman_(body.request.sex == Sex::woman) {
-  const double hip = 0.5 * fuller * m.hip_breadth, waist = 0.5 * fuller * m.waist_breadth,
-               chest = 0.5 * fuller * m.chest_breadth;
-  const double wide = 1.08 * chest, neck = m.neck_girth / (2 * std::numbers::pi);
+  const double hip = 0.5 * fit.hips * m.hip_breadth, waist = 0.5 * fit.waist * m.waist_breadth,
+               chest = 0.5 * fit.chest * m.chest_breadth;
+  const double wide = 1.08 * chest, neck = fit.neck * m.neck_girth / (2 * std::numbers::pi);
+  // The chest below the shoulders is as broad as those are.
+  const double broad = 0.5 * (woman_ ? 0.598 : 0.572) * m.shoulder_breadth;
   // Women's chests are measured over the bust: 0.86 of it is taken for the girth below, and a part of the depth.
   const double bust = 0.16 * m.chest_depth;
-  const double natural_waist = woman_ ? 0.93 : 0.985;  // over the breadth at the navel
   // How much deeper than a man of 1.75 m and 75 kg.
-  const double buttock = 0.5 * (fuller * m.buttock_depth - 0.2267), belly = fuller * m.waist_depth - 0.2119,
-               breast = fuller * (m.chest_depth - (woman_ ? bust : 0)) - 0.2346;
-  const double at_waist = exponent_of(waist, 0.5 * fuller * m.waist_depth, fuller * m.waist_girth);
-  const double at_chest = exponent_of(wide, 0.5 * fuller * (m.chest_depth - (woman_ ? bust : 0)),
-                                      fuller * m.chest_girth * (woman_ ? 0.92 : 1));
+  const double buttock = 0.5 * (fit.hips * m.buttock_depth - 0.2267), belly = fit.waist * m.waist_depth - 0.2119,
+               breast = fit.chest * (m.chest_depth - (woman_ ? bust : 0)) - 0.2346;
+  // Over the breadth at the navel; a belly leaves less of it.
+  const double natural_waist = (woman_ ? 0.93 : 0.985) + 0.04 * std::clamp(belly / 0.07, 0.0, 1.0);
+  const double at_waist = exponent_of(waist, 0.5 * fit.waist * m.waist_depth, fit.waist * m.waist_girth);
+  const double at_chest = exponent_of(wide, 0.5 * fit.chest * (m.chest_depth - (woman_ ? bust : 0)),
+                                      fit.chest * m.chest_girth * (woman_ ? 0.92 : 1));
   // The back lies behind the spines of the vertebrae.
   section_ = {
       {0.835, 0.045, -0.050, 0.020, 2},
       {0.865, 0.100, -0.090, 0.065, 2.2},
       {0.900, 0.87 * hip, -0.112 - buttock, 0.088 + buttock, 2.3},
       {0.950, 0.925 * hip, -0.118 - buttock, 0.098 + 0.5 * buttock + 0.3 * belly, 2.4},
-      {1.000, 0.92 * hip, -0.116 - 0.6 * buttock, 0.095 + 0.6 * belly, 2.5},
+      {1.000, 0.95 * 0.5 * (0.5 * m.hip_breadth + waist), -0.116 - 0.6 * buttock, 0.095 + 0.6 * belly, 2.5},
       {1.057, waist, -0.112 - 0.2 * belly, 0.100 + 0.8 * belly, at_waist},
       {1.120, natural_waist * waist, -0.112 - 0.2 * belly, 0.100 + 0.8 * belly, at_waist},
-      {1.200, 0.5 * (waist + wide), -0.120 - 0.2 * breast, 0.102 + 0.42 * belly + 0.4 * breast,
+      {1.200, 0.505 * (waist + wide), -0.122 - 0.2 * breast, 0.104 + 0.5 * belly + 0.4 * breast,
        0.5 * (at_waist + at_chest)},
       {1.287, wide, -0.138 - 0.3 * breast, 0.097 + 0.7 * breast, at_chest},
-      {1.350, 1.12 * chest, -0.140 - 0.3 * breast, 0.076 + 0.5 * breast, 2.7},
-      {1.400, 1.10 * chest, -0.133 - 0.3 * breast, 0.062 + 0.3 * breast, 2.4},
-      {1.435, 0.90 * chest, -0.126 - 0.2 * breast, 0.044 + 0.2 * breast, 2.2},
-      {1.465, 0.60 * chest, -0.118, 0.022, 2},
+      {1.350, 1.12 * broad, -0.140 - 0.2 * breast, 0.076 + 0.3 * breast, 2.7},
+      {1.400, 1.10 * broad, -0.133 - 0.2 * breast, 0.062 + 0.2 * breast, 2.4},
+      {1.435, 0.90 * broad, -0.126 - 0.2 * breast, 0.044 + 0.2 * breast, 2.2},
+      {1.465, 0.60 * broad, -0.118, 0.022, 2},
       {1.495, 0.98 * neck, -0.110, -0.110 + 1.95 * neck, 2},
       {1.550, 0.86 * neck, -0.083, -0.083 + 1.75 * neck, 2},
       {1.600, 0.85 * neck, -0.069, -0.069 + 1.70 * neck, 2},
       {1.630, 0.50 * neck, -0.040, 0.020, 2},
   };
+  for (const std::size_t k : {4, 6, 7}) {
+    Section& section = section_[k];
+    const double deeper = (fit.between - 1) * (section.front - section.back);
+    section.half *= fit.between;
+    section.back -= 0.35 * deeper;
+    section.front += 0.65 * deeper;
+  }
   reach_ = 0.34 * size_;
   for (Section& section : section_) {
     section.y *= size_;
     reach_ = std::max(reach_, section.half + 0.10);
   }
-  breast_front_ = 0.026 + 0.4 * breast;
-  full_ = (fuller * m.chest_depth) / 0.2346;
-  round_ = (fuller * m.buttock_depth) / 0.2267;
+  breast_front_ = 0.026 + 0.6 * breast;
+  blade_back_ = 0.106 + 0.3 * breast;
+  full_ = (fit.chest * m.chest_depth) / 0.2346;
+  round_ = (fit.hips * m.buttock_depth) / 0.2267;
   chest_wide_ = chest / 0.1398;
   buttock_ = buttock;
   if (woman_) breast_m_ = bust / 0.040;  // over the usual size
@@ -130,7 +141,7 @@ double TrunkForm::distance(const Vec& p) const {
     d = smooth_union(d, ellipsoid(q, {-0.074 * chest_wide_, 1.322 * size_, breast_front_}, {0.084, 0.058, 0.052}),
                      0.05);
   }
-  d = smooth_union(d, ellipsoid(q, {-0.080 * chest_wide_, 1.352 * size_, -0.106}, {0.058, 0.088, 0.036 * full_}), 0.05);
+  d = smooth_union(d, ellipsoid(q, {-0.080 * chest_wide_, 1.352 * size_, -blade_back_}, {0.058, 0.088, 0.036}), 0.05);
   d = smooth_union(
       d, ellipsoid(q, {-0.078, 0.905 * size_, -0.060 - buttock_}, {0.078 * std::sqrt(round_), 0.088, 0.070 * round_}),
       0.05);

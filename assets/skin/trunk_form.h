@@ -9,10 +9,15 @@
 
 namespace mobil::form {
 
+/// By what the trunk's breadths and depths are multiplied where a girth is measured, for the girths to be met, and
+/// between those places, for the volume to meet the mass.
+struct TrunkFit {
+  double hips = 1, waist = 1, chest = 1, neck = 1, between = 1;
+};
+
 class TrunkForm {
  public:
-  /// `fuller`: times the breadths and depths of the trunk that the measures give, for the volume to meet the mass.
-  TrunkForm(const Body& body, const BodyMeasures& measures, double fuller);
+  TrunkForm(const Body& body, const BodyMeasures& measures, const TrunkFit& fit);
   double distance(const Vec& p) const;
   /// Beyond it to either side nothing of the trunk lies.
   double reach() const { return reach_; }
@@ -27,7 +32,7 @@ class TrunkForm {
   double size_;  // over 1.75 m
   Vec shoulder_;
   bool woman_;
-  double breast_front_, chest_wide_, buttock_, breast_m_ = 0;
+  double breast_front_, blade_back_, chest_wide_, buttock_, breast_m_ = 0;
   double full_, round_;  // chest and buttocks, over those of 75 kg
   double reach_;
   std::vector<Section> section_;

@@ -47,9 +47,9 @@ Result<SkinShape> BodySkins::of(const BodyRequest& body, SkinDetail detail) {
   if (!skin) {
     const auto made = make_body(usual);
     if (!made) return tl::unexpected(made.error());
-    double& fullness = fullness_[{body.sex, step}];
-    if (fullness == 0) fullness = trunk_fullness(*made);
-    skin = std::make_unique<BodySkin>(make_body_skin(*made, fullness, detail, dress_));
+    auto& fit = fit_[{body.sex, step}];
+    if (!fit) fit = fit_trunk(*made);
+    skin = std::make_unique<BodySkin>(make_body_skin(*made, *fit, detail, dress_));
   }
   return SkinShape{skin.get(), body.height_m / usual.height_m};
 }

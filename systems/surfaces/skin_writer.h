@@ -13,6 +13,7 @@
 #include <map>
 #include <memory>
 #include <memory_resource>
+#include <optional>
 #include <span>
 #include <tuple>
 
@@ -47,7 +48,7 @@ class BodySkins {
 
  private:
   SkinDress dress_;
-  std::map<std::pair<Sex, int>, double> fullness_;  // by kg/m² in steps
+  std::map<std::pair<Sex, int>, std::optional<form::TrunkFit>> fit_;  // by kg/m² in steps
   std::map<std::tuple<Sex, SkinDetail, int>, std::unique_ptr<BodySkin>> skin_;
 };
 

@@ -9,7 +9,21 @@ namespace {
 using namespace geometry;
 
 using form::tau;
-constexpr double step_s = (LegProfile::last_s - LegProfile::first_s) / (leg_stations - 1);
+constexpr double step_s = (last_leg_s - first_leg_s) / (leg_stations - 1);
+
+/// How far the skin is from the leg's line; below the profile, where the foot begins, as the form has it.
+double skin_radius(const form::LegForm& leg, double s, double turn) {
+  if (s <= LegProfile::last_s) return leg.profile().radius(s, turn);
+  constexpr double longest_m = 0.09;
+  constexpr int halvings = 14;
+  double within = 0, beyond = longest_m;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (within + beyond);
+    const Vec p{leg.hip().x + middle * std::sin(turn), leg.y(s), leg.hip().z + middle * std::cos(turn)};
+    (leg.distance(p) < 0 ? within : beyond) = middle;
+  }
+  return within;
+}
 
 }  // namespace
 
@@ -18,15 +32,16 @@ LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
   LegGrid grid{};
   double area = 0;
   for (std::size_t i = 0; i < leg_stations; ++i) {
-    const double s = LegProfile::first_s + step_s * static_cast<double>(i);
+    const double s = first_leg_s + step_s * static_cast<double>(i);
     area += 2 * profile.girth(s) * (leg.y(s) - leg.y(s + step_s));
     for (std::size_t j = 0; j < leg_angles; ++j)
-      grid.base[i * leg_angles + j] = static_cast<float>(profile.radius(s, tau * static_cast<double>(j) / leg_angles));
+      grid.base[i * leg_angles + j] =
+          static_cast<float>(skin_radius(leg, s, tau * static_cast<double>(j) / leg_angles));
   }
   constexpr double share = 0.145, density = 900, least_m = 0.0015;
   const double mean = share * static_cast<double>(composition.fat_kg) / (density * area);
   for (std::size_t i = 0; i < leg_stations; ++i) {
-    const double s = LegProfile::first_s + step_s * static_cast<double>(i);
+    const double s = first_leg_s + step_s * static_cast<double>(i);
     const double along = 1.3 - 0.7 * smoothstep(0.85, 1.15, s);
     for (std::size_t j = 0; j < leg_angles; ++j) {
       const double front = std::cos(tau * static_cast<double>(j) / leg_angles - 0.5);
@@ -39,11 +54,11 @@ LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
 
 LegPlace leg_place(const form::LegForm& leg, const Vec& rest, double share) {
   const double s = leg.s(rest.y);
-  const double amount = share * smoothstep(0.10, 0.17, s) * (1 - smoothstep(1.87, 1.95, s));
+  const double amount = share * smoothstep(0.10, 0.17, s) * (1 - smoothstep(1.95, 2.02, s));
   if (amount <= 0) return {};
   double round = std::atan2(rest.x - leg.hip().x, rest.z - leg.hip().z) / tau;
   if (round < 0) round += 1;
-  const double along = (s - LegProfile::first_s) / step_s;
+  const double along = (s - first_leg_s) / step_s;
   return {static_cast<float>(std::clamp(along, 0.0, leg_stations - 1.001)), static_cast<float>(round * leg_angles),
           static_cast<float>(amount)};
 }

@@ -10,9 +10,10 @@
 
 namespace mobil {
 
-/// Stations along the leg, s from LegProfile::first_s to last_s, and angles round it, from the front (0) over the inner
-/// side; one station after the other.
+/// Stations along the leg, s from first_leg_s to last_leg_s, just above the ankle's joint, and angles round it, from
+/// the front (0) over the inner side; one station after the other.
 inline constexpr std::size_t leg_stations = 24, leg_angles = 32, leg_grid_points = leg_stations * leg_angles;
+inline constexpr double first_leg_s = LegProfile::first_s, last_leg_s = 1.97;
 
 /// By angle and station, m.
 struct LegGrid {

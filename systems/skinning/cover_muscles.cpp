@@ -213,7 +213,7 @@ void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, Rea
     }
     const OnLeg at = on_leg(rings, {x, y, z});
     const V out = hn::Mul(set(rings.out), at.side), radius = hn::Sqrt(mul_add(at.front, at.front, hn::Mul(out, out)));
-    constexpr auto first_s = static_cast<float>(LegProfile::first_s), last_s = static_cast<float>(LegProfile::last_s);
+    constexpr auto first_s = static_cast<float>(first_leg_s), last_s = static_cast<float>(last_leg_s);
     constexpr float stations = (leg_stations - 1) / (last_s - first_s), most_m = 1;
     const V along = hn::Mul(hn::Sub(at.s, set(first_s)), set(stations));
     // What is not on the grid, not near the leg, or no number reaches nowhere.

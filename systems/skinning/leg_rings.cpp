@@ -67,7 +67,7 @@ LegRings leg_rings(const BodySkin& skin, const Pose<float>& pose, float lengths,
   rings.ankle = bend_of(turned[shank], turned[foot], pose.position_m[foot], ankle_bend, size);
   rings.out = side == Side::right ? 1.0F : -1.0F;
   const LegAngles angles = leg_angles_of(pose, side);
-  constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
+  constexpr auto first = static_cast<float>(first_leg_s), last = static_cast<float>(last_leg_s);
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const float s = first + (last - first) * static_cast<float>(i) / (leg_stations - 1);
     const float over_knee = s < 1 ? (1 - s) * rings.thigh_m : (1 - s) * rings.shank_m;

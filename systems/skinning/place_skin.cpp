@@ -88,7 +88,7 @@ HWY_INLINE void lift(const LegLines& lines, const SkinCover& cover, const SkinGr
   const auto is_thigh = hn::Gt(rest.y, knee);
   const EightVector length = hn::IfThenElse(is_thigh, hn::Sub(by_side(is_left, lines.hip[0].y, lines.hip[1].y), knee),
                                             hn::Sub(knee, by_side(is_left, lines.ankle_y[0], lines.ankle_y[1])));
-  constexpr float stations = (leg_stations - 1) / static_cast<float>(LegProfile::last_s - LegProfile::first_s);
+  constexpr float stations = (leg_stations - 1) / static_cast<float>(last_leg_s - first_leg_s);
   const EightVector one = hn::Div(all(1), away), out_x = hn::Mul(x, one), out_z = hn::Mul(z, one);
   // Angles grow to the inner side.
   const EightVector tilt = hn::Mul(hn::Mul(an_angle, one), by_side(is_left, round / (2 * std::numbers::pi_v<float>),

@@ -52,14 +52,14 @@ double BodyForm::rest_distance(const Vec& p) const {
   return united(part);
 }
 
+double BodyForm::armless_distance(const Vec& p) const {
+  const double d = smooth_union(trunk_.distance(p), leg_.distance({-std::abs(p.x), p.y, p.z}), leg_blend_m);
+  return p.y > lowest_head * size_ ? smooth_union(d, size_ * head_distance((1 / size_) * p, sex_), head_blend_m) : d;
+}
+
 double BodyForm::girth(double y) const {
   constexpr int rays = 60, halvings = 14;
   constexpr double longest_m = 0.6;
-  const auto is_inside = [&](const Vec& p) {
-    const double trunk = smooth_union(trunk_.distance(p), leg_.distance({-std::abs(p.x), p.y, p.z}), leg_blend_m);
-    return (p.y > lowest_head * size_ ? smooth_union(trunk, size_ * head_distance((1 / size_) * p, sex_), head_blend_m)
-                                      : trunk) < 0;
-  };
   // From the back round the right side to the front: a tape spans hollows, so points that lie within are left out.
   std::vector<std::array<double, 2>> tape;
   for (int i = 0; i <= rays; ++i) {
@@ -67,7 +67,7 @@ double BodyForm::girth(double y) const {
     double within = 0, beyond = longest_m;
     for (int k = 0; k < halvings; ++k) {
       const double middle = 0.5 * (within + beyond);
-      (is_inside({middle * out, y, middle_m * size_ + middle * ahead}) ? within : beyond) = middle;
+      (armless_distance({middle * out, y, middle_m * size_ + middle * ahead}) < 0 ? within : beyond) = middle;
     }
     const std::array<double, 2> p = {within * out, within * ahead};
     while (tape.size() > 1) {

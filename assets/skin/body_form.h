@@ -19,6 +19,8 @@ class BodyForm {
   double distance(const Vec& p) const { return united(parts(p)); }
   /// The same of a place in the anatomical position, where arms and thighs may lie in each other.
   double rest_distance(const Vec& p) const;
+  /// The same without arms.
+  double armless_distance(const Vec& p) const;
   /// A tape's length round trunk, legs and neck, without the arms, at that height.
   double girth(double y) const;
   /// Its gradient, by differences.

@@ -252,7 +252,7 @@ BodySkin make_body_skin(const Body& body, const TrunkFit& fit, SkinDetail detail
   skin.sex = body.request.sex;
   skin.detail = detail;
   skin.standing = standing_pose(body);
-  skin.leg = leg_grid(form.leg(), body.composition);
+  skin.leg = leg_grid(form, body.composition);
   const std::vector<Vec> normal = normals(mesh.triangle, rest);
   for (std::size_t v = 0; v < rest.size(); ++v) {
     skin.rest.push_back(to_float(rest[v]));

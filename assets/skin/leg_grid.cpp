@@ -11,23 +11,27 @@ using namespace geometry;
 using form::tau;
 constexpr double step_s = (last_leg_s - first_leg_s) / (leg_stations - 1);
 
-/// How far the skin is from the leg's line; below the profile, where the foot begins, as the form has it.
-double skin_radius(const form::LegForm& leg, double s, double turn) {
-  if (s <= LegProfile::last_s) return leg.profile().radius(s, turn);
-  constexpr double longest_m = 0.09;
+/// How far the skin is from the leg's line: of the thigh and the shank as the profile says; above and below it as far
+/// as the form reaches, on the inner side at most to the body's middle.
+double skin_radius(const form::BodyForm& form, double s, double turn) {
+  const form::LegForm& leg = form.leg();
+  constexpr double thigh_s = 0.20, longest_m = 0.20;
   constexpr int halvings = 14;
-  double within = 0, beyond = longest_m;
+  if (s >= thigh_s && s <= LegProfile::last_s) return leg.profile().radius(s, turn);
+  const double inward = std::sin(turn);
+  double within = 0, beyond = std::min(longest_m, -leg.hip().x / std::max(inward, 1e-3));
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (within + beyond);
-    const Vec p{leg.hip().x + middle * std::sin(turn), leg.y(s), leg.hip().z + middle * std::cos(turn)};
-    (leg.distance(p) < 0 ? within : beyond) = middle;
+    const Vec p{leg.hip().x + middle * inward, leg.y(s), leg.hip().z + middle * std::cos(turn)};
+    (form.armless_distance(p) < 0 ? within : beyond) = middle;
   }
   return within;
 }
 
 }  // namespace
 
-LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
+LegGrid leg_grid(const form::BodyForm& form, const BodyComposition& composition) {
+  const form::LegForm& leg = form.leg();
   const LegProfile& profile = leg.profile();
   LegGrid grid{};
   double area = 0;
@@ -36,7 +40,7 @@ LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
     area += 2 * profile.girth(s) * (leg.y(s) - leg.y(s + step_s));
     for (std::size_t j = 0; j < leg_angles; ++j)
       grid.base[i * leg_angles + j] =
-          static_cast<float>(skin_radius(leg, s, tau * static_cast<double>(j) / leg_angles));
+          static_cast<float>(skin_radius(form, s, tau * static_cast<double>(j) / leg_angles));
   }
   constexpr double share = 0.145, density = 900, least_m = 0.0015;
   const double mean = share * static_cast<double>(composition.fat_kg) / (density * area);
@@ -54,7 +58,7 @@ LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition) {
 
 LegPlace leg_place(const form::LegForm& leg, const Vec& rest, double share) {
   const double s = leg.s(rest.y);
-  const double amount = share * smoothstep(0.10, 0.17, s) * (1 - smoothstep(1.95, 2.02, s));
+  const double amount = share * smoothstep(first_leg_s, first_leg_s + 0.07, s) * (1 - smoothstep(1.95, 2.02, s));
   if (amount <= 0) return {};
   double round = std::atan2(rest.x - leg.hip().x, rest.z - leg.hip().z) / tau;
   if (round < 0) round += 1;

@@ -5,15 +5,15 @@
 #include <cstddef>
 #include <vector>
 
-#include "assets/skin/limb_forms.h"
+#include "assets/skin/body_form.h"
 #include "components/body.h"
 
 namespace mobil {
 
-/// Stations along the leg, s from first_leg_s to last_leg_s, just above the ankle's joint, and angles round it, from
+/// Stations along the leg, s from above the hip's joint to just above the ankle's, and angles round it, from
 /// the front (0) over the inner side; one station after the other.
 inline constexpr std::size_t leg_stations = 24, leg_angles = 32, leg_grid_points = leg_stations * leg_angles;
-inline constexpr double first_leg_s = LegProfile::first_s, last_leg_s = 1.97;
+inline constexpr double first_leg_s = -0.08, last_leg_s = 1.97;
 
 /// By angle and station, m.
 struct LegGrid {
@@ -24,7 +24,7 @@ struct LegGrid {
 /// Fat under the skin of the legs is 0.145 of a person's fat, spread evenly but for: 1.3 times the mean on the thigh,
 /// 0.6 on the shank, a quarter over the kneecap and the shin's bone, and at least 1.5 mm. The numbers are our choice;
 /// they make 7 mm in the mean of a man of 75 kg.
-LegGrid leg_grid(const form::LegForm& leg, const BodyComposition& composition);
+LegGrid leg_grid(const form::BodyForm& form, const BodyComposition& composition);
 
 /// Where a vertex of the skin lies on its leg, in stations and angles, and how much of what lifts the grid lifts it: 0
 /// everywhere but on the legs.

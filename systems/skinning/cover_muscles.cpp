@@ -261,6 +261,8 @@ HWY_INLINE V rounded_max(const V& a, const V& b, float w) {
 void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<const Vec3<float>> muscles,
            float* lift_m) {
   constexpr float round_m = 0.004F, thin_m = 0.004F, least_m = 0.0005F;
+  // More in the hollow of a bend, where points of the grid lie close together and heights change much between them.
+  constexpr float least_m_by_bend = 0.0003F;
   Reach reach;
   find_reach(rings, muscles, reach);
   // Over the skin without muscles.
@@ -272,7 +274,9 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
             most = hn::LoadU(tag, &reach.most[0][i * reach_angles + j]);
     const auto reached = hn::Gt(most, hn::Zero(tag));
     const V over = hn::Sub(rounded_max(base, hn::Add(most, fat), round_m), base);
-    const V least = hn::Sub(hn::Add(mul_add(set(0.5F), hn::Min(fat, set(thin_m)), set(least_m)), most), base);
+    const V hollow = hn::Max(hn::Zero(tag), hn::Mul(set(rings.curved[i]), hn::LoadU(tag, &rings.inner[j])));
+    const V over_muscle = mul_add(hollow, set(least_m_by_bend), set(least_m));
+    const V least = hn::Sub(hn::Add(mul_add(set(0.5F), hn::Min(fat, set(thin_m)), over_muscle), most), base);
     hn::Store(hn::IfThenElseZero(reached, over), tag, excess.station(i) + j);
     hn::Store(hn::IfThenElse(reached, least, hn::Neg(base)), tag, floor.station(i) + j);
   });

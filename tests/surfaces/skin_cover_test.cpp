@@ -191,7 +191,7 @@ class Watched {
 void expect_covered(const Outside& found, double most_beyond, double most_m, double most_lift_m) {
   const auto all = static_cast<double>(found.all);
   EXPECT_LT(static_cast<double>(found.beyond), most_beyond * all);
-  EXPECT_LT(static_cast<double>(found.outside), 8e-3 * all);
+  EXPECT_LT(static_cast<double>(found.outside), 2e-3 * all);
   EXPECT_LT(found.outside, found.without);
   EXPECT_LT(found.worst_m, most_m);
   EXPECT_LT(found.most_lift_m, most_lift_m);
@@ -212,7 +212,7 @@ TEST(SkinCover, HoldsTheMusclesThroughAStride) {
       if (tick >= 60 && tick % 6 == 0) watched.look(found);
     }
     found.print("walk", somebody);
-    expect_covered(found, 2e-4, 0.006, 0.04);
+    expect_covered(found, 1e-6, 0.002, 0.04);
   }
 }
 
@@ -236,7 +236,7 @@ TEST(SkinCover, HoldsTheMusclesInAnyPose) {
       watched.look(found);
     }
     found.print("poses", somebody);
-    expect_covered(found, somebody.mass_kg < 60 ? 2e-3 : 1e-3, 0.012, 0.06);
+    expect_covered(found, 1e-5, 0.003, 0.06);
   }
 }
 

@@ -101,17 +101,23 @@ class Rings {
     return place(at, 2 - at.y / shank_m_);
   }
 
-  /// How far from the line a bent joint has room for skin, m, at a station and an angle; large elsewhere.
+  /// By how much a bend is hollow at a station and an angle, rad/m; below 0 outside of it.
+  float hollow(std::size_t station, std::size_t angle) const {
+    return -curved(station) * std::cos(tau * static_cast<float>(angle) / leg_angles);
+  }
+  /// How far from the line a bent joint has room for skin, m; large elsewhere.
   float room(std::size_t station, std::size_t angle) const {
-    constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
-    const float s = first + (last - first) * static_cast<float>(station) / (leg_stations - 1);
-    const float y = s < 1 ? (1 - s) * thigh_m_ : (1 - s) * shank_m_;
-    const float curved = (knee_.angle > 0 ? knee_.curved(y) : 0) + hip_.curved(-s * thigh_m_);
-    const float hollow = -curved * std::cos(tau * static_cast<float>(angle) / leg_angles);
-    return hollow > 0.05F && std::abs(curved) > 0.1F ? 0.92F / hollow : 1;
+    const float in = hollow(station, angle);
+    return in > 0.05F && std::abs(curved(station)) > 0.1F ? 0.92F / in : 1;
   }
 
  private:
+  float curved(std::size_t station) const {
+    constexpr auto first = static_cast<float>(first_leg_s), last = static_cast<float>(last_leg_s);
+    const float s = first + (last - first) * static_cast<float>(station) / (leg_stations - 1);
+    const float y = s < 1 ? (1 - s) * thigh_m_ : (1 - s) * shank_m_;
+    return (knee_.angle > 0 ? knee_.curved(y) : 0) + hip_.curved(-s * thigh_m_);
+  }
   Rings(const BodySkin& skin, const Pose<float>& pose, float lengths, Segment thigh, Segment shank, Segment foot)
       : hip_(pose, index(Segment::pelvis), index(thigh), hip_bend, lengths * size_of(skin)),
         knee_(pose, index(thigh), index(shank), knee_bend, lengths * size_of(skin)),
@@ -124,7 +130,7 @@ class Rings {
     return skin.standing.position_m[index(Segment::pelvis)].y / static_cast<float>(1.75 * fraction::hip_height);
   }
   Place place(const Vec3<float>& at, float s) const {
-    constexpr auto first = static_cast<float>(LegProfile::first_s), last = static_cast<float>(LegProfile::last_s);
+    constexpr auto first = static_cast<float>(first_leg_s), last = static_cast<float>(last_leg_s);
     const float x = out_ * at.x;
     return {(s - first) / (last - first) * (leg_stations - 1), turn_of(x, at.z) * leg_angles,
             std::sqrt(x * x + at.z * at.z)};
@@ -200,8 +206,9 @@ inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, 
   std::array<float, leg_grid_points> excess, floor;
   for (std::size_t n = 0; n < leg_grid_points; ++n) {
     const float base = lengths * grid.base[n], fat = lengths * grid.fat[n];
+    const float least = least_m + 0.0003F * std::max(0.0F, rings.hollow(n / leg_angles, n % leg_angles));
     excess[n] = reach[n] > 0 ? rounded_max(base, reach[n] + fat, round_m) - base : 0;
-    floor[n] = reach[n] > 0 ? reach[n] + 0.5F * std::min(fat, thin_m) + least_m - base : -base;
+    floor[n] = reach[n] > 0 ? reach[n] + 0.5F * std::min(fat, thin_m) + least - base : -base;
   }
   smooth(excess, 4);
   for (int round = 0; round < 3; ++round) {
@@ -244,7 +251,7 @@ inline RestPoint lifted(const BodySkin& skin, const SkinCover& cover, const LegP
   const Vec3<float> hip = at(Segment::thigh_right), knee = at(Segment::shank_right);
   const float x = rest.place.x - hip.x, z = rest.place.z - hip.z, away = std::sqrt(x * x + z * z);
   if (away < 0.01F) return rest;
-  constexpr float stations = (leg_stations - 1) / static_cast<float>(LegProfile::last_s - LegProfile::first_s);
+  constexpr float stations = (leg_stations - 1) / static_cast<float>(last_leg_s - first_leg_s);
   const float down = stations / (rest.place.y > knee.y ? hip.y - knee.y : knee.y - at(Segment::foot_right).y);
   const float turn = an_angle * leg_angles / (2 * std::numbers::pi_v<float> * away);
   const float out = side == Side::right ? 1.0F : -1.0F;  // angles grow to the inner side

@@ -15,9 +15,10 @@ class FetchAhead {
   template <class T>
   explicit FetchAhead(const T* what) : FetchAhead(what, sizeof(T)) {}
 
-  /// So many lines of 64 bytes more, into the second cache.
-  void fetch(std::size_t lines) {
+  /// So many lines of 64 bytes more, into the second cache; returns how many of them there are not.
+  std::size_t fetch(std::size_t lines) {
     for (; lines > 0 && at_ < end_; --lines, at_ += 64) __builtin_prefetch(at_, 0, 2);
+    return lines;
   }
 
  private:

@@ -70,6 +70,7 @@ HWY_INLINE void move_line(const StepPlan<Lanes<float>>& plan, const WideMask& do
 
 void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
   const WideMask done = advance_clock(clock_units(tick_s), plan, state);
+  if (!any(done)) return;  // within a step only time goes on
   const Wide zero = wide(0.0F), one = wide(1.0F), length = load(plan.step_length_m);
   const WideMask walked = load(plan.landing) > 0.0F;
 
@@ -105,6 +106,7 @@ std::uint32_t to_plan_block(const StepPlan<Lanes<float>>& plan, const Gait<Lanes
                             const GaitState<Lanes<float>>& state, float tick_s) {
   Lanes<float> begun, turns;
   const WideMask begins = load(state.time_s) < tick_s;
+  if (!any(begins)) return 0;
   store(select(begins, wide(1.0F), wide(0.0F)), begun);
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   const Wide turns_from = select(stands_still(plan), wide(off_heading), wide(own_turn_rad));
@@ -132,8 +134,9 @@ void swap_feet(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& stat
 
 void turn_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state, float tick_s) {
-  swap_feet(plan, state, tick_s);
   const WideMask begun = load(state.time_s) < tick_s;
+  if (!any(begun)) return;
+  swap_feet(plan, state, tick_s);
   const WideMask steps = load(plan.landing) > 0.0F;
   const Wide way = shorter_way(load(state.heading_rad), load(wanted.heading_rad));
   const NextFoot next =

@@ -162,7 +162,7 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
   };
   plans.fetch(120);
   const Skeleton skeleton{load(size.height_m), pose};
-  const StepNow now = step_now(skeleton.height, plan, state, footing);
+  const StepNow now = step_now(skeleton.height, plan, state, footing, [] {});
   const PelvisMotion& motion = now.motion;
   const PelvisPlace& pelvis = now.pelvis;
   const Wide& eased = now.eased;

@@ -89,13 +89,17 @@ HWY_NOINLINE void knee_frame(const StepNow& now, const WideVec (&pelvis)[3], std
 }
 
 void both_knees(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2]) {
+                const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2], LegPlanAhead& ahead) {
   const Wide height = load(size.height_m), zero = wide(0.0F), one = wide(1.0F);
-  const StepNow now = step_now(height, plan, state);
+  const auto fetch = [&] { ahead.fetch(22); };
+  const StepNow now = step_now(height, plan, state, nullptr, fetch);
   const WideQuat& turn = now.motion.turn;
   const WideVec pelvis[3] = {rotate(turn, {one, zero, zero}), rotate(turn, {zero, one, zero}),
                              rotate(turn, {zero, zero, one})};
-  for (std::size_t side = 0; side < 2; ++side) knee_frame(now, pelvis, side, height, leg[side]);
+  for (std::size_t side = 0; side < 2; ++side) {
+    fetch();
+    knee_frame(now, pelvis, side, height, leg[side]);
+  }
 }
 
 }  // namespace
@@ -105,11 +109,40 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace mobil {
 
+namespace {
+
+FetchAhead between(const Lanes<float>& first, const void* end) {
+  return {&first, static_cast<std::size_t>(static_cast<const char*>(end) - reinterpret_cast<const char*>(&first))};
+}
+
+/// Of a strike: what comes before its trunk, what comes between that and the pressure, and how the pelvis turns.
+FetchAhead before_trunk(const Lanes<float>& first, const Strike<Lanes<float>>& strike) {
+  return between(first, &strike.shape[step_shape::trunk.first]);
+}
+FetchAhead behind_trunk(const Strike<Lanes<float>>& strike) {
+  return between(strike.shape[step_shape::aside.first], &strike.shape[step_shape::pressure.first]);
+}
+FetchAhead of_pelvis(const Strike<Lanes<float>>& strike) {
+  return between(strike.manner.pelvis_rotation, &strike.manner.shoulder_rotation);
+}
+
+std::array<FetchAhead, 7> leg_parts(const StepPlan<Lanes<float>>* plan) {
+  const FetchAhead none(nullptr, 0);
+  if (plan == nullptr) return {none, none, none, none, none, none, none};
+  return {before_trunk(plan->duration_s, plan->from),    behind_trunk(plan->from), of_pelvis(plan->from),
+          before_trunk(plan->to.speed_m_s, plan->to),    behind_trunk(plan->to),   of_pelvis(plan->to),
+          between(plan->even_m.coefficient[0], plan + 1)};
+}
+
+}  // namespace
+
+LegPlanAhead::LegPlanAhead(const StepPlan<Lanes<float>>* plan) : parts_(leg_parts(plan)) {}
+
 HWY_EXPORT(both_knees);
 
 void knee_frames(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                 const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2]) {
-  HWY_DYNAMIC_DISPATCH(both_knees)(size, plan, state, leg);
+                 const GaitState<Lanes<float>>& state, KneeFrame<Lanes<float>> (&leg)[2], LegPlanAhead& ahead) {
+  HWY_DYNAMIC_DISPATCH(both_knees)(size, plan, state, leg, ahead);
 }
 
 }  // namespace mobil

@@ -121,9 +121,11 @@ struct StepNow {
   Wide lean;       // more than on level ground
 };
 
-/// `footing`: null on level ground.
+/// `footing`: null on level ground. `fetch` is called seven times, evenly over the work: to fetch ahead.
+template <class Fetch>
 HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& plan,
-                            const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing = nullptr) {
+                            const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,
+                            const Fetch& fetch) {
   const Wide one = wide(1.0F), zero = wide(0.0F);
   const Wide time = load(state.time_s);
   const WideMask right_stands = equal(state.stance_side, Side::right),
@@ -131,14 +133,17 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   const Wide u = time / load(plan.duration_s), eased = smooth(u), phase = step_phase(plan, u);
   const StepWaves waves = step_waves(phase);
   const MixedShape of{plan.from.shape, plan.to.shape, mixed_part(plan, phase)};
+  fetch();
   const PelvisMotion motion = pelvis_motion(plan, waves, eased, select(right_stands, one, -one), height);
   const Line line = line_of(plan, state);
+  fetch();
 
   StepNow now{u, eased, waves, of, motion, {}, {right_stands, left_stands}, {}, {}, {}, zero};
   PelvisPlace& pelvis = now.pelvis;
   HipsPlace hips = hips_place(plan, of, u, phase, waves);
   const Wide aside = select(right_stands, hips.aside, -hips.aside);
   const OnLine on = on_line(line, hips.forward, phase, eased);
+  fetch();
   const Wide up =
       hips_height(plan, of, height, u, waves) -
       mix(select(stands(plan.from), zero,
@@ -148,8 +153,11 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
   pelvis.heading = on.heading;
   sin_cos(pelvis.heading, pelvis.sine, pelvis.cosine);
 
+  fetch();
   FootMotion stance = stance_foot(plan, of, height, phase);
+  fetch();
   FootMotion other = other_foot(plan, of, height, phase);
+  fetch();
   Uneven uneven;
   HipsOver over;
   if (footing != nullptr) {
@@ -186,6 +194,7 @@ HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& pl
     now.at[side] = foothold_of(now.stands[side], standing_at, other_at);
     draw_in(now.foot[side], now.at[side], pelvis, motion, side, height, footing != nullptr ? 0.06F : 0.01F);
   }
+  fetch();
   // Where a leg would be too short, in a turn, at a very slow walk or on uneven ground, the pelvis sinks.
   Wide rounding = 0.0002F * height;
   if (footing != nullptr) rounding = rounding + gentler(uneven, eased, height);

@@ -1,5 +1,6 @@
 #include "systems/muscles/compact_module.h"
 
+#include <algorithm>
 #include <array>
 
 #include "components/body.h"
@@ -22,16 +23,15 @@ namespace {
 
 /// All of a person's muscles that move, right and left, over a tick.
 void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
-                  Ahead<StepPlan> next, const GaitState<Lanes<float>>& gait, Shared<LegMuscles> choice,
-                  TagValue<CompactMuscles> codes, Field<const CompactMotion> motion, Field<CompactState> state,
-                  const Rows& rows, Tally<RestartedBellies> restarted) {
-  FetchAhead plans(next.block);
+                  Ahead<StepPlan> next, const GaitState<Lanes<float>>& gait, Ahead<GaitState> next_gait,
+                  Shared<LegMuscles> choice, TagValue<CompactMuscles> codes, Field<const CompactMotion> motion,
+                  Field<CompactState> state, const Rows& rows, Tally<RestartedBellies> restarted) {
+  LegPlanAhead plans(next.block);
   FetchAhead motions(motion.next, std::size_t{motion.words} * sizeof(Lanes<float>));
   FetchAhead states(state.next, std::size_t{state.words} * sizeof(Lanes<float>));
-  plans.fetch(120);
+  FetchAhead(next_gait.block).fetch(sizeof(*next_gait.block) / 64);
   KneeFrame<Lanes<float>> leg[2];
-  knee_frames(size, plan, gait, leg);
-  plans.fetch(60);
+  knee_frames(size, plan, gait, leg, plans);
   const auto* const words = reinterpret_cast<const Lanes<float>*>(motion.data);
   const LegScale<Lanes<float>> scale = {words[0], words[1], words[2]};
   struct Moving {
@@ -52,12 +52,15 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
     at.skip(code);
     ++count;
   }
+  const std::size_t places = std::max<std::size_t>(2 * count, 1);
+  const auto of_each = [&](std::size_t all) { return (all + places - 1) / places; };
+  const std::size_t motion_lines = of_each(motion.words), state_lines = of_each(state.words);
   for (std::uint32_t side = 0; side < 2; ++side) {
     elongations({lines.data(), count}, scale, leg[side]);
     for (std::size_t i = 0; i < count; ++i) {
-      plans.fetch(25);
-      motions.fetch(12);
-      states.fetch(12);
+      plans.fetch(8);
+      motions.fetch(motion_lines);
+      states.fetch(state_lines);
       const auto& [vectors, from] = moving[i];
       float* const own = state.data + lane_count * (from.state + side * (1 + 2 * vectors));
       auto& before = *reinterpret_cast<Lanes<float>*>(own);

@@ -1,4 +1,5 @@
 #include "systems/people/people_modules.h"
+#include "engine/fetch_ahead.h"
 #include "engine/schedule.h"
 
 #include <algorithm>
@@ -24,6 +25,25 @@
 
 namespace mobil {
 namespace {
+
+/// Of a block three further on, what every tick asks for: otherwise there is too little work to hide memory's latency.
+void fetch_clock(const GaitState<Lanes<float>>* state) {
+  if (state != nullptr) FetchAhead(&state->time_s).fetch(1);
+}
+
+void advance_walkers(const StepPlan<Lanes<float>>& plan, Ahead<StepPlan> next_plan, GaitState<Lanes<float>>& state,
+                     Ahead<GaitState> next, float tick_s) {
+  fetch_clock(next.third);
+  if (next_plan.third != nullptr) FetchAhead(&next_plan.third->duration_s).fetch(1);
+  advance_gait(plan, state, tick_s);
+}
+
+void turn_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
+                  const Gait<Lanes<float>>& wanted, GaitState<Lanes<float>>& state, Ahead<GaitState> next,
+                  float tick_s) {
+  fetch_clock(next.third);
+  turn_gait(size, plan, wanted, state, tick_s);
+}
 
 void pose_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, Ahead<StepPlan> next_plan,
                   const GaitState<Lanes<float>>& state, Maybe<Footing> footing, Pose<Lanes<float>>& pose,
@@ -108,10 +128,10 @@ Module walking_module() {
           .version = 4,
           .parts = {component_part<Gait>(), component_part<StepPlan>(), component_part<GaitState>()},
           .systems = [](ScheduleBuilder& systems) {
-            systems.add("gait", &advance_gait)
+            systems.add("gait", &advance_walkers)
                 .add_packed("replan", &lanes_to_plan, &plan_next_step)
                 .after("gait")
-                .add("turn", &turn_gait)
+                .add("turn", &turn_walkers)
                 .after("replan")
                 .add("footing", &follow_feet)
                 .after("turn")

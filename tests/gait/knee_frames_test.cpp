@@ -60,7 +60,8 @@ TEST(KneeFrames, AreThoseOfThePose) {
       for (const float part : {0.0F, 0.13F, 0.3F, 0.55F, 0.8F, 0.97F}) {
         w->place_at(part);
         KneeFrame<Lanes<float>> leg[2];
-        knee_frames(w->size, w->plan, w->state, leg);
+        LegPlanAhead nothing(nullptr);
+        knee_frames(w->size, w->plan, w->state, leg, nothing);
         for (std::size_t l = 0; l < lane_count; ++l) {
           for (const Side side : {Side::right, Side::left}) {
             worst = std::max(worst, apart(row(w->pose, l), side, row(leg[side], l)));

@@ -6,6 +6,7 @@
 //   Maybe<C>                 reads this block's component where the table has it; MaybeField<const Tag> a field,
 //                            MaybeField<Tag> writes it (and may read it)
 //   Ahead<C>                 where the next block has it, to fetch what it names meanwhile
+//   Later<Tag>               where this block has a field that a later system works on, to fetch it meanwhile
 //   Previous<C>              reads what the component was before this tick's writers
 //   Lookup<C>                reads the component of other entities, this tick's
 //   Published<T>             writes what the block's rows tell others; LookupPublished<T> reads it
@@ -16,7 +17,8 @@
 //   Rows                     the entities of the block's lanes
 //   const Table&             the block's table: how many rows, of what parts; how to work may depend on it, no result
 //
-// It runs on every block of every table that has all components, fields and tags named (Maybes, Scratch, Tally aside).
+// It runs on every block of every table that has all components, fields and tags named (Maybes, Later, Scratch, Tally
+// aside).
 
 #include <atomic>
 #include <cstddef>
@@ -64,6 +66,13 @@ struct Previous {
 template <template <class> class C>
 struct Ahead {
   const C<Lanes<float>>*block, *second, *third;
+};
+
+/// A field of this block that a later system works on, to be fetched for it and never read: null where it is missing.
+template <class Tag>
+struct Later {
+  const float* data;
+  std::uint32_t words;
 };
 
 /// A component that not every table has: null where it is missing.
@@ -332,6 +341,17 @@ struct Parameter<Ahead<C>> : AnywhereParameter {
                                                       bound.first_word * lane_count);
     };
     return {next(1), next(2), next(3)};
+  }
+};
+
+template <class Tag>
+struct Parameter<Later<Tag>> : AnywhereParameter {
+  static bool bind(const World& world, const Table& table, Bound& bound) {
+    if (!Parameter<Field<const Tag>>::bind(world, table, bound)) bound.words = 0;
+    return true;
+  }
+  static Later<Tag> make(const BlockView& view, const Bound& bound) {
+    return {bound.words == 0 ? nullptr : view.table.block(view.block) + bound.first_word * lane_count, bound.words};
   }
 };
 

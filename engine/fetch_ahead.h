@@ -7,6 +7,9 @@
 
 namespace mobil {
 
+/// Argument of `fetch`: all that is left, which is right for a few dozen lines.
+inline constexpr std::size_t all_lines = static_cast<std::size_t>(-1);
+
 class FetchAhead {
  public:
   /// Nothing is fetched where `begin` is null.
@@ -15,7 +18,7 @@ class FetchAhead {
   template <class T>
   explicit FetchAhead(const T* what) : FetchAhead(what, sizeof(T)) {}
 
-  /// So many lines of 64 bytes more, into the second cache; returns how many of them there are not.
+  /// So many lines of 64 bytes more, into the second cache; returns how many of `lines` were left as the memory ended.
   std::size_t fetch(std::size_t lines) {
     for (; lines > 0 && at_ < end_; --lines, at_ += 64) __builtin_prefetch(at_, 0, 2);
     return lines;

@@ -23,6 +23,7 @@ double steady_now() {
 struct Schedule::Pass {
   std::span<const System> systems;  // all of the schedule's
   std::span<const Match> matches;
+  std::span<const Tile> tiles;
   const World& world;
   Tick tick;
   double (*clock)();
@@ -44,6 +45,7 @@ Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memor
       timings_(systems_.size()),
       counted_(systems_.size()),
       matches_(passes_.size()),
+      round_(memory),
       chosen_lanes_(memory),
       chosen_(memory),
       scratch_floats_(passes_.size()),
@@ -57,6 +59,7 @@ void Schedule::measure_with(double (*clock)()) {
 }
 
 void Schedule::match(World& world) {
+  while (tiles_.size() < passes_.size()) tiles_.emplace_back(round_.get_allocator());
   if (world_ != world.identity()) {
     for (auto& matches : matches_) matches.clear();
     std::fill(scratch_floats_.begin(), scratch_floats_.end(), 0);
@@ -65,9 +68,8 @@ void Schedule::match(World& world) {
   }
   for (; tables_seen_ < world.tables().size(); ++tables_seen_) {
     Table& table = world.tables()[tables_seen_];
-    const std::size_t block_bytes = std::max<std::size_t>(1, table.block_bytes());
     for (std::size_t p = 0; p < passes_.size(); ++p) {
-      Match match{&table, {}, std::max<std::size_t>(1, tile_bytes / block_bytes)};
+      Match match{&table, {}};
       for (std::size_t s = passes_[p].first; s < passes_[p].last; ++s) {
         std::vector<Bound> bound(systems_[s].parameters);
         if (!systems_[s].bind(world, table, bound.data())) continue;
@@ -79,16 +81,42 @@ void Schedule::match(World& world) {
   }
 }
 
+/// Tables side by side, some tiles of each in turn, as far into the one as into the other: rows of several tables that
+/// look up the same people find these in a cache.
+void Schedule::order_tiles(std::size_t pass, std::size_t threads) {
+  constexpr std::size_t side_by_side = 2;  // of the longest table
+  std::size_t all = 0, most = 0;
+  for (Match& m : matches_[pass]) {
+    // Of large tables several blocks: to read the clock after each costs a fortieth of a walker's tick.
+    const std::size_t several =
+        std::min<std::size_t>(4, m.table->block_count() / (8 * std::max<std::size_t>(threads, 1)));
+    m.tile_blocks = std::max({std::size_t{1}, several, tile_bytes / std::max<std::size_t>(1, m.table->block_bytes())});
+    all += m.tiles();
+    most = std::max(most, m.tiles());
+  }
+  const std::size_t rounds = (most + side_by_side - 1) / side_by_side;
+  round_.assign(rounds + 1, 0);
+  const auto each = [&](const auto& f) {
+    for (std::size_t m = 0; m < matches_[pass].size(); ++m) {
+      const std::size_t count = matches_[pass][m].tiles();
+      for (std::size_t t = 0; t < count; ++t) f(m, t, t * rounds / count);
+    }
+  };
+  each([&](std::size_t, std::size_t, std::size_t round) { ++round_[round + 1]; });
+  for (std::size_t r = 0; r < rounds; ++r) round_[r + 1] += round_[r];
+  tiles_[pass].resize(all);
+  each([&](std::size_t m, std::size_t t, std::size_t round) {
+    tiles_[pass][round_[round]++] = {static_cast<std::uint32_t>(m),
+                                     static_cast<std::uint32_t>(t * matches_[pass][m].tile_blocks)};
+  });
+}
+
 /// f(match, first block, block after the last) for each of those tiles.
 template <class F>
 void Schedule::for_tiles(const Pass& pass, std::size_t begin, std::size_t end, const F& f) {
-  auto match = std::upper_bound(pass.matches.begin(), pass.matches.end(), begin,
-                                [](std::size_t tile, const Match& m) { return tile < m.first_tile; }) -
-               1;
-  for (std::size_t tile = begin; tile < end; ++tile) {
-    while ((tile - match->first_tile) * match->tile_blocks >= match->table->block_count()) ++match;
-    const std::size_t first = (tile - match->first_tile) * match->tile_blocks;
-    f(*match, first, std::min(first + match->tile_blocks, match->table->block_count()));
+  for (const Tile& tile : pass.tiles.subspan(begin, end - begin)) {
+    const Match& match = pass.matches[tile.match];
+    f(match, tile.first_block, std::min(tile.first_block + match.tile_blocks, match.table->block_count()));
   }
 }
 
@@ -138,10 +166,10 @@ void Schedule::run_chosen(void* context, std::size_t begin, std::size_t end) {
   pass.spend(pass.packed, pass.clock() - before);
 }
 
-void Schedule::run_packed(Pass& pass, std::size_t tiles, std::size_t blocks, const Jobs& jobs) {
+void Schedule::run_packed(Pass& pass, std::size_t blocks, const Jobs& jobs) {
   chosen_lanes_.resize(blocks);
   pass.chosen_lanes = chosen_lanes_.data();
-  run_in_parallel(jobs, tiles, &choose_lanes, &pass);
+  run_in_parallel(jobs, pass.tiles.size(), &choose_lanes, &pass);
   chosen_.clear();
   chosen_.reserve(blocks * lane_count);
   for (const Match& match : pass.matches) {
@@ -168,31 +196,22 @@ void Schedule::run(World& world, Tick tick, const Jobs& jobs) {
     spent_ns_[s].store(0, std::memory_order_relaxed);
     tally_[s].store(0, std::memory_order_relaxed);
   }
+  for (std::size_t p = 0; p < passes_.size(); ++p) order_tiles(p, jobs.threads);
   for (std::size_t p = 0; p < passes_.size(); ++p) {
-    std::size_t tiles = 0, blocks = 0;
+    std::size_t blocks = 0;
     for (Match& m : matches_[p]) {
-      m.first_tile = tiles;
       m.first_block = blocks;
-      tiles += (m.table->block_count() + m.tile_blocks - 1) / m.tile_blocks;
       blocks += m.table->block_count();
       for (const Step& step : m.steps) timings_[step.system].last_rows += m.table->row_count();
     }
     if (blocks == 0) continue;
-    Pass pass{systems_,
-              matches_[p],
-              world,
-              tick,
-              clock_,
-              spent_ns_.get(),
-              tally_.get(),
-              {},
-              nullptr,
-              passes_[p].first,
-              scratch_floats_[p] > 0 ? scratch_.get() : nullptr};
+    Pass pass{systems_, matches_[p], tiles_[p],        world,
+              tick,     clock_,      spent_ns_.get(),  tally_.get(),
+              {},       nullptr,     passes_[p].first, scratch_floats_[p] > 0 ? scratch_.get() : nullptr};
     if (systems_[pass.packed].choose) {
-      run_packed(pass, tiles, blocks, jobs);
+      run_packed(pass, blocks, jobs);
     } else {
-      run_in_parallel(jobs, tiles, &run_tiles, &pass);
+      run_in_parallel(jobs, tiles_[p].size(), &run_tiles, &pass);
     }
   }
   for (std::size_t s = 0; s < systems_.size(); ++s) {

@@ -76,7 +76,8 @@ class Schedule {
  public:
   /// One tick. In each pass some neighbouring blocks at a time go through all the systems whose tables they are in.
   /// Takes memory only when tables have been made since the last run, another world comes along, or more threads work
-  /// at once or more rows may be chosen than before. Denormals are zero while a system runs.
+  /// at once, more rows may be chosen or tables have more blocks than ever before. Denormals are zero while a system
+  /// runs.
   void run(World& world, Tick tick, const Jobs& jobs = {});
 
   /// In the order of running.
@@ -110,8 +111,12 @@ class Schedule {
   struct Match {
     Table* table;
     std::vector<Step> steps;
-    std::size_t tile_blocks;
-    std::size_t first_tile = 0, first_block = 0;  // among all of the pass, this tick
+    std::size_t tile_blocks = 1, first_block = 0;  // this tick; the latter among all of the pass
+
+    std::size_t tiles() const { return (table->block_count() + tile_blocks - 1) / tile_blocks; }
+  };
+  struct Tile {
+    std::uint32_t match, first_block;  // in its table
   };
   struct Pass;
   static void run_tiles(void* pass, std::size_t begin, std::size_t end);
@@ -119,10 +124,11 @@ class Schedule {
   static void run_chosen(void* pass, std::size_t begin, std::size_t end);
   template <class F>
   static void for_tiles(const Pass& pass, std::size_t begin, std::size_t end, const F& f);
-  void run_packed(Pass& pass, std::size_t tiles, std::size_t blocks, const Jobs& jobs);
+  void run_packed(Pass& pass, std::size_t blocks, const Jobs& jobs);
 
   Schedule(std::vector<System> systems, std::pmr::memory_resource* memory);
   void match(World& world);
+  void order_tiles(std::size_t pass, std::size_t threads);
   Counted tally(std::uint64_t tag) const;
 
   std::vector<System> systems_;
@@ -130,6 +136,8 @@ class Schedule {
   std::vector<Timing> timings_;
   std::vector<Counted> counted_;                           // by system
   std::vector<std::vector<Match>> matches_;                // by pass
+  std::vector<std::pmr::vector<Tile>> tiles_;              // by pass, in the order of this tick
+  std::pmr::vector<std::uint32_t> round_;                  // where each round of tiles ends, kept for its memory
   std::pmr::vector<std::uint16_t> chosen_lanes_;           // by block of a packed system that runs, kept for its memory
   std::pmr::vector<ChosenRow> chosen_;                     // the same as rows
   std::vector<std::size_t> scratch_floats_;                // by pass, the most that a table of it needs

@@ -9,7 +9,8 @@ namespace {
 
 constexpr double head_blend_m = 0.030, leg_blend_m = 0.065;  // how widely head and legs are rounded into the trunk
 constexpr double lowest_head = 1.44;                         // below there is no head, m of a body of 1.75 m
-constexpr double middle_m = -0.02;                           // of the trunk, ahead of the hips: tapes are laid round it
+// Of the trunk and of the neck, ahead of the hips, m of a body of 1.75 m: tapes are laid round it.
+constexpr double middle_m = -0.02, neck_middle_m = -0.05;
 
 }  // namespace
 
@@ -60,6 +61,7 @@ double BodyForm::armless_distance(const Vec& p) const {
 double BodyForm::girth(double y) const {
   constexpr int rays = 60, halvings = 14;
   constexpr double longest_m = 0.6;
+  const double middle_z = size_ * (y > 1.46 * size_ ? neck_middle_m : middle_m);
   // From the back round the right side to the front: a tape spans hollows, so points that lie within are left out.
   std::vector<std::array<double, 2>> tape;
   for (int i = 0; i <= rays; ++i) {
@@ -67,7 +69,7 @@ double BodyForm::girth(double y) const {
     double within = 0, beyond = longest_m;
     for (int k = 0; k < halvings; ++k) {
       const double middle = 0.5 * (within + beyond);
-      (armless_distance({middle * out, y, middle_m * size_ + middle * ahead}) < 0 ? within : beyond) = middle;
+      (armless_distance({middle * out, y, middle_z + middle * ahead}) < 0 ? within : beyond) = middle;
     }
     const std::array<double, 2> p = {within * out, within * ahead};
     while (tape.size() > 1) {

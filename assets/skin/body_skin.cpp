@@ -214,17 +214,18 @@ TrunkFit fit_trunk(const Body& body) {
   // places where girths are measured. Volume is near enough linear in so little.
   constexpr double may = 0.015, trial = 1.05;
   TrunkFit fit;
-  const double usual = volume(1, fit), sense = wanted > usual ? 1 : -1;
-  const double over = 1 + sense * may, with_girths = volume(over, fit);
-  if (const double share = (wanted - usual) / (with_girths - usual); share <= 1) {
-    fit_girths(body, 1 + share * (over - 1), fit);
+  const double usual = volume(1, fit), sense = wanted > usual ? 1 : -1, need = sense * (wanted - usual);
+  const double over = 1 + sense * may, gain = sense * (volume(over, fit) - usual);
+  if (gain > 0 && need <= gain) {
+    fit_girths(body, 1 + need / gain * (over - 1), fit);
     return fit;
   }
-  const double left = wanted - with_girths, within = may * wanted;
-  if (std::abs(left) <= within) return fit;
-  fit.between = trial;
-  const double more = volume(over, fit);
-  fit.between = std::clamp(1 + (trial - 1) * (left - sense * within) / (more - with_girths), least_fit, most_fit);
+  const double left = need - gain - may * wanted;
+  if (left <= 0) return fit;
+  fit.between = 1 + sense * (trial - 1);
+  const double more = sense * (volume(over, fit) - usual) - gain;
+  const double beyond = more > 0 ? left / more : 1;
+  fit.between = std::clamp(1 + sense * (trial - 1) * beyond, least_fit, most_fit);
   fit_girths(body, over, fit);
   return fit;
 }

@@ -10,7 +10,7 @@
 #include "assets/skin/fat_places.h"
 #include "assets/skin/leg_grid.h"
 #include "assets/skin/skin_binding.h"
-#include "assets/skin/trunk_form.h"
+#include "assets/skin/trunk_fit.h"
 #include "components/body.h"
 #include "components/pose.h"
 #include "engine/error.h"
@@ -62,13 +62,14 @@ struct SkinDress {
 };
 
 /// The skin of a body: the shared surface is drawn onto the body's own form, whose trunk has the survey's girths at
-/// hips, waist, chest and neck. Between them it is made as much fuller or thinner as makes the volume, without the air
-/// in the lungs, weigh the body's mass at its density (Siri 1961, from its fat). Errors: as make_body; limbs of their
+/// hips, waist, chest and neck and the volume that weighs the body's mass at its density (Siri 1961, from its fat),
+/// without the air in the lungs. Both may be 1.5 % off; what that leaves open the trunk has between hips and chest.
+/// Errors: as make_body; limbs of their
 /// own (BodyRequest::limbs).
 Result<BodySkin> make_body_skin(const Body& body, SkinDetail detail, const SkinDress& dress = {});
 /// The same; `fit`: from `fit_trunk` for this body or one like it, `body` from make_body.
 BodySkin make_body_skin(const Body& body, const form::TrunkFit& fit, SkinDetail detail, const SkinDress& dress);
-/// What meets the girths and the mass; each number 0.7 to 1.4, where what lies beyond is not met.
+/// What meets the girths and the mass to 1.5 %; each number 0.7 to 1.4, where what lies beyond is not met.
 form::TrunkFit fit_trunk(const Body& body);
 
 /// Volume within a closed surface, m³.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "assets/skin/body_form.h"
+
 namespace mobil {
 namespace {
 
@@ -37,7 +39,8 @@ LegGrid leg_grid(const form::BodyForm& form, const BodyComposition& composition)
   double area = 0;
   for (std::size_t i = 0; i < leg_stations; ++i) {
     const double s = first_leg_s + step_s * static_cast<double>(i);
-    area += 2 * profile.girth(s) * (leg.y(s) - leg.y(s + step_s));
+    if (s >= LegProfile::first_s && s <= LegProfile::last_s)
+      area += 2 * profile.girth(s) * (leg.y(s) - leg.y(s + step_s));
     for (std::size_t j = 0; j < leg_angles; ++j)
       grid.base[i * leg_angles + j] =
           static_cast<float>(skin_radius(form, s, tau * static_cast<double>(j) / leg_angles));

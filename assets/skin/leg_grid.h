@@ -5,13 +5,18 @@
 #include <cstddef>
 #include <vector>
 
-#include "assets/skin/body_form.h"
 #include "components/body.h"
+#include "components/lanes.h"
 
 namespace mobil {
 
-/// Stations along the leg, s from above the hip's joint to just above the ankle's, and angles round it, from
-/// the front (0) over the inner side; one station after the other.
+namespace form {
+class BodyForm;
+class LegForm;
+}  // namespace form
+
+/// Stations along the leg, from above the hip's joint to just above the ankle's (s is 0 at the hip, 1 at the knee, 2 at
+/// the ankle), and angles round it, from the front (0) over the inner side; one station after the other.
 inline constexpr std::size_t leg_stations = 24, leg_angles = 32, leg_grid_points = leg_stations * leg_angles;
 inline constexpr double first_leg_s = -0.08, last_leg_s = 1.97;
 

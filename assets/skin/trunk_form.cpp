@@ -1,5 +1,7 @@
 #include "assets/skin/trunk_form.h"
 
+#include <algorithm>
+#include <array>
 #include <numbers>
 
 #include "assets/body/anthropometry.h"
@@ -77,8 +79,9 @@ TrunkForm::TrunkForm(const Body& body, const BodyMeasures& m, const TrunkFit& fi
       {1.600, 0.85 * neck, -0.069, -0.069 + 1.70 * neck, 2},
       {1.630, 0.50 * neck, -0.040, 0.020, 2},
   };
-  for (const std::size_t k : {4, 6, 7}) {
-    Section& section = section_[k];
+  constexpr std::array between = {1.000, 1.120, 1.200};  // where no girth is measured
+  for (Section& section : section_) {
+    if (std::ranges::find(between, section.y) == between.end()) continue;
     const double deeper = (fit.between - 1) * (section.front - section.back);
     section.half *= fit.between;
     section.back -= 0.35 * deeper;

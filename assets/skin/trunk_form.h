@@ -5,15 +5,10 @@
 
 #include "assets/body/body_measures.h"
 #include "assets/skin/form_shapes.h"
+#include "assets/skin/trunk_fit.h"
 #include "components/body.h"
 
 namespace mobil::form {
-
-/// By what the trunk's breadths and depths are multiplied where a girth is measured, for the girths to be met, and
-/// between those places, for the volume to meet the mass.
-struct TrunkFit {
-  double hips = 1, waist = 1, chest = 1, neck = 1, between = 1;
-};
 
 class TrunkForm {
  public:

@@ -21,9 +21,9 @@ HWY_INLINE void come_to_rest(const StepPlan<Lanes<float>>& plan, const WideMask&
   const WideMask rests = done & stands(plan.to) & (abs(shift - load(state.shift_before_m)) <= 0.0F);
   Wide s, c;
   sin_cos(load(state.heading_rad), s, c);
-  const Wide by = select(rests, shift, zero);
-  store(fma(by, c, load(state.line_x_m)), state.line_x_m);
-  store(fnma(by, s, load(state.line_z_m)), state.line_z_m);
+  const Wide x = load(state.line_x_m), z = load(state.line_z_m);
+  store(select(rests, fma(shift, c, x), x), state.line_x_m);
+  store(select(rests, fnma(shift, s, z), z), state.line_z_m);
   for (Lanes<float>* moved : {&state.shift_m, &state.shift_before_m, &state.shift_next_m})
     store(select(rests, zero, load(*moved)), *moved);
 }
@@ -55,7 +55,7 @@ HWY_INLINE void move_line(const StepPlan<Lanes<float>>& plan, const WideMask& do
   const WideMask bends = done & without(straight);
   auto move = [&](const Wide& ahead, Lanes<float>& line, Lanes<float>& anchor) {
     const Wide on = fma(load(chords), ahead, load(anchor));
-    store(select(straight, on, load(line) + select(bends, ahead, wide(0.0F))), line);
+    store(select(straight, on, select(bends, load(line) + ahead, load(line))), line);
   };
   move(ahead_x, state.line_x_m, state.anchor_x_m);
   move(ahead_z, state.line_z_m, state.anchor_z_m);
@@ -70,7 +70,7 @@ HWY_INLINE void move_line(const StepPlan<Lanes<float>>& plan, const WideMask& do
 
 void advance_block(const StepPlan<Lanes<float>>& plan, GaitState<Lanes<float>>& state, float tick_s) {
   const WideMask done = advance_clock(clock_units(tick_s), plan, state);
-  if (!any(done)) return;  // within a step only time goes on
+  if (!any(done)) return;  // within a step only time goes on: whose step does not end keeps their bits
   const Wide zero = wide(0.0F), one = wide(1.0F), length = load(plan.step_length_m);
   const WideMask walked = load(plan.landing) > 0.0F;
 

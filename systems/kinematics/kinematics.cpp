@@ -156,13 +156,12 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
                 const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing, Pose<Lanes<float>>& pose,
                 JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet, const NextWalkers& next) {
   FetchAhead plans(next.plan), poses(next.pose);
-  const auto fetch = [&] {
-    plans.fetch(60);
-    poses.fetch(60);
-  };
-  plans.fetch(120);
+  constexpr std::size_t places = 7, pose_lines = sizeof(pose) / 64 / places + 1,
+                        plan_lines = sizeof(plan) / 64 / step_now_fetches + 1;
+  const auto fetch = [&] { poses.fetch(pose_lines); };
+  FetchAhead(next.state).fetch(all_lines);
   const Skeleton skeleton{load(size.height_m), pose};
-  const StepNow now = step_now(skeleton.height, plan, state, footing, [] {});
+  const StepNow now = step_now(skeleton.height, plan, state, footing, [&] { plans.fetch(plan_lines); });
   const PelvisMotion& motion = now.motion;
   const PelvisPlace& pelvis = now.pelvis;
   const Wide& eased = now.eased;
@@ -203,6 +202,8 @@ void pose_block(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
     pose_arm(arms, (leg[1 - side] - leg_back) * per_range, side, skeleton, angles);
   }
   fetch();
+  FetchAhead(next.angles).fetch(all_lines);
+  FetchAhead(next.feet).fetch(all_lines);
   store(motion.rotation, angles.pelvis_rotation);
   store(motion.list, angles.pelvis_list);
   store(motion.tilt, angles.pelvis_tilt);

@@ -11,7 +11,10 @@ namespace mobil {
 /// The block to be posed next: fetched meanwhile, never read.
 struct NextWalkers {
   const StepPlan<Lanes<float>>* plan = nullptr;
+  const GaitState<Lanes<float>>* state = nullptr;
   const Pose<Lanes<float>>* pose = nullptr;
+  const JointAngles<Lanes<float>>* angles = nullptr;
+  const Feet<Lanes<float>>* feet = nullptr;
 };
 
 /// Writes every segment's world position and rotation, the joint angles and the feet's ground points. Hips follow the

@@ -3,8 +3,8 @@
 
 #include <array>
 #include <cstddef>
-#include "components/body.h"
 
+#include "components/body.h"
 #include "components/gait.h"
 #include "components/leg_frames.h"
 #include "engine/fetch_ahead.h"

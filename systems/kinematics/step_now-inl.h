@@ -121,7 +121,9 @@ struct StepNow {
   Wide lean;       // more than on level ground
 };
 
-/// `footing`: null on level ground. `fetch` is called seven times, evenly over the work: to fetch ahead.
+constexpr std::size_t step_now_fetches = 7;
+
+/// `footing`: null on level ground. `fetch` is called so many times, evenly over the work: to fetch ahead.
 template <class Fetch>
 HWY_INLINE StepNow step_now(const Wide& height, const StepPlan<Lanes<float>>& plan,
                             const GaitState<Lanes<float>>& state, const Footing<Lanes<float>>* footing,

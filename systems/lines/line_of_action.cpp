@@ -4,6 +4,8 @@
 #define HWY_TARGET_INCLUDE "systems/lines/line_of_action.cpp"
 #include <hwy/foreach_target.h>
 
+#include <algorithm>
+
 #include "systems/lines/leg_path-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,13 +25,17 @@ HWY_INLINE WideVec unrolled(const Leg& leg, LegBone bone, const WideVec& at) {
   return bone < LegBone::shank ? at : at - leg.rolled;
 }
 
+constexpr std::size_t fetched_lines = 40;  // of each thing that is fetched meanwhile
+
 /// Writes line; the elongation L − L₀.
 Wide act(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-         LineOfAction<Lanes<float>>& line, Lanes<float>* member_m) {
+         LineOfAction<Lanes<float>>& line, Lanes<float>* member_m, std::span<FetchAhead> ahead) {
+  const std::size_t lines_each = fetched_lines / std::max<std::size_t>(1, lines.members.size()) + 1;
   const Leg leg = load_leg(lines, scale, legs);
   Wide mean = wide(0.0F);
   WideVec target = leg.knee;
   for (std::size_t m = 0; m < lines.members.size(); ++m) {
+    for (FetchAhead& some : ahead) some.fetch(lines_each);
     const MuscleLines::Member& member = lines.members[m];
     const WideVec end = path_end(leg, member);
     const Wide along = path_length(leg, member, end);
@@ -73,9 +79,10 @@ HWY_INLINE void follow(const WideMask& first, const Wide& now, Lanes<float>& fro
 }  // namespace
 
 void act_on_end(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
-                FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end, Lanes<float>* member_m) {
+                FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end, Lanes<float>* member_m,
+                std::span<FetchAhead> ahead) {
   const WideMask first = load(line.length_m) <= wide(0.0F);
-  const Wide elongation = act(lines, scale, legs, line, member_m);
+  const Wide elongation = act(lines, scale, legs, line, member_m, ahead);
   if (far_end == FarEnd::held) {
     follow(first, elongation, end.from, end.to);
   } else {
@@ -133,6 +140,7 @@ HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 #include "components/segments.h"
+#include "engine/fetch_ahead.h"
 
 namespace mobil {
 namespace {
@@ -174,14 +182,18 @@ void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std
          [lane](Lanes<float>& to, float x, float sign) { to[lane] = sign * x; });
 }
 
-void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts) {
-  const auto* words = reinterpret_cast<const Lanes<float>*>(&pose);
+void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, LegPost* posts) {
+  const auto *words = reinterpret_cast<const Lanes<float>*>(&pose),
+             *ahead = reinterpret_cast<const Lanes<float>*>(next);
+  const auto word = [words, ahead](std::size_t i) -> const Lanes<float>& {
+    if (ahead != nullptr) FetchAhead(ahead + i).fetch(1);
+    return words[i];
+  };
   for (const Side side : {Side::right, Side::left}) {
     LegFrames<Lanes<float>> legs;
-    gather([words](std::size_t i) -> const Lanes<float>& { return words[i]; }, side, legs,
-           [](Lanes<float>& to, const Lanes<float>& x, float sign) {
-             for (std::size_t lane = 0; lane < lane_count; ++lane) to[lane] = sign * x[lane];
-           });
+    gather(word, side, legs, [](Lanes<float>& to, const Lanes<float>& x, float sign) {
+      for (std::size_t lane = 0; lane < lane_count; ++lane) to[lane] = sign * x[lane];
+    });
     HWY_DYNAMIC_DISPATCH(put_rows)(legs, side, posts);
   }
 }
@@ -206,8 +218,8 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                      FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end,
-                     Lanes<float>* member_m) {
-  HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end, member_m);
+                     Lanes<float>* member_m, std::span<FetchAhead> ahead) {
+  HWY_DYNAMIC_DISPATCH(act_on_end)(lines, scale, legs, far_end, line, end, member_m, ahead);
 }
 
 }  // namespace mobil

@@ -2,10 +2,12 @@
 // From a leg's pose to the length, force and place of its lines of action, sixteen legs a block.
 
 #include <cstddef>
+#include <span>
 
 #include "components/leg_frames.h"
 #include "components/muscle.h"
 #include "components/pose.h"
+#include "engine/fetch_ahead.h"
 #include "systems/lines/muscle_lines.h"
 
 namespace mobil {
@@ -14,8 +16,9 @@ namespace mobil {
 /// rotation; a left leg as its mirror image. `pose`: the human's lane of a block of Pose, that is its first word, the
 /// others following at a distance of `lane_count` floats; no NaN is looked for.
 void gather_leg(const float* pose, Side side, LegFrames<Lanes<float>>& legs, std::size_t lane);
-/// The same of both legs of sixteen people, for their muscles to look up.
-void post_legs(const Pose<Lanes<float>>& pose, LegPost* posts);
+/// The same of both legs of sixteen people, for their muscles to look up. `next`: the block that follows, fetched
+/// meanwhile and never read; may be null.
+void post_legs(const Pose<Lanes<float>>& pose, const Pose<Lanes<float>>* next, LegPost* posts);
 /// Sixteen of them side by side.
 void take_legs(const LegPost::Leg* const (&from)[lane_count], LegFrames<Lanes<float>>& legs);
 /// The same from one row.
@@ -30,11 +33,11 @@ void gather_leg(const Pose<float>& pose, Side side, LegFrames<Lanes<float>>& leg
 /// L₀ (the tendon does not stretch), m; where it slides, to +k(L − L₀) along z, N. A line of length 0 has not been
 /// computed yet: then it begins where it ends.
 ///
-/// `member_m`, unless null: the length of each member's path, m.
+/// `member_m`, unless null: the length of each member's path, m. `ahead` is fetched meanwhile.
 ///
 /// Defined while no bone's long axis points along the line against its usual sense. A NaN stays in its lane.
 void lines_of_action(const MuscleLines& lines, const LegScale<Lanes<float>>& scale, const LegFrames<Lanes<float>>& legs,
                      FarEnd far_end, LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end,
-                     Lanes<float>* member_m = nullptr);
+                     Lanes<float>* member_m = nullptr, std::span<FetchAhead> ahead = {});
 
 }  // namespace mobil

@@ -29,7 +29,7 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
   LegPlanAhead plans(next.block);
   FetchAhead motions(motion.next, std::size_t{motion.words} * sizeof(Lanes<float>));
   FetchAhead states(state.next, std::size_t{state.words} * sizeof(Lanes<float>));
-  FetchAhead(next_gait.block).fetch(sizeof(*next_gait.block) / 64);
+  FetchAhead(next_gait.block).fetch(all_lines);
   KneeFrame<Lanes<float>> leg[2];
   knee_frames(size, plan, gait, leg, plans);
   const auto* const words = reinterpret_cast<const Lanes<float>*>(motion.data);
@@ -58,7 +58,6 @@ void move_compact(float tick_s, const BodySize<Lanes<float>>& size, const StepPl
   for (std::uint32_t side = 0; side < 2; ++side) {
     elongations({lines.data(), count}, scale, leg[side]);
     for (std::size_t i = 0; i < count; ++i) {
-      plans.fetch(8);
       motions.fetch(motion_lines);
       states.fetch(state_lines);
       const auto& [vectors, from] = moving[i];

@@ -1,10 +1,12 @@
 #include "systems/muscles/muscle_parts.h"
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 #include "components/fade.h"
 #include "components/sleep.h"
+#include "engine/fetch_ahead.h"
 #include "engine/schedule.h"
 #include "engine/snapshot.h"
 #include "systems/deformation/fade.h"
@@ -19,9 +21,17 @@ namespace {
 
 void follow_lines(LegsOfOwners posts, const MuscleOwner<Lanes<float>>& owner, Ahead<MuscleOwner> ahead,
                   Shared<MuscleLines> lines, TagValue<FarEnd> far_end, const LegScale<Lanes<float>>& scale,
-                  LineOfAction<Lanes<float>>& line, EndDrive<Lanes<float>>& end, MaybeField<MemberLength> member) {
+                  Ahead<LegScale> next_scale, LineOfAction<Lanes<float>>& line, Ahead<LineOfAction> next_line,
+                  EndDrive<Lanes<float>>& end, Ahead<EndDrive> next_end, MaybeField<MemberLength> member,
+                  Later<ReducedState> state, Later<ReducedMotion> motion) {
+  FetchAhead(next_scale.block).fetch(all_lines);
+  FetchAhead(next_line.block).fetch(all_lines);
+  FetchAhead(next_end.block).fetch(all_lines);
+  // Reduced muscles have too little work themselves to hide memory's latency.
+  std::array later = {FetchAhead(state.data, std::size_t{state.words} * sizeof(Lanes<float>)),
+                      FetchAhead(motion.data, std::size_t{motion.words} * sizeof(Lanes<float>))};
   lines_of_action(*lines, scale, legs_of(posts, owner, ahead), static_cast<FarEnd>(far_end.value), line, end,
-                  reinterpret_cast<Lanes<float>*>(member.data));
+                  reinterpret_cast<Lanes<float>*>(member.data), later);
 }
 
 void fade(const Table& table, float tick_s, Field<const NodalDisplacement> displacement, Field<const FadeStart> start,

@@ -30,7 +30,7 @@ LegFrames<Lanes<float>> legs_of(const LegsOfOwners& posts, const MuscleOwner<Lan
   LegFrames<Lanes<float>> leg;
   take_legs(from, leg);
   // Fetched meanwhile: the third block's owners, the places of the second's owners, the legs of the next block's.
-  FetchAhead(ahead.third).fetch(sizeof(*ahead.third) / 64);
+  FetchAhead(ahead.third).fetch(all_lines);
   if (ahead.second != nullptr)
     for (std::size_t lane = 0; lane < lane_count; ++lane)
       posts.fetch({ahead.second->index[lane], ahead.second->generation[lane]});

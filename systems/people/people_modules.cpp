@@ -46,9 +46,11 @@ void turn_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float
 }
 
 void pose_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan, Ahead<StepPlan> next_plan,
-                  const GaitState<Lanes<float>>& state, Maybe<Footing> footing, Pose<Lanes<float>>& pose,
-                  Ahead<Pose> next_pose, JointAngles<Lanes<float>>& angles, Feet<Lanes<float>>& feet) {
-  pose_skeleton(size, plan, state, footing.block, pose, angles, feet, {next_plan.block, next_pose.block});
+                  const GaitState<Lanes<float>>& state, Ahead<GaitState> next_state, Maybe<Footing> footing,
+                  Pose<Lanes<float>>& pose, Ahead<Pose> next_pose, JointAngles<Lanes<float>>& angles,
+                  Ahead<JointAngles> next_angles, Feet<Lanes<float>>& feet, Ahead<Feet> next_feet) {
+  pose_skeleton(size, plan, state, footing.block, pose, angles, feet,
+                {next_plan.block, next_state.block, next_pose.block, next_angles.block, next_feet.block});
 }
 
 void move_walkers(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
@@ -62,8 +64,8 @@ void press_walkers(const BodySize<Lanes<float>>& size, const BodyMotion<Lanes<fl
   joint_forces(size, motion, plan, state, footing.block, ground, moments);
 }
 
-void publish_legs(const Pose<Lanes<float>>& pose, Published<LegPost> posts) {
-  post_legs(pose, posts.row);
+void publish_legs(const Pose<Lanes<float>>& pose, Ahead<Pose> next, Published<LegPost> posts) {
+  post_legs(pose, next.block, posts.row);
 }
 
 void publish_clocks(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,

@@ -269,6 +269,26 @@ TEST(EngineSchedule, HandsEveryParameterItsOwn) {
   EXPECT_EQ(world.get<B>(without)->x, -1);
 }
 
+TEST(EngineSchedule, WhatIsFetchedForALaterSystemIsNoAccess) {
+  World world;
+  const Entity with = world.create(A<float>{1}, FieldWidth<Nodes>{3});
+  world.create(A<float>{2});
+  std::vector<std::uint32_t> words;
+  const float* fetched = nullptr;
+  const auto look = [&](const LA&, Later<Nodes> nodes) {
+    words.push_back(nodes.words);
+    if (nodes.data != nullptr) fetched = nodes.data;
+  };
+  const float* written = nullptr;
+  auto schedule = ScheduleBuilder().add("look", look).add("write", [&](Field<Nodes> to) { written = to.data; }).build();
+  schedule->run(world, {});
+  std::ranges::sort(words);
+  EXPECT_EQ(words, (std::vector<std::uint32_t>{0, 3}));
+  EXPECT_EQ(fetched, written);
+  EXPECT_EQ(schedule->systems()[0].name, "look") << "who reads a field runs after who writes it";
+  EXPECT_TRUE(world.alive(with));
+}
+
 TEST(EngineSchedule, SeesTablesThatComeLaterAndOtherWorlds) {
   const auto count = [](LA& a) {
     for (float& x : a.x.lane) x += 1;
@@ -373,7 +393,10 @@ TEST(EngineSchedule, RunsEveryBlockOnce) {
   World world;
   std::vector<Entity> all;
   for (unsigned i = 0; i < 1000; ++i) {
-    all.push_back(i % 7 == 0 ? world.create(A<float>{}, TagValue<Substeps>{i % 5}) : world.create(A<float>{}));
+    // Rows so wide that a table has many tiles, tables of unlike lengths.
+    const FieldWidth<Nodes> wide{500};
+    all.push_back(i % 7 == 0 ? world.create(A<float>{}, wide, TagValue<Substeps>{i % 3 == 0 ? 0U : i % 5})
+                             : world.create(A<float>{}, wide));
   }
   auto schedule = ScheduleBuilder()
                       .add("count",

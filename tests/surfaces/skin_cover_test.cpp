@@ -212,7 +212,7 @@ TEST(SkinCover, HoldsTheMusclesThroughAStride) {
       if (tick >= 60 && tick % 6 == 0) watched.look(found);
     }
     found.print("walk", somebody);
-    expect_covered(found, 1e-6, 0.002, 0.04);
+    expect_covered(found, 1e-6, 0.0012, 0.04);
   }
 }
 

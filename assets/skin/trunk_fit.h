@@ -1,0 +1,12 @@
+#pragma once
+// How a trunk is fitted to a body's girths and volume.
+
+namespace mobil::form {
+
+/// By what the trunk's breadths and depths are multiplied where a girth is measured, for the girths to be met, and
+/// between those places, for the volume to meet the mass.
+struct TrunkFit {
+  double hips = 1, waist = 1, chest = 1, neck = 1, between = 1;
+};
+
+}  // namespace mobil::form

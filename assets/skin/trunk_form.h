@@ -13,6 +13,7 @@ namespace mobil::form {
 class TrunkForm {
  public:
   TrunkForm(const Body& body, const BodyMeasures& measures, const TrunkFit& fit);
+  /// Of a point in the anatomical position.
   double distance(const Vec& p) const;
   /// Beyond it to either side nothing of the trunk lies.
   double reach() const { return reach_; }

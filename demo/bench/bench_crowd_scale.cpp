@@ -113,7 +113,7 @@ void tell_threads(BenchRun& run, const Schedule& schedule, std::size_t humans, c
       fmt::format("{} humans, the best tick by the wall's clock: {:.2f} ms by one thread, {:.2f} by two; medians "
                   "{:.2f} and {:.2f}",
                   humans, one.wall_s * 1e3, two.wall_s * 1e3, one.wall_median_s * 1e3, two.wall_median_s * 1e3));
-  add_figure(run, "crowd.threads2_cpu_ratio", two.cpu_s / one.cpu_s, "1",
+  add_figure(run, "crowd.threads2_cpu_ratio", two.cpu_mean_s / one.cpu_mean_s, "1",
              "processor time of both over that of one: what sharing costs");
   const double all_s = std::accumulate(one.system_s.begin(), one.system_s.end(), 0.0);
   for (const std::size_t s : by_size(one)) {

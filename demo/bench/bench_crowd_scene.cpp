@@ -118,16 +118,8 @@ void BenchScene::measure(int threads, int ticks, BenchTick& best) {
   if (best.system_s.empty()) series = {};
   best.system_s.resize(schedule.systems().size(), 1e9);
   turn_.loops = 0;
-  for (int i = 0; i < 2 * ticks; ++i) {
-    // Every other tick tells what each system takes: to ask for a thread's time costs a tenth of such a tick.
-    schedule.measure_with(nullptr);
-    if (i % 2 == 1) {
-      schedule.measure_with(&thread_cpu_now_s);
-      simulation_.tick();
-      for (std::size_t s = 0; s < best.system_s.size(); ++s)
-        best.system_s[s] = std::min(best.system_s[s], schedule.timings()[s].last_seconds);
-      continue;
-    }
+  const double before = process_cpu_now_s();
+  for (int i = 0; i < ticks; ++i) {
     turn_.handed_out_s = 0;
     const double wall = wall_now_s(), cpu = process_cpu_now_s();
     simulation_.tick();
@@ -135,9 +127,18 @@ void BenchScene::measure(int threads, int ticks, BenchTick& best) {
     series.wall.push_back(wall_now_s() - wall);
     series.serial_share.push_back(1 - turn_.handed_out_s / series.wall.back());
   }
+  const double mean = (process_cpu_now_s() - before) / ticks;
+  best.cpu_mean_s = best.cpu_mean_s > 0 ? std::min(best.cpu_mean_s, mean) : mean;
+  best.loops = static_cast<double>(turn_.loops) / ticks;
+  // To ask for a thread's time costs a tenth of a tick, so what each system takes is told by other ticks.
+  schedule.measure_with(&thread_cpu_now_s);
+  for (int i = 0; i < ticks; ++i) {
+    simulation_.tick();
+    for (std::size_t s = 0; s < best.system_s.size(); ++s)
+      best.system_s[s] = std::min(best.system_s[s], schedule.timings()[s].last_seconds);
+  }
   schedule.measure_with(nullptr);
   turn_.now = nullptr;
-  best.loops = static_cast<double>(turn_.loops) / (2 * ticks);
   best.wall_s = std::ranges::min(series.wall);
   best.wall_median_s = median(series.wall);
   best.cpu_s = std::ranges::min(series.cpu);

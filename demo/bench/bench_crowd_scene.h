@@ -26,6 +26,7 @@ LegMuscles bench_paper_muscles();
 /// in which the tick's caller worked alone, `loops` how often a tick hands out work.
 struct BenchTick {
   double wall_s = 0, wall_median_s = 0, cpu_s = 0, cpu_median_s = 0;
+  double cpu_mean_s = 0;  // the least mean of a `measure`: other threads' time lags behind, too much for single ticks
   std::vector<double> system_s;
   double serial_share = 0, loops = 0;
 };

@@ -85,6 +85,7 @@ TEST(OwnSkin, StandsWhereItWasAndComesToTheBodysAtItsTop) {
     const auto off = static_cast<double>(length(right - own));
     if (own.y < top_m - seam_m - 0.02F) furthest = std::max(furthest, off);
     if (own.y > top_m - 0.004F) most_top = std::max(most_top, std::abs(off - 0.012));
+    // The body's skin has not the same triangles on both sides.
     EXPECT_NEAR(left.x, -right.x, 0.003F);
     EXPECT_NEAR(left.y, right.y, 0.005F);
     EXPECT_NEAR(length(at.normal[v]), 1, 1e-3F);

@@ -52,14 +52,15 @@ Schedule::Schedule(std::vector<System> systems, std::pmr::memory_resource* memor
       spent_ns_(std::make_unique<std::atomic<std::int64_t>[]>(systems_.size())),
       tally_(std::make_unique<std::atomic<std::uint64_t>[]>(systems_.size())),
       scratch_(std::make_unique<ScratchPool>(memory)),
-      clock_(&steady_now) {}
+      clock_(&steady_now) {
+  for (std::size_t p = 0; p < passes_.size(); ++p) tiles_.emplace_back(memory);
+}
 
 void Schedule::measure_with(double (*clock)()) {
   clock_ = clock == nullptr ? &steady_now : clock;
 }
 
 void Schedule::match(World& world) {
-  while (tiles_.size() < passes_.size()) tiles_.emplace_back(round_.get_allocator());
   if (world_ != world.identity()) {
     for (auto& matches : matches_) matches.clear();
     std::fill(scratch_floats_.begin(), scratch_floats_.end(), 0);

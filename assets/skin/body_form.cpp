@@ -7,8 +7,10 @@
 namespace mobil::form {
 namespace {
 
-constexpr double head_blend_m = 0.030, leg_blend_m = 0.065;  // how widely head and legs are rounded into the trunk
-constexpr double lowest_head = 1.44;                         // below there is no head, m of a body of 1.75 m
+// How widely head, legs and arms are rounded into the trunk.
+constexpr double head_blend_m = 0.030, leg_blend_m = 0.065, arm_blend_m = 0.035;
+constexpr double far_m = 1;           // of parts that are nowhere near
+constexpr double lowest_head = 1.44;  // below there is no head, m of a body of 1.75 m
 // Of the trunk and of the neck, ahead of the hips, m of a body of 1.75 m: tapes are laid round it.
 constexpr double middle_m = -0.02, neck_middle_m = -0.05;
 
@@ -31,8 +33,7 @@ Vec BodyForm::turned(const Vec& p, const Vec& about, double angle) {
 
 BodyForm::Parts BodyForm::parts(const Vec& p) const {
   const Vec q{-std::abs(p.x), p.y, p.z};
-  constexpr double far = 1;  // parts that are nowhere near
-  Parts parts{far, far, far, far};
+  Parts parts{far_m, far_m, far_m, far_m};
   if (p.y > 0.78 * size_ && q.x > -trunk_.reach()) parts.trunk = trunk_.distance(p);
   if (p.y > lowest_head * size_) parts.head = size_ * head_distance((1 / size_) * p, sex_);
   if (p.y < 1.12 * size_) parts.leg = leg_.distance(in_leg(q));
@@ -43,35 +44,39 @@ BodyForm::Parts BodyForm::parts(const Vec& p) const {
 double BodyForm::united(const Parts& part) {
   double d = smooth_union(part.trunk, part.head, head_blend_m);
   d = smooth_union(d, part.leg, leg_blend_m);
-  return smooth_union(d, part.arm, 0.035);
+  return smooth_union(d, part.arm, arm_blend_m);
 }
 
 double BodyForm::rest_distance(const Vec& p) const {
-  const Vec right{-std::abs(p.x), p.y, p.z};
-  Parts part{trunk_.distance(p), leg_.distance(right), arm_.distance(right), 1};
+  return smooth_union(armless_distance(p), arm_.distance({-std::abs(p.x), p.y, p.z}), arm_blend_m);
+}
+
+double BodyForm::armless_distance(const Vec& p) const {
+  Parts part{trunk_.distance(p), leg_.distance({-std::abs(p.x), p.y, p.z}), far_m, far_m};
   if (p.y > lowest_head * size_) part.head = size_ * head_distance((1 / size_) * p, sex_);
   return united(part);
 }
 
-double BodyForm::armless_distance(const Vec& p) const {
-  const double d = smooth_union(trunk_.distance(p), leg_.distance({-std::abs(p.x), p.y, p.z}), leg_blend_m);
-  return p.y > lowest_head * size_ ? smooth_union(d, size_ * head_distance((1 / size_) * p, sex_), head_blend_m) : d;
+double BodyForm::armless_radius(const Vec& from, const Vec& direction, double longest_m) const {
+  constexpr int halvings = 14;
+  double within = 0, beyond = longest_m;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (within + beyond);
+    (armless_distance(from + middle * direction) < 0 ? within : beyond) = middle;
+  }
+  return within;
 }
 
 double BodyForm::girth(double y) const {
-  constexpr int rays = 60, halvings = 14;
+  constexpr int rays = 60;
   constexpr double longest_m = 0.6;
-  const double middle_z = size_ * (y > 1.46 * size_ ? neck_middle_m : middle_m);
+  const Vec from{0, y, size_ * (y > 1.46 * size_ ? neck_middle_m : middle_m)};
   // From the back round the right side to the front: a tape spans hollows, so points that lie within are left out.
   std::vector<std::array<double, 2>> tape;
   for (int i = 0; i <= rays; ++i) {
     const double angle = std::numbers::pi * i / rays, out = std::sin(angle), ahead = -std::cos(angle);
-    double within = 0, beyond = longest_m;
-    for (int k = 0; k < halvings; ++k) {
-      const double middle = 0.5 * (within + beyond);
-      (armless_distance({middle * out, y, middle_z + middle * ahead}) < 0 ? within : beyond) = middle;
-    }
-    const std::array<double, 2> p = {within * out, within * ahead};
+    const double radius = armless_radius(from, {out, 0, ahead}, longest_m);
+    const std::array<double, 2> p = {radius * out, radius * ahead};
     while (tape.size() > 1) {
       const auto &a = tape[tape.size() - 2], &b = tape.back();
       if ((b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]) > 0) break;

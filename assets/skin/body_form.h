@@ -19,12 +19,13 @@ class BodyForm {
   double distance(const Vec& p) const { return united(parts(p)); }
   /// The same of a place in the anatomical position, where arms and thighs may lie in each other.
   double rest_distance(const Vec& p) const;
-  /// The same without arms.
-  double armless_distance(const Vec& p) const;
-  /// A tape's length round trunk, legs and neck, without the arms, at that height.
-  double girth(double y) const;
-  /// Its gradient, by differences.
+  /// The gradient of `distance`, by differences.
   Vec slope(const Vec& p) const;
+  /// In the anatomical position, how far the skin of trunk, legs and head lies from a place within them, in a unit
+  /// direction; at most `longest_m`.
+  double armless_radius(const Vec& from, const Vec& direction, double longest_m) const;
+  /// A tape's length round trunk, legs and neck at that height, without the arms.
+  double girth(double y) const;
   struct Parts {
     double trunk, leg, arm, head;
   };
@@ -40,6 +41,7 @@ class BodyForm {
   const LegForm& leg() const { return leg_; }
 
  private:
+  double armless_distance(const Vec& p) const;
   static double united(const Parts& part);
   static Vec turned(const Vec& p, const Vec& about, double angle);
 

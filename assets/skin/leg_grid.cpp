@@ -18,16 +18,10 @@ constexpr double step_s = (last_leg_s - first_leg_s) / (leg_stations - 1);
 double skin_radius(const form::BodyForm& form, double s, double turn) {
   const form::LegForm& leg = form.leg();
   constexpr double thigh_s = 0.20, longest_m = 0.20;
-  constexpr int halvings = 14;
   if (s >= thigh_s && s <= LegProfile::last_s) return leg.profile().radius(s, turn);
-  const double inward = std::sin(turn);
-  double within = 0, beyond = std::min(longest_m, -leg.hip().x / std::max(inward, 1e-3));
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (within + beyond);
-    const Vec p{leg.hip().x + middle * inward, leg.y(s), leg.hip().z + middle * std::cos(turn)};
-    (form.armless_distance(p) < 0 ? within : beyond) = middle;
-  }
-  return within;
+  const double inward = std::sin(turn), to_middle_m = -leg.hip().x / std::max(inward, 1e-3);
+  return form.armless_radius({leg.hip().x, leg.y(s), leg.hip().z}, {inward, 0, std::cos(turn)},
+                             std::min(longest_m, to_middle_m));
 }
 
 }  // namespace

@@ -200,6 +200,10 @@ Result<std::vector<StyleChange>> Simulation::style_changes(const BodyRequest& bo
   return keep_walk_limits(body_size(body), *gait);
 }
 
+std::vector<BrokenLimit> Simulation::broken_limits(Entity person) const {
+  return mobil::broken_limits(world(), person);
+}
+
 std::optional<GaitRequest> Simulation::gait_request(Entity human) const {
   return mobil::gait_request(*world_, human);
 }

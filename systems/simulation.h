@@ -43,6 +43,7 @@
 #include "engine/module.h"
 #include "engine/world.h"
 #include "systems/muscles/own_muscle.h"
+#include "systems/people/limit_watch.h"
 #include "systems/people/person.h"
 #include "systems/people/roots.h"
 #include "systems/people/spawn.h"
@@ -109,6 +110,9 @@ struct StepReport {
   /// Bellies that were not finite at a tick's end and began anew, usually because a system of the host wrote NaN or
   /// infinity: in the last tick, and in all since timings were last reset.
   std::uint64_t restarted_bellies = 0, total_restarted_bellies = 0;
+  /// People beyond a limit of joints, ground or pelvis while they change their walk (systems/people/limit_watch.h): in
+  /// the last tick, and summed over all ticks since timings were last reset. `broken_limits` tells which limits.
+  std::uint64_t beyond_limits = 0, total_beyond_limits = 0;
 };
 
 struct MuscleWork;    // systems/muscles/change_muscles.h
@@ -132,9 +136,12 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   /// What of a walk's manner is otherwise than asked, in that order, because a limit of joints or ground would be
-  /// broken or all but reached (systems/people/style_limits.h): spawn, change_gait, set_gait and change_walks keep to it, `gait_request`
-  /// then says what is walked. Empty: nothing. Errors: as of spawn.
+  /// broken or all but reached (systems/people/style_limits.h): spawn, change_gait, set_gait and change_walks keep to
+  /// it, `gait_request` then says what is walked. Empty: nothing. Errors: as of spawn.
   static Result<std::vector<StyleChange>> style_changes(const BodyRequest& body, const GaitRequest& gait);
+  /// The limits that a person is beyond in this tick, on level ground: none in a steady walk, seldom one in turns,
+  /// stops and changes of speed of far styles. Empty too for those who sleep or are posed, and for a stale handle.
+  std::vector<BrokenLimit> broken_limits(Entity person) const;
 
   /// A person at the origin, right heel striking, walking toward +Z. Errors: a body or a gait out of range or
   /// unreachable, one line each; the simulation is unchanged.

@@ -48,8 +48,8 @@ std::vector<Entity> read_people(const World& world) {
 }
 
 StepReport read_report(const Schedule& schedule, std::uint32_t ticks) {
-  const Counted restarted = schedule.tally<RestartedBellies>();
-  StepReport report{ticks, {}, restarted.last, restarted.all};
+  const Counted restarted = schedule.tally<RestartedBellies>(), beyond = schedule.tally<BeyondLimits>();
+  StepReport report{ticks, {}, restarted.last, restarted.all, beyond.last, beyond.all};
   const auto systems = schedule.systems();
   const auto timings = schedule.timings();
   report.systems.reserve(systems.size());

@@ -95,6 +95,21 @@ void tell_style_changes(const BodyRequest& body, const GaitRequest& asked, std::
   all.insert(all.end(), changes->begin(), changes->end());
 }
 
+/// Notes what limits are not kept in this tick.
+void note_limits(const Simulation& simulation, Entity person, std::vector<LimitPassed>& passed) {
+  for (const BrokenLimit& broken : simulation.broken_limits(person)) {
+    auto known = std::ranges::find(passed, broken.bound, [](const LimitPassed& limit) { return limit.furthest.bound; });
+    if (known == passed.end()) known = passed.insert(known, {broken, simulation.time_s(), 0, 0});
+    if (broken.value > known->furthest.value) known->furthest = broken;
+    known->last_s = simulation.time_s();
+    ++known->ticks;
+  }
+}
+void tell_limits(const std::vector<LimitPassed>& passed) {
+  for (const LimitPassed& limit : passed)
+    fmt::print(stderr, "note: from {:.2f} s to {:.2f} s {}\n", limit.first_s, limit.last_s, described(limit.furthest));
+}
+
 /// Hands over the changes that are due. Errors name the script's line.
 Result<void> apply_changes(const std::vector<ScriptedChange>& changes, const std::string& script, Entity entity,
                            Simulation& simulation, WalkOutcome& outcome) {
@@ -189,6 +204,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
     const std::uint32_t steps = simulation.get<GaitState>(human.entity)->steps;
     if (steps != steps_before) outcome.clamped_steps += simulation.get<StepPlan>(human.entity)->clamped;
     steps_before = steps;
+    note_limits(simulation, human.entity, outcome.limits_passed);
     walked.motion.add(motion_row(simulation, human.entity), walk_forces(simulation, human.entity));
     add_muscle_rows(simulation, human, method, walked.muscles);
     if (all_ticks) record_tick(simulation, human.entity, walked.ticks);
@@ -205,6 +221,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
   const auto timings = simulation.schedule().timings();
   outcome.stages.assign(timings.begin(), timings.end());
   show("");
+  tell_limits(outcome.limits_passed);
   return walked;
 }
 

@@ -78,13 +78,20 @@ std::string summary_json(const WalkOptions& options, const Simulation& simulatio
                        {"walked", decimal(change.walked)},
                        {"why", described(change)}});
   }
+  Json passed = Json::array();
+  for (const LimitPassed& limit : outcome.limits_passed)
+    passed.push_back({{"limit", described(limit.furthest)},
+                      {"first_s", limit.first_s},
+                      {"last_s", limit.last_s},
+                      {"ticks", limit.ticks}});
   summary["gait"] = {{"speed_m_s", decimal(outcome.gait.speed_m_s)},
                      {"step_length_m", decimal(outcome.gait.step_length_m)},
                      {"clamped_steps", outcome.clamped_steps},
                      {"step_frequency_hz", decimal(outcome.gait.step_frequency_hz)},
                      {"double_support_cycle", decimal(outcome.gait.double_support_cycle)},
                      {"parameters", parameters},
-                     {"style_changes", changes}};
+                     {"style_changes", changes},
+                     {"limits_passed", passed}};
   if (options.script) summary["script"] = {{"file", options.script->path}, {"changes", outcome.changes}};
   summary["drive"] = options.muscles.drive == Drive::force ? "force" : "displacement";
   summary["method"] = method_name[static_cast<std::size_t>(options.muscles.method)];

@@ -11,11 +11,19 @@
 
 namespace mobil {
 
+/// A limit of joints, ground or pelvis that the walk went beyond as it changed: furthest, and when.
+struct LimitPassed {
+  BrokenLimit furthest;
+  double first_s, last_s;
+  std::uint32_t ticks;
+};
+
 struct WalkOutcome {
   decltype(Human::gait) gait{};            // at the start
   std::size_t changes = 0;                 // of the script that fell within the walk
   std::uint32_t clamped_steps = 0;         // that no forces within bounds make as asked
   std::vector<StyleChange> style_changes;  // what of the styles asked for, the script's too, was moved
+  std::vector<LimitPassed> limits_passed;
   std::uint32_t ticks = 0;
   double simulated_s = 0;
   std::vector<Timing> stages;  // one a system

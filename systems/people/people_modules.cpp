@@ -21,6 +21,7 @@
 #include "systems/kinematics/kinematics.h"
 #include "systems/lines/line_of_action.h"
 #include "systems/people/ground_forces.h"
+#include "systems/people/limit_watch.h"
 #include "systems/people/pose_measures.h"
 
 namespace mobil {
@@ -135,6 +136,8 @@ Module walking_module() {
                 .after("gait")
                 .add("turn", &turn_walkers)
                 .after("replan")
+                .add("walk limits", &count_beyond_limits)
+                .after("turn")
                 .add("footing", &follow_feet)
                 .after("turn")
                 .add("kinematics", &pose_walkers)

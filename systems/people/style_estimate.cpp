@@ -117,6 +117,20 @@ bool is_within_usual(const GaitStyle& style, float part) {
   });
 }
 
+bool is_near_usual(const GaitStyle& style) {
+  constexpr float most_rms = 0.07F;
+  constexpr GaitStyle usual;
+  float squares = 0, count = 0;
+  for (const GaitParameter& p : gait_parameters) {
+    const float number = usual.*p.value;
+    if (number == 0) continue;
+    const float off = (style.*p.value - number) / number;
+    squares += off * off;
+    ++count;
+  }
+  return squares <= count * most_rms * most_rms && is_within_usual(style, tenth + 0.001F);
+}
+
 bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {
   const float height_m = size.height_m, place = (gait.speed_m_s - lowest_speed) / speed_step;
   const bool stands = gait.speed_m_s == 0;

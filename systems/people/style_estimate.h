@@ -8,6 +8,9 @@ namespace mobil {
 
 /// Whether each number of a style is within that part of the usual one, or as near as rounding makes it (`snapped`).
 bool is_within_usual(const GaitStyle& style, float part);
+/// Whether each number is within a tenth of the usual one, and all are off by 7 % in the root mean square. Numbers
+/// drawn evenly within a tenth are off by 5.8 %: 299 of 300 such styles are near.
+bool is_near_usual(const GaitStyle& style);
 
 /// True where the walk surely keeps the limits of systems/people/walk_limits.h: steps of the usual length, each number
 /// of the style within a tenth of the usual one, and what the usual walk of that height and speed goes to, with what

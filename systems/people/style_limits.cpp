@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <iterator>
-#include <optional>
 #include <string_view>
 
 #include "assets/gait/step_table.h"
-#include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/people/person.h"
+#include "systems/people/style_block.h"
 #include "systems/people/style_estimate.h"
 #include "systems/people/walk_limits.h"
 
@@ -20,73 +17,6 @@ namespace mobil {
 namespace {
 
 constexpr std::size_t parameter_count = gait_parameters.size();
-constexpr int halvings = 8;
-
-/// Besides, of styles far from the usual one: turns and changes of speed, which are not looked at, bend hips and ankles
-/// so much further.
-double for_turns(WalkBound bound, Looking looking) {
-  using enum WalkBound;
-  if (looking != Looking::at_stops_too) return 0;
-  return bound == ankle_up || bound == ankle_down ? 0.12 : bound == hip_back || bound == hip_forward ? 0.04 : 0;
-}
-
-/// What is kept free below the limits, for a walk goes a little further between the instants that are looked at.
-/// The usual style with other steps moves smoothly.
-float held_to(std::size_t bound, Looking looking, bool usual_style) {
-  struct Spare {
-    double m, rad, m_s2;
-  };
-  constexpr Spare close = {0.001, 0.015, 2}, rough = {0.002, 0.05, 9}, smooth = {0.001, 0.001, 2};
-  const WalkLimit& limit = walk_limits()[bound];
-  const Spare& spare = looking == Looking::roughly ? rough : usual_style ? smooth : close;
-  const double free = limit.bound == WalkBound::under_ground    ? spare.m
-                      : limit.bound == WalkBound::pelvis_shaken ? spare.m_s2
-                                                                : spare.rad + for_turns(limit.bound, looking);
-  return static_cast<float>(limit.limit - free);
-}
-
-/// Numbers that are blamed last, the last of them first, where one of several would do.
-constexpr float GaitStyle::*blamed[] = {&GaitStyle::strike_pitch_deg,
-                                        &GaitStyle::strike_knee_deg,
-                                        &GaitStyle::stance_knee_deg,
-                                        &GaitStyle::swing_ankle_deg,
-                                        &GaitStyle::swing_knee_deg,
-                                        &GaitStyle::toe_clearance_m,
-                                        &GaitStyle::foot_pivot_h,
-                                        &GaitStyle::roll_over,
-                                        &GaitStyle::hip_fall,
-                                        &GaitStyle::leg_damping,
-                                        &GaitStyle::leg_stiffness_n_per_m,
-                                        &GaitStyle::toe_off_knee_deg,
-                                        &GaitStyle::knee_release_cycle,
-                                        &GaitStyle::double_support_scale,
-                                        &GaitStyle::forward_swing,
-                                        &GaitStyle::pelvis_tilt_deg,
-                                        &GaitStyle::toe_out_deg,
-                                        &GaitStyle::mid_stance_height,
-                                        &GaitStyle::foot_flat_cycle,
-                                        &GaitStyle::step_asymmetry,
-                                        &GaitStyle::time_asymmetry};
-
-/// In which numbers are given back what was asked of them.
-std::array<std::size_t, parameter_count> giving_back_order() {
-  std::array<std::size_t, parameter_count> order{};
-  std::size_t count = 0;
-  for (std::size_t p = 0; p < parameter_count; ++p)
-    if (std::ranges::find(blamed, gait_parameters[p].value) == std::end(blamed)) order[count++] = p;
-  for (const auto value : blamed)
-    order[count++] = static_cast<std::size_t>(std::ranges::find(gait_parameters, value, &GaitParameter::value) -
-                                              gait_parameters.begin());
-  return order;
-}
-
-/// The step that is usual at a speed, m.
-float usual_length_m(float height_m, float speed_m_s) {
-  if (speed_m_s == 0) return 0;
-  const auto gait = resolve_gait(height_m, {.speed_m_s = speed_m_s});
-  return gait ? gait->step_length_m : 0;
-}
-
 /// Usual steps of the usual style: of lengths that the table of steps has (assets/gait/README.md).
 bool is_usual(float height_m, const Gait<float>& gait) {
   if (!same_style(gait.style, {})) return false;
@@ -104,280 +34,30 @@ bool stops_as_it_walks(const GaitStyle& style) {
   return is_within_usual(style, near_part) && style.mid_stance_height >= bent_knees;
 }
 
-/// A bound that a walk breaks, and where it would come to.
-struct Break {
-  WalkBound bound;
-  float value;
-  bool at_stop;
-};
+/// Later changes of a gait that was changed already: what was asked stays what it was.
+void add_changes(std::span<const StyleChange> later, std::vector<StyleChange>& changes) {
+  for (const StyleChange& change : later) {
+    const auto before = std::ranges::find(changes, change.parameter, &StyleChange::parameter);
+    if (before == changes.end())
+      changes.push_back(change);
+    else
+      before->walked = change.walked;
+  }
+}
 
-/// Walkers on the way from the usual style to that asked for: sixteen lanes, `lanes_each` to a walker. With several
-/// lanes several of the next answers are foreseen in one look; what is found is the same.
-class StyleBlock {
- public:
-  StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
-             std::span<const std::size_t> people, Looking looking, std::size_t lanes_each = 1)
-      : people_(people.size()), each_(lanes_each), looking_(looking) {
-    for (std::size_t w = 0; w < people_; ++w) {
-      const Gait<float>& gait = gaits[people[w]];
-      Walker& walker = walkers_[w];
-      walker.asked = walker.style = gait.style;
-      walker.asked_m = gait.step_length_m;
-      walker.usual_m = usual_length_m(sizes[people[w]].height_m, gait.speed_m_s);
-    }
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const std::size_t i = people[walker_of(l)];
-      put_row(sizes[i], size_, l);
-      Gait<float>& row = gait_row_[l];
-      row = {};
-      row.speed_m_s = gaits[i].speed_m_s;
-      row.step_length_m = gaits[i].step_length_m;
-      row.step_frequency_hz = gaits[i].step_frequency_hz;
-    }
+std::string_view said_of(WalkPart part) {
+  switch (part) {
+    case WalkPart::stop:
+      return "in stopping from";
+    case WalkPart::turn:
+      return "in turning at";
+    case WalkPart::change_of_speed:
+      return "in slowing down from and coming back to";
+    case WalkPart::steady:
+      break;
   }
-
-  /// Who breaks a limit as asked, be it with the usual style too, or roughly looked at comes near.
-  std::array<bool, lane_count> broken() {
-    hold_to_limits();
-    return still_broken();
-  }
-  void draw_nearer() {
-    hold_to_limits();
-    look_at_usual_and_asked();
-    const auto is_shortened = [](const Walker& walker) { return walker.step_why.has_value(); };
-    halve(is_shortened, [](Walker& walker, float share) { walker.step_share = share; });
-    for (Walker& walker : walkers()) walker.style = walker.asked;
-    if (std::ranges::any_of(walkers(), is_shortened)) asked_broken_ = still_broken();
-    for (std::size_t w = 0; w < people_; ++w) {
-      Walker& walker = walkers_[w];
-      if (!asked_broken_[w] || walker.step_why) walker.culprit.reset();
-      for (std::size_t p = 0; p < parameter_count; ++p) {
-        const auto value = gait_parameters[p].value;
-        walker.moved[p] = asked_broken_[w] &&
-                          (walker.culprit ? value == without[*walker.culprit] : walker.asked.*value != usual_.*value);
-      }
-    }
-    give_back();
-    halve([](const Walker& walker) { return walker.is_moved(); },
-          [](Walker& walker, float share) { walker.style = walker.at(share); });
-  }
-
-  bool is_drawn(std::size_t walker) const { return walkers_[walker].step_why || walkers_[walker].is_moved(); }
-  const GaitStyle& style(std::size_t walker) const { return walkers_[walker].style; }
-  float step_length_m(std::size_t walker) const { return walkers_[walker].length_m(); }
-  std::vector<StyleChange> changes(std::size_t walker) const {
-    std::vector<StyleChange> changes;
-    const Walker& of = walkers_[walker];
-    const float speed_m_s = gait_row_[walker * each_].speed_m_s;
-    if (const auto& why = of.step_why)
-      changes.push_back({parameter_count, of.asked_m, of.length_m(), why->bound, why->value, speed_m_s, why->at_stop});
-    for (std::size_t p = 0; p < parameter_count; ++p) {
-      const auto value = gait_parameters[p].value;
-      if (!of.moved[p] || of.asked.*value == of.style.*value) continue;
-      changes.push_back(
-          {p, of.asked.*value, of.style.*value, of.why[p].bound, of.why[p].value, speed_m_s, of.why[p].at_stop});
-    }
-    return changes;
-  }
-
- private:
-  static constexpr GaitStyle usual_{};
-  static constexpr std::size_t try_usual_walk = 0, try_usual_style = 1, try_as_asked = 2, try_without = 3;
-  /// Of 100 styles near the usual one that break a limit, 99 keep it with one of these as usual, the first before the
-  /// second.
-  static constexpr std::array without = {&GaitStyle::pelvis_tilt_deg, &GaitStyle::double_support_scale};
-  static constexpr std::size_t tries = try_without + without.size();
-
-  struct Walker {
-    GaitStyle asked{}, style{};  // `style`, `step_share`: what is tried, and at the end what is kept
-    float asked_m = 0, usual_m = 0, step_share = 1;
-    std::optional<Break> step_why;
-    std::array<bool, parameter_count> moved{};
-    std::array<Break, parameter_count> why{};
-    std::optional<std::size_t> culprit;  // of `without`: all the others may stay as asked
-
-    bool is_moved() const {
-      return std::ranges::any_of(moved, [](bool is) { return is; });
-    }
-    /// All that may stay as asked, and the others so far from the usual ones.
-    GaitStyle at(float share) const {
-      GaitStyle there = asked;
-      for (std::size_t p = 0; p < parameter_count; ++p) {
-        const auto value = gait_parameters[p].value;
-        if (moved[p]) there.*value = usual_.*value + share * (asked.*value - usual_.*value);
-      }
-      return there;
-    }
-    float length_m() const { return step_share == 1 ? asked_m : usual_m + step_share * (asked_m - usual_m); }
-  };
-
-  std::span<Walker> walkers() { return std::span(walkers_).first(people_); }
-  std::size_t walker_of(std::size_t lane) const { return lane / each_ < people_ ? lane / each_ : 0; }
-  void hold_to_limits() {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const bool usual_style = same_style(walkers_[walker_of(l)].asked, usual_);
-      for (std::size_t b = 0; b < bound_count; ++b) held_[b][l] = held_to(b, looking_, usual_style);
-    }
-  }
-  std::array<bool, lane_count> still_broken() {
-    look_at_walkers();
-    std::array<bool, lane_count> broken{};
-    for (std::size_t w = 0; w < people_; ++w) broken[w] = worst(w * each_).has_value();
-    return broken;
-  }
-  void look_at_walkers() {
-    for (std::size_t l = 0; l < lane_count; ++l) try_in(l, walkers_[walker_of(l)]);
-    look();
-  }
-  /// The usual walk, which limits are to allow; the usual style with the steps asked for; all as asked; all but one
-  /// number as asked.
-  void look_at_usual_and_asked() {
-    const auto together = std::min(each_, tries);
-    for (std::size_t first = 0; first < tries; first += together) {
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const std::size_t which = std::min(first + l % each_, tries - 1);
-        Walker walker = walkers_[walker_of(l)];
-        if (which < try_as_asked) walker.style = usual_;
-        if (which >= try_without) walker.style.*without[which - try_without] = usual_.*without[which - try_without];
-        walker.step_share = which == try_usual_walk ? 0 : 1;
-        try_in(l, walker);
-      }
-      look();
-      for (std::size_t which = first; which < std::min(first + together, tries); ++which)
-        for (std::size_t w = 0; w < people_; ++w) note_try(which, w, w * each_ + which - first);
-    }
-    for (Walker& walker : walkers()) walker.style = usual_;
-  }
-  void note_try(std::size_t which, std::size_t w, std::size_t lane) {
-    const auto breaks = which == try_usual_walk ? std::nullopt : worst(lane);
-    Walker& walker = walkers_[w];
-    if (which == try_usual_style) walker.step_why = breaks;
-    if (which == try_as_asked) asked_broken_[w] = breaks.has_value();
-    if (which == try_as_asked && breaks) walker.why.fill(*breaks);
-    if (which >= try_without && !breaks && !walker.culprit) walker.culprit = which - try_without;
-    for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b) {
-      // What is kept free for turns is not asked of who goes little further than the usual walk, which turns as well.
-      constexpr float little_rad = 0.05F;
-      const float usual = found_.value[b][lane];
-      const bool more = for_turns(static_cast<WalkBound>(b), looking_) > 0;
-      const float near = more ? std::min(usual + little_rad, held_to(b, Looking::closely, false)) : usual;
-      for (std::size_t l = w * each_; l < (w + 1) * each_; ++l) held_[b][l] = std::max({held_[b][l], usual, near});
-    }
-  }
-  void try_in(std::size_t lane, const Walker& walker) {
-    Gait<float>& row = gait_row_[lane];
-    row.style = walker.style;
-    row.step_length_m = walker.length_m();
-    row.step_frequency_hz = walker.asked_m > 0 ? row.speed_m_s / row.step_length_m : 0;
-  }
-  /// How far the walks go that are tried.
-  void look() {
-    for (std::size_t l = 0; l < lane_count; ++l) put_row(gait_row_[l], gait_, l);
-    walk_extremes(size_, gait_, looking_, found_);
-  }
-  /// What the walk looked at last breaks most, in parts of the limit.
-  std::optional<Break> worst(std::size_t lane) const {
-    std::optional<Break> worst;
-    double most = 0;
-    // The usual style with the steps asked for needs nothing free for turns.
-    const bool usual = looking_ == Looking::at_stops_too && same_style(gait_row_[lane].style, usual_);
-    for (std::size_t b = 0; b < bound_count; ++b) {
-      const float value = found_.value[b][lane];
-      const float held = usual ? std::max(held_[b][lane], held_to(b, Looking::closely, false)) : held_[b][lane];
-      const double by = static_cast<double>(value - held) / std::max(walk_limits()[b].limit, 0.1);
-      if (by <= most) continue;
-      most = by;
-      worst = Break{static_cast<WalkBound>(b), value, found_.at_stop[b][lane]};
-    }
-    return worst;
-  }
-  /// One number after another becomes what was asked, and stays so if nothing breaks. A walker's lanes try the next
-  /// numbers, each with those before it: what is tried is right up to the first that breaks something.
-  void give_back() {
-    static const auto order = giving_back_order();
-    std::array<std::size_t, lane_count> next{};
-    for (;;) {
-      std::array<std::array<std::size_t, lane_count>, lane_count> given{};  // places in `order`
-      std::array<std::size_t, lane_count> count{};
-      bool any = false;
-      for (std::size_t w = 0; w < people_; ++w) {
-        Walker walker = walkers_[w];
-        if (walker.culprit) continue;
-        for (std::size_t k = next[w]; k < parameter_count && count[w] < each_; ++k) {
-          if (!walker.moved[order[k]]) continue;
-          walker.moved[order[k]] = false;
-          walker.style = walker.at(0);
-          try_in(w * each_ + count[w], walker);
-          given[w][count[w]++] = k;
-          any = true;
-        }
-      }
-      if (!any) break;
-      for (std::size_t l = 0; l < lane_count; ++l)  // lanes without a try settle at once
-        if (l / each_ >= people_ || l % each_ >= count[l / each_]) gait_row_[l].style = usual_;
-      look();
-      for (std::size_t w = 0; w < people_; ++w) {
-        Walker& walker = walkers_[w];
-        for (std::size_t c = 0; c < count[w]; ++c) {
-          const std::size_t p = order[given[w][c]];
-          const auto breaks = worst(w * each_ + c);
-          next[w] = given[w][c] + 1;
-          walker.moved[p] = breaks.has_value();
-          if (!breaks) continue;
-          walker.why[p] = *breaks;
-          break;
-        }
-      }
-    }
-  }
-  /// Shares of what was asked, as large as nothing breaks, from that of 0 on, of whom `of` says; `set` has one tried. A
-  /// walker's lanes try what the next halvings may come to: a binary tree, whose node n has the children 2n and 2n + 1.
-  template <class Of, class Set>
-  void halve(Of of, Set set) {
-    struct Between {
-      float kept, broken_at;
-      float middle() const { return 0.5F * (kept + broken_at); }
-    };
-    int depth = 1;
-    while ((std::size_t{2} << depth) <= each_ + 1) ++depth;
-    std::array<Between, lane_count> now;
-    now.fill({0, 1});
-    const bool none = std::ranges::none_of(walkers(), of);
-    for (int done = 0; done < halvings && !none; done += depth) {
-      std::array<std::array<Between, 2 * lane_count>, lane_count> tree{};
-      for (std::size_t w = 0; w < people_; ++w) {
-        tree[w][1] = now[w];
-        for (std::size_t n = 1; n < std::size_t{1} << depth; ++n) {
-          const Between& at = tree[w][n];
-          tree[w][2 * n] = {at.kept, at.middle()};
-          tree[w][2 * n + 1] = {at.middle(), at.broken_at};
-          Walker walker = walkers_[w];
-          if (of(walker)) set(walker, at.middle());
-          try_in(w * each_ + n - 1, walker);
-        }
-      }
-      look();
-      for (std::size_t w = 0; w < people_; ++w) {
-        std::size_t n = 1;
-        for (int level = 0; level < depth && done + level < halvings; ++level)
-          n = 2 * n + (worst(w * each_ + n - 1) ? 0 : 1);
-        now[w] = tree[w][n];
-      }
-    }
-    for (std::size_t w = 0; w < people_; ++w)
-      if (of(walkers_[w])) set(walkers_[w], now[w].kept);
-  }
-
-  std::size_t people_, each_;
-  Looking looking_;
-  std::array<Walker, lane_count> walkers_;
-  std::array<Gait<float>, lane_count> gait_row_;
-  BodySize<Lanes<float>> size_{};
-  Gait<Lanes<float>> gait_{};
-  WalkExtremes found_{};
-  Lanes<float> held_[bound_count];
-  std::array<bool, lane_count> asked_broken_{};  // walkers
-};
+  return "at";
+}
 
 }  // namespace
 
@@ -396,14 +76,15 @@ std::string described(const StyleChange& change) {
   const std::string_view name =
       change.parameter < parameter_count ? gait_parameters[change.parameter].name : "step_length_m";
   return fmt::format("{} {} was {} to {:.4g}: {} {} {:.3g} m/s", name, change.asked, raised ? "raised" : "lowered",
-                     change.walked, fmt::format(fmt::runtime(limit.says), number),
-                     change.at_stop ? "in stopping from" : "at", change.speed_m_s);
+                     change.walked, fmt::format(fmt::runtime(limit.says), number), said_of(change.part),
+                     change.speed_m_s);
 }
 
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
                       StyleWork& work, std::span<std::vector<StyleChange>> moved) {
   // As much room as everybody may need, so that it grows with how many are asked, not with who they are.
-  for (auto* const list : {&work.near, &work.far}) {
+  for (std::vector<StyleChange>& of : moved) of.clear();
+  for (auto* const list : {&work.near, &work.far, &work.farther}) {
     list->clear();
     if (list->capacity() < gaits.size()) list->reserve(2 * gaits.size());
   }
@@ -443,7 +124,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
       if (!block.is_drawn(w)) continue;
       const float height_m = sizes[some[w]].height_m;
       Gait<float>& gait = gaits[some[w]];
-      if (!moved.empty()) moved[some[w]] = block.changes(w);
+      if (!moved.empty()) add_changes(block.changes(w), moved[some[w]]);
       const Gait<float> kept = complete_gait(height_m, gait.speed_m_s, block.step_length_m(w), block.style(w));
       gait.style = kept.style;
       gait.step_length_m = kept.step_length_m;
@@ -451,8 +132,7 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
       gait.double_support_cycle = kept.double_support_cycle;
     }
   };
-  const auto draw_broken = [&](std::vector<std::size_t>& people, Looking looking) {
-    keep_broken(people, looking);
+  const auto draw_all = [&](std::vector<std::size_t>& people, Looking looking) {
     // As many lanes each as keep all threads at work in one round.
     std::size_t lanes_each = lane_count;
     while (lanes_each > 1 && people.size() * lanes_each > lane_count * std::max<std::size_t>(jobs.threads, 1))
@@ -460,8 +140,14 @@ void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, 
     in_blocks(people, looking, lanes_each, draw);
   };
   keep_broken(work.near, Looking::roughly);
-  draw_broken(work.near, Looking::closely);
-  draw_broken(work.far, Looking::at_stops_too);
+  keep_broken(work.near, Looking::closely);
+  draw_all(work.near, Looking::closely);
+  std::ranges::copy_if(work.far, std::back_inserter(work.farther),
+                       [&](std::size_t i) { return !is_near_usual(gaits[i].style); });
+  keep_broken(work.far, Looking::at_stops_too);
+  draw_all(work.far, Looking::at_stops_too);
+  keep_broken(work.farther, Looking::at_changes);
+  draw_all(work.farther, Looking::at_changes_too);
 }
 
 void keep_walk_limits(const World& world, const Jobs& jobs, Entity person, Gait<float>& gait, StyleWork& work) {

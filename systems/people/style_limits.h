@@ -13,6 +13,7 @@
 #include "engine/jobs.h"
 #include "engine/world.h"
 #include "systems/kinematics/step_bounds.h"
+#include "systems/people/walk_limits.h"
 
 namespace mobil {
 
@@ -26,7 +27,7 @@ struct StyleChange {
   float asked, walked;
   WalkBound bound;
   float would_be, speed_m_s;
-  bool at_stop;  // in coming to a stop from that speed; else in walking at it
+  WalkPart part;  // of a walk at that speed
 };
 /// "time_asymmetry 0.3 was lowered to 0.11: the pelvis would be shaken with 78 m/s2 at 2.1 m/s"; "... in stopping from
 /// 2.1 m/s".
@@ -34,19 +35,23 @@ std::string described(const StyleChange& change);
 
 /// What looking at styles works in, kept from one time to the next.
 struct StyleWork {
-  std::vector<std::size_t> near, far;  // who is looked at; far: in stopping too
+  std::vector<std::size_t> near, far, farther;  // who is looked at; far: in stopping too; farther: and in changing
   std::vector<std::uint8_t> breaks;
 };
 
 /// Moves step lengths and styles of gaits (as resolve_gait has them) so that a steady walk of that speed keeps all
-/// limits (systems/people/walk_limits.h), and so does coming to a stop from it, or both go no further than the usual
-/// walk of that speed: first the step length, if the usual style breaks one with it; then as few numbers of the style
-/// as it takes, all by one part of their way to the usual ones, to a 256th. Styles far from the usual one keep 7° clear
-/// of the ends of ankles and 3° of hips, for turns and changes of speed, which are not looked at, but may always go 3°
-/// further than the usual walk. The usual style with steps of 0.76 to 1.12 of the usual length is not looked at. Styles near the usual one whose knees bend little are
-/// looked at in walking only. A stop is looked at sixty times a second, and may go some half a degree further between.
-/// Bits depend on neither neighbours nor threads. `moved`: what was, gait by gait, as long as `gaits`; or empty. Takes
-/// memory in `work` alone, which keeps it, and for what is moved.
+/// limits (systems/people/walk_limits.h), and so do stops from it, turns and changes of speed, or all go no further
+/// than the usual walk of that speed does: first the step length, if the usual style breaks one with it; then as few
+/// numbers of the style as it takes, all by one part of their way to the usual ones, to a 256th. Not everything is
+/// looked at:
+///   the usual style with steps of 0.76 to 1.12 of the usual length: nothing;
+///   styles near the usual one whose knees bend little: walking alone;
+///   styles near it whose knees bend more: stops too;
+///   all others: stops, turns and changes of speed too. They keep 7° clear of the ends of ankles and 3° of hips in
+///   walking and stopping, but may always go 3° further than the usual walk.
+/// Of turns and changes of speed two and one are looked at (`Looking`); others may go beyond a limit, and are counted
+/// (systems/people/limit_watch.h). Bits depend on neither neighbours nor threads. `moved`: what was, gait by gait, as
+/// long as `gaits`; or empty. Takes memory in `work` alone, which keeps it, and for what is moved.
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,
                       StyleWork& work, std::span<std::vector<StyleChange>> moved = {});
 /// The same of a walker, awake or asleep, who is asked for this gait, if it differs from what they are to do.

@@ -106,6 +106,10 @@ constexpr int uneven_steps = 4;
 /// As many as anybody takes who stops.
 constexpr int stopping_steps = 6;
 
+/// Turns and changes of speed that are looked at, and for how many steps: by their end nearly all walk as before.
+constexpr float turned_rad = 1.05F, slowed_to = 0.6F;
+constexpr int turning_steps = 6, slowing_steps = 3, quickening_steps = 5;
+
 /// Heights of the pelvis, sixteen side by side, one instant after the other.
 using Heights = std::array<Lanes<float>, 2 * most_parts>;
 
@@ -123,6 +127,26 @@ class WalkLooked {
   }
   /// From the next step on everybody is to stand, in their own style.
   void end() { gait_.speed_m_s = gait_.step_length_m = gait_.step_frequency_hz = {}; }
+  /// From the next step on everybody is to head so far beside the way they head now.
+  void turn(float rad) {
+    gait_.heading_rad = in_every_lane<Lanes<float>>(rad);
+    turns_ = true;
+  }
+  /// From the next step on everybody who may is to walk at such a part of their speed, with the steps that are usual
+  /// then.
+  void slow_down(float part) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if (!(gait_.speed_m_s[l] > 0)) continue;
+      const auto slow = resolve_gait(size_.height_m[l], {.speed_m_s = part * gait_.speed_m_s[l]});
+      if (!slow) continue;
+      gait_.speed_m_s[l] = slow->speed_m_s;
+      gait_.step_length_m[l] = slow->step_length_m;
+      gait_.step_frequency_hz[l] = slow->step_frequency_hz;
+      gait_.double_support_cycle[l] = slow->double_support_cycle;
+    }
+  }
+  /// From the next step on everybody is to walk so.
+  void walk_as(const Gait<Lanes<float>>& gait) { gait_ = gait; }
   const StepBounds<Lanes<float>>& bounds() const { return bounds_; }
 
   /// How far this step goes, from nothing on.
@@ -157,6 +181,7 @@ class WalkLooked {
     state_.time_s = plan_.duration_s;
     advance_gait(plan_, state_, 0);
     plan_next_step(size_, gait_, state_, plan_);
+    if (turns_) turn_gait(size_, plan_, gait_, state_, difference_s);
     ++steps_;
     walk();
     note_strike(before_m, [](std::size_t) { return true; });
@@ -189,6 +214,7 @@ class WalkLooked {
   std::uint32_t lag_;
   float instant_s_;
   int steps_ = 0;
+  bool turns_ = false;
   StepPlan<Lanes<float>> plan_{};
   GaitState<Lanes<float>> state_{};
   StepBounds<Lanes<float>> bounds_{};
@@ -203,42 +229,58 @@ std::span<const WalkLimit, bound_count> walk_limits() {
 
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes) {
-  WalkLooked walk(size, gait, looking == Looking::roughly ? 1 : most_parts);
+  const bool seldom = looking == Looking::roughly || looking == Looking::at_changes;
+  WalkLooked walk(size, gait, seldom ? 1 : most_parts);
   const Lanes<std::uint32_t> settled = walk.settled();
-  const auto note = [&](const WalkLooked& looked, bool stops, auto whose) {
+  const auto note = [&](const WalkLooked& looked, WalkPart part, auto whose) {
     for (std::size_t b = 0; b < bound_count; ++b)
       for (std::size_t l = 0; l < lane_count; ++l) {
         const float value = looked.bounds().value[b][l];
         if (!whose(l) || value <= extremes.value[b][l]) continue;
         extremes.value[b][l] = value;
-        extremes.at_stop[b][l] = stops;
+        extremes.part[b][l] = part;
       }
   };
-  const auto everybody = [](std::size_t) { return true; };
+  const auto note_steps = [&](WalkLooked& looked, int steps, WalkPart part, auto whose) {
+    for (int step = 0; step < steps; ++step) {
+      looked.step();
+      note(looked, part, whose);
+    }
+  };
   const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
   walk.walk();
   std::ranges::copy(walk.bounds().value, extremes.value);
-  for (auto& of_bound : extremes.at_stop) of_bound.fill(false);
+  for (auto& of_bound : extremes.part) of_bound.fill(WalkPart::steady);
   // The left step is the right one mirrored, where all goes on so.
   const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
-  for (int step = 1; step < uneven_steps && !all_even; ++step) {
-    walk.step();
-    note(walk, false, uneven);
-  }
-  if (looking != Looking::at_stops_too) return;
+  if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);
   const auto note_stop = [&](WalkLooked stop, auto whose) {
     stop.end();
-    for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) {
-      stop.step();
-      note(stop, true, whose);
-    }
+    for (int step = 0; step < stopping_steps && !stop.all_stand(); ++step) note_steps(stop, 1, WalkPart::stop, whose);
   };
-  WalkLooked seldom(size, gait, 1);
-  seldom.walk();
-  note_stop(seldom, everybody);
-  if (all_even) return;
-  seldom.step();  // onto the other foot
-  note_stop(seldom, uneven);
+  const auto note_changes = [&](const WalkLooked& from, auto whose) {
+    for (const float rad : {turned_rad, -turned_rad}) {
+      WalkLooked turn = from;
+      turn.turn(rad);
+      note_steps(turn, turning_steps, WalkPart::turn, whose);
+    }
+    WalkLooked other_speed = from;
+    other_speed.slow_down(slowed_to);
+    note_steps(other_speed, slowing_steps, WalkPart::change_of_speed, whose);
+    other_speed.walk_as(gait);
+    note_steps(other_speed, quickening_steps, WalkPart::change_of_speed, whose);
+  };
+  const auto from_either_foot = [&](std::uint32_t lag, auto note_from) {
+    WalkLooked from(size, gait, lag);
+    from.walk();
+    note_from(from, [](std::size_t) { return true; });
+    if (all_even) return;
+    from.step();
+    note_from(from, uneven);
+  };
+  if (looking == Looking::at_stops_too || looking == Looking::at_changes_too)
+    from_either_foot(most_parts / 2, note_stop);
+  if (looking == Looking::at_changes || looking == Looking::at_changes_too) from_either_foot(1, note_changes);
 }
 
 }  // namespace mobil

@@ -25,14 +25,19 @@ struct WalkLimit {
 /// By WalkBound.
 std::span<const WalkLimit, bound_count> walk_limits();
 
-/// How far each bound goes in a walk, by WalkBound.
+/// In which part of a walk something goes furthest: at its speed, in stopping from it, in turning, or in slowing down
+/// from it and coming back to it.
+enum class WalkPart : std::uint8_t { steady, stop, turn, change_of_speed };
+
+/// How far each bound goes in a walk, by WalkBound, and where.
 struct WalkExtremes {
   Lanes<float> value[bound_count];
-  std::array<bool, lane_count> at_stop[bound_count];  // whether it goes that far in coming to a stop
+  std::array<WalkPart, lane_count> part[bound_count];
 };
 /// At sixty instants a second, or 240: between sixty a joint goes up to 1.5° further, the pelvis is shaken up to 4 m/s²
-/// more. Or at 240 of the steady walk, and at sixty of how it comes to a stop, from either foot.
-enum class Looking : std::uint8_t { roughly, closely, at_stops_too };
+/// more. Or at 240 of the steady walk, and at 120 of how it comes to a stop, from either foot. Or at sixty of changes
+/// alone: turns to either side by 60°, and slowing down to 0.6 of the speed and coming back to it. Or at all of these.
+enum class Looking : std::uint8_t { roughly, closely, at_stops_too, at_changes, at_changes_too };
 /// Of sixteen walkers. A lane's bits depend on no other lane.
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes);

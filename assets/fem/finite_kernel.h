@@ -33,11 +33,18 @@ inline constexpr double most_passive_exponent = 0.9;
 /// would pull a section aside with at rest, neighbours carry; tension goes on to stiffen it as a string. The energy is
 /// a function of displacement still.
 
-/// One element of the template's size. Every number but the nodes' is read by all lanes.
+/// One element of the template's size. Every number but the nodes' is read by all lanes. With ξ, η, ζ = ±1 at the
+/// corners, the mean gradient of a displacement u follows from the sums Σ ξu, Σ ηu, Σ ζu, Σ ηζu, Σ ξζu, Σ ξηu over the
+/// corners, and the hourglass patterns from Σ ηζu, Σ ξζu, Σ ξηu, Σ ξηζu less what of them a gradient has. Sections are
+/// flat, so most of the factors are 0.
 struct FiniteKernelElement {
-  std::array<std::uint32_t, 8> node{};           // less the first node of its lower plane
-  std::array<std::array<float, 7>, 8> corner{};  // mean ∇N, 1/m; four hourglass patterns
-  std::array<float, 3> fibre{};                  // direction at its middle, length 1
+  std::array<std::uint32_t, 8> node{};  // less the first node of its lower plane
+  /// ∂u/∂x and ∂u/∂y over Σ ξu, Σ ηu, Σ ηζu, Σ ξζu; ∂u/∂z over those and Σ ζu, Σ ξηu, 1/m.
+  std::array<std::array<float, 4>, 2> across{};
+  std::array<float, 6> along{};
+  /// What of the four sums of the patterns ∂u/∂x and ∂u/∂y have, m.
+  std::array<std::array<float, 2>, 4> straight{};
+  std::array<float, 3> fibre{};  // direction at its middle, length 1
   float volume_m3 = 0;
   float fibre_volume_m3 = 0;                        // times how crowded fibres are, up to `most_crowding`
   float hourglass_across = 0, hourglass_along = 0;  // HourglassStiffness, N/m
@@ -51,8 +58,8 @@ struct FiniteKernel {
   std::vector<float> plane_share;            // of each node in its plane's mean: by mass
 };
 
-/// `linear`: the same mesh's, whose masses are shared out. Fails on a bad material or an inverted element, which it
-/// names.
+/// `linear`: the same mesh's, whose masses are shared out. Fails on a bad material, on an inverted element and on a
+/// section that is not flat, which it names.
 Result<FiniteKernel> make_finite_kernel(const HexahedralMesh& mesh, const StiffnessTerms& linear,
                                         const Material& material);
 

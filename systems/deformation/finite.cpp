@@ -170,8 +170,14 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
   const std::uint32_t nodes = plane_nodes(belly.cells), count = belly.cells[0] * belly.cells[1];
   const FiniteKernelElement* element = belly.muscle.finite.element.data() + std::size_t{k} * count;
   const float* const u = belly.u + node_stride * nodes * k;
-  for (std::uint32_t e = 0; e < count; ++e, ++element) {
-    add_element<energy>(belly.law, *element, nodes, u, belly.low, belly.high, at_rest, work);
+  constexpr std::uint32_t together = 4;  // as many as stay in the nearest cache
+  ElementState state[together];
+  for (std::uint32_t first = 0; first < count; first += together, element += together) {
+    const std::uint32_t some = std::min(together, count - first);
+    for (std::uint32_t e = 0; e < some; ++e) gather_element(belly.law, element[e], u, state[e]);
+    for (std::uint32_t e = 0; e < some; ++e)
+      stress_element<energy>(belly.law, element[e], state[e], belly.low, belly.high, at_rest, work);
+    for (std::uint32_t e = 0; e < some; ++e) scatter_element(element[e], nodes, state[e], belly.low, belly.high);
   }
 }
 

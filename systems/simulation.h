@@ -110,8 +110,9 @@ struct StepReport {
   /// Bellies that were not finite at a tick's end and began anew, usually because a system of the host wrote NaN or
   /// infinity: in the last tick, and in all since timings were last reset.
   std::uint64_t restarted_bellies = 0, total_restarted_bellies = 0;
-  /// People beyond a limit of joints, ground or pelvis while they change their walk (systems/people/limit_watch.h): in
-  /// the last tick, and summed over all ticks since timings were last reset. `broken_limits` tells which limits.
+  /// People beyond a limit of joints, ground or pelvis while they change their walk, sleepers left out
+  /// (systems/people/limit_watch.h): in the last tick, and summed over all ticks since timings were last reset.
+  /// `broken_limits` tells which limits.
   std::uint64_t beyond_limits = 0, total_beyond_limits = 0;
 };
 

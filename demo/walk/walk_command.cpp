@@ -107,7 +107,8 @@ void note_limits(const Simulation& simulation, Entity person, std::vector<LimitP
 }
 void tell_limits(const std::vector<LimitPassed>& passed) {
   for (const LimitPassed& limit : passed)
-    fmt::print(stderr, "note: from {:.2f} s to {:.2f} s {}\n", limit.first_s, limit.last_s, described(limit.furthest));
+    fmt::print(stderr, "note: in {} ticks from {:.2f} s to {:.2f} s {}\n", limit.ticks, limit.first_s, limit.last_s,
+               described(limit.furthest));
 }
 
 /// Hands over the changes that are due. Errors name the script's line.

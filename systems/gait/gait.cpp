@@ -17,7 +17,7 @@ bool inside(double value, double low, double high) {
 }
 
 /// Length of the step that people of that leg (hip to ground) take at a speed: measured ones (assets/gait/README.md).
-double usual_length_m(double speed_m_s, double leg_m) {
+double usual_length_at(double speed_m_s, double leg_m) {
   return usual_step_length(static_cast<float>(speed_m_s / std::sqrt(9.81 * leg_m))) * leg_m;
 }
 
@@ -68,12 +68,12 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
     speed = speed_asked ? *speed_asked : *length_asked * *frequency_asked;
     length = speed / *frequency_asked;
   } else if (length_asked || frequency_asked) {
-    speed = length_asked ? speed_of(*length_asked, [&](double v) { return usual_length_m(v, hips); })
-                         : speed_of(*frequency_asked, [&](double v) { return v / usual_length_m(v, hips); });
+    speed = length_asked ? speed_of(*length_asked, [&](double v) { return usual_length_at(v, hips); })
+                         : speed_of(*frequency_asked, [&](double v) { return v / usual_length_at(v, hips); });
     length = length_asked ? static_cast<double>(*length_asked) : speed / *frequency_asked;
   } else {
     speed = speed_asked ? *speed_asked : 5.0 / 3.6;
-    length = usual_length_m(speed, hips);
+    length = usual_length_at(speed, hips);
   }
 
   const double frequency = speed / length;
@@ -108,6 +108,12 @@ Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request) {
   const auto of_height = [&](double part) { return static_cast<float>(part * height); };
   return resolve({height_m, of_height(fraction::thigh) + of_height(fraction::shank), of_height(fraction::hip_height)},
                  request);
+}
+
+float usual_length_m(float height_m, float speed_m_s) {
+  if (speed_m_s == 0) return 0;
+  const auto hips_m = static_cast<float>(fraction::hip_height * static_cast<double>(height_m));
+  return static_cast<float>(usual_length_at(static_cast<double>(speed_m_s), static_cast<double>(hips_m)));
 }
 
 Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style) {

@@ -7,7 +7,9 @@
 #include <cmath>
 #include <string_view>
 
+#include "assets/gait/step_table.h"
 #include "engine/rows.h"
+#include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/people/style_estimate.h"
 #include "systems/people/walk_limits.h"
@@ -46,6 +48,20 @@ bool turns_back(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>
   return change * speed_m_s * speed_m_s > more_m_s2;
 }
 
+/// Whether the step leads from one own style to another at one speed, as it does after a change of style.
+bool changes_style(const StepPlan<Lanes<float>>& plan, std::size_t lane) {
+  return plan.from.own_style[lane] >= 1 && plan.to.own_style[lane] >= 1 && plan.from.speed_m_s[lane] > 0 &&
+         plan.from.speed_m_s[lane] == plan.to.speed_m_s[lane];
+}
+
+/// Whether a walk is to have steps that the table of steps has (assets/gait/README.md).
+bool has_usual_steps(float height_m, float speed_m_s, float step_length_m) {
+  const float usual_m = usual_length_m(height_m, speed_m_s);
+  constexpr auto shortest = static_cast<float>(step_table::length.front()),
+                 longest = static_cast<float>(step_table::length.back());
+  return step_length_m >= shortest * usual_m && step_length_m <= longest * usual_m;
+}
+
 bool is_beyond(std::size_t bound, float value) {
   return value > static_cast<float>(walk_limits()[bound].limit);
 }
@@ -67,7 +83,10 @@ void count_beyond_limits(const BodySize<Lanes<float>>& size, const StepPlan<Lane
                          Tally<BeyondLimits> beyond) {
   std::uint32_t looked_at = 0;
   for (std::size_t l = 0; l < rows.live; ++l)
-    if (plan.settled[l] == 0 && (turns_back(plan, state, l) || !is_near_usual(row_of(wanted.style, l))))
+    if (turns_back(plan, state, l) ||
+        (plan.settled[l] == 0 &&
+         (changes_style(plan, l) || !has_usual_steps(size.height_m[l], wanted.speed_m_s[l], wanted.step_length_m[l]) ||
+          !is_near_usual(row_of(wanted.style, l)))))
       looked_at |= 1U << l;
   if (looked_at == 0) return;
   StepBounds<Lanes<float>> bounds;

@@ -1,7 +1,7 @@
 #pragma once
 // Who is beyond a limit of ground, joints or pelvis while they stop, start, turn or change speed or style. Steady walks
 // keep all limits, and so do the stops, turns and changes of speed that are looked at ahead
-// (systems/people/style_limits.h); what is left is counted and can be asked for.
+// (systems/people/style_limits.h). What is left is counted and can be asked for.
 
 #include <string>
 #include <vector>
@@ -26,15 +26,18 @@ struct BrokenLimit {
 /// "a knee is bent by 146 deg; the limit is 143.8".
 std::string described(const BrokenLimit& broken);
 
-/// Counts who is beyond a limit now. Looked at is whose step is not their steady one, and whose style is not near the
-/// usual one (`is_near_usual`) or who turns one way and at once the other: of 24 000 others nobody was more than 0.5°
-/// or 1 m/s² beyond a limit in ten seconds of random turns, stops and changes of speed. How hard the pelvis is shaken
-/// shows from 1/30 s after a heel strike on.
+/// Counts who is beyond a limit now. A walker is looked at who turns one way and at once the other; and one whose step
+/// is not followed by its mirror image, and whose style is far from the usual one (`is_near_usual`), or whose steps are
+/// unusually long or short, or who changes style. All others keep the limits: of 24 000, in ten seconds of random
+/// turns, stops and changes of speed, nobody was more than 0.5° or 1 m/s² beyond one. Not counted are sleepers, how
+/// hard the pelvis is shaken within 1/30 s of a heel strike, and the one step in which a far style gives way to a near
+/// one together with a turn or a change of speed.
 void count_beyond_limits(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                          const GaitState<Lanes<float>>& state, const Gait<Lanes<float>>& wanted, const Rows& rows,
                          Tally<BeyondLimits> beyond);
 
-/// What limits a walker is beyond now, whatever their style and step; none for those who sleep or are posed.
+/// The limits that a walker is beyond now, whatever their style and step; none for those who sleep or are posed, and
+/// for a stale handle.
 std::vector<BrokenLimit> broken_limits(const World& world, Entity person);
 
 }  // namespace mobil

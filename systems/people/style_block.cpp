@@ -11,11 +11,11 @@ namespace {
 
 constexpr int halvings = 8;
 
-/// Besides, of styles far from the usual one: turns and changes of speed, which are then not looked at, bend hips and
-/// ankles so much further.
+/// Besides, in steady walks and stops of styles far from the usual one: turns and changes of speed bend hips and ankles
+/// so much further.
 double for_turns(WalkBound bound, Looking looking) {
   using enum WalkBound;
-  if (looking != Looking::at_stops_too) return 0;
+  if (looking != Looking::at_stops_too && looking != Looking::at_changes_too) return 0;
   return bound == ankle_up || bound == ankle_down ? 0.12 : bound == hip_back || bound == hip_forward ? 0.04 : 0;
 }
 
@@ -70,12 +70,6 @@ std::array<std::size_t, gait_parameters.size()> giving_back_order() {
 }
 
 }  // namespace
-
-float usual_length_m(float height_m, float speed_m_s) {
-  if (speed_m_s == 0) return 0;
-  const auto gait = resolve_gait(height_m, {.speed_m_s = speed_m_s});
-  return gait ? gait->step_length_m : 0;
-}
 
 StyleBlock::StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
                        std::span<const std::size_t> people, Looking looking, std::size_t lanes_each)
@@ -142,7 +136,10 @@ std::vector<StyleChange> StyleBlock::changes(std::size_t walker) const {
 void StyleBlock::hold_to_limits() {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const bool usual_style = same_style(walkers_[walker_of(l)].asked, usual_);
-    for (std::size_t b = 0; b < bound_count; ++b) held_[b][l] = held_to(b, looking_, usual_style);
+    for (std::size_t b = 0; b < bound_count; ++b) {
+      held_.steady[b][l] = held_to(b, looking_, usual_style);
+      held_.changing[b][l] = held_to(b, Looking::closely, usual_style);
+    }
   }
 }
 
@@ -186,10 +183,13 @@ void StyleBlock::note_try(std::size_t which, std::size_t w, std::size_t lane) {
   for (std::size_t b = 0; b < bound_count && which == try_usual_walk; ++b) {
     // What is kept free for turns is not asked of who goes little further than the usual walk, which turns as well.
     constexpr float little_rad = 0.05F;
-    const float usual = found_.value[b][lane];
+    const float usual = found_.steady.value[b][lane], changing = found_.changing.value[b][lane];
     const bool more = for_turns(static_cast<WalkBound>(b), looking_) > 0;
     const float near = more ? std::min(usual + little_rad, held_to(b, Looking::closely, false)) : usual;
-    for (std::size_t l = w * each_; l < (w + 1) * each_; ++l) held_[b][l] = std::max({held_[b][l], usual, near});
+    for (std::size_t l = w * each_; l < (w + 1) * each_; ++l) {
+      held_.steady[b][l] = std::max({held_.steady[b][l], usual, near});
+      held_.changing[b][l] = std::max(held_.changing[b][l], changing);
+    }
   }
 }
 
@@ -208,15 +208,19 @@ void StyleBlock::look() {
 std::optional<StyleBlock::Break> StyleBlock::worst(std::size_t lane) const {
   std::optional<Break> worst;
   double most = 0;
-  // The usual style with the steps asked for needs nothing free for turns.
-  const bool usual = looking_ == Looking::at_stops_too && same_style(gait_row_[lane].style, usual_);
-  for (std::size_t b = 0; b < bound_count; ++b) {
-    const float value = found_.value[b][lane];
-    const float held = usual ? std::max(held_[b][lane], held_to(b, Looking::closely, false)) : held_[b][lane];
-    const double by = static_cast<double>(value - held) / std::max(walk_limits()[b].limit, 0.1);
-    if (by <= most) continue;
+  const auto note = [&](std::size_t b, const WalkReach& reach, float held) {
+    const double by = static_cast<double>(reach.value[b][lane] - held) / std::max(walk_limits()[b].limit, 0.1);
+    if (by <= most) return;
     most = by;
-    worst = Break{static_cast<WalkBound>(b), value, found_.part[b][lane]};
+    worst = Break{static_cast<WalkBound>(b), reach.value[b][lane], reach.part[b][lane]};
+  };
+  // The usual style with the steps asked for needs nothing free for turns.
+  const bool usual = same_style(gait_row_[lane].style, usual_);
+  for (std::size_t b = 0; b < bound_count; ++b) {
+    const float steady = held_.steady[b][lane];
+    const bool more = usual && for_turns(static_cast<WalkBound>(b), looking_) > 0;
+    note(b, found_.steady, more ? std::max(steady, held_to(b, Looking::closely, false)) : steady);
+    note(b, found_.changing, held_.changing[b][lane]);
   }
   return worst;
 }

@@ -15,19 +15,18 @@
 
 namespace mobil {
 
-/// The step that is usual at a speed, m.
-float usual_length_m(float height_m, float speed_m_s);
-
 /// Walkers on the way from the usual style to that asked for: sixteen lanes, `lanes_each` to a walker. With several
 /// lanes several of the next answers are foreseen in one look; what is found is the same.
 class StyleBlock {
  public:
   StyleBlock(std::span<const BodySize<float>> sizes, std::span<const Gait<float>> gaits,
              std::span<const std::size_t> people, Looking looking, std::size_t lanes_each = 1);
-  /// Who breaks a limit as asked, be it with the usual style too, or roughly looked at comes near.
+  /// Who breaks a limit with what was asked, or comes near one where walks are looked at roughly.
   std::array<bool, lane_count> broken();
   /// Moves step lengths and styles as far as limits ask, as keep_walk_limits says (systems/people/style_limits.h).
   void draw_nearer();
+  /// What draw_nearer came to, walker by walker: whether anything was moved; the style and the step length; what was
+  /// moved, the step length before the numbers of the style.
   bool is_drawn(std::size_t walker) const { return walkers_[walker].step_why || walkers_[walker].is_moved(); }
   const GaitStyle& style(std::size_t walker) const { return walkers_[walker].style; }
   float step_length_m(std::size_t walker) const { return walkers_[walker].length_m(); }
@@ -100,7 +99,9 @@ class StyleBlock {
   BodySize<Lanes<float>> size_{};
   Gait<Lanes<float>> gait_{};
   WalkExtremes found_{};
-  Lanes<float> held_[bound_count];
+  struct {
+    Lanes<float> steady[bound_count], changing[bound_count];
+  } held_;                                       // how far walks may go, as WalkExtremes has it
   std::array<bool, lane_count> asked_broken_{};  // walkers
 };
 

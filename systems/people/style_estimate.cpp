@@ -61,7 +61,7 @@ void fill(float height_m, float speed_m_s, Node& node) {
     }
     walk_extremes(size, walks, Looking::closely, found);
     for (std::size_t l = 0; l < std::min(lane_count, count - first); ++l) {
-      for (std::size_t b = 0; b < bound_count; ++b) value[first + l][b] = found.value[b][l];
+      for (std::size_t b = 0; b < bound_count; ++b) value[first + l][b] = found.steady.value[b][l];
     }
   }
   node.usual = value[count - 1];

@@ -30,11 +30,12 @@ bool is_usual(float height_m, const Gait<float>& gait) {
 /// styles with each number within a tenth of the usual one, 230 broke a limit in stopping alone; mid-stance was at
 /// 0.910 or lower in all of them. Such styles are looked at roughly first, the others in stopping too.
 bool stops_as_it_walks(const GaitStyle& style) {
-  constexpr float near_part = 0.101F, bent_knees = 0.93F;
-  return is_within_usual(style, near_part) && style.mid_stance_height >= bent_knees;
+  constexpr float bent_knees = 0.93F;
+  return is_near_usual(style) && style.mid_stance_height >= bent_knees;
 }
 
-/// Later changes of a gait that was changed already: what was asked stays what it was.
+/// Adds changes of a gait that may have been changed before: what was asked and why stay as they were. The step length
+/// comes first, then the numbers of the style.
 void add_changes(std::span<const StyleChange> later, std::vector<StyleChange>& changes) {
   for (const StyleChange& change : later) {
     const auto before = std::ranges::find(changes, change.parameter, &StyleChange::parameter);
@@ -43,6 +44,8 @@ void add_changes(std::span<const StyleChange> later, std::vector<StyleChange>& c
     else
       before->walked = change.walked;
   }
+  std::ranges::sort(changes, {},
+                    [](const StyleChange& change) { return (change.parameter + 1) % (parameter_count + 1); });
 }
 
 std::string_view said_of(WalkPart part) {

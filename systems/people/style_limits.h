@@ -49,7 +49,7 @@ struct StyleWork {
 ///   styles near it whose knees bend more: stops too;
 ///   all others: stops, turns and changes of speed too. They keep 7° clear of the ends of ankles and 3° of hips in
 ///   walking and stopping, but may always go 3° further than the usual walk.
-/// Of turns and changes of speed two and one are looked at (`Looking`); others may go beyond a limit, and are counted
+/// Two turns and one change of speed are looked at (`Looking`). Other ones may go beyond a limit, and are counted
 /// (systems/people/limit_watch.h). Bits depend on neither neighbours nor threads. `moved`: what was, gait by gait, as
 /// long as `gaits`; or empty. Takes memory in `work` alone, which keeps it, and for what is moved.
 void keep_walk_limits(const Jobs& jobs, std::span<const BodySize<float>> sizes, std::span<Gait<float>> gaits,

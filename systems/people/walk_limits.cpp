@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "assets/body/anthropometry.h"
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
 #include "systems/gait/gait.h"
@@ -110,6 +111,12 @@ constexpr int stopping_steps = 6;
 constexpr float turned_rad = 1.05F, slowed_to = 0.6F;
 constexpr int turning_steps = 6, slowing_steps = 3, quickening_steps = 5;
 
+/// The lowest that may be asked for (resolve_gait).
+float lowest_speed_m_s(float height_m) {
+  constexpr auto leg = static_cast<float>(fraction::thigh + fraction::shank);
+  return 0.3F * std::sqrt(leg / 0.9F * height_m);
+}
+
 /// Heights of the pelvis, sixteen side by side, one instant after the other.
 using Heights = std::array<Lanes<float>, 2 * most_parts>;
 
@@ -132,17 +139,17 @@ class WalkLooked {
     gait_.heading_rad = in_every_lane<Lanes<float>>(rad);
     turns_ = true;
   }
-  /// From the next step on everybody who may is to walk at such a part of their speed, with the steps that are usual
-  /// then.
+  /// From the next step on everybody is to walk at such a part of their speed, or the lowest that they may, with the
+  /// steps that are usual then.
   void slow_down(float part) {
     for (std::size_t l = 0; l < lane_count; ++l) {
-      if (!(gait_.speed_m_s[l] > 0)) continue;
-      const auto slow = resolve_gait(size_.height_m[l], {.speed_m_s = part * gait_.speed_m_s[l]});
-      if (!slow) continue;
-      gait_.speed_m_s[l] = slow->speed_m_s;
-      gait_.step_length_m[l] = slow->step_length_m;
-      gait_.step_frequency_hz[l] = slow->step_frequency_hz;
-      gait_.double_support_cycle[l] = slow->double_support_cycle;
+      const float height_m = size_.height_m[l], speed_m_s = gait_.speed_m_s[l];
+      if (!(speed_m_s > 0)) continue;
+      const float slow_m_s = std::max(part * speed_m_s, std::min(speed_m_s, lowest_speed_m_s(height_m)));
+      const Gait<float> slow = complete_gait(height_m, slow_m_s, usual_length_m(height_m, slow_m_s), {});
+      gait_.speed_m_s[l] = slow.speed_m_s;
+      gait_.step_length_m[l] = slow.step_length_m;
+      gait_.step_frequency_hz[l] = slow.step_frequency_hz;
     }
   }
   /// From the next step on everybody is to walk so.
@@ -233,12 +240,13 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   WalkLooked walk(size, gait, seldom ? 1 : most_parts);
   const Lanes<std::uint32_t> settled = walk.settled();
   const auto note = [&](const WalkLooked& looked, WalkPart part, auto whose) {
+    WalkReach& reach = part == WalkPart::steady || part == WalkPart::stop ? extremes.steady : extremes.changing;
     for (std::size_t b = 0; b < bound_count; ++b)
       for (std::size_t l = 0; l < lane_count; ++l) {
         const float value = looked.bounds().value[b][l];
-        if (!whose(l) || value <= extremes.value[b][l]) continue;
-        extremes.value[b][l] = value;
-        extremes.part[b][l] = part;
+        if (!whose(l) || value <= reach.value[b][l]) continue;
+        reach.value[b][l] = value;
+        reach.part[b][l] = part;
       }
   };
   const auto note_steps = [&](WalkLooked& looked, int steps, WalkPart part, auto whose) {
@@ -249,8 +257,11 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   };
   const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
   walk.walk();
-  std::ranges::copy(walk.bounds().value, extremes.value);
-  for (auto& of_bound : extremes.part) of_bound.fill(WalkPart::steady);
+  for (WalkReach* const reach : {&extremes.steady, &extremes.changing}) {
+    std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(-10));
+    for (auto& of_bound : reach->part) of_bound.fill(WalkPart::steady);
+  }
+  std::ranges::copy(walk.bounds().value, extremes.steady.value);
   // The left step is the right one mirrored, where all goes on so.
   const bool all_even = std::ranges::none_of(settled.lane, [](std::uint32_t is) { return is == 0; });
   if (!all_even && looking != Looking::at_changes) note_steps(walk, uneven_steps - 1, WalkPart::steady, uneven);

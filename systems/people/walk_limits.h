@@ -25,19 +25,27 @@ struct WalkLimit {
 /// By WalkBound.
 std::span<const WalkLimit, bound_count> walk_limits();
 
-/// In which part of a walk something goes furthest: at its speed, in stopping from it, in turning, or in slowing down
-/// from it and coming back to it.
+/// A part of a walk: at its speed; in stopping from it; in turning; in slowing down from it and coming back to it.
 enum class WalkPart : std::uint8_t { steady, stop, turn, change_of_speed };
 
-/// How far each bound goes in a walk, by WalkBound, and where.
-struct WalkExtremes {
+/// How far each bound goes, by WalkBound, and in which part of the walk.
+struct WalkReach {
   Lanes<float> value[bound_count];
   std::array<WalkPart, lane_count> part[bound_count];
 };
-/// At sixty instants a second, or 240: between sixty a joint goes up to 1.5° further, the pelvis is shaken up to 4 m/s²
-/// more. Or at 240 of the steady walk, and at 120 of how it comes to a stop, from either foot. Or at sixty of changes
-/// alone: turns to either side by 60°, and slowing down to 0.6 of the speed and coming back to it. Or at all of these.
-enum class Looking : std::uint8_t { roughly, closely, at_stops_too, at_changes, at_changes_too };
+/// Of the steady walk and of stops; of turns and changes of speed, −10 where those are not looked at.
+struct WalkExtremes {
+  WalkReach steady, changing;
+};
+/// What of a walk is looked at. Between sixty instants a second a joint goes up to 1.5° further, and the pelvis is
+/// shaken up to 4 m/s² more. Who is too slow to slow down to 0.6 of their speed slows down to the lowest that there is.
+enum class Looking : std::uint8_t {
+  roughly,       // the steady walk at 60 instants a second
+  closely,       // the steady walk at 240
+  at_stops_too,  // besides, stops from either foot at 120
+  at_changes,    // at 60: a first step, turns by 60° to either side, slowing down to 0.6 of the speed and coming back
+  at_changes_too,  // all of the last two
+};
 /// Of sixteen walkers. A lane's bits depend on no other lane.
 void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>& gait, Looking looking,
                    WalkExtremes& extremes);

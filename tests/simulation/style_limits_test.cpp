@@ -97,7 +97,7 @@ TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
     const auto broken = static_cast<std::size_t>(
         std::ranges::count_if(of_phase, [](const Walked& one) { return !one.keeps_limits(); }));
     std::printf("%s: %zu of %zu beyond a limit\n", name.c_str(), broken, of_phase.size());
-    EXPECT_LE(broken, at_most.at(name)) << name;
+    EXPECT_LE(broken, tens == 1 ? 0 : at_most.at(name)) << name;
   }
 }
 
@@ -367,7 +367,7 @@ TEST(StyleLimits, AreKeptWhereTheEstimateIsSure) {
     walk_extremes(size, gait, Looking::closely, found);
     for (std::size_t b = 0; b < bound_count; ++b) {
       for (std::size_t l = 0; l < lane_count; ++l) {
-        EXPECT_LE(double{found.value[b][l]}, walk_limits()[b].limit) << walk_limits()[b].says;
+        EXPECT_LE(double{found.steady.value[b][l]}, walk_limits()[b].limit) << walk_limits()[b].says;
       }
     }
   }

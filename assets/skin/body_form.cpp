@@ -22,7 +22,7 @@ BodyForm::BodyForm(const Body& body, const TrunkFit& fit, bool shod)
     : size_(static_cast<double>(body.request.height_m) / 1.75),
       sex_(body.request.sex),
       trunk_(body, body_measures(body.request), fit),
-      leg_(body, body_measures(body.request), shod),
+      leg_(body, body_measures(body.request), shod, fit.thighs),
       arm_(body, body_measures(body.request)) {}
 
 Vec BodyForm::turned(const Vec& p, const Vec& about, double angle) {

@@ -15,7 +15,7 @@ using namespace geometry;
 using form::BodyForm;
 using form::TrunkFit;
 
-constexpr double least_fit = 0.7, most_fit = 1.4;  // beyond, a body is no longer one
+constexpr double least_fit = 0.7, most_fit = 1.4, least_thighs = 0.9;  // beyond, a body is no longer one
 
 std::vector<Vec> normals(const std::vector<std::uint32_t>& triangle, const std::vector<Vec>& place) {
   std::vector<Vec> normal(place.size(), Vec{0, 0, 0});
@@ -85,7 +85,7 @@ std::array<SkinMesh, skin_details> make_meshes(Sex sex) {
 
 TrunkFit part_of(const TrunkFit& fit, double share) {
   const auto part = [share](double whole) { return 1 + share * (whole - 1); };
-  return {part(fit.hips), part(fit.waist), part(fit.chest), part(fit.neck), part(fit.between)};
+  return {part(fit.hips), part(fit.waist), part(fit.chest), part(fit.neck), part(fit.between), part(fit.thighs)};
 }
 
 /// Makes hips, waist, chest and neck `over` times what the survey has them; what lies between them stays.
@@ -108,6 +108,7 @@ void fit_girths(const Body& body, double over, TrunkFit& fit) {
     double hips = 0;  // where they are widest
     for (const double y_m : {0.885, 0.905, 0.925}) hips = std::max(hips, form.girth(y_m * form.size()));
     fit.hips = fitted(fit.hips, hips, m.buttock_girth);
+    if (fit.hips <= least_fit) fit.thighs = std::clamp(fit.thighs * over * m.buttock_girth / hips, least_thighs, 1.0);
   }
 }
 

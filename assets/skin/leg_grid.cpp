@@ -18,7 +18,7 @@ constexpr double step_s = (last_leg_s - first_leg_s) / (leg_stations - 1);
 double skin_radius(const form::BodyForm& form, double s, double turn) {
   const form::LegForm& leg = form.leg();
   constexpr double thigh_s = 0.20, longest_m = 0.20;
-  if (s >= thigh_s && s <= LegProfile::last_s) return leg.profile().radius(s, turn);
+  if (s >= thigh_s && s <= LegProfile::last_s) return leg.radius(s, turn);
   const double inward = std::sin(turn), to_middle_m = -leg.hip().x / std::max(inward, 1e-3);
   return form.armless_radius({leg.hip().x, leg.y(s), leg.hip().z}, {inward, 0, std::cos(turn)},
                              std::min(longest_m, to_middle_m));

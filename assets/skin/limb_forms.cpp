@@ -16,7 +16,7 @@ Vec joint(const Body& body, Segment segment) {
 
 }  // namespace
 
-LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod)
+LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod, double hip_part)
     : hip_(joint(body, Segment::thigh_right)),
       knee_y_(joint(body, Segment::shank_right).y),
       shank_m_(knee_y_ - joint(body, Segment::foot_right).y),
@@ -24,7 +24,8 @@ LegForm::LegForm(const Body& body, const BodyMeasures& m, bool shod)
       long_(m.foot_length / 0.2686),
       wide_(m.foot_breadth / 0.1001),
       profile_(m),
-      shod_(shod) {
+      shod_(shod),
+      hip_part_(hip_part) {
   const double high = joint(body, Segment::foot_right).y / (0.039 * 1.75);
   // From the heel to the ball: how far ahead of the ankle, half breadth, lowest and highest point, how far inward; mm.
   constexpr std::array<std::array<double, 5>, 9> sections = {{{-46, 27, 2, 76, 0},
@@ -66,10 +67,15 @@ double LegForm::foot(const Vec& q) const {
   return d;
 }
 
+double LegForm::radius(double s, double turn) const {
+  constexpr double top_s = 0.12, below_s = 0.45;
+  return profile_.radius(s, turn) * (hip_part_ + (1 - hip_part_) * smoothstep(top_s, below_s, s));
+}
+
 double LegForm::distance(const Vec& p) const {
   const double x = p.x - hip_.x, z = p.z - hip_.z, from_line = std::hypot(x, z);
   const double turn = std::atan2(x, z);
-  const double r = profile_.radius(s(p.y), turn);
+  const double r = radius(s(p.y), turn);
   double d = from_line - r;
   // A dome over the buttock above, a narrowing into the foot below.
   if (const double top = (p.y - y(0.06)) / dome_m_; top > 1) {

@@ -12,13 +12,16 @@ namespace mobil::form {
 /// One body's right leg and foot, in m; origin and axes are those of the standing body (components/body.h).
 class LegForm {
  public:
-  /// `shod`: a shoe's tip in place of toes.
-  LegForm(const Body& body, const BodyMeasures& measures, bool shod);
+  /// `shod`: a shoe's tip in place of toes. `hip_part`: by what radii are multiplied at the hip; from the middle of
+  /// the thigh on they are the profile's.
+  LegForm(const Body& body, const BodyMeasures& measures, bool shod, double hip_part = 1);
   /// Of a point of the right leg, standing straight.
   double distance(const Vec& p) const;
   /// How far down the leg a height lies: 0 at the hip's centre, 1 at the knee's, 2 at the ankle's.
   double s(double y) const { return y > knee_y_ ? (hip_.y - y) / (hip_.y - knee_y_) : 1 + (knee_y_ - y) / shank_m_; }
   double y(double s) const { return s < 1 ? hip_.y - s * (hip_.y - knee_y_) : knee_y_ - (s - 1) * shank_m_; }
+  /// Of the skin about the leg's line; `s` and `turn` as LegProfile has them, m.
+  double radius(double s, double turn) const;
   const Vec& hip() const { return hip_; }
   const LegProfile& profile() const { return profile_; }
 
@@ -31,6 +34,7 @@ class LegForm {
   LegProfile profile_;
   std::vector<Ring> foot_;
   bool shod_;
+  double hip_part_;
 };
 
 /// One body's right arm and hand, in the same frame.

@@ -26,10 +26,10 @@ struct BrokenLimit {
 /// "a knee is bent by 146 deg; the limit is 143.8".
 std::string described(const BrokenLimit& broken);
 
-/// Counts who is beyond a limit now. A walker is looked at who turns one way and at once the other; and one whose step
-/// is not followed by its mirror image, and whose style is far from the usual one (`is_near_usual`), or whose steps are
-/// unusually long or short, or who changes style. All others keep the limits: of 24 000, in ten seconds of random
-/// turns, stops and changes of speed, nobody was more than 0.5° or 1 m/s² beyond one. Not counted are sleepers, how
+/// Counts who is beyond a limit now. A walker is looked at who turns one way and at once the other; and one whose step is
+/// not followed by its mirror image, and whose style is far from the usual one (`is_near_usual`), or whose steps are
+/// unusually long or short, or who changes style. All others keep the limits, or all but do: of 24 000, in ten seconds of
+/// random turns, stops and changes of speed, one hip was 1° beyond and a few pelves 1 m/s². Not counted are sleepers, how
 /// hard the pelvis is shaken within 1/30 s of a heel strike, and the one step in which a far style gives way to a near
 /// one together with a turn or a change of speed.
 void count_beyond_limits(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,

@@ -262,7 +262,7 @@ void cover(const LegGrid& grid, const LegRings& rings, float lengths, std::span<
            float* lift_m) {
   constexpr float round_m = 0.004F, thin_m = 0.004F, least_m = 0.0005F;
   // More in the hollow of a bend, where points of the grid lie close together and heights change much between them.
-  constexpr float least_m_by_bend = 0.0003F;
+  constexpr float least_m_by_bend = 0.0008F;
   Reach reach;
   find_reach(rings, muscles, reach);
   // Over the skin without muscles.

@@ -190,7 +190,7 @@ class Watched {
 
 void expect_covered(const Outside& found, double most_beyond, double most_m, double most_lift_m) {
   const auto all = static_cast<double>(found.all);
-  EXPECT_LT(static_cast<double>(found.beyond), most_beyond * all);
+  EXPECT_LE(static_cast<double>(found.beyond), most_beyond * all);
   EXPECT_LT(static_cast<double>(found.outside), 2e-3 * all);
   EXPECT_LT(found.outside, found.without);
   EXPECT_LT(found.worst_m, most_m);
@@ -236,7 +236,7 @@ TEST(SkinCover, HoldsTheMusclesInAnyPose) {
       watched.look(found);
     }
     found.print("poses", somebody);
-    expect_covered(found, 1e-5, 0.003, 0.06);
+    expect_covered(found, 0, 0.002, 0.06);
   }
 }
 

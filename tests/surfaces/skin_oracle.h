@@ -206,7 +206,7 @@ inline void cover(const BodySkin& skin, const Pose<float>& pose, float lengths, 
   std::array<float, leg_grid_points> excess, floor;
   for (std::size_t n = 0; n < leg_grid_points; ++n) {
     const float base = lengths * grid.base[n], fat = lengths * grid.fat[n];
-    const float least = least_m + 0.0003F * std::max(0.0F, rings.hollow(n / leg_angles, n % leg_angles));
+    const float least = least_m + 0.0008F * std::max(0.0F, rings.hollow(n / leg_angles, n % leg_angles));
     excess[n] = reach[n] > 0 ? rounded_max(base, reach[n] + fat, round_m) - base : 0;
     floor[n] = reach[n] > 0 ? reach[n] + 0.5F * std::min(fat, thin_m) + least - base : -base;
   }

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "assets/gait/step_table.h"
 #include "engine/rows.h"
-#include "systems/gait/gait.h"
 #include "systems/gait/step_limits.h"
 #include "systems/people/style_estimate.h"
 #include "systems/people/walk_limits.h"
@@ -52,14 +50,6 @@ bool turns_back(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>
 bool changes_style(const StepPlan<Lanes<float>>& plan, std::size_t lane) {
   return plan.from.own_style[lane] >= 1 && plan.to.own_style[lane] >= 1 && plan.from.speed_m_s[lane] > 0 &&
          plan.from.speed_m_s[lane] == plan.to.speed_m_s[lane];
-}
-
-/// Whether a walk is to have steps that the table of steps has (assets/gait/README.md).
-bool has_usual_steps(float height_m, float speed_m_s, float step_length_m) {
-  const float usual_m = usual_length_m(height_m, speed_m_s);
-  constexpr auto shortest = static_cast<float>(step_table::length.front()),
-                 longest = static_cast<float>(step_table::length.back());
-  return step_length_m >= shortest * usual_m && step_length_m <= longest * usual_m;
 }
 
 bool is_beyond(std::size_t bound, float value) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "assets/gait/step_table.h"
 #include "engine/rows.h"
 #include "systems/gait/gait.h"
 #include "systems/people/walk_limits.h"
@@ -129,6 +130,13 @@ bool is_near_usual(const GaitStyle& style) {
     ++count;
   }
   return squares <= count * most_rms * most_rms && is_within_usual(style, tenth + 0.001F);
+}
+
+bool has_usual_steps(float height_m, float speed_m_s, float step_length_m) {
+  const float usual_m = usual_length_m(height_m, speed_m_s);
+  constexpr auto shortest = static_cast<float>(step_table::length.front()),
+                 longest = static_cast<float>(step_table::length.back());
+  return step_length_m >= shortest * usual_m && step_length_m <= longest * usual_m;
 }
 
 bool surely_keeps_limits(const BodySize<float>& size, const Gait<float>& gait) {

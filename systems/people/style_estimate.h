@@ -12,6 +12,10 @@ bool is_within_usual(const GaitStyle& style, float part);
 /// drawn evenly within a tenth are off by 5.8 %: 299 of 300 such styles are near.
 bool is_near_usual(const GaitStyle& style);
 
+/// Whether a walk has steps of the lengths that the table of steps has, 0.76 to 1.12 of the usual one at that speed
+/// (assets/gait/README.md).
+bool has_usual_steps(float height_m, float speed_m_s, float step_length_m);
+
 /// True where the walk surely keeps the limits of systems/people/walk_limits.h: steps of the usual length, each number
 /// of the style within a tenth of the usual one, and what the usual walk of that height and speed goes to, with what
 /// each number adds to first order and a quarter of what all of them add either way, stays clear of every limit. False

@@ -6,7 +6,6 @@
 #include <iterator>
 #include <string_view>
 
-#include "assets/gait/step_table.h"
 #include "systems/gait/gait.h"
 #include "systems/people/person.h"
 #include "systems/people/style_block.h"
@@ -17,13 +16,10 @@ namespace mobil {
 namespace {
 
 constexpr std::size_t parameter_count = gait_parameters.size();
-/// Usual steps of the usual style: of lengths that the table of steps has (assets/gait/README.md).
+
+/// Usual steps of the usual style.
 bool is_usual(float height_m, const Gait<float>& gait) {
-  if (!same_style(gait.style, {})) return false;
-  const float length_m = usual_length_m(height_m, gait.speed_m_s);
-  constexpr auto shortest = static_cast<float>(step_table::length.front()),
-                 longest = static_cast<float>(step_table::length.back());
-  return gait.step_length_m >= shortest * length_m && gait.step_length_m <= longest * length_m;
+  return same_style(gait.style, {}) && has_usual_steps(height_m, gait.speed_m_s, gait.step_length_m);
 }
 
 /// Whether a style is near the usual one, and its stop keeps all limits that its steady walk keeps. Of 12 000 random

@@ -12,6 +12,8 @@
 namespace mobil {
 namespace {
 
+constexpr double lowest_speed = 0.3;  // m/s, for a leg of 0.90 m, in proportion to its root
+
 bool inside(double value, double low, double high) {
   return value >= low && value <= high;
 }
@@ -82,7 +84,7 @@ Result<Gait<float>> resolve(const LegSizes& of, const GaitRequest& request) {
     bool asked;
     double value, low, high;
   } const ranges[] = {
-      {"speed", "m/s", speed_asked.has_value(), speed, 0.3 * scale, 2.3 * scale},
+      {"speed", "m/s", speed_asked.has_value(), speed, lowest_speed * scale, 2.3 * scale},
       {"step length", "m", length_asked.has_value(), length, 0.25 * leg, 1.25 * leg},
       {"step frequency", "Hz", frequency_asked.has_value(), frequency, 0.5 / scale, 3.0 / scale},
   };
@@ -114,6 +116,11 @@ float usual_length_m(float height_m, float speed_m_s) {
   if (speed_m_s == 0) return 0;
   const auto hips_m = static_cast<float>(fraction::hip_height * static_cast<double>(height_m));
   return static_cast<float>(usual_length_at(static_cast<double>(speed_m_s), static_cast<double>(hips_m)));
+}
+
+float lowest_speed_m_s(float height_m) {
+  constexpr auto leg = static_cast<float>(fraction::thigh + fraction::shank);
+  return static_cast<float>(lowest_speed) * std::sqrt(leg / 0.9F * height_m);
 }
 
 Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style) {

@@ -22,6 +22,9 @@ Result<Gait<float>> resolve_gait(float height_m, const GaitRequest& request);
 /// The step that people of that height take at a speed, m: measured ones (assets/gait/README.md). 0 at a speed of 0.
 float usual_length_m(float height_m, float speed_m_s);
 
+/// The lowest speed that a walker of that height may be asked for, but for 0, m/s.
+float lowest_speed_m_s(float height_m);
+
 /// The gait of a speed and a step length, no heading or way asked for: what resolve_gait answers follows from these two
 /// of its numbers. A speed of 0 stands.
 Gait<float> complete_gait(float height_m, float speed_m_s, float step_length_m, const GaitStyle& style);

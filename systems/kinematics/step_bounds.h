@@ -45,6 +45,12 @@ struct StepBounds {
   F pelvis_up_m;         // now
 };
 
+/// What bounds are before anything was noted: below all that is.
+inline constexpr float least_bound = -10;
+inline void clear_bounds(StepBounds<Lanes<float>>& bounds) {
+  for (Lanes<float>& value : bounds.value) value = in_every_lane<Lanes<float>>(least_bound);
+}
+
 /// Notes in `bounds` what goes further than there in the pose that `pose_skeleton` makes of a step
 /// (systems/kinematics/kinematics.h), without the pose.
 void step_bounds(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,

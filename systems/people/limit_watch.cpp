@@ -15,26 +15,24 @@
 namespace mobil {
 namespace {
 
-/// Over which the pelvis' acceleration is taken, as where walks are looked at ahead.
-constexpr float apart_s = 1.0F / 60;
 constexpr auto shaken = static_cast<std::size_t>(WalkBound::pelvis_shaken);
 
 /// How far sixteen walkers are now.
 void bounds_now(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                 const GaitState<Lanes<float>>& state, StepBounds<Lanes<float>>& bounds) {
-  for (auto& value : bounds.value) value = in_every_lane<Lanes<float>>(-10);
+  clear_bounds(bounds);
   GaitState<Lanes<float>> before = state;
   StepBounds<Lanes<float>> unused = bounds;
   Lanes<float> up_m[2];
   for (Lanes<float>& up : up_m) {
-    for (float& time_s : before.time_s.lane) time_s = std::max(time_s - apart_s, 0.0F);
+    for (float& time_s : before.time_s.lane) time_s = std::max(time_s - difference_s, 0.0F);
     step_bounds(size, plan, before, unused);
     up = unused.pelvis_up_m;
   }
   step_bounds(size, plan, state, bounds);
   for (std::size_t l = 0; l < lane_count; ++l)
-    if (state.time_s[l] >= 2 * apart_s)
-      bounds.value[shaken][l] = std::fabs(bounds.pelvis_up_m[l] - 2 * up_m[0][l] + up_m[1][l]) / (apart_s * apart_s);
+    if (state.time_s[l] >= 2 * difference_s)
+      bounds.value[shaken][l] = pelvis_acceleration(bounds.pelvis_up_m[l], up_m[0][l], up_m[1][l]);
 }
 
 /// Whether the push to the side changes within a step by more than one turn takes (step_limits::most_sideways).

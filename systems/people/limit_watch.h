@@ -1,7 +1,8 @@
 #pragma once
-// Who is beyond a limit of ground, joints or pelvis while they stop, start, turn or change speed or style. Steady walks
-// keep all limits, and so do the stops, turns and changes of speed that are looked at ahead
-// (systems/people/style_limits.h). What is left is counted and can be asked for.
+// People who are beyond a limit of ground, joints or pelvis while they stop, start, turn or change speed or style.
+// Steady walks keep all limits, and so do the stops, turns and changes of speed that are looked at ahead
+// (systems/people/style_limits.h). A system counts the people who still go beyond a limit, and a query names the
+// limits.
 
 #include <string>
 #include <vector>
@@ -26,12 +27,14 @@ struct BrokenLimit {
 /// "a knee is bent by 146 deg; the limit is 143.8".
 std::string described(const BrokenLimit& broken);
 
-/// Counts who is beyond a limit now. A walker is looked at who turns one way and at once the other; and one whose step is
-/// not followed by its mirror image, and whose style is far from the usual one (`is_near_usual`), or whose steps are
-/// unusually long or short, or who changes style. All others keep the limits, or all but do: of 24 000, in ten seconds of
-/// random turns, stops and changes of speed, one hip was 1° beyond and a few pelves 1 m/s². Not counted are sleepers, how
-/// hard the pelvis is shaken within 1/30 s of a heel strike, and the one step in which a far style gives way to a near
-/// one together with a turn or a change of speed.
+/// Counts the people who are beyond a limit now. The system looks at a walker
+///   who turns one way and at once the other;
+///   or whose step is not followed by its mirror image, if their style is far from the usual one (`is_near_usual`), or
+///   their steps are unusually long or short, or they change style.
+/// All others keep the limits, or nearly: of 24 000, in ten seconds of random turns, stops and changes of speed, one
+/// hip was 1° beyond and a few pelves 1 m/s². The system does not count sleepers, nor how hard the pelvis is shaken
+/// within 1/30 s of a heel strike, nor the one step in which a far style gives way to a near one together with a turn
+/// or a change of speed.
 void count_beyond_limits(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                          const GaitState<Lanes<float>>& state, const Gait<Lanes<float>>& wanted, const Rows& rows,
                          Tally<BeyondLimits> beyond);

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "assets/body/anthropometry.h"
 #include "assets/body/column.h"
 #include "assets/body/joint_limits.h"
 #include "systems/gait/gait.h"
@@ -15,8 +14,6 @@ namespace mobil {
 namespace {
 
 constexpr double limit_degree = 3.14159265358979324 / 180;
-/// Of the pelvis' acceleration, which is the second difference of its height over that time.
-constexpr float difference_s = 1.0F / 60;
 constexpr std::uint32_t most_parts = 4;
 
 /// Of the joint at the origin of a segment, one way.
@@ -111,12 +108,6 @@ constexpr int stopping_steps = 6;
 constexpr float turned_rad = 1.05F, slowed_to = 0.6F;
 constexpr int turning_steps = 6, slowing_steps = 3, quickening_steps = 5;
 
-/// The lowest that may be asked for (resolve_gait).
-float lowest_speed_m_s(float height_m) {
-  constexpr auto leg = static_cast<float>(fraction::thigh + fraction::shank);
-  return 0.3F * std::sqrt(leg / 0.9F * height_m);
-}
-
 /// Heights of the pelvis, sixteen side by side, one instant after the other.
 using Heights = std::array<Lanes<float>, 2 * most_parts>;
 
@@ -158,8 +149,7 @@ class WalkLooked {
 
   /// How far this step goes, from nothing on.
   void walk() {
-    bounds_.value[0] = in_every_lane<Lanes<float>>(-10);
-    for (auto& value : bounds_.value) value = bounds_.value[0];
+    clear_bounds(bounds_);
     const float longest_s = *std::ranges::max_element(plan_.duration_s.lane);
     std::array<Lanes<float>, 2 * most_parts + 1> up_m{};  // at the last instants
     for (std::uint32_t k = 0; static_cast<float>(k) * instant_s_ <= longest_s; ++k) {
@@ -201,9 +191,8 @@ class WalkLooked {
     step_bounds(size_, plan_, state_, bounds_);
   }
   void note_shaken(std::size_t lane, float now_m, float before_m, float first_m) {
-    constexpr float per_s2 = 1 / (difference_s * difference_s);
     float& most = bounds_.value[static_cast<std::size_t>(WalkBound::pelvis_shaken)][lane];
-    most = std::max(most, std::fabs(now_m - 2 * before_m + first_m) * per_s2);
+    most = std::max(most, pelvis_acceleration(now_m, before_m, first_m));
   }
   /// Across the strike at which this step begins, after one that ended so.
   template <class Where>
@@ -258,7 +247,7 @@ void walk_extremes(const BodySize<Lanes<float>>& size, const Gait<Lanes<float>>&
   const auto uneven = [&settled](std::size_t l) { return settled[l] == 0; };
   walk.walk();
   for (WalkReach* const reach : {&extremes.steady, &extremes.changing}) {
-    std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(-10));
+    std::ranges::fill(reach->value, in_every_lane<Lanes<float>>(least_bound));
     for (auto& of_bound : reach->part) of_bound.fill(WalkPart::steady);
   }
   std::ranges::copy(walk.bounds().value, extremes.steady.value);

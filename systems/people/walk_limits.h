@@ -2,6 +2,7 @@
 // How far a walk may go, and how far one goes.
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <string_view>
@@ -25,6 +26,14 @@ struct WalkLimit {
 /// By WalkBound.
 std::span<const WalkLimit, bound_count> walk_limits();
 
+/// The pelvis' acceleration is the second difference of its height over that time, s.
+inline constexpr float difference_s = 1.0F / 60;
+/// m/s², of the height now, that time ago and twice that time ago, m.
+inline float pelvis_acceleration(float now_m, float before_m, float first_m) {
+  constexpr float per_s2 = 1 / (difference_s * difference_s);
+  return std::fabs(now_m - 2 * before_m + first_m) * per_s2;
+}
+
 /// A part of a walk: at its speed; in stopping from it; in turning; in slowing down from it and coming back to it.
 enum class WalkPart : std::uint8_t { steady, stop, turn, change_of_speed };
 
@@ -33,7 +42,7 @@ struct WalkReach {
   Lanes<float> value[bound_count];
   std::array<WalkPart, lane_count> part[bound_count];
 };
-/// Of the steady walk and of stops; of turns and changes of speed, −10 where those are not looked at.
+/// Of the steady walk and of stops; of turns and changes of speed, `least_bound` where those are not looked at.
 struct WalkExtremes {
   WalkReach steady, changing;
 };

@@ -35,6 +35,17 @@ void bounds_now(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>
       bounds.value[shaken][l] = pelvis_acceleration(bounds.pelvis_up_m[l], up_m[0][l], up_m[1][l]);
 }
 
+/// Whether all lanes go on as they went, and straight ahead: most blocks of a crowd in most ticks.
+bool all_go_straight_on(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state) {
+  std::uint32_t otherwise = 0;
+  for (std::size_t l = 0; l < lane_count; ++l)
+    otherwise |= static_cast<std::uint32_t>(plan.settled[l] == 0) |
+                 static_cast<std::uint32_t>(state.bend_before_per_m[l] != 0) |
+                 static_cast<std::uint32_t>(state.bend_per_m[l] != 0) |
+                 static_cast<std::uint32_t>(state.bend_next_per_m[l] != 0);
+  return otherwise == 0;
+}
+
 /// Whether the push to the side changes within a step by more than one turn takes (step_limits::most_sideways).
 bool turns_back(const StepPlan<Lanes<float>>& plan, const GaitState<Lanes<float>>& state, std::size_t lane) {
   constexpr float more_m_s2 = 1.1F * step_limits::most_sideways;
@@ -69,6 +80,7 @@ std::string described(const BrokenLimit& broken) {
 void count_beyond_limits(const BodySize<Lanes<float>>& size, const StepPlan<Lanes<float>>& plan,
                          const GaitState<Lanes<float>>& state, const Gait<Lanes<float>>& wanted, const Rows& rows,
                          Tally<BeyondLimits> beyond) {
+  if (all_go_straight_on(plan, state)) return;
   std::uint32_t looked_at = 0;
   for (std::size_t l = 0; l < rows.live; ++l)
     if (turns_back(plan, state, l) ||

@@ -19,7 +19,7 @@ struct SkinCover {
 /// muscle and the fat over it reach farther from the leg's line than the skin does; what is lifted is rounded off to
 /// its neighbours. In the bend of hip and knee, where flesh lies in flesh, no more than the crease has room for.
 /// Vertices that are no numbers, or a metre and more from the leg, count for nothing. `lengths`: as of SkinShape. Some
-/// 6 ns a vertex of muscle and 4 µs. The same bits on every instruction set with fused multiply-add.
+/// 4 ns a vertex of muscle and 2 µs. The same bits on every instruction set with fused multiply-add.
 void cover_muscles(const BodySkin& skin, const Pose<float>& pose, float lengths, Side side,
                    std::span<const Vec3<float>> muscles, std::array<float, leg_grid_points>& lift_m);
 

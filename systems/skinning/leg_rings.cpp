@@ -26,20 +26,47 @@ std::array<float, leg_angles> inner_side() {
   return inner;
 }
 
-/// `size`: over that of a body of 1.75 m.
+/// How far each ring has turned from the segment below to the one above.
+std::array<float, bend_rings> turned_by() {
+  std::array<float, bend_rings> share;
+  for (std::size_t k = 0; k < bend_rings; ++k) share[k] = eased(static_cast<float>(k + 1) / bend_rings);
+  return share;
+}
+
+/// `size`: over that of a body of 1.75 m. As `blended` and `columns`, all rings at once.
 JointRings bend_of(const Quat<float>& above, const Quat<float>& below, const Vec3<float>& centre_m,
                    const SkinBend& bend, float size) {
+  static const std::array<float, bend_rings> share = turned_by();
   JointRings rings;
   rings.centre_m = centre_m;
   rings.low_m = -size * static_cast<float>(bend.below_m);
   rings.high_m = size * static_cast<float>(bend.above_m);
-  for (std::size_t k = 0; k <= bend_rings; ++k) {
-    const auto axes = columns(blended(below, above, eased(static_cast<float>(k) / bend_rings)));
-    for (std::size_t a = 0; a < 3; ++a) {
-      rings.axis[a][0][k] = axes[a].x;
-      rings.axis[a][1][k] = axes[a].y;
-      rings.axis[a][2][k] = axes[a].z;
-    }
+  rings.below = columns(below);
+  const float sign = below.x * above.x + below.y * above.y + below.z * above.z + below.w * above.w < 0 ? -1.0F : 1.0F;
+  std::array<float, bend_rings> x, y, z, w, square;
+  for (std::size_t k = 0; k < bend_rings; ++k) {
+    const float p = 1 - share[k], q = sign * share[k];
+    x[k] = p * below.x + q * above.x, y[k] = p * below.y + q * above.y;
+    z[k] = p * below.z + q * above.z, w[k] = p * below.w + q * above.w;
+    square[k] = x[k] * x[k] + y[k] * y[k] + z[k] * z[k] + w[k] * w[k];
+  }
+  for (float& s : square) s = 1 / std::sqrt(s);
+  for (std::size_t k = 0; k < bend_rings; ++k) {
+    const float scale = square[k];
+    x[k] *= scale, y[k] *= scale, z[k] *= scale, w[k] *= scale;
+  }
+  auto& [left, up, front] = rings.axis;
+  for (std::size_t k = 0; k < bend_rings; ++k) {
+    rings.height_m[k] = rings.low_m + (rings.high_m - rings.low_m) * (static_cast<float>(k + 1) / bend_rings);
+    left[0][k] = 1 - 2 * (y[k] * y[k] + z[k] * z[k]);
+    left[1][k] = 2 * (x[k] * y[k] + w[k] * z[k]);
+    left[2][k] = 2 * (x[k] * z[k] - w[k] * y[k]);
+    up[0][k] = 2 * (x[k] * y[k] - w[k] * z[k]);
+    up[1][k] = 1 - 2 * (x[k] * x[k] + z[k] * z[k]);
+    up[2][k] = 2 * (y[k] * z[k] + w[k] * x[k]);
+    front[0][k] = 2 * (x[k] * z[k] + w[k] * y[k]);
+    front[1][k] = 2 * (y[k] * z[k] - w[k] * x[k]);
+    front[2][k] = 1 - 2 * (x[k] * x[k] + y[k] * y[k]);
   }
   return rings;
 }

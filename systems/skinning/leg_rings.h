@@ -12,16 +12,15 @@ namespace mobil {
 /// Steps of a joint's bend.
 inline constexpr std::size_t bend_rings = 16;
 
-/// The rings of one joint, each turned about its centre: the first as the segment below, the last as the one above.
+/// The rings of one joint, each turned about its centre a little further from the segment below; the last as the one
+/// above.
 struct JointRings {
   Vec3<float> centre_m;
-  float low_m, high_m;  // the first and the last ring's height over the centre, below it under 0
-  /// x, y and z of the rings' axes (to the left, up, to the front).
-  std::array<std::array<std::array<float, bend_rings + 1>, 3>, 3> axis;
-
-  float height_m(std::size_t ring) const {
-    return low_m + (high_m - low_m) * static_cast<float>(ring) / static_cast<float>(bend_rings);
-  }
+  float low_m, high_m;  // where the bend begins and its last ring is, over the centre; below it under 0
+  /// x, y and z of the axes (to the left, up, to the front) of the rings, and of the segment below.
+  alignas(64) std::array<std::array<std::array<float, bend_rings>, 3>, 3> axis;
+  std::array<float, bend_rings> height_m;  // of each ring over the centre
+  std::array<Vec3<float>, 3> below;
 };
 
 /// World, m, of one leg as a pose has it.

@@ -132,6 +132,8 @@ Result<FiniteKernel> make_finite_kernel(const HexahedralMesh& mesh, const Stiffn
     for (std::size_t a = 0; a < 8; ++a) to.node[a] = h[a] - layer * plane_nodes(mesh.cells);
     set_sums(mesh, h, mean, to);
     for (std::size_t c = 0; c < 3; ++c) to.fibre[c] = static_cast<float>(fibre[c]);
+    to.aside2 = static_cast<float>(fibre[0] * fibre[0] + fibre[1] * fibre[1]);
+    to.straight2 = static_cast<float>(fibre[2] * fibre[2]);
     double rise = 0;
     for (std::size_t a = 4; a < 8; ++a) {
       for (std::size_t c = 0; c < 3; ++c) rise += mean.gradient[a][c] * fibre[c];

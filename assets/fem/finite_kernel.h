@@ -44,7 +44,8 @@ struct FiniteKernelElement {
   std::array<float, 6> along{};
   /// What of the four sums of the patterns ∂u/∂x and ∂u/∂y have, m.
   std::array<std::array<float, 2>, 4> straight{};
-  std::array<float, 3> fibre{};  // direction at its middle, length 1
+  std::array<float, 3> fibre{};     // direction at its middle, length 1
+  float aside2 = 0, straight2 = 0;  // the squares of its parts in the section and along
   float volume_m3 = 0;
   float fibre_volume_m3 = 0;                        // times how crowded fibres are, up to `most_crowding`
   float hourglass_across = 0, hourglass_along = 0;  // HourglassStiffness, N/m

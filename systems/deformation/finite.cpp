@@ -27,6 +27,7 @@ struct FiniteBellies {
   V keep, push, push_over_mass, step, foundation;  // push: Δt', over S²·l as well; ω²
   bool pushed;                                     // by a field or a foundation
   float *u, *v;
+  float* mean;  // sideways, of each plane: x, y
   FinitePlane low, high;
   std::size_t first_lane;
 };
@@ -64,9 +65,12 @@ FiniteLaw law_of(const MuscleTemplate& muscle, const Factors& size) {
   const V one = hn::Set(d, 1.0F);
   law.over_across = hn::Div(one, size.b);
   law.over_along = hn::Div(one, size.a);
-  law.per_across = hn::Mul(size.b, size.a);
-  law.per_along = hn::Mul(size.b, size.b);
+  law.over_volume = hn::Div(one, size.mass);
+  law.across2 = hn::Mul(size.b, size.b);
+  law.along2 = hn::Mul(size.a, size.a);
   law.shear_pa = number(tissue.shear_pa);
+  law.shear_across = hn::Mul(size.a, hn::Set(d, law.shear_pa));
+  law.shear_along = hn::Mul(size.c, hn::Set(d, law.shear_pa));
   law.bulk_pa = number(tissue.shear_pa * tissue.bulk_over_shear);
   law.passive_pa = number(tissue.passive_pa / most);
   law.slope = number(tissue.force_slope);
@@ -98,7 +102,33 @@ void set_activity(FiniteBellies& belly, V elongation, const Lanes<float>* activa
   belly.law.share_at_none = neg_mul_add(hn::Set(d, belly.law.slope), mean, one);
 }
 
-/// Nodes of plane `k`, which is `belly.low`, a substep on.
+/// The mean displacement sideways of plane `k`.
+void find_mean(const FiniteBellies& belly, std::uint32_t k) {
+  const std::uint32_t nodes = plane_nodes(belly.cells);
+  V mean[2] = {hn::Zero(d), hn::Zero(d)};
+  const float* u = belly.u + node_stride * k * nodes;
+  const float* share = belly.muscle.finite.plane_share.data() + std::size_t{k} * nodes;
+  for (std::uint32_t i = 0; i < nodes; ++i, u += node_stride) {
+    const V part = hn::Set(d, *share++);
+    for (std::size_t c = 0; c < 2; ++c) mean[c] = mul_add(part, hn::Load(d, u + c * lane_count), mean[c]);
+  }
+  for (std::size_t c = 0; c < 2; ++c) hn::Store(mean[c], d, belly.mean + (2 * k + c) * lane_count);
+}
+
+/// Plane `k`, on whose nodes no force is yet.
+HWY_INLINE void begin_plane(const FiniteBellies& belly, std::uint32_t k, FinitePlane& plane) {
+  for (std::size_t c = 0; c < 2; ++c) {
+    plane.mean[c] = hn::Load(d, belly.mean + (2 * k + c) * lane_count);
+    plane.on_mean[c] = hn::Zero(d);
+  }
+}
+
+HWY_INLINE void clear_forces(const FiniteBellies& belly, const FinitePlane& plane) {
+  const std::size_t past = node_stride * plane_nodes(belly.cells);
+  for (std::size_t at = 0; at < past; at += lane_count) hn::Store(hn::Zero(d), d, plane.force + at);
+}
+
+/// Nodes of plane `k`, which is `belly.low`, a substep on; leaves their mean and no force.
 template <FarEnd way, bool loaded>
 HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const FiniteSubstep& now) {
   const std::uint32_t nodes = plane_nodes(belly.cells);
@@ -106,7 +136,8 @@ HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const 
   std::uint32_t n = k * nodes;
   float* u = belly.u + node_stride * n;
   float* v = belly.v + node_stride * n;
-  const float* force = belly.low.force;
+  float* force = belly.low.force;
+  V mean[2] = {hn::Zero(d), hn::Zero(d)};
   for (std::uint32_t i = 0; i < nodes; ++i, ++n, u += node_stride, v += node_stride, force += node_stride) {
     const V over_mass = hn::Mul(belly.push_over_mass, hn::Set(d, kernel.inverse_mass[n]));
     const V share = loaded ? hn::Set(d, kernel.far_share[i]) : hn::Zero(d);
@@ -124,15 +155,19 @@ HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const 
       if (aside) resisting = mul_add(in_mean, belly.low.on_mean[at / lane_count], resisting);
       if constexpr (loaded) resisting = neg_mul_add(share, traction, resisting);
       speed = neg_mul_add(over_mass, resisting, speed);
+      const V now_at = mul_add(belly.step, speed, place);
       hn::Store(speed, d, v + at);
-      hn::Store(mul_add(belly.step, speed, place), d, u + at);
+      hn::Store(now_at, d, u + at);
+      if (aside) mean[at / lane_count] = mul_add(in_mean, now_at, mean[at / lane_count]);
     };
     if constexpr (way == FarEnd::free) {
       component(0, field.x, now.end.x, true);
       component(lane_count, field.y, now.end.y, true);
     }
     component(2 * lane_count, field.z, now.end.z, false);
+    for (std::size_t at = 0; at < node_stride; at += lane_count) hn::Store(hn::Zero(d), d, force + at);
   }
+  for (std::size_t c = 0; c < 2; ++c) hn::Store(mean[c], d, belly.mean + (2 * k + c) * lane_count);
 }
 
 /// The far face where the end has it.
@@ -149,21 +184,6 @@ HWY_INLINE void hold_plane(const FiniteBellies& belly, bool along, V place_z, V 
   }
 }
 
-/// Plane `k`, no force on it yet.
-HWY_NOINLINE void begin_plane(const FiniteBellies& belly, std::uint32_t k, FinitePlane& plane) {
-  const std::uint32_t nodes = plane_nodes(belly.cells);
-  const V none = hn::Zero(d);
-  plane.mean[0] = plane.mean[1] = plane.on_mean[0] = plane.on_mean[1] = none;
-  const float* u = belly.u + node_stride * k * nodes;
-  const float* share = belly.muscle.finite.plane_share.data() + std::size_t{k} * nodes;
-  for (std::size_t at = 0; at < node_stride * nodes; at += node_stride) {
-    const V part = hn::Set(d, *share++);
-    for (std::size_t c = 0; c < 2; ++c)
-      plane.mean[c] = mul_add(part, hn::Load(d, u + at + c * lane_count), plane.mean[c]);
-    for (std::size_t c = 0; c < node_stride; c += lane_count) hn::Store(none, d, plane.force + at + c);
-  }
-}
-
 /// Adds the forces of the elements between the planes k and k + 1.
 template <bool energy>
 HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V& work) {
@@ -172,12 +192,28 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
   const float* const u = belly.u + node_stride * nodes * k;
   constexpr std::uint32_t together = 4;  // as many as stay in the nearest cache
   ElementState state[together];
+  FiniteLayer layer;
+  for (std::size_t c = 0; c < 2; ++c) {
+    const V aside = hn::Sub(belly.high.mean[c], belly.low.mean[c]);
+    layer.sway[c] = hn::Add(aside, aside);
+    layer.on_mean[c] = hn::Zero(d);
+  }
   for (std::uint32_t first = 0; first < count; first += together, element += together) {
     const std::uint32_t some = std::min(together, count - first);
-    for (std::uint32_t e = 0; e < some; ++e) gather_element(belly.law, element[e], u, state[e]);
+    for (std::uint32_t e = 0; e < some; ++e) gather_element(belly.law, element[e], layer, u, state[e]);
+    if (some == together) {
+      pull_fibres<together>(belly.law, element, state);
+    } else {
+      for (std::uint32_t e = 0; e < some; ++e) pull_fibres<1>(belly.law, element + e, state + e);
+    }
     for (std::uint32_t e = 0; e < some; ++e)
-      stress_element<energy>(belly.law, element[e], state[e], belly.low, belly.high, at_rest, work);
-    for (std::uint32_t e = 0; e < some; ++e) scatter_element(element[e], nodes, state[e], belly.low, belly.high);
+      stress_element<energy>(belly.law, element[e], state[e], layer, at_rest, work);
+    for (std::uint32_t e = 0; e < some; ++e)
+      scatter_element(element[e], nodes, state[e], belly.low.force, belly.high.force);
+  }
+  for (std::size_t c = 0; c < 2; ++c) {
+    belly.low.on_mean[c] = hn::Add(belly.low.on_mean[c], layer.on_mean[c]);
+    belly.high.on_mean[c] = hn::Sub(belly.high.on_mean[c], layer.on_mean[c]);
   }
 }
 
@@ -187,11 +223,16 @@ void substep(FiniteBellies& belly, const FiniteSubstep& now) {
   for (std::uint32_t k = 0; k < belly.cells[2]; ++k) {
     begin_plane(belly, k + 1, belly.high);
     add_layer<false>(belly, k, unused, unused);
-    if (k > 0) move_plane<FarEnd::free, false>(belly, k, now);
+    if (k > 0) {
+      move_plane<FarEnd::free, false>(belly, k, now);
+    } else {
+      clear_forces(belly, belly.low);
+    }
     std::swap(belly.low, belly.high);
   }
   switch (belly.way) {
     case FarEnd::held:
+      clear_forces(belly, belly.low);
       return hold_plane(belly, true, now.end.z, now.speed);
     case FarEnd::sliding:
       return move_plane<FarEnd::sliding, true>(belly, belly.cells[2], now);
@@ -208,6 +249,7 @@ void report(FiniteBellies& belly, const BellyBlock& block) {
   for (std::uint32_t k = 0; k < belly.cells[2]; ++k) {
     begin_plane(belly, k + 1, belly.high);
     add_layer<true>(belly, k, at_rest, work);
+    clear_forces(belly, belly.low);
     std::swap(belly.low, belly.high);
   }
   for (std::uint32_t i = 0; i < plane_nodes(belly.cells); ++i)
@@ -241,10 +283,9 @@ void tick_of_lanes(const BellyBlock& block, const FarFaceDrive& end, const Lanes
                       .pushed = block.frame != nullptr || circular > 0,
                       .u = block.displacement + first_lane,
                       .v = block.velocity + first_lane,
-                      .low = {.force = scratch + first_lane, .mean = {}, .on_mean = {}},
-                      .high = {.force = scratch + node_stride * plane_nodes(block.muscle.mesh.cells) + first_lane,
-                               .mean = {},
-                               .on_mean = {}},
+                      .mean = scratch + first_lane,
+                      .low = {},
+                      .high = {},
                       .first_lane = first_lane};
   belly.push_over_mass = hn::Div(belly.push, belly.law.size.mass);
   const Vector from = read_ends(end.from, first_lane), to = read_ends(end.to, first_lane);
@@ -257,6 +298,11 @@ void tick_of_lanes(const BellyBlock& block, const FarFaceDrive& end, const Lanes
   now.speed = hn::Div(change.z, hn::Set(d, tick_s));
   const bool held = end.way == FarEnd::held;
   if (end.way != FarEnd::free) hold_plane(belly, held, from.z, now.speed);
+  belly.low.force = belly.mean + 2 * lane_count * (belly.cells[2] + 1);
+  belly.high.force = belly.low.force + node_stride * plane_nodes(belly.cells);
+  clear_forces(belly, belly.low);
+  clear_forces(belly, belly.high);
+  for (std::uint32_t k = 0; k <= belly.cells[2]; ++k) find_mean(belly, k);
   set_activity(belly, held ? to.z : mean_elongation(belly), activation);
   for (std::uint32_t s = 0; s < substeps; ++s) {
     const std::uint32_t moment = s + (held ? 1 : 0);

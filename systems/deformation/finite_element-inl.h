@@ -17,11 +17,13 @@ namespace mobil::HWY_NAMESPACE {
 
 /// What elements of a register of lanes have in common during one tick.
 struct FiniteLaw {
-  Factors size;               // a: l, b: S, c: S²/l, mass: S²·l
-  V over_across, over_along;  // 1/S, 1/l
-  V per_across, per_along;    // S·l, S²: volume over them
-  V active_pa;                // times the activation that pulls
-  V share_at_none;            // active share = max(least, slope·λ + this)
+  Factors size;                 // a: l, b: S, c: S²/l, mass: S²·l
+  V over_across, over_along;    // 1/S, 1/l
+  V over_volume;                // 1/(S²·l)
+  V across2, along2;            // S², l²
+  V shear_across, shear_along;  // shear modulus times l and S²/l
+  V active_pa;                  // times the activation that pulls
+  V share_at_none;              // active share = max(least, slope·λ + this)
   float shear_pa, bulk_pa, passive_pa, slope, least_share, passive_slope, passive_start, linear_slope;
 };
 
@@ -33,18 +35,31 @@ struct FibreStress {
   V stress_pa;
 };
 
+/// Of several elements side by side, so that none waits for another's.
+template <std::size_t n>
+HWY_INLINE void find_fibre_stress(const FiniteLaw& law, const V (&stretch)[n], FibreStress (&of)[n]) {
+  for (std::size_t i = 0; i < n; ++i)
+    of[i].share = hn::Max(mul_add(hn::Set(d, law.slope), stretch[i], law.share_at_none), hn::Set(d, law.least_share));
+  for (std::size_t i = 0; i < n; ++i)
+    of[i].exponent =
+        hn::Max(mul_add(hn::Set(d, law.passive_slope), stretch[i], hn::Set(d, law.passive_start)), hn::Zero(d));
+  for (std::size_t i = 0; i < n; ++i)
+    of[i].curved = hn::Min(of[i].exponent, hn::Set(d, static_cast<float>(most_passive_exponent)));
+  V sum[n];
+  for (std::size_t i = 0; i < n; ++i) sum[i] = mul_add(of[i].curved, hn::Set(d, 1.0F / 24), hn::Set(d, 1.0F / 6));
+  for (std::size_t i = 0; i < n; ++i) sum[i] = mul_add(of[i].curved, sum[i], hn::Set(d, 0.5F));
+  for (std::size_t i = 0; i < n; ++i) sum[i] = mul_add(of[i].curved, sum[i], hn::Set(d, 1.0F));
+  for (std::size_t i = 0; i < n; ++i) of[i].series = hn::Mul(of[i].curved, sum[i]);
+  for (std::size_t i = 0; i < n; ++i)
+    sum[i] = mul_add(hn::Set(d, law.linear_slope), hn::Sub(of[i].exponent, of[i].curved), of[i].series);
+  for (std::size_t i = 0; i < n; ++i)
+    of[i].stress_pa = mul_add(hn::Set(d, law.passive_pa), sum[i], hn::Mul(law.active_pa, of[i].share));
+}
 HWY_INLINE FibreStress fibre_stress(const FiniteLaw& law, V stretch) {
-  FibreStress f;
-  f.share = hn::Max(mul_add(hn::Set(d, law.slope), stretch, law.share_at_none), hn::Set(d, law.least_share));
-  f.exponent = hn::Max(mul_add(hn::Set(d, law.passive_slope), stretch, hn::Set(d, law.passive_start)), hn::Zero(d));
-  f.curved = hn::Min(f.exponent, hn::Set(d, static_cast<float>(most_passive_exponent)));
-  const V z = f.curved;
-  f.series =
-      hn::Mul(z, mul_add(z, mul_add(z, mul_add(z, hn::Set(d, 1.0F / 24), hn::Set(d, 1.0F / 6)), hn::Set(d, 0.5F)),
-                         hn::Set(d, 1.0F)));
-  const V passive = mul_add(hn::Set(d, law.linear_slope), hn::Sub(f.exponent, z), f.series);
-  f.stress_pa = mul_add(hn::Set(d, law.passive_pa), passive, hn::Mul(law.active_pa, f.share));
-  return f;
+  const V one[1] = {stretch};
+  FibreStress of[1];
+  find_fibre_stress(law, one, of);
+  return of[0];
 }
 
 /// ∫ stress over the stretch, Pa, up to a constant that depends on the lane alone.
@@ -67,6 +82,12 @@ HWY_INLINE V fibre_energy(const FiniteLaw& law, V stretch, const FibreStress& f)
 struct FinitePlane {
   float* force;
   V mean[2], on_mean[2];
+};
+
+/// What the elements of a layer have in common: twice how much the mean of its upper plane is aside of the lower one's,
+/// and what acts on the lower one's, less on the upper one's.
+struct FiniteLayer {
+  V sway[2], on_mean[2];
 };
 
 /// Sums over an element's corners, where ξ, η, ζ = ±1, of one component times what they are named for.
@@ -116,128 +137,151 @@ HWY_INLINE void add_to_corners(const CornerSums& sum, const FiniteKernelElement&
 }
 
 /// One element between its nodes' displacements and their forces, which are worked on in three passes: within a pass no
-/// element waits for another one. The gradient of the displacement by row, and then what acts on it (N·m, less the
-/// body's size); hourglass patterns, m, and their stiffness, N/m.
+/// element waits for another one. The gradient of the displacement by row, m of the body over m of the template, and
+/// then what acts on it, N·m; hourglass patterns, m, and their stiffness, N/m.
 struct ElementState {
   V gradient[3][3], hourglass[3][4], stiffness;
+  V along[3], now2, rest2;  // the fibre, m over m of the template, and the squares of its length now and at rest
+  V pull;                   // its tension over its length, N/m, times the volume
 };
 
+/// One row of how an element is deformed, of that component of its nodes' displacements, which begin at `u`. Returns
+/// the gradient's part along the fibre.
+HWY_INLINE V gather_row(const FiniteKernelElement& element, const float* u, V (&gradient)[3], V (&hourglass)[4]) {
+  const CornerSums sum = corner_sums(u, element);
+  V g[3];
+  for (std::size_t c = 0; c < 2; ++c) {
+    const auto& across = element.across[c];
+    g[c] = mul_add(hn::Set(d, across[0]), sum.xi,
+                   mul_add(hn::Set(d, across[1]), sum.eta,
+                           mul_add(hn::Set(d, across[2]), sum.eta_zeta, hn::Mul(hn::Set(d, across[3]), sum.xi_zeta))));
+  }
+  const auto& along = element.along;
+  const V rising = mul_add(hn::Set(d, along[0]), sum.xi,
+                           mul_add(hn::Set(d, along[1]), sum.eta, hn::Mul(hn::Set(d, along[2]), sum.eta_zeta)));
+  const V stretching = mul_add(hn::Set(d, along[3]), sum.xi_zeta,
+                               mul_add(hn::Set(d, along[4]), sum.zeta, hn::Mul(hn::Set(d, along[5]), sum.xi_eta)));
+  g[2] = hn::Add(rising, stretching);
+  const V pattern[4] = {sum.eta_zeta, sum.xi_zeta, sum.xi_eta, sum.xi_eta_zeta};
+  for (std::size_t m = 0; m < 4; ++m)
+    hourglass[m] = neg_mul_add(hn::Set(d, element.straight[m][0]), g[0],
+                               neg_mul_add(hn::Set(d, element.straight[m][1]), g[1], pattern[m]));
+  for (std::size_t c = 0; c < 3; ++c) gradient[c] = g[c];
+  const auto& fibre = element.fibre;
+  return mul_add(g[0], hn::Set(d, fibre[0]), mul_add(g[1], hn::Set(d, fibre[1]), hn::Mul(g[2], hn::Set(d, fibre[2]))));
+}
+
 /// How an element is deformed, of its nodes' displacements, which begin at `u`.
-HWY_INLINE void gather_element(const FiniteLaw& law, const FiniteKernelElement& element, const float* u,
-                               ElementState& state) {
-  for (std::size_t r = 0; r < 3; ++r) {
-    const CornerSums sum = corner_sums(u + r * lane_count, element);
-    V g[2];
-    for (std::size_t c = 0; c < 2; ++c) {
-      const auto& across = element.across[c];
-      g[c] =
-          mul_add(hn::Set(d, across[0]), sum.xi,
-                  mul_add(hn::Set(d, across[1]), sum.eta,
-                          mul_add(hn::Set(d, across[2]), sum.eta_zeta, hn::Mul(hn::Set(d, across[3]), sum.xi_zeta))));
-      state.gradient[r][c] = hn::Mul(g[c], law.over_across);
-    }
-    const auto& along = element.along;
-    const V rising = mul_add(hn::Set(d, along[0]), sum.xi,
-                             mul_add(hn::Set(d, along[1]), sum.eta, hn::Mul(hn::Set(d, along[2]), sum.eta_zeta)));
-    const V stretching = mul_add(hn::Set(d, along[3]), sum.xi_zeta,
-                                 mul_add(hn::Set(d, along[4]), sum.zeta, hn::Mul(hn::Set(d, along[5]), sum.xi_eta)));
-    state.gradient[r][2] = hn::Mul(hn::Add(rising, stretching), law.over_along);
-    const V pattern[4] = {sum.eta_zeta, sum.xi_zeta, sum.xi_eta, sum.xi_eta_zeta};
-    for (std::size_t m = 0; m < 4; ++m)
-      state.hourglass[r][m] = neg_mul_add(hn::Set(d, element.straight[m][0]), g[0],
-                                          neg_mul_add(hn::Set(d, element.straight[m][1]), g[1], pattern[m]));
+HWY_INLINE void gather_element(const FiniteLaw& law, const FiniteKernelElement& element, const FiniteLayer& layer,
+                               const float* u, ElementState& state) {
+  const V row[3] = {gather_row(element, u, state.gradient[0], state.hourglass[0]),
+                    gather_row(element, u + lane_count, state.gradient[1], state.hourglass[1]),
+                    gather_row(element, u + 2 * lane_count, state.gradient[2], state.hourglass[2])};
+  const V direction[3] = {hn::Set(d, element.fibre[0]), hn::Set(d, element.fibre[1]), hn::Set(d, element.fibre[2])};
+  const V along[3] = {mul_add(law.size.b, direction[0], row[0]), mul_add(law.size.b, direction[1], row[1]),
+                      mul_add(law.size.a, direction[2], row[2])};
+  for (std::size_t r = 0; r < 3; ++r) state.along[r] = along[r];
+  state.rest2 = mul_add(law.across2, hn::Set(d, element.aside2), hn::Mul(law.along2, hn::Set(d, element.straight2)));
+  const V rise = hn::Mul(law.size.b, hn::Set(d, element.rise));
+  const V swayed = mul_add(direction[0], layer.sway[0], hn::Mul(direction[1], layer.sway[1]));
+  const V drawn2 = mul_add(along[0], along[0], mul_add(along[1], along[1], hn::Mul(along[2], along[2])));
+  state.now2 = hn::Max(neg_mul_add(rise, swayed, drawn2), hn::Mul(state.rest2, hn::Set(d, least_stretch2)));
+}
+
+/// What fibres of `n` elements pull with.
+template <std::size_t n>
+HWY_INLINE void pull_fibres(const FiniteLaw& law, const FiniteKernelElement* element, ElementState* state) {
+  V over_lengths[n], stretch[n];
+  for (std::size_t e = 0; e < n; ++e) over_lengths[e] = hn::Sqrt(hn::Mul(state[e].now2, state[e].rest2));
+  for (std::size_t e = 0; e < n; ++e) over_lengths[e] = hn::Div(hn::Set(d, 1.0F), over_lengths[e]);  // 1/(λ|a|²)
+  for (std::size_t e = 0; e < n; ++e) stretch[e] = hn::Mul(state[e].now2, over_lengths[e]);
+  FibreStress fibre[n];
+  find_fibre_stress(law, stretch, fibre);
+  for (std::size_t e = 0; e < n; ++e) {
+    const V volume = hn::Mul(law.size.mass, hn::Set(d, element[e].fibre_volume_m3));
+    state[e].pull = hn::Mul(hn::Mul(fibre[e].stress_pa, over_lengths[e]), volume);
   }
 }
 
-/// From how an element is deformed to what acts on that; what its fibres do to the means of its two planes is added
-/// there. With `energy`, adds its energy (J), less that of its fibres at λ = 1, to `work`.
+/// From how an element is deformed to what acts on that; what its fibres do to the means of its two planes is added to
+/// the layer's. With `energy`, adds its energy (J), less that of its fibres at λ = 1, to `work`.
+///
+/// Instead of the deformation gradient F, whose columns are F·e over the body's sizes S, S and l, it has A with those
+/// columns times the sizes: A = diag(S, S, l) + gradient, so that J = det A/(S²·l), and what acts on the gradient is
+///   V·(p·cof A + μ·A·diag(l, l, S²/l)) + fibres' share, p = κ'(J − 1) − μ, V the template's volume.
 template <bool energy>
 HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& element, ElementState& state,
-                               FinitePlane& low, FinitePlane& high, V at_rest, V& work) {
-  const auto& gradient = state.gradient;
-  const auto& hourglass = state.hourglass;
+                               FiniteLayer& layer, V at_rest, V& work) {
   const V one = hn::Set(d, 1.0F);
-  V F[3][3], cofactor[3][3];
+  const V size[3] = {law.size.b, law.size.b, law.size.a};
+  V A[3][3];
   for (std::size_t r = 0; r < 3; ++r) {
-    for (std::size_t c = 0; c < 3; ++c) F[r][c] = r == c ? hn::Add(gradient[r][c], one) : gradient[r][c];
+    for (std::size_t c = 0; c < 3; ++c)
+      A[r][c] = r == c ? hn::Add(state.gradient[r][c], size[r]) : state.gradient[r][c];
   }
-  const V aside[2] = {hn::Mul(law.size.b, hn::Set(d, element.fibre[0])),
-                      hn::Mul(law.size.b, hn::Set(d, element.fibre[1]))};
-  const V straight = hn::Mul(law.size.a, hn::Set(d, element.fibre[2]));
-  V along[3];
-  for (std::size_t r = 0; r < 3; ++r)
-    along[r] = mul_add(F[r][0], aside[0], mul_add(F[r][1], aside[1], hn::Mul(F[r][2], straight)));
-  const V rest2 = mul_add(aside[0], aside[0], mul_add(aside[1], aside[1], hn::Mul(straight, straight)));
-  const V rise = hn::Set(d, element.rise);
-  const V swayed =
-      mul_add(aside[0], hn::Sub(high.mean[0], low.mean[0]), hn::Mul(aside[1], hn::Sub(high.mean[1], low.mean[1])));
-  const V drawn2 = mul_add(along[0], along[0], mul_add(along[1], along[1], hn::Mul(along[2], along[2])));
-  const V now2 = hn::Max(neg_mul_add(hn::Add(rise, rise), swayed, drawn2), hn::Mul(rest2, hn::Set(d, least_stretch2)));
-  const V over_lengths = hn::Div(one, hn::Sqrt(hn::Mul(now2, rest2)));  // 1/(λ|a|²)
-  const V stretch = hn::Mul(now2, over_lengths);
-  const FibreStress fibre = fibre_stress(law, stretch);
-  const V fibre_volume = hn::Mul(law.size.mass, hn::Set(d, element.fibre_volume_m3));
-  const V pull = hn::Mul(hn::Mul(fibre.stress_pa, over_lengths), fibre_volume);
-  const V held = hn::Mul(pull, rise);
-  for (std::size_t c = 0; c < 2; ++c) {
-    low.on_mean[c] = mul_add(held, aside[c], low.on_mean[c]);
-    high.on_mean[c] = neg_mul_add(held, aside[c], high.on_mean[c]);
-  }
-
+  const V direction[3] = {hn::Set(d, element.fibre[0]), hn::Set(d, element.fibre[1]), hn::Set(d, element.fibre[2])};
+  const V held = hn::Mul(state.pull, hn::Mul(law.size.b, hn::Set(d, element.rise)));
+  for (std::size_t c = 0; c < 2; ++c) layer.on_mean[c] = mul_add(held, direction[c], layer.on_mean[c]);
+  V cofactor[3][3];
   for (std::size_t r = 0; r < 3; ++r) {
     const std::size_t s = (r + 1) % 3, t = (r + 2) % 3;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::size_t e = (c + 1) % 3, f = (c + 2) % 3;
-      cofactor[r][c] = mul_sub(F[s][e], F[t][f], hn::Mul(F[s][f], F[t][e]));
+      cofactor[r][c] = mul_sub(A[s][e], A[t][f], hn::Mul(A[s][f], A[t][e]));
     }
   }
-  const V ratio = mul_add(F[0][0], cofactor[0][0], mul_add(F[0][1], cofactor[0][1], hn::Mul(F[0][2], cofactor[0][2])));
+  const V determinant =
+      mul_add(A[0][0], cofactor[0][0], mul_add(A[0][1], cofactor[0][1], hn::Mul(A[0][2], cofactor[0][2])));
+  const V ratio = hn::Mul(determinant, law.over_volume);
   const V dilatation = hn::Min(hn::Max(hn::Sub(ratio, one), hn::Set(d, least_dilatation)), hn::Set(d, most_dilatation));
   const V pressure = mul_sub(hn::Set(d, law.bulk_pa), dilatation, hn::Set(d, law.shear_pa));
 
   const V volume = hn::Set(d, element.volume_m3);
-  const V on_across = hn::Mul(volume, law.per_across), on_along = hn::Mul(volume, law.per_along);
   const V stiffness = mul_add(hn::Set(d, element.hourglass_across), law.size.a,
                               hn::Mul(hn::Set(d, element.hourglass_along), law.size.c));
   if constexpr (energy) {
     // μ/2 (I₁ − 3) − μ(J − 1) without the cancelling: with G = F − 1, μ(|G|²/2 − (J − 1 − tr G)).
-    const auto& G = gradient;
+    V G[3][3];
+    for (std::size_t r = 0; r < 3; ++r) {
+      for (std::size_t c = 0; c < 3; ++c)
+        G[r][c] = hn::Mul(state.gradient[r][c], c < 2 ? law.over_across : law.over_along);
+    }
     const auto minor = [&](std::size_t i, std::size_t j)
                            HWY_ATTR { return mul_sub(G[i][i], G[j][j], hn::Mul(G[i][j], G[j][i])); };
     V square = hn::Zero(d), patterns = square;
     for (std::size_t r = 0; r < 3; ++r) {
       for (std::size_t c = 0; c < 3; ++c) square = mul_add(G[r][c], G[r][c], square);
-      for (std::size_t m = 0; m < 4; ++m) patterns = mul_add(hourglass[r][m], hourglass[r][m], patterns);
+      for (std::size_t m = 0; m < 4; ++m) patterns = mul_add(state.hourglass[r][m], state.hourglass[r][m], patterns);
     }
-    const V determinant = mul_add(G[0][0], minor(1, 2),
-                                  mul_add(G[0][1], mul_sub(G[1][2], G[2][0], hn::Mul(G[1][0], G[2][2])),
-                                          hn::Mul(G[0][2], mul_sub(G[1][0], G[2][1], hn::Mul(G[1][1], G[2][0])))));
-    const V second = hn::Add(determinant, hn::Add(minor(0, 1), hn::Add(minor(0, 2), minor(1, 2))));
+    const V third = mul_add(G[0][0], minor(1, 2),
+                            mul_add(G[0][1], mul_sub(G[1][2], G[2][0], hn::Mul(G[1][0], G[2][2])),
+                                    hn::Mul(G[0][2], mul_sub(G[1][0], G[2][1], hn::Mul(G[1][1], G[2][0])))));
+    const V second = hn::Add(third, hn::Add(minor(0, 1), hn::Add(minor(0, 2), minor(1, 2))));
     const V shear = hn::Mul(hn::Set(d, law.shear_pa), mul_sub(hn::Set(d, 0.5F), square, second));
     // ∫ of the clamped dilatation.
     const V swelling = hn::Mul(hn::Set(d, law.bulk_pa),
                                hn::Mul(dilatation, neg_mul_add(hn::Set(d, 0.5F), dilatation, hn::Sub(ratio, one))));
     work = mul_add(hn::Add(shear, swelling), hn::Mul(volume, law.size.mass), work);
-    work = mul_add(hn::Sub(fibre_energy(law, stretch, fibre), at_rest), fibre_volume, work);
+    const V stretch = hn::Sqrt(hn::Div(state.now2, state.rest2));
+    work = mul_add(hn::Sub(fibre_energy(law, stretch, fibre_stress(law, stretch)), at_rest),
+                   hn::Mul(law.size.mass, hn::Set(d, element.fibre_volume_m3)), work);
     work = mul_add(hn::Mul(hn::Set(d, 0.5F), stiffness), patterns, work);
   }
 
-  const V shear = hn::Set(d, law.shear_pa);
-  const V swelling[2] = {hn::Mul(pressure, on_across), hn::Mul(pressure, on_along)};
-  const V shearing[2] = {hn::Mul(shear, on_across), hn::Mul(shear, on_along)};
+  const V swelling = hn::Mul(pressure, volume);
+  const V shearing[2] = {hn::Mul(volume, law.shear_across), hn::Mul(volume, law.shear_along)};
   for (std::size_t r = 0; r < 3; ++r) {
-    const V taut = hn::Mul(pull, along[r]);
-    for (std::size_t c = 0; c < 3; ++c) {
-      const V tissue = mul_add(shearing[c / 2], F[r][c], hn::Mul(taut, hn::Set(d, element.fibre[c])));
-      state.gradient[r][c] = mul_add(swelling[c / 2], cofactor[r][c], tissue);
-    }
+    const V taut = hn::Mul(state.pull, state.along[r]);
+    for (std::size_t c = 0; c < 3; ++c)
+      state.gradient[r][c] =
+          mul_add(swelling, cofactor[r][c], mul_add(shearing[c / 2], A[r][c], hn::Mul(taut, direction[c])));
   }
   state.stiffness = stiffness;
 }
 
 /// Adds an element's forces, N, to its nodes' in the planes below and above it; `plane`: nodes of one plane.
 HWY_INLINE void scatter_element(const FiniteKernelElement& element, std::uint32_t plane, const ElementState& state,
-                                FinitePlane& low, FinitePlane& high) {
+                                float* low, float* high) {
   for (std::size_t r = 0; r < 3; ++r) {
     V on[3] = {state.gradient[r][0], state.gradient[r][1], state.gradient[r][2]}, on_pattern[4];
     for (std::size_t m = 0; m < 4; ++m) {
@@ -257,7 +301,7 @@ HWY_INLINE void scatter_element(const FiniteKernelElement& element, std::uint32_
                             on_sum(3, on_pattern[1]),
                             mul_add(hn::Set(d, element.along[5]), on[2], on_pattern[2]),
                             on_pattern[3]};
-    add_to_corners(sum, element, plane, low.force + r * lane_count, high.force + r * lane_count);
+    add_to_corners(sum, element, plane, low + r * lane_count, high + r * lane_count);
   }
 }
 

@@ -308,7 +308,10 @@ HWY_EXPORT(implicit_tick);
 std::size_t scratch_floats(const MuscleTemplate& muscle, Method method) {
   const std::size_t column = nodal_width(muscle.mesh.cells) * lane_count;
   if (method == Method::ecd) return muscle.options.stiffness_damping_s > 0 ? column : 0;
-  if (method == Method::finite) return 2 * 3 * std::size_t{plane_nodes(muscle.mesh.cells)} * lane_count;
+  if (method == Method::finite) {
+    const Cells& cells = muscle.mesh.cells;  // forces of two planes, and each plane's mean sideways
+    return 2 * (3 * std::size_t{plane_nodes(cells)} + cells[2] + 1) * lane_count;
+  }
   return 3 * column;
 }
 

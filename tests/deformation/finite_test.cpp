@@ -375,7 +375,6 @@ TEST(FiniteEnergy, StaysThroughRandomKicks) {
 }
 
 TEST(FiniteLanes, HoldTheSameBitsOnEveryInstructionSet) {
-  if (!has_fused_multiply_add()) GTEST_SKIP() << "this machine has no fused multiply-add";
   std::vector<Lanes<float>> first;
   for_each_fused_instruction_set([&] {
     Bellies bellies(make(spindle({2, 2, 8}), FarEnd::held, 8, 7));
@@ -389,6 +388,7 @@ TEST(FiniteLanes, HoldTheSameBitsOnEveryInstructionSet) {
     if (first.empty()) first = now;
     EXPECT_TRUE(same_bits(first, now, lane_count));
   });
+  if (first.empty()) GTEST_SKIP() << "no instruction set of this build fuses multiply and add";
 }
 
 TEST(FiniteLanes, KeepWhatIsNotANumberToThemselves) {

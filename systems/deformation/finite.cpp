@@ -11,12 +11,19 @@
 #include "engine/fused-inl.h"
 #include "engine/wide-inl.h"
 #include "systems/deformation/finite_element-inl.h"
+#include "systems/deformation/finite_layer-inl.h"
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/report-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mobil::HWY_NAMESPACE {
 namespace {
+
+/// A plane of nodes: where its forces are summed, its mean displacement sideways, and what acts on that mean.
+struct FinitePlane {
+  float* force;
+  V mean[2], on_mean[2];
+};
 
 /// One register of lanes of a block during one tick.
 struct FiniteBellies {
@@ -115,7 +122,7 @@ void find_mean(const FiniteBellies& belly, std::uint32_t k) {
   for (std::size_t c = 0; c < 2; ++c) hn::Store(mean[c], d, belly.mean + (2 * k + c) * lane_count);
 }
 
-/// Plane `k`, on whose nodes no force is yet.
+/// Plane `k` before the elements below it.
 HWY_INLINE void begin_plane(const FiniteBellies& belly, std::uint32_t k, FinitePlane& plane) {
   for (std::size_t c = 0; c < 2; ++c) {
     plane.mean[c] = hn::Load(d, belly.mean + (2 * k + c) * lane_count);
@@ -128,7 +135,7 @@ HWY_INLINE void clear_forces(const FiniteBellies& belly, const FinitePlane& plan
   for (std::size_t at = 0; at < past; at += lane_count) hn::Store(hn::Zero(d), d, plane.force + at);
 }
 
-/// Nodes of plane `k`, which is `belly.low`, a substep on; leaves their mean and no force.
+/// Nodes of plane `k`, which is `belly.low`, a substep on; finds their mean.
 template <FarEnd way, bool loaded>
 HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const FiniteSubstep& now) {
   const std::uint32_t nodes = plane_nodes(belly.cells);
@@ -136,7 +143,7 @@ HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const 
   std::uint32_t n = k * nodes;
   float* u = belly.u + node_stride * n;
   float* v = belly.v + node_stride * n;
-  float* force = belly.low.force;
+  const float* force = belly.low.force;
   V mean[2] = {hn::Zero(d), hn::Zero(d)};
   for (std::uint32_t i = 0; i < nodes; ++i, ++n, u += node_stride, v += node_stride, force += node_stride) {
     const V over_mass = hn::Mul(belly.push_over_mass, hn::Set(d, kernel.inverse_mass[n]));
@@ -165,7 +172,6 @@ HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const 
       component(lane_count, field.y, now.end.y, true);
     }
     component(2 * lane_count, field.z, now.end.z, false);
-    for (std::size_t at = 0; at < node_stride; at += lane_count) hn::Store(hn::Zero(d), d, force + at);
   }
   for (std::size_t c = 0; c < 2; ++c) hn::Store(mean[c], d, belly.mean + (2 * k + c) * lane_count);
 }
@@ -184,7 +190,8 @@ HWY_INLINE void hold_plane(const FiniteBellies& belly, bool along, V place_z, V 
   }
 }
 
-/// Adds the forces of the elements between the planes k and k + 1.
+/// Adds the forces of the elements between the planes k and k + 1; no others are on the upper one yet, nor on the
+/// first plane.
 template <bool energy>
 HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V& work) {
   const std::uint32_t nodes = plane_nodes(belly.cells), count = belly.cells[0] * belly.cells[1];
@@ -192,6 +199,9 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
   const float* const u = belly.u + node_stride * nodes * k;
   constexpr std::uint32_t together = 4;  // as many as stay in the nearest cache
   ElementState state[together];
+  const bool is_small = belly.cells[0] == 2 && belly.cells[1] == 2;
+  if (k == 0) clear_forces(belly, belly.low);
+  if (!is_small) clear_forces(belly, belly.high);
   FiniteLayer layer;
   for (std::size_t c = 0; c < 2; ++c) {
     const V aside = hn::Sub(belly.high.mean[c], belly.low.mean[c]);
@@ -200,7 +210,12 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
   }
   for (std::uint32_t first = 0; first < count; first += together, element += together) {
     const std::uint32_t some = std::min(together, count - first);
-    for (std::uint32_t e = 0; e < some; ++e) gather_element(belly.law, element[e], layer, u, state[e]);
+    if (is_small) {
+      gather_small_layer(element, u, state);
+    } else {
+      for (std::uint32_t e = 0; e < some; ++e) gather_element(element[e], u, state[e]);
+    }
+    for (std::uint32_t e = 0; e < some; ++e) stretch_fibre(belly.law, element[e], layer, state[e]);
     if (some == together) {
       pull_fibres<together>(belly.law, element, state);
     } else {
@@ -208,8 +223,12 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
     }
     for (std::uint32_t e = 0; e < some; ++e)
       stress_element<energy>(belly.law, element[e], state[e], layer, at_rest, work);
-    for (std::uint32_t e = 0; e < some; ++e)
-      scatter_element(element[e], nodes, state[e], belly.low.force, belly.high.force);
+    if (is_small) {
+      scatter_small_layer(element, state, belly.low.force, belly.high.force);
+    } else {
+      for (std::uint32_t e = 0; e < some; ++e)
+        scatter_element(element[e], nodes, state[e], belly.low.force, belly.high.force);
+    }
   }
   for (std::size_t c = 0; c < 2; ++c) {
     belly.low.on_mean[c] = hn::Add(belly.low.on_mean[c], layer.on_mean[c]);
@@ -223,16 +242,11 @@ void substep(FiniteBellies& belly, const FiniteSubstep& now) {
   for (std::uint32_t k = 0; k < belly.cells[2]; ++k) {
     begin_plane(belly, k + 1, belly.high);
     add_layer<false>(belly, k, unused, unused);
-    if (k > 0) {
-      move_plane<FarEnd::free, false>(belly, k, now);
-    } else {
-      clear_forces(belly, belly.low);
-    }
+    if (k > 0) move_plane<FarEnd::free, false>(belly, k, now);
     std::swap(belly.low, belly.high);
   }
   switch (belly.way) {
     case FarEnd::held:
-      clear_forces(belly, belly.low);
       return hold_plane(belly, true, now.end.z, now.speed);
     case FarEnd::sliding:
       return move_plane<FarEnd::sliding, true>(belly, belly.cells[2], now);
@@ -249,7 +263,6 @@ void report(FiniteBellies& belly, const BellyBlock& block) {
   for (std::uint32_t k = 0; k < belly.cells[2]; ++k) {
     begin_plane(belly, k + 1, belly.high);
     add_layer<true>(belly, k, at_rest, work);
-    clear_forces(belly, belly.low);
     std::swap(belly.low, belly.high);
   }
   for (std::uint32_t i = 0; i < plane_nodes(belly.cells); ++i)
@@ -300,8 +313,6 @@ void tick_of_lanes(const BellyBlock& block, const FarFaceDrive& end, const Lanes
   if (end.way != FarEnd::free) hold_plane(belly, held, from.z, now.speed);
   belly.low.force = belly.mean + 2 * lane_count * (belly.cells[2] + 1);
   belly.high.force = belly.low.force + node_stride * plane_nodes(belly.cells);
-  clear_forces(belly, belly.low);
-  clear_forces(belly, belly.high);
   for (std::uint32_t k = 0; k <= belly.cells[2]; ++k) find_mean(belly, k);
   set_activity(belly, held ? to.z : mean_elongation(belly), activation);
   for (std::uint32_t s = 0; s < substeps; ++s) {

@@ -78,12 +78,6 @@ HWY_INLINE V fibre_energy(const FiniteLaw& law, V stretch, const FibreStress& f)
   return mul_add(law.active_pa, active, passive);
 }
 
-/// A plane of nodes: where its forces are summed, its mean displacement sideways, and what acts on that mean.
-struct FinitePlane {
-  float* force;
-  V mean[2], on_mean[2];
-};
-
 /// What the elements of a layer have in common: twice how much the mean of its upper plane is aside of the lower one's,
 /// and what acts on the lower one's, less on the upper one's.
 struct FiniteLayer {
@@ -100,44 +94,40 @@ struct FaceSums {
   V one, xi, eta, xi_eta;
 };
 
-HWY_INLINE FaceSums face_sums(const float* u, const std::uint32_t* node) {
-  const V a = hn::Load(d, u + node_stride * node[0]), b = hn::Load(d, u + node_stride * node[1]),
-          c = hn::Load(d, u + node_stride * node[2]), e = hn::Load(d, u + node_stride * node[3]);
+/// Of a face's corners, in the order of Hexahedron.
+HWY_INLINE FaceSums face_sums(V a, V b, V c, V e) {
   const V near = hn::Add(a, b), far = hn::Add(e, c), near_xi = hn::Sub(b, a), far_xi = hn::Sub(c, e);
   return {hn::Add(near, far), hn::Add(near_xi, far_xi), hn::Sub(far, near), hn::Sub(far_xi, near_xi)};
 }
-
-HWY_INLINE CornerSums corner_sums(const float* u, const FiniteKernelElement& element) {
-  const FaceSums low = face_sums(u, element.node.data()), high = face_sums(u, element.node.data() + 4);
+/// Of an element's lower and upper face.
+HWY_INLINE CornerSums corner_sums(const FaceSums& low, const FaceSums& high) {
   return {hn::Add(low.xi, high.xi),        hn::Add(low.eta, high.eta), hn::Sub(high.one, low.one),
           hn::Sub(high.eta, low.eta),      hn::Sub(high.xi, low.xi),   hn::Add(low.xi_eta, high.xi_eta),
           hn::Sub(high.xi_eta, low.xi_eta)};
 }
 
-/// To the corners of a face each sum, times what it is named for there.
-HWY_INLINE void add_to_face(const FaceSums& sum, const std::uint32_t* node, std::uint32_t first, float* force) {
+/// What each corner of a face has of each sum, times what it is named for there.
+struct FaceCorners {
+  V corner[4];
+};
+HWY_INLINE FaceCorners face_corners(const FaceSums& sum) {
   const V near = hn::Sub(sum.one, sum.eta), far = hn::Add(sum.one, sum.eta);
   const V near_xi = hn::Sub(sum.xi, sum.xi_eta), far_xi = hn::Add(sum.xi, sum.xi_eta);
-  const V part[4] = {hn::Sub(near, near_xi), hn::Add(near, near_xi), hn::Add(far, far_xi), hn::Sub(far, far_xi)};
-  for (std::size_t a = 0; a < 4; ++a) {
-    float* const to = force + node_stride * (node[a] - first);
-    hn::Store(hn::Add(hn::Load(d, to), part[a]), d, to);
-  }
+  return {hn::Sub(near, near_xi), hn::Add(near, near_xi), hn::Add(far, far_xi), hn::Sub(far, far_xi)};
+}
+/// The same of an element's lower face and its upper one.
+HWY_INLINE FaceCorners low_corners(const CornerSums& sum) {
+  return face_corners({hn::Neg(sum.zeta), hn::Sub(sum.xi, sum.xi_zeta), hn::Sub(sum.eta, sum.eta_zeta),
+                       hn::Sub(sum.xi_eta, sum.xi_eta_zeta)});
+}
+HWY_INLINE FaceCorners high_corners(const CornerSums& sum) {
+  return face_corners(
+      {sum.zeta, hn::Add(sum.xi, sum.xi_zeta), hn::Add(sum.eta, sum.eta_zeta), hn::Add(sum.xi_eta, sum.xi_eta_zeta)});
 }
 
-/// To the corners of an element each sum, times what it is named for there.
-HWY_INLINE void add_to_corners(const CornerSums& sum, const FiniteKernelElement& element, std::uint32_t plane,
-                               float* low, float* high) {
-  add_to_face({hn::Neg(sum.zeta), hn::Sub(sum.xi, sum.xi_zeta), hn::Sub(sum.eta, sum.eta_zeta),
-               hn::Sub(sum.xi_eta, sum.xi_eta_zeta)},
-              element.node.data(), 0, low);
-  add_to_face(
-      {sum.zeta, hn::Add(sum.xi, sum.xi_zeta), hn::Add(sum.eta, sum.eta_zeta), hn::Add(sum.xi_eta, sum.xi_eta_zeta)},
-      element.node.data() + 4, plane, high);
-}
-
-/// One element between its nodes' displacements and their forces, which are worked on in three passes: within a pass no
-/// element waits for another one. The gradient of the displacement by row, m of the body over m of the template, and
+/// One element between its nodes' displacements and their forces, which are worked on in passes over the elements of a
+/// layer: within a pass none waits for another, and each pass is a function of its own, for one has all the registers
+/// that there are. The gradient of the displacement by row, m of the body over m of the template, and
 /// then what acts on it, N·m; hourglass patterns, m, and their stiffness, N/m.
 struct ElementState {
   V gradient[3][3], hourglass[3][4], stiffness;
@@ -145,10 +135,10 @@ struct ElementState {
   V pull;                   // its tension over its length, N/m, times the volume
 };
 
-/// One row of how an element is deformed, of that component of its nodes' displacements, which begin at `u`. Returns
-/// the gradient's part along the fibre.
-HWY_INLINE V gather_row(const FiniteKernelElement& element, const float* u, V (&gradient)[3], V (&hourglass)[4]) {
-  const CornerSums sum = corner_sums(u, element);
+/// One row of how an element is deformed, of the sums of that component of its nodes' displacements. Returns the
+/// gradient's part along the fibre.
+HWY_INLINE V gather_row(const FiniteKernelElement& element, const CornerSums& sum, V (&gradient)[3],
+                        V (&hourglass)[4]) {
   V g[3];
   for (std::size_t c = 0; c < 2; ++c) {
     const auto& across = element.across[c];
@@ -171,15 +161,13 @@ HWY_INLINE V gather_row(const FiniteKernelElement& element, const float* u, V (&
   return mul_add(g[0], hn::Set(d, fibre[0]), mul_add(g[1], hn::Set(d, fibre[1]), hn::Mul(g[2], hn::Set(d, fibre[2]))));
 }
 
-/// How an element is deformed, of its nodes' displacements, which begin at `u`.
-HWY_INLINE void gather_element(const FiniteLaw& law, const FiniteKernelElement& element, const FiniteLayer& layer,
-                               const float* u, ElementState& state) {
-  const V row[3] = {gather_row(element, u, state.gradient[0], state.hourglass[0]),
-                    gather_row(element, u + lane_count, state.gradient[1], state.hourglass[1]),
-                    gather_row(element, u + 2 * lane_count, state.gradient[2], state.hourglass[2])};
+/// How long fibres are, of what gather_row returned.
+HWY_NOINLINE inline void stretch_fibre(const FiniteLaw& law, const FiniteKernelElement& element,
+                                       const FiniteLayer& layer, ElementState& state) {
   const V direction[3] = {hn::Set(d, element.fibre[0]), hn::Set(d, element.fibre[1]), hn::Set(d, element.fibre[2])};
-  const V along[3] = {mul_add(law.size.b, direction[0], row[0]), mul_add(law.size.b, direction[1], row[1]),
-                      mul_add(law.size.a, direction[2], row[2])};
+  const V along[3] = {mul_add(law.size.b, direction[0], state.along[0]),
+                      mul_add(law.size.b, direction[1], state.along[1]),
+                      mul_add(law.size.a, direction[2], state.along[2])};
   for (std::size_t r = 0; r < 3; ++r) state.along[r] = along[r];
   state.rest2 = mul_add(law.across2, hn::Set(d, element.aside2), hn::Mul(law.along2, hn::Set(d, element.straight2)));
   const V rise = hn::Mul(law.size.b, hn::Set(d, element.rise));
@@ -190,7 +178,7 @@ HWY_INLINE void gather_element(const FiniteLaw& law, const FiniteKernelElement& 
 
 /// What fibres of `n` elements pull with.
 template <std::size_t n>
-HWY_INLINE void pull_fibres(const FiniteLaw& law, const FiniteKernelElement* element, ElementState* state) {
+HWY_NOINLINE inline void pull_fibres(const FiniteLaw& law, const FiniteKernelElement* element, ElementState* state) {
   V over_lengths[n], stretch[n];
   for (std::size_t e = 0; e < n; ++e) over_lengths[e] = hn::Sqrt(hn::Mul(state[e].now2, state[e].rest2));
   for (std::size_t e = 0; e < n; ++e) over_lengths[e] = hn::Div(hn::Set(d, 1.0F), over_lengths[e]);  // 1/(λ|a|²)
@@ -203,15 +191,15 @@ HWY_INLINE void pull_fibres(const FiniteLaw& law, const FiniteKernelElement* ele
   }
 }
 
-/// From how an element is deformed to what acts on that; what its fibres do to the means of its two planes is added to
-/// the layer's. With `energy`, adds its energy (J), less that of its fibres at λ = 1, to `work`.
+/// From how an element is deformed to what acts on that, by row; what its fibres do to the means of its two planes is
+/// added to the layer's. With `energy`, adds its energy (J), less that of its fibres at λ = 1, to `work`.
 ///
 /// Instead of the deformation gradient F, whose columns are F·e over the body's sizes S, S and l, it has A with those
 /// columns times the sizes: A = diag(S, S, l) + gradient, so that J = det A/(S²·l), and what acts on the gradient is
 ///   V·(p·cof A + μ·A·diag(l, l, S²/l)) + fibres' share, p = κ'(J − 1) − μ, V the template's volume.
 template <bool energy>
-HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& element, ElementState& state,
-                               FiniteLayer& layer, V at_rest, V& work) {
+HWY_NOINLINE inline void stress_element(const FiniteLaw& law, const FiniteKernelElement& element, ElementState& state,
+                                        FiniteLayer& layer, V at_rest, V& work) {
   const V one = hn::Set(d, 1.0F);
   const V size[3] = {law.size.b, law.size.b, law.size.a};
   V A[3][3];
@@ -279,30 +267,26 @@ HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& 
   state.stiffness = stiffness;
 }
 
-/// Adds an element's forces, N, to its nodes' in the planes below and above it; `plane`: nodes of one plane.
-HWY_INLINE void scatter_element(const FiniteKernelElement& element, std::uint32_t plane, const ElementState& state,
-                                float* low, float* high) {
-  for (std::size_t r = 0; r < 3; ++r) {
-    V on[3] = {state.gradient[r][0], state.gradient[r][1], state.gradient[r][2]}, on_pattern[4];
-    for (std::size_t m = 0; m < 4; ++m) {
-      on_pattern[m] = hn::Mul(state.stiffness, state.hourglass[r][m]);
-      for (std::size_t c = 0; c < 2; ++c) on[c] = neg_mul_add(hn::Set(d, element.straight[m][c]), on_pattern[m], on[c]);
-    }
-    const auto on_sum = [&](std::size_t k, V already) HWY_ATTR {
-      return mul_add(
-          hn::Set(d, element.across[0][k]), on[0],
-          mul_add(hn::Set(d, element.across[1][k]), on[1], mul_add(hn::Set(d, element.along[k]), on[2], already)));
-    };
-    const V none = hn::Zero(d);
-    const CornerSums sum = {on_sum(0, none),
-                            on_sum(1, none),
-                            hn::Mul(hn::Set(d, element.along[4]), on[2]),
-                            on_sum(2, on_pattern[0]),
-                            on_sum(3, on_pattern[1]),
-                            mul_add(hn::Set(d, element.along[5]), on[2], on_pattern[2]),
-                            on_pattern[3]};
-    add_to_corners(sum, element, plane, low + r * lane_count, high + r * lane_count);
+/// The sums over its corners that an element's forces are, N, one component.
+HWY_INLINE CornerSums force_sums(const FiniteKernelElement& element, const ElementState& state, std::size_t r) {
+  V on[3] = {state.gradient[r][0], state.gradient[r][1], state.gradient[r][2]}, on_pattern[4];
+  for (std::size_t m = 0; m < 4; ++m) {
+    on_pattern[m] = hn::Mul(state.stiffness, state.hourglass[r][m]);
+    for (std::size_t c = 0; c < 2; ++c) on[c] = neg_mul_add(hn::Set(d, element.straight[m][c]), on_pattern[m], on[c]);
   }
+  const auto on_sum = [&](std::size_t k, V already) HWY_ATTR {
+    return mul_add(
+        hn::Set(d, element.across[0][k]), on[0],
+        mul_add(hn::Set(d, element.across[1][k]), on[1], mul_add(hn::Set(d, element.along[k]), on[2], already)));
+  };
+  const V none = hn::Zero(d);
+  return {on_sum(0, none),
+          on_sum(1, none),
+          hn::Mul(hn::Set(d, element.along[4]), on[2]),
+          on_sum(2, on_pattern[0]),
+          on_sum(3, on_pattern[1]),
+          mul_add(hn::Set(d, element.along[5]), on[2], on_pattern[2]),
+          on_pattern[3]};
 }
 
 }  // namespace mobil::HWY_NAMESPACE

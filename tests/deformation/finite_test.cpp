@@ -12,6 +12,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "assets/fem/muscle_template.h"
@@ -184,12 +185,13 @@ void step_in_double(const Bellies& of, const Loads& loads, std::size_t lane, std
   }
 }
 
-class FiniteKernel : public testing::TestWithParam<FarEnd> {};
+class FiniteKernel : public testing::TestWithParam<std::tuple<FarEnd, Cells>> {};
 
-/// Every way of the far end, a field, damping, fascia, fibres: a tick, three of the sixteen sizes.
+/// Every way of the far end, a field, damping, fascia, fibres: a tick, three of the sixteen sizes. Sections of two by
+/// two elements, and others.
 TEST_P(FiniteKernel, StepsTheGradientOfItsEnergy) {
-  const FarEnd way = GetParam();
-  Bellies bellies(make(spindle({2, 2, 8}), way, 8, 7));
+  const auto [way, cells] = GetParam();
+  Bellies bellies(make(spindle(cells), way, 8, 7));
   bellies.throw_about(0.1F);
   const Loads loads(bellies);
   constexpr std::uint32_t steps = 40;
@@ -232,7 +234,9 @@ TEST_P(FiniteKernel, StepsTheGradientOfItsEnergy) {
     EXPECT_NEAR(double{bellies.report.strain_energy_j[lane]}, energy, 2e-3 * std::abs(energy)) << lane;
   }
 }
-INSTANTIATE_TEST_SUITE_P(EveryEnd, FiniteKernel, testing::Values(FarEnd::held, FarEnd::sliding, FarEnd::free));
+INSTANTIATE_TEST_SUITE_P(EveryEnd, FiniteKernel,
+                         testing::Combine(testing::Values(FarEnd::held, FarEnd::sliding, FarEnd::free),
+                                          testing::Values(Cells{2, 2, 8}, Cells{3, 2, 5})));
 
 /// No tangent of an element within the envelope exceeds the operator that the step is proven with.
 TEST(FiniteBound, IsAboveEveryTangent) {

@@ -14,7 +14,7 @@ namespace {
 using namespace geometry;
 
 constexpr float near_m = 0.015F;  // at rest
-constexpr int rounds = 3, shifts = 2, sweeps = 2, bands_each = 12;
+constexpr int rounds = 3, shifts = 2, sweeps = 2, most_restored = 4, bands_each = 12;
 
 void link_neighbours(const BodySurfaces& surfaces, std::span<const Vec3<float>> position, SurfaceContacts& contacts) {
   std::vector<std::vector<std::uint32_t>> beside(surfaces.vertices);
@@ -115,6 +115,7 @@ class Apart {
     work_.other.clear();
     for (const ContactPair& pair : contacts.pair) work_.other.push_back(pair.other);
     find_areas();
+    find_volumes(work_.volume);
   }
 
   /// Sections of a belly go aside as a whole, less towards its ends, as far as they are pushed in the mean.
@@ -170,6 +171,33 @@ class Apart {
     }
   }
 
+  /// What each muscle's volume is off still goes to where it touches nobody, evenly but for tendons. Returns whether
+  /// one was off by more than a thousandth.
+  bool restore_volumes() {
+    constexpr float most_m = 0.006F;
+    find_volumes(work_.now_volume);
+    bool off = false;
+    for (std::size_t m = 0; m < work_.volume.size(); ++m)
+      off = off || std::abs(work_.now_volume[m] - work_.volume[m]) > 1e-3 * work_.volume[m];
+    if (!off) return false;
+    find_areas();
+    find_weights();
+    const std::size_t muscles = work_.volume.size();
+    work_.free_area.assign(muscles, 0);
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (const std::uint16_t band = contacts_.band[v]; band != SurfaceContacts::no_band)
+        work_.free_area[band / bands_each] += work_.weight[v] * work_.area[v];
+    for (std::size_t v = 0; v < position_.size(); ++v) {
+      const std::uint16_t band = contacts_.band[v];
+      if (band == SurfaceContacts::no_band) continue;
+      const std::size_t m = band / bands_each;
+      const auto lacking = static_cast<float>(work_.volume[m] - work_.now_volume[m]);
+      const float out = std::clamp(lacking / std::max(work_.free_area[m], 1e-9F), -most_m, most_m);
+      position_[v] = position_[v] + work_.weight[v] * out * normal_[v];
+    }
+    return true;
+  }
+
   void make_normals() {
     const auto is_muscle = [&](std::size_t v) { return contacts_.band[v] != SurfaceContacts::no_band; };
     for (std::size_t v = 0; v < position_.size(); ++v)
@@ -200,6 +228,35 @@ class Apart {
       const float third = std::sqrt(dot(twice, twice)) / 6;
       for (std::size_t k = 0; k < 3; ++k) work_.area[corner[k]] += third;
     });
+  }
+  void find_volumes(std::vector<double>& volume) const {
+    volume.assign(contacts_.bands / bands_each, 0);
+    if (position_.empty()) return;
+    for (std::size_t t = 0; t < contacts_.triangle.size(); t += 3) {
+      const std::uint32_t* const corner = &contacts_.triangle[t];
+      const Vec3<float> origin = position_[0], a = position_[corner[0]] - origin, b = position_[corner[1]] - origin,
+                        c = position_[corner[2]] - origin;
+      volume[contacts_.band[corner[0]] / bands_each] += static_cast<double>(dot(a, cross(b, c))) / 6;
+    }
+  }
+  /// 1 on a belly where it is widest and touches nobody, less beside what touches, little on tendons.
+  void find_weights() {
+    work_.taken.assign(contacts_.bands, 0);  // of area
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (contacts_.band[v] != SurfaceContacts::no_band) work_.taken[contacts_.band[v]] += work_.area[v];
+    for (std::size_t first = 0; first < contacts_.bands; first += bands_each) {
+      const auto own = std::span(work_.taken).subspan(first, bands_each);
+      const float widest = std::max(*std::ranges::max_element(own), 1e-12F);
+      for (float& area : own) area = (area / widest) * (area / widest);
+    }
+    work_.weight.assign(position_.size(), 0);
+    for (std::uint32_t v = 0; v < position_.size(); ++v) {
+      const std::uint32_t first = contacts_.first_neighbour[v], last = contacts_.first_neighbour[v + 1];
+      if (!is_free(v) || first == last) continue;
+      std::uint32_t free = 0;
+      for (std::uint32_t i = first; i < last; ++i) free += is_free(contacts_.neighbour[i]) ? 1 : 0;
+      work_.weight[v] = work_.taken[contacts_.band[v]] * static_cast<float>(free) / static_cast<float>(last - first);
+    }
   }
   void find_pushes() {
     work_.push.assign(position_.size(), {0, 0, 0});
@@ -298,6 +355,7 @@ void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position
     apart.give_back(round + 1 == rounds);
     apart.make_normals();
   }
+  for (int i = 0; i < most_restored && apart.restore_volumes(); ++i) apart.make_normals();
 }
 
 }  // namespace mobil

@@ -128,10 +128,10 @@ TEST(SurfaceContacts, KeepMusclesApartAndTheirVolume) {
   const std::vector<double> rest = leg.depths();
   struct Posed {
     float hip, knee, ankle;
-    double p95_mm, p99_mm, volume;  // at most
+    double p95_mm, p99_mm;  // at most
   };
-  for (const Posed& posed : {Posed{20, 10, 0, 0.2, 5, 0.03}, Posed{-10, 5, 5, 0.5, 3, 0.03},
-                             Posed{30, 60, -15, 0.5, 11, 0.12}, Posed{0, 60, -10, 0.5, 11, 0.12}}) {
+  for (const Posed& posed :
+       {Posed{20, 10, 0, 0.2, 5}, Posed{-10, 5, 5, 0.5, 3}, Posed{30, 60, -15, 0.5, 11}, Posed{0, 60, -10, 0.5, 11}}) {
     leg.pose(posed.hip, posed.knee, posed.ankle);
     const double before95 = new_mm(leg, rest, 0.95), before99 = new_mm(leg, rest, 0.99);
     std::vector<double> volume;
@@ -140,7 +140,7 @@ TEST(SurfaceContacts, KeepMusclesApartAndTheirVolume) {
     const double after95 = new_mm(leg, rest, 0.95), after99 = new_mm(leg, rest, 0.99);
     double lost = 0;
     for (std::size_t p = 0; p < leg.bound.part.size(); ++p) {
-      if (!leg.bound.part[p].driver || volume[p] < 40e-6) continue;
+      if (!leg.bound.part[p].driver || volume[p] < 5e-6) continue;
       lost = std::max(lost, std::abs(leg.volume_m3(leg.bound.part[p]) / volume[p] - 1));
     }
     std::printf(
@@ -151,7 +151,7 @@ TEST(SurfaceContacts, KeepMusclesApartAndTheirVolume) {
     EXPECT_LT(after95, posed.p95_mm);
     EXPECT_LT(after99, posed.p99_mm);
     EXPECT_LT(after99, before99);
-    EXPECT_LT(lost, posed.volume);
+    EXPECT_LT(lost, 0.005);
   }
 }
 

@@ -215,14 +215,13 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
     } else {
       for (std::uint32_t e = 0; e < some; ++e) gather_element(element[e], u, state[e]);
     }
-    for (std::uint32_t e = 0; e < some; ++e) stretch_fibre(belly.law, element[e], layer, state[e]);
+    stretch_fibres(belly.law, element, some, layer, state);
     if (some == together) {
       pull_fibres<together>(belly.law, element, state);
     } else {
       for (std::uint32_t e = 0; e < some; ++e) pull_fibres<1>(belly.law, element + e, state + e);
     }
-    for (std::uint32_t e = 0; e < some; ++e)
-      stress_element<energy>(belly.law, element[e], state[e], layer, at_rest, work);
+    stress_elements<energy>(belly.law, element, some, state, layer, at_rest, work);
     if (is_small) {
       scatter_small_layer(element, state, belly.low.force, belly.high.force);
     } else {

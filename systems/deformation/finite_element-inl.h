@@ -161,19 +161,24 @@ HWY_INLINE V gather_row(const FiniteKernelElement& element, const CornerSums& su
   return mul_add(g[0], hn::Set(d, fibre[0]), mul_add(g[1], hn::Set(d, fibre[1]), hn::Mul(g[2], hn::Set(d, fibre[2]))));
 }
 
-/// How long fibres are, of what gather_row returned.
-HWY_NOINLINE inline void stretch_fibre(const FiniteLaw& law, const FiniteKernelElement& element,
-                                       const FiniteLayer& layer, ElementState& state) {
-  const V direction[3] = {hn::Set(d, element.fibre[0]), hn::Set(d, element.fibre[1]), hn::Set(d, element.fibre[2])};
-  const V along[3] = {mul_add(law.size.b, direction[0], state.along[0]),
-                      mul_add(law.size.b, direction[1], state.along[1]),
-                      mul_add(law.size.a, direction[2], state.along[2])};
-  for (std::size_t r = 0; r < 3; ++r) state.along[r] = along[r];
-  state.rest2 = mul_add(law.across2, hn::Set(d, element.aside2), hn::Mul(law.along2, hn::Set(d, element.straight2)));
-  const V rise = hn::Mul(law.size.b, hn::Set(d, element.rise));
-  const V swayed = mul_add(direction[0], layer.sway[0], hn::Mul(direction[1], layer.sway[1]));
-  const V drawn2 = mul_add(along[0], along[0], mul_add(along[1], along[1], hn::Mul(along[2], along[2])));
-  state.now2 = hn::Max(neg_mul_add(rise, swayed, drawn2), hn::Mul(state.rest2, hn::Set(d, least_stretch2)));
+/// How long fibres of some elements are, of what gather_row returned.
+HWY_NOINLINE inline void stretch_fibres(const FiniteLaw& law, const FiniteKernelElement* element, std::uint32_t some,
+                                        const FiniteLayer& layer, ElementState* state) {
+  for (; some > 0; --some, ++element, ++state) {
+    const V direction[3] = {hn::Set(d, element->fibre[0]), hn::Set(d, element->fibre[1]),
+                            hn::Set(d, element->fibre[2])};
+    const V along[3] = {mul_add(law.size.b, direction[0], state->along[0]),
+                        mul_add(law.size.b, direction[1], state->along[1]),
+                        mul_add(law.size.a, direction[2], state->along[2])};
+    const V rest2 =
+        mul_add(law.across2, hn::Set(d, element->aside2), hn::Mul(law.along2, hn::Set(d, element->straight2)));
+    const V rise = hn::Mul(law.size.b, hn::Set(d, element->rise));
+    const V swayed = mul_add(direction[0], layer.sway[0], hn::Mul(direction[1], layer.sway[1]));
+    const V drawn2 = mul_add(along[0], along[0], mul_add(along[1], along[1], hn::Mul(along[2], along[2])));
+    for (std::size_t r = 0; r < 3; ++r) state->along[r] = along[r];
+    state->rest2 = rest2;
+    state->now2 = hn::Max(neg_mul_add(rise, swayed, drawn2), hn::Mul(rest2, hn::Set(d, least_stretch2)));
+  }
 }
 
 /// What fibres of `n` elements pull with.
@@ -198,8 +203,8 @@ HWY_NOINLINE inline void pull_fibres(const FiniteLaw& law, const FiniteKernelEle
 /// columns times the sizes: A = diag(S, S, l) + gradient, so that J = det A/(S²·l), and what acts on the gradient is
 ///   V·(p·cof A + μ·A·diag(l, l, S²/l)) + fibres' share, p = κ'(J − 1) − μ, V the template's volume.
 template <bool energy>
-HWY_NOINLINE inline void stress_element(const FiniteLaw& law, const FiniteKernelElement& element, ElementState& state,
-                                        FiniteLayer& layer, V at_rest, V& work) {
+HWY_INLINE void stress_element(const FiniteLaw& law, const FiniteKernelElement& element, ElementState& state,
+                               FiniteLayer& layer, V at_rest, V& work) {
   const V one = hn::Set(d, 1.0F);
   const V size[3] = {law.size.b, law.size.b, law.size.a};
   V A[3][3];
@@ -265,6 +270,12 @@ HWY_NOINLINE inline void stress_element(const FiniteLaw& law, const FiniteKernel
           mul_add(swelling, cofactor[r][c], mul_add(shearing[c / 2], A[r][c], hn::Mul(taut, direction[c])));
   }
   state.stiffness = stiffness;
+}
+
+template <bool energy>
+HWY_NOINLINE void stress_elements(const FiniteLaw& law, const FiniteKernelElement* element, std::uint32_t some,
+                                  ElementState* state, FiniteLayer& layer, V at_rest, V& work) {
+  for (std::uint32_t e = 0; e < some; ++e) stress_element<energy>(law, element[e], state[e], layer, at_rest, work);
 }
 
 /// The sums over its corners that an element's forces are, N, one component.

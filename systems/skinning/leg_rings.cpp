@@ -34,39 +34,33 @@ std::array<float, bend_rings> turned_by() {
 }
 
 /// `size`: over that of a body of 1.75 m. As `blended` and `columns`, all rings at once.
-JointRings bend_of(const Quat<float>& above, const Quat<float>& below, const Vec3<float>& centre_m,
-                   const SkinBend& bend, float size) {
-  static const std::array<float, bend_rings> share = turned_by();
+JointRings bend_of(Quat<float> above, Quat<float> below, const Vec3<float>& centre_m, const SkinBend& bend,
+                   float size) {
+  static const std::array<float, bend_rings> all_shares = turned_by();
+  const float* const share = all_shares.data();
   JointRings rings;
   rings.centre_m = centre_m;
   rings.low_m = -size * static_cast<float>(bend.below_m);
   rings.high_m = size * static_cast<float>(bend.above_m);
   rings.below = columns(below);
   const float sign = below.x * above.x + below.y * above.y + below.z * above.z + below.w * above.w < 0 ? -1.0F : 1.0F;
-  std::array<float, bend_rings> x, y, z, w, square;
-  for (std::size_t k = 0; k < bend_rings; ++k) {
-    const float p = 1 - share[k], q = sign * share[k];
-    x[k] = p * below.x + q * above.x, y[k] = p * below.y + q * above.y;
-    z[k] = p * below.z + q * above.z, w[k] = p * below.w + q * above.w;
-    square[k] = x[k] * x[k] + y[k] * y[k] + z[k] * z[k] + w[k] * w[k];
-  }
-  for (float& s : square) s = 1 / std::sqrt(s);
-  for (std::size_t k = 0; k < bend_rings; ++k) {
-    const float scale = square[k];
-    x[k] *= scale, y[k] *= scale, z[k] *= scale, w[k] *= scale;
-  }
+  for (std::size_t k = 0; k < bend_rings; ++k)
+    rings.height_m[k] = rings.low_m + (rings.high_m - rings.low_m) * (static_cast<float>(k + 1) / bend_rings);
   auto& [left, up, front] = rings.axis;
   for (std::size_t k = 0; k < bend_rings; ++k) {
-    rings.height_m[k] = rings.low_m + (rings.high_m - rings.low_m) * (static_cast<float>(k + 1) / bend_rings);
-    left[0][k] = 1 - 2 * (y[k] * y[k] + z[k] * z[k]);
-    left[1][k] = 2 * (x[k] * y[k] + w[k] * z[k]);
-    left[2][k] = 2 * (x[k] * z[k] - w[k] * y[k]);
-    up[0][k] = 2 * (x[k] * y[k] - w[k] * z[k]);
-    up[1][k] = 1 - 2 * (x[k] * x[k] + z[k] * z[k]);
-    up[2][k] = 2 * (y[k] * z[k] + w[k] * x[k]);
-    front[0][k] = 2 * (x[k] * z[k] + w[k] * y[k]);
-    front[1][k] = 2 * (y[k] * z[k] - w[k] * x[k]);
-    front[2][k] = 1 - 2 * (x[k] * x[k] + y[k] * y[k]);
+    const float p = 1 - share[k], q = sign * share[k];
+    const float x = p * below.x + q * above.x, y = p * below.y + q * above.y, z = p * below.z + q * above.z,
+                w = p * below.w + q * above.w;
+    const float twice = 2 / (x * x + y * y + z * z + w * w);  // the quaternion need not have length 1
+    left[0][k] = 1 - twice * (y * y + z * z);
+    left[1][k] = twice * (x * y + w * z);
+    left[2][k] = twice * (x * z - w * y);
+    up[0][k] = twice * (x * y - w * z);
+    up[1][k] = 1 - twice * (x * x + z * z);
+    up[2][k] = twice * (y * z + w * x);
+    front[0][k] = twice * (x * z + w * y);
+    front[1][k] = twice * (y * z - w * x);
+    front[2][k] = 1 - twice * (x * x + y * y);
   }
   return rings;
 }

@@ -18,8 +18,8 @@ struct JointRings {
   Vec3<float> centre_m;
   float low_m, high_m;  // where the bend begins and its last ring is, over the centre; below it under 0
   /// x, y and z of the axes (to the left, up, to the front) of the rings, and of the segment below.
-  alignas(64) std::array<std::array<std::array<float, bend_rings>, 3>, 3> axis;
-  std::array<float, bend_rings> height_m;  // of each ring over the centre
+  alignas(64) float axis[3][3][bend_rings];
+  float height_m[bend_rings];  // of each ring over the centre
   std::array<Vec3<float>, 3> below;
 };
 

@@ -68,7 +68,7 @@ HWY_INLINE CoverV along_axis(const CoverPoint& p, const JointRings& bend, std::s
                              const hn::Vec<CoverIntTag>& ring) {
   const auto of = [&](std::size_t c) HWY_ATTR {
     constexpr CoverTag tag;
-    const float* const all = bend.axis[axis][c].data();
+    const float* const all = bend.axis[axis][c];
     if constexpr (cover_lanes == bend_rings) {
       return hn::TableLookupLanes(hn::Load(tag, all), hn::IndicesFromVec(tag, ring));
     } else {
@@ -85,8 +85,8 @@ HWY_INLINE CoverPoint from_centre(const JointRings& bend, const CoverPoint& p) {
 }
 
 /// Vertices beside thigh and shank, of whole registers; those in a joint's bend are only told apart.
-HWY_INLINE void place_straight(const LegRings& rings, const float* vertices, std::size_t count, OnLeg& at,
-                               CoverBatch& batch) {
+HWY_NOINLINE inline void place_straight(const LegRings& rings, const float* vertices, std::size_t count, OnLeg& at,
+                                        CoverBatch& batch) {
   constexpr CoverTag tag;
   constexpr CoverIntTag whole;
   constexpr std::size_t last = bend_rings - 1;
@@ -127,7 +127,7 @@ HWY_INLINE void place_straight(const LegRings& rings, const float* vertices, std
 
 /// Vertices in a joint's bend: each in the first ring that its height is not above. `joint_s` is how far down the leg
 /// the joint is, `above_m` and `below_m` the lengths of what it joins.
-inline HWY_NOINLINE void place_bent(const JointRings& bend, LegBend which, const CoverBatch& batch, std::size_t count,
+HWY_NOINLINE inline void place_bent(const JointRings& bend, LegBend which, const CoverBatch& batch, std::size_t count,
                                     float joint_s, float above_m, float below_m, OnLeg& at) {
   constexpr CoverTag tag;
   constexpr CoverIntTag whole;
@@ -177,7 +177,7 @@ struct RaisedCells {
 
 /// Those beside a point count for less, so that nothing jumps as they pass. What is not on the grid, not near the leg,
 /// or no number reaches nowhere.
-HWY_INLINE void find_cells(const OnLeg& at, float out_side, std::size_t count, RaisedCells& raised) {
+HWY_NOINLINE inline void find_cells(const OnLeg& at, float out_side, std::size_t count, RaisedCells& raised) {
   constexpr CoverTag tag;
   constexpr CoverIntTag whole;
   constexpr float beside_m = 0.004F, most_m = 1;
@@ -206,7 +206,7 @@ HWY_INLINE void find_cells(const OnLeg& at, float out_side, std::size_t count, R
 }
 
 /// The largest that the cells round each point have for it.
-HWY_INLINE void take_cells(const float* cell, RingGrid& reach) {
+HWY_NOINLINE inline void take_cells(const float* cell, RingGrid& reach) {
   constexpr CoverTag tag;
   // What the station above has for this one, at the cells' own angle and at the next.
   Ring above = each_part([](std::size_t) HWY_ATTR { return hn::Zero(CoverTag{}); }), above_next = above;
@@ -223,7 +223,7 @@ HWY_INLINE void take_cells(const float* cell, RingGrid& reach) {
 }
 
 /// How far muscles reach at the points of the grid, m; 0 where none does.
-HWY_INLINE void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, RingGrid& reach) {
+HWY_NOINLINE inline void find_reach(const LegRings& rings, std::span<const Vec3<float>> muscles, RingGrid& reach) {
   constexpr hn::CappedTag<float, 4> four;
   OnLeg at;
   CoverBatch batch;

@@ -138,31 +138,39 @@ HWY_INLINE void clear_forces(const FiniteBellies& belly, const FinitePlane& plan
 /// Nodes of plane `k`, which is `belly.low`, a substep on; finds their mean.
 template <FarEnd way, bool loaded>
 HWY_NOINLINE void move_plane(const FiniteBellies& belly, std::uint32_t k, const FiniteSubstep& now) {
-  const std::uint32_t nodes = plane_nodes(belly.cells);
-  const KernelArrays& kernel = belly.muscle.kernel;
-  std::uint32_t n = k * nodes;
+  const std::uint32_t nodes = plane_nodes(belly.cells), n = k * nodes;
   float* u = belly.u + node_stride * n;
   float* v = belly.v + node_stride * n;
   const float* force = belly.low.force;
+  // What stores might change, as far as the compiler knows, is read once.
+  const float *const inverse_mass = &belly.muscle.kernel.inverse_mass[n],
+                     *const far_share = belly.muscle.kernel.far_share.data(),
+                     *const rest_m = &belly.muscle.kernel.rest_m[3 * std::size_t{n}],
+                     *const plane_share = &belly.muscle.finite.plane_share[n];
+  const V keep = belly.keep, step = belly.step, push = belly.push, push_over_mass = belly.push_over_mass,
+          foundation = belly.foundation;
+  const V aside_of[2] = {belly.low.mean[0], belly.low.mean[1]},
+          on_mean[2] = {belly.low.on_mean[0], belly.low.on_mean[1]};
+  const bool pushed = belly.pushed;
   V mean[2] = {hn::Zero(d), hn::Zero(d)};
-  for (std::uint32_t i = 0; i < nodes; ++i, ++n, u += node_stride, v += node_stride, force += node_stride) {
-    const V over_mass = hn::Mul(belly.push_over_mass, hn::Set(d, kernel.inverse_mass[n]));
-    const V share = loaded ? hn::Set(d, kernel.far_share[i]) : hn::Zero(d);
+  for (std::uint32_t i = 0; i < nodes; ++i, u += node_stride, v += node_stride, force += node_stride) {
+    const V over_mass = hn::Mul(push_over_mass, hn::Set(d, inverse_mass[i]));
+    const V share = loaded ? hn::Set(d, far_share[i]) : hn::Zero(d);
     Vector field{};
-    if (belly.pushed) field = now.field.at(kernel.rest_m.data() + 3 * std::size_t{n});
-    const V in_mean = hn::Set(d, belly.muscle.finite.plane_share[n]);
+    if (pushed) field = now.field.at(rest_m + 3 * std::size_t{i});
+    const V in_mean = hn::Set(d, plane_share[i]);
     const auto component = [&](std::size_t at, V acceleration, V traction, bool aside) HWY_ATTR {
       const V place = hn::Load(d, u + at);
-      V speed = hn::Mul(belly.keep, hn::Load(d, v + at));
-      if (belly.pushed) {
-        if (aside) acceleration = neg_mul_add(belly.foundation, belly.low.mean[at / lane_count], acceleration);
-        speed = mul_add(belly.push, acceleration, speed);
+      V speed = hn::Mul(keep, hn::Load(d, v + at));
+      if (pushed) {
+        if (aside) acceleration = neg_mul_add(foundation, aside_of[at / lane_count], acceleration);
+        speed = mul_add(push, acceleration, speed);
       }
       V resisting = hn::Load(d, force + at);
-      if (aside) resisting = mul_add(in_mean, belly.low.on_mean[at / lane_count], resisting);
+      if (aside) resisting = mul_add(in_mean, on_mean[at / lane_count], resisting);
       if constexpr (loaded) resisting = neg_mul_add(share, traction, resisting);
       speed = neg_mul_add(over_mass, resisting, speed);
-      const V now_at = mul_add(belly.step, speed, place);
+      const V now_at = mul_add(step, speed, place);
       hn::Store(speed, d, v + at);
       hn::Store(now_at, d, u + at);
       if (aside) mean[at / lane_count] = mul_add(in_mean, now_at, mean[at / lane_count]);

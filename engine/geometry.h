@@ -87,15 +87,6 @@ constexpr Quat<F> product(const Quat<F>& b, const Quat<F>& a) {
           b.w * a.z + b.x * a.y - b.y * a.x + b.z * a.w, b.w * a.w - b.x * a.x - b.y * a.y - b.z * a.z};
 }
 
-/// `share` of the way from a to b, the short way round.
-template <class F>
-Quat<F> blended(const Quat<F>& a, const Quat<F>& b, std::type_identity_t<F> share) {
-  const F p = 1 - share, q = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -share : share;
-  const Quat<F> sum{p * a.x + q * b.x, p * a.y + q * b.y, p * a.z + q * b.z, p * a.w + q * b.w};
-  const F scale = 1 / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z + sum.w * sum.w);
-  return {scale * sum.x, scale * sum.y, scale * sum.z, scale * sum.w};
-}
-
 /// The mirror image in the plane x = 0, between the two sides of the body.
 template <class F>
 constexpr Vec3<F> mirrored(const Vec3<F>& v) {

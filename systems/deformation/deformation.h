@@ -58,7 +58,7 @@ struct BellyBlock {
 };
 
 /// Floats of scratch memory (aligned to 64 bytes) that one block takes while it is worked on: by ECD only with
-/// stiffness damping, by finite two planes of nodes.
+/// stiffness damping, by finite forces of two planes of nodes and the mean of each plane.
 std::size_t scratch_floats(const MuscleTemplate& muscle, Method method);
 
 /// One tick of a block by ECD in `substeps` equal steps. A lane's NaN stays in its lane. No heap, no state of its own.

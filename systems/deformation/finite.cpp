@@ -203,11 +203,12 @@ HWY_INLINE void hold_plane(const FiniteBellies& belly, bool along, V place_z, V 
 template <bool energy>
 HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V& work) {
   const std::uint32_t nodes = plane_nodes(belly.cells), count = belly.cells[0] * belly.cells[1];
-  const FiniteKernelElement* element = belly.muscle.finite.element.data() + std::size_t{k} * count;
+  const FiniteKernelElement* const layer_element = belly.muscle.finite.element.data() + std::size_t{k} * count;
   const float* const u = belly.u + node_stride * nodes * k;
   constexpr std::uint32_t together = 4;  // as many as stay in the nearest cache
   ElementState state[together];
   const bool is_small = belly.cells[0] == 2 && belly.cells[1] == 2;
+  static_assert(together == small_layer);
   if (k == 0) clear_forces(belly, belly.low);
   if (!is_small) clear_forces(belly, belly.high);
   FiniteLayer layer;
@@ -216,7 +217,8 @@ HWY_NOINLINE void add_layer(FiniteBellies& belly, std::uint32_t k, V at_rest, V&
     layer.sway[c] = hn::Add(aside, aside);
     layer.on_mean[c] = hn::Zero(d);
   }
-  for (std::uint32_t first = 0; first < count; first += together, element += together) {
+  for (std::uint32_t first = 0; first < count; first += together) {
+    const FiniteKernelElement* const element = layer_element + first;
     const std::uint32_t some = std::min(together, count - first);
     if (is_small) {
       gather_small_layer(element, u, state);

@@ -19,7 +19,7 @@ namespace mobil {
 /// the belly has at the tick's end (held), or had at its start.
 ///
 /// Report: strain energy is that of tissue and hourglass stiffness, and what fibres would give back at this activation,
-/// all at the tick's end, 0 at rest; kinetic energy is half a step back; reaction is the elastic force at the tick's
+/// all at the tick's end, 0 at rest but for rounding; kinetic energy is half a step back; reaction is the elastic force at the tick's
 /// end. A lane's NaN stays in its lane. No heap. `scratch`: scratch_floats(muscle, Method::finite).
 void deform_finite(const BellyBlock& block, const FarFaceDrive& end, const Lanes<float>* activation,
                    std::uint32_t substeps, float tick_s, float* scratch);

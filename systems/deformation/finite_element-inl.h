@@ -79,7 +79,7 @@ HWY_INLINE V fibre_energy(const FiniteLaw& law, V stretch, const FibreStress& f)
 }
 
 /// What the elements of a layer have in common: twice how much the mean of its upper plane is aside of the lower one's,
-/// and what acts on the lower one's, less on the upper one's.
+/// and what acts on the lower one's; on the upper one's the same acts with the other sign.
 struct FiniteLayer {
   V sway[2], on_mean[2];
 };
@@ -126,13 +126,13 @@ HWY_INLINE FaceCorners high_corners(const CornerSums& sum) {
 }
 
 /// One element between its nodes' displacements and their forces, which are worked on in passes over the elements of a
-/// layer: within a pass none waits for another, and each pass is a function of its own, for one has all the registers
-/// that there are. The gradient of the displacement by row, m of the body over m of the template, and
+/// layer: within a pass none waits for another, and each pass is a function of its own, which has all registers to
+/// itself. The gradient of the displacement by row, m of the body over m of the template, and
 /// then what acts on it, N·m; hourglass patterns, m, and their stiffness, N/m.
 struct ElementState {
   V gradient[3][3], hourglass[3][4], stiffness;
   V along[3], now2, rest2;  // the fibre, m over m of the template, and the squares of its length now and at rest
-  V pull;                   // its tension over its length, N/m, times the volume
+  V pull;                   // what its tension adds to the gradient's, over `along`, N·m
 };
 
 /// One row of how an element is deformed, of the sums of that component of its nodes' displacements. Returns the

@@ -50,7 +50,7 @@ HWY_NOINLINE inline void scatter_element(const FiniteKernelElement& element, std
 
 // A layer of two by two elements, as nearly all bellies have it: both planes are read and written once a component, and
 // are in registers in between, which AVX-512 has enough of.
-inline constexpr std::uint32_t small_layer = 4, small_plane = 9;
+inline constexpr std::size_t small_layer = 4, small_plane = 9;  // elements, nodes
 
 /// The node of its plane at the corner `a` of a face of the element e.
 constexpr std::size_t small_node(std::size_t e, std::size_t a) {

@@ -33,7 +33,7 @@ std::array<float, bend_rings> turned_by() {
   return share;
 }
 
-/// `size`: over that of a body of 1.75 m. As `blended` and `columns`, all rings at once.
+/// `size`: over that of a body of 1.75 m. Rings are turned by quaternions blended between the two, the short way round.
 JointRings bend_of(Quat<float> above, Quat<float> below, const Vec3<float>& centre_m, const SkinBend& bend,
                    float size) {
   static const std::array<float, bend_rings> all_shares = turned_by();

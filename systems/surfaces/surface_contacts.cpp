@@ -116,6 +116,7 @@ class Apart {
     for (const ContactPair& pair : contacts.pair) work_.other.push_back(pair.other);
     find_areas();
     find_volumes(work_.volume);
+    work_.moved_out.assign(work_.volume.size(), 0);
   }
 
   /// Sections of a belly go aside as a whole, less towards its ends, as far as they are pushed in the mean.
@@ -172,29 +173,33 @@ class Apart {
   }
 
   /// What each muscle's volume is off still goes to where it touches nobody, evenly but for tendons. Returns whether
-  /// one was off by more than a thousandth.
-  bool restore_volumes() {
-    constexpr float most_m = 0.006F;
+  /// one was off by more than a thousandth that has room.
+  bool restore_volumes(std::uint8_t least_touch) {
+    constexpr float most_m = 0.008F;  // of all rounds together
     find_volumes(work_.now_volume);
-    bool off = false;
-    for (std::size_t m = 0; m < work_.volume.size(); ++m)
-      off = off || std::abs(work_.now_volume[m] - work_.volume[m]) > 1e-3 * work_.volume[m];
-    if (!off) return false;
+    near_by_m_ = 0.0005F;
+    find_pushes();  // who touches by now
     find_areas();
-    find_weights();
+    find_weights(least_touch);
     const std::size_t muscles = work_.volume.size();
     work_.free_area.assign(muscles, 0);
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (const std::uint16_t band = contacts_.band[v]; band != SurfaceContacts::no_band)
         work_.free_area[band / bands_each] += work_.weight[v] * work_.area[v];
-    for (std::size_t v = 0; v < position_.size(); ++v) {
-      const std::uint16_t band = contacts_.band[v];
-      if (band == SurfaceContacts::no_band) continue;
-      const std::size_t m = band / bands_each;
-      const auto lacking = static_cast<float>(work_.volume[m] - work_.now_volume[m]);
-      const float out = std::clamp(lacking / std::max(work_.free_area[m], 1e-9F), -most_m, most_m);
-      position_[v] = position_[v] + work_.weight[v] * out * normal_[v];
+    work_.out.assign(muscles, 0);
+    bool moves = false;
+    for (std::size_t m = 0; m < muscles; ++m) {
+      const double lacking = work_.volume[m] - work_.now_volume[m];
+      if (!(std::abs(lacking) > 1e-3 * std::abs(work_.volume[m])) || !(work_.free_area[m] > 0)) continue;
+      const float out = static_cast<float>(lacking) / work_.free_area[m];
+      work_.out[m] = std::clamp(out, -most_m - work_.moved_out[m], most_m - work_.moved_out[m]);
+      work_.moved_out[m] += work_.out[m];
+      moves = moves || work_.out[m] != 0;
     }
+    if (!moves) return false;
+    for (std::size_t v = 0; v < position_.size(); ++v)
+      if (const std::uint16_t band = contacts_.band[v]; band != SurfaceContacts::no_band)
+        position_[v] = position_[v] + work_.weight[v] * work_.out[band / bands_each] * normal_[v];
     return true;
   }
 
@@ -229,33 +234,41 @@ class Apart {
       for (std::size_t k = 0; k < 3; ++k) work_.area[corner[k]] += third;
     });
   }
+  /// Of each muscle's closed surface, about its own first corner.
   void find_volumes(std::vector<double>& volume) const {
     volume.assign(contacts_.bands / bands_each, 0);
-    if (position_.empty()) return;
+    std::size_t muscle = volume.size();
+    Vec origin{};
     for (std::size_t t = 0; t < contacts_.triangle.size(); t += 3) {
       const std::uint32_t* const corner = &contacts_.triangle[t];
-      const Vec3<float> origin = position_[0], a = position_[corner[0]] - origin, b = position_[corner[1]] - origin,
-                        c = position_[corner[2]] - origin;
-      volume[contacts_.band[corner[0]] / bands_each] += static_cast<double>(dot(a, cross(b, c))) / 6;
+      const auto at = [&](std::size_t k) { return to_double(position_[corner[k]]); };
+      if (const std::size_t own = contacts_.band[corner[0]] / bands_each; own != muscle) {
+        muscle = own;
+        origin = at(0);
+      }
+      volume[muscle] += dot(at(0) - origin, cross(at(1) - origin, at(2) - origin)) / 6;
     }
   }
-  /// 1 on a belly where it is widest and touches nobody, less beside what touches, little on tendons.
-  void find_weights() {
-    work_.taken.assign(contacts_.bands, 0);  // of area
+  /// 1 on a belly where it is widest and touches less, smaller beside what touches, little on tendons.
+  void find_weights(std::uint8_t least_touch) {
+    work_.wide.assign(contacts_.bands, 0);
     for (std::size_t v = 0; v < position_.size(); ++v)
-      if (contacts_.band[v] != SurfaceContacts::no_band) work_.taken[contacts_.band[v]] += work_.area[v];
+      if (contacts_.band[v] != SurfaceContacts::no_band) work_.wide[contacts_.band[v]] += work_.area[v];
     for (std::size_t first = 0; first < contacts_.bands; first += bands_each) {
-      const auto own = std::span(work_.taken).subspan(first, bands_each);
+      const auto own = std::span(work_.wide).subspan(first, bands_each);
       const float widest = std::max(*std::ranges::max_element(own), 1e-12F);
-      for (float& area : own) area = (area / widest) * (area / widest);
+      for (float& wide : own) wide = (wide / widest) * (wide / widest);
     }
+    const auto is_free = [&](std::size_t v) {
+      return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] < least_touch;
+    };
     work_.weight.assign(position_.size(), 0);
     for (std::uint32_t v = 0; v < position_.size(); ++v) {
       const std::uint32_t first = contacts_.first_neighbour[v], last = contacts_.first_neighbour[v + 1];
       if (!is_free(v) || first == last) continue;
       std::uint32_t free = 0;
       for (std::uint32_t i = first; i < last; ++i) free += is_free(contacts_.neighbour[i]) ? 1 : 0;
-      work_.weight[v] = work_.taken[contacts_.band[v]] * static_cast<float>(free) / static_cast<float>(last - first);
+      work_.weight[v] = work_.wide[contacts_.band[v]] * static_cast<float>(free) / static_cast<float>(last - first);
     }
   }
   void find_pushes() {
@@ -273,8 +286,6 @@ class Apart {
     const float part = std::abs(from_middle);
     return (1 - part) * work_.shift[band] + part * work_.shift[next];
   }
-  bool is_free(std::size_t v) const { return contacts_.band[v] != SurfaceContacts::no_band && work_.touches[v] == 0; }
-
   /// From where the other surface was nearest, at rest or in the pass before, along its edges to where it is now.
   std::uint32_t nearest(std::uint32_t vertex, std::uint32_t other) const {
     constexpr int most_steps = 12;
@@ -300,13 +311,13 @@ class Apart {
   }
 
   void push(const ContactPair& pair, std::uint32_t other) {
-    constexpr float near_by_m = 0.004F, deepest_m = 0.045F;
+    constexpr float deepest_m = 0.045F;
     const Vec3<float> off = position_[pair.vertex] - position_[other], &out = normal_[other];
     const float gap = dot(off, out), beside = dot(off, off) - gap * gap, depth = pair.rest_m - gap;
     const float most_beside = contacts_.edge_m[other];  // farther it is beside the other's edge
     if (beside > most_beside * most_beside || gap < -deepest_m) return;
     const bool bone = contacts_.band[other] == SurfaceContacts::no_band;
-    if (depth > -near_by_m) {
+    if (depth > -near_by_m_) {
       for (const std::uint32_t v : {pair.vertex, other})
         work_.touches[v] = std::max(work_.touches[v], bone ? touches_bone : touches_muscle);
     }
@@ -340,6 +351,7 @@ class Apart {
   }
 
   const SurfaceContacts& contacts_;
+  float near_by_m_ = 0.004F;  // what comes as near touches
   std::span<Vec3<float>> position_, normal_;
   ContactWork& work_;
 };
@@ -354,8 +366,9 @@ void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position
     for (int i = 0; i < sweeps; ++i) apart.sweep();
     apart.give_back(round + 1 == rounds);
     apart.make_normals();
+    if (round + 1 < rounds && apart.restore_volumes(touches_bone)) apart.make_normals();
   }
-  for (int i = 0; i < most_restored && apart.restore_volumes(); ++i) apart.make_normals();
+  for (int i = 0; i < most_restored && apart.restore_volumes(touches_muscle); ++i) apart.make_normals();
 }
 
 }  // namespace mobil

@@ -7,7 +7,8 @@
 //
 // Bellies are deformed along their own lines, and bodies at rest already lie in each other a little. What lies deeper
 // in a neighbour than at rest is moved out, both muscles by half, from bones alone; the volume that this takes is given
-// back round the same part of the belly, and what that has no room for elsewhere. Dynamics do not hear of it.
+// back round the same part of the belly, and what that has no room for elsewhere, where muscles' surfaces are closed, as
+// all here are. Dynamics do not hear of it.
 
 #include <cstdint>
 #include <span>
@@ -46,13 +47,14 @@ SurfaceContacts find_contacts(const BodySurfaces& surfaces, std::span<const Vec3
 /// Memory that it works in.
 struct ContactWork {
   std::vector<Vec3<float>> push, smooth, shift;
-  std::vector<float> area, taken, free_area, pushed_area, weight;
-  std::vector<double> volume, now_volume;
+  std::vector<float> area, taken, free_area, pushed_area;
+  std::vector<float> weight, wide, out, moved_out;  // of what gives volume back
+  std::vector<double> volume, now_volume;           // of each muscle
   std::vector<std::uint8_t> touches;
   std::vector<std::uint32_t> other;  // by pair: the other surface's vertex that was nearest in the last pass
 };
 /// Moves muscles' vertices, and makes their normals anew. `position`, `normal`: as SurfaceWriter wrote them, of the
-/// same surfaces, in any frame. Some 0.2 µs a pair.
+/// same surfaces, in any frame. Some 0.7 µs a pair.
 void keep_apart(const SurfaceContacts& contacts, std::span<Vec3<float>> position, std::span<Vec3<float>> normal,
                 ContactWork& work);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "assets/body/anthropometry.h"
@@ -34,6 +35,15 @@ inline float turn_of(float x, float z) {
   if (ax > az) angle = 0.25F * tau - angle;
   if (z < 0) angle = 0.5F * tau - angle;
   return (x < 0 ? tau - angle : angle) / tau;
+}
+
+/// `share` of the way from a to b, the short way round.
+template <class F>
+Quat<F> blended(const Quat<F>& a, const Quat<F>& b, std::type_identity_t<F> share) {
+  const F p = 1 - share, q = a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w < 0 ? -share : share;
+  const Quat<F> sum{p * a.x + q * b.x, p * a.y + q * b.y, p * a.z + q * b.z, p * a.w + q * b.w};
+  const F scale = 1 / std::sqrt(sum.x * sum.x + sum.y * sum.y + sum.z * sum.z + sum.w * sum.w);
+  return {scale * sum.x, scale * sum.y, scale * sum.z, scale * sum.w};
 }
 
 /// A joint's rings: the first as the segment below, the last as the one above.

@@ -130,8 +130,8 @@ TEST(SurfaceContacts, KeepMusclesApartAndTheirVolume) {
     float hip, knee, ankle;
     double p95_mm, p99_mm;  // at most
   };
-  for (const Posed& posed :
-       {Posed{20, 10, 0, 0.2, 5}, Posed{-10, 5, 5, 0.5, 3}, Posed{30, 60, -15, 0.5, 11}, Posed{0, 60, -10, 0.5, 11}}) {
+  for (const Posed& posed : {Posed{20, 10, 0, 0.2, 5}, Posed{-10, 5, 5, 0.5, 3}, Posed{30, 60, -15, 0.5, 11},
+                             Posed{0, 60, -10, 0.5, 11}, Posed{0, 90, 0, 5, 15}, Posed{60, 110, -10, 10, 20}}) {
     leg.pose(posed.hip, posed.knee, posed.ankle);
     const double before95 = new_mm(leg, rest, 0.95), before99 = new_mm(leg, rest, 0.99);
     std::vector<double> volume;
@@ -151,7 +151,7 @@ TEST(SurfaceContacts, KeepMusclesApartAndTheirVolume) {
     EXPECT_LT(after95, posed.p95_mm);
     EXPECT_LT(after99, posed.p99_mm);
     EXPECT_LT(after99, before99);
-    EXPECT_LT(lost, 0.005);
+    EXPECT_LT(lost, 0.003);
   }
 }
 

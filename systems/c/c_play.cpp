@@ -1,6 +1,10 @@
 // What a game plays by: events of steps, root motion, walks read back, people put elsewhere.
 
+#include <algorithm>
+#include <string>
+
 #include "systems/c/c_call.h"
+#include "systems/people/limit_watch.h"
 #include "systems/people/person.h"
 
 namespace {
@@ -117,6 +121,31 @@ int mobil_events(mobil_sim* sim, mobil_event* out, size_t room, size_t* count) {
       s.axes.place_to(event.place_m, to.place);
       to.heading_rad = event.heading_rad;
     }
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_broken_limits(mobil_sim* sim, mobil_id id, char* text, size_t room, size_t* length) {
+  return call(sim, "mobil_broken_limits", [&](mobil_sim& s) {
+    const Entity person = entity_of(id);
+    if (!s.world().is_person(person)) return s.line.refuse(Error{{}, Status::stale_entity});
+    std::string lines;
+    for (const BrokenLimit& broken : s.world().broken_limits(person)) lines += described(broken) + '\n';
+    if (length != nullptr) *length = lines.size();
+    if (text == nullptr && length != nullptr) return int{MOBIL_OK};
+    if (text == nullptr) return s.line.refuse_null("text");
+    if (room <= lines.size())
+      return s.line.refuse(MOBIL_ROOM,
+                           fmt::format("there are {} characters and a 0, and room for {}", lines.size(), room));
+    std::copy_n(lines.c_str(), lines.size() + 1, text);
+    return int{MOBIL_OK};
+  });
+}
+
+int mobil_beyond_limits(mobil_sim* sim, size_t* people, size_t* all) {
+  return call(sim, "mobil_beyond_limits", [&](mobil_sim& s) {
+    if (people != nullptr) *people = static_cast<std::size_t>(s.world().report().beyond_limits);
+    if (all != nullptr) *all = static_cast<std::size_t>(s.world().report().total_beyond_limits);
     return int{MOBIL_OK};
   });
 }

@@ -157,5 +157,59 @@ TEST(CPlay, WhoIsPosedIsNotWatched) {
   EXPECT_EQ(mobil_get_walk(sim, id, &walk, nullptr, 0), MOBIL_MISSING);
 }
 
+/// Of somebody who is known to bend an ankle too far as they stop and go on.
+TEST(CPlay, LimitsThatAreBrokenAreThoseOfCpp) {
+  GaitRequest gait{.speed_m_s = 2.06351F};
+  gait.style.double_support_scale = 0.6F;
+  std::vector<float> style;
+  for (const GaitParameter& p : gait_parameters) style.push_back(gait.style.*p.value);
+  auto person = filled<mobil_person>(MOBIL_PERSON);
+  person.height_m = 1.627254F;
+  person.mass_kg = 63.42218F;
+  person.given = MOBIL_SPEED | MOBIL_STYLE;
+  person.speed_m_s = *gait.speed_m_s;
+  person.style = style.data();
+  person.style_count = style.size();
+  Sim sim;
+  mobil_id id{};
+  ASSERT_EQ(mobil_spawn(sim, &person, 0, 1, nullptr, &id), MOBIL_OK) << sim.message();
+  Simulation simulation;
+  const Entity same = *simulation.spawn(BodyRequest{.height_m = person.height_m, .mass_kg = person.mass_kg}, gait);
+  const auto change = [&](float speed_m_s) {
+    auto walk = filled<mobil_walk>(MOBIL_WALK);
+    walk.given = MOBIL_SPEED;
+    walk.speed_m_s = speed_m_s;
+    ASSERT_EQ(mobil_change_walk(sim, &id, 1, &walk), MOBIL_OK) << sim.message();
+    ASSERT_TRUE(simulation.change_gait(same, {.speed_m_s = speed_m_s}));
+  };
+  std::size_t broken = 0, people = 0, all = 0;
+  for (int tick = 0; tick < 240; ++tick) {
+    if (tick == 38) change(0);
+    if (tick == 61) change(1.630582F);
+    if (tick == 136) change(2.06351F);
+    ASSERT_EQ(mobil_tick(sim, 1), MOBIL_OK);
+    simulation.tick();
+    std::string ours;
+    for (const BrokenLimit& limit : simulation.broken_limits(same)) ours += described(limit) + '\n';
+    std::size_t length = 0;
+    ASSERT_EQ(mobil_broken_limits(sim, id, nullptr, 0, &length), MOBIL_OK);
+    ASSERT_EQ(length, ours.size());
+    std::vector<char> text(length + 1, 'x');
+    ASSERT_EQ(mobil_broken_limits(sim, id, text.data(), length, nullptr), MOBIL_ROOM);
+    EXPECT_EQ(text[0], 'x');
+    ASSERT_EQ(mobil_broken_limits(sim, id, text.data(), length + 1, nullptr), MOBIL_OK);
+    EXPECT_EQ(text.data(), ours);
+    ASSERT_EQ(mobil_beyond_limits(sim, &people, &all), MOBIL_OK);
+    EXPECT_EQ(people, simulation.report().beyond_limits);
+    EXPECT_EQ(all, simulation.report().total_beyond_limits);
+    broken += ours.empty() ? 0 : 1;
+  }
+  EXPECT_GT(broken, 0U);
+  EXPECT_GT(all, 0U);
+  EXPECT_EQ(mobil_broken_limits(sim, id, nullptr, 0, nullptr), MOBIL_REFUSED);
+  EXPECT_EQ(mobil_beyond_limits(sim, nullptr, nullptr), MOBIL_OK);
+  EXPECT_EQ(mobil_broken_limits(sim, {99, 0}, nullptr, 0, &people), MOBIL_STALE);
+}
+
 }  // namespace
 }  // namespace mobil::c_play_test

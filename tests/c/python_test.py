@@ -183,11 +183,16 @@ class Worlds(unittest.TestCase):
         world.change_walk(people[0], speed_m_s=1.5)
         after = world.walk(people[0])
         self.assertAlmostEqual(after["speed_m_s"], 1.5)
-        self.assertEqual(after["heading_rad"], 0.5)
-        self.assertEqual(after["style"], before["style"])
+        self.assertEqual((after["heading_rad"], after["style"]), (0.5, before["style"]))
         self.assertAlmostEqual(after["style"]["toe_out_deg"], 12)
         world.change_walk(people[0], **after)
         self.assertEqual(world.walk(people[0]), after)
+        far, broken = {"double_support_scale": 0.6}, []
+        odd = world.spawn(height_m=1.627254, mass_kg=63.42218, speed_m_s=2.06351, style=far)
+        for ticks, speed in ((38, 0), (23, 1.630582), (75, 2.06351), (104, 2)):
+            broken += [line for _ in range(ticks) for line in world.tick() or world.broken_limits(odd)]
+            world.change_walk(odd, speed_m_s=speed)
+        self.assertTrue(all("the limit is" in line for line in broken) and broken and world.beyond_limits == 0)
 
     def test_many_are_placed_or_nobody(self):
         world = mobil.World()

@@ -172,16 +172,22 @@ class Apart {
     }
   }
 
-  /// What each muscle's volume is off still goes to where it touches nobody, evenly but for tendons. Returns whether
-  /// one was off by more than a thousandth that has room.
+  /// What each muscle's volume is off still goes to where it touches less than `least_touch`, evenly but for tendons.
+  /// Returns whether one was off by more than a thousandth and had room.
   bool restore_volumes(std::uint8_t least_touch) {
     constexpr float most_m = 0.008F;  // of all rounds together
     find_volumes(work_.now_volume);
-    near_by_m_ = 0.0005F;
+    const std::size_t muscles = work_.volume.size();
+    const auto lacking = [&](std::size_t m) {
+      const double volume = work_.volume[m] - work_.now_volume[m];
+      return std::abs(volume) > 1e-3 * std::abs(work_.volume[m]) ? static_cast<float>(volume) : 0.0F;
+    };
+    bool off = false;
+    for (std::size_t m = 0; m < muscles; ++m) off = off || lacking(m) != 0;
+    if (!off) return false;
     find_pushes();  // who touches by now
     find_areas();
     find_weights(least_touch);
-    const std::size_t muscles = work_.volume.size();
     work_.free_area.assign(muscles, 0);
     for (std::size_t v = 0; v < position_.size(); ++v)
       if (const std::uint16_t band = contacts_.band[v]; band != SurfaceContacts::no_band)
@@ -189,10 +195,9 @@ class Apart {
     work_.out.assign(muscles, 0);
     bool moves = false;
     for (std::size_t m = 0; m < muscles; ++m) {
-      const double lacking = work_.volume[m] - work_.now_volume[m];
-      if (!(std::abs(lacking) > 1e-3 * std::abs(work_.volume[m])) || !(work_.free_area[m] > 0)) continue;
-      const float out = static_cast<float>(lacking) / work_.free_area[m];
-      work_.out[m] = std::clamp(out, -most_m - work_.moved_out[m], most_m - work_.moved_out[m]);
+      if (!(work_.free_area[m] > 0)) continue;
+      work_.out[m] =
+          std::clamp(lacking(m) / work_.free_area[m], -most_m - work_.moved_out[m], most_m - work_.moved_out[m]);
       work_.moved_out[m] += work_.out[m];
       moves = moves || work_.out[m] != 0;
     }
@@ -286,6 +291,7 @@ class Apart {
     const float part = std::abs(from_middle);
     return (1 - part) * work_.shift[band] + part * work_.shift[next];
   }
+
   /// From where the other surface was nearest, at rest or in the pass before, along its edges to where it is now.
   std::uint32_t nearest(std::uint32_t vertex, std::uint32_t other) const {
     constexpr int most_steps = 12;
@@ -311,13 +317,13 @@ class Apart {
   }
 
   void push(const ContactPair& pair, std::uint32_t other) {
-    constexpr float deepest_m = 0.045F;
+    constexpr float near_by_m = 0.004F, deepest_m = 0.045F;
     const Vec3<float> off = position_[pair.vertex] - position_[other], &out = normal_[other];
     const float gap = dot(off, out), beside = dot(off, off) - gap * gap, depth = pair.rest_m - gap;
     const float most_beside = contacts_.edge_m[other];  // farther it is beside the other's edge
     if (beside > most_beside * most_beside || gap < -deepest_m) return;
     const bool bone = contacts_.band[other] == SurfaceContacts::no_band;
-    if (depth > -near_by_m_) {
+    if (depth > -near_by_m) {
       for (const std::uint32_t v : {pair.vertex, other})
         work_.touches[v] = std::max(work_.touches[v], bone ? touches_bone : touches_muscle);
     }
@@ -351,7 +357,6 @@ class Apart {
   }
 
   const SurfaceContacts& contacts_;
-  float near_by_m_ = 0.004F;  // what comes as near touches
   std::span<Vec3<float>> position_, normal_;
   ContactWork& work_;
 };

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "assets/muscles/muscle_table.h"
-#include "demo/frontier/frontier_living.h"
+#include "demo/lab/frontier/frontier_living.h"
 
 namespace mobil::finite_motion_test {
 namespace {

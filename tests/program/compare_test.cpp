@@ -13,11 +13,11 @@
 #include <numbers>
 
 #include "assets/body/segment_inertia.h"
-#include "demo/compare/compare_balance.h"
-#include "demo/compare/compare_judge.h"
-#include "demo/compare/compare_reference.h"
-#include "demo/compare/compare_verdicts.h"
-#include "demo/compare/compare_walk.h"
+#include "demo/lab/compare/compare_balance.h"
+#include "demo/lab/compare/compare_judge.h"
+#include "demo/lab/compare/compare_reference.h"
+#include "demo/lab/compare/compare_verdicts.h"
+#include "demo/lab/compare/compare_walk.h"
 #include "demo/pictures/svg_plot.h"
 #include "engine/geometry.h"
 #include "tests/gait/forces_figure.h"

@@ -7,10 +7,10 @@
 #include <numeric>
 
 #include "assets/gait/step_lookup.h"
-#include "demo/gait_fit/step_grid.h"
-#include "demo/gait_fit/step_quality.h"
-#include "demo/gait_fit/step_styles.h"
-#include "demo/gait_fit/upper_body.h"
+#include "demo/lab/gait_fit/step_grid.h"
+#include "demo/lab/gait_fit/step_quality.h"
+#include "demo/lab/gait_fit/step_styles.h"
+#include "demo/lab/gait_fit/upper_body.h"
 
 namespace mobil::gait_fit_test {
 using namespace step_table;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "demo/paper/paper_cycle.h"
-#include "demo/paper/paper_lengths.h"
-#include "demo/paper/paper_table.h"
+#include "demo/lab/paper/paper_cycle.h"
+#include "demo/lab/paper/paper_lengths.h"
+#include "demo/lab/paper/paper_table.h"
 #include "tests/program/program.h"
 
 namespace mobil::paper_test {

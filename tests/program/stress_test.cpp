@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "demo/stress/stress.h"
+#include "demo/lab/stress/stress.h"
 #include "tests/program/program.h"
 
 namespace mobil::stress_test {

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
-#include "demo/frontier/frontier.h"
-#include "demo/frontier/frontier_costs.h"
+#include "demo/lab/frontier/frontier.h"
+#include "demo/lab/frontier/frontier_costs.h"
 #include "demo/pictures/svg_plot.h"
 #include "tests/program/program.h"
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "demo/effects/accuracy_living.h"
+#include "demo/lab/effects/accuracy_living.h"
 #include "systems/relevance/relevance.h"
 
 namespace mobil::living_accuracy_test {

@@ -12,8 +12,8 @@
 
 #include "assets/muscles/muscle_table.h"
 #include "assets/reduction/reduced_basis.h"
-#include "demo/effects/accuracy_measure.h"
-#include "demo/effects/accuracy_reference.h"
+#include "demo/lab/effects/accuracy_measure.h"
+#include "demo/lab/effects/accuracy_reference.h"
 #include "systems/relevance/relevance.h"
 
 namespace mobil::relevance_show_test {

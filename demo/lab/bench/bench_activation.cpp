@@ -1,0 +1,148 @@
+// Muscles that pull: excitation by the phase of the walk, activation, fibre and tendon.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "assets/body/anthropometry.h"
+#include "assets/finite/shape_tables.h"
+#include "assets/muscles/muscle_plan.h"
+#include "assets/reduction/reduced_rows.h"
+#include "demo/lab/bench/bench.h"
+#include "systems/activation/excitation.h"
+#include "systems/activation/musculotendon.h"
+#include "systems/deformation/finite_shape.h"
+#include "systems/deformation/reduced.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t most_blocks = 256;  // of sixteen muscles; in a quarter of a megabyte
+
+/// Sixteen muscles of one member.
+struct PullBlock {
+  MemberDesign<Lanes<float>> design;
+  MemberState<Lanes<float>> state;
+  Lanes<float> rest_m, length_m, excitation;
+  LegClock<Lanes<float>> clock;
+  Activation<Lanes<float>> activation;
+  Musculotendon<Lanes<float>> muscle;
+};
+
+void set_all(Lanes<float>& lanes, double x) {
+  std::ranges::fill(lanes.lane, static_cast<float>(x));
+}
+
+/// The shape at finite strain over what a method computed, of sixteen muscles whose points lie in a cache.
+Result<void> bench_shape(BenchRun& run) {
+  const Muscle muscle = *find_muscle("gastrocnemius_medial");
+  const HexahedralMesh mesh = finite_mesh(muscle, {2, 2, 8});
+  StaticStretch linear;
+  linear.displacement.resize(3 * mesh.node.size());
+  const FiniteShape shape = make_finite_shape(muscle, mesh, linear);
+  BellyScale<Lanes<float>> scale;
+  Lanes<float> end, activation;
+  set_all(scale.across, 1.02), set_all(scale.along, 0.99), set_all(end, -0.01), set_all(activation, 0.3);
+  std::vector<Lanes<float>> points(3 * mesh.node.size());
+  const ShapeBlock block{shape, scale, end, &activation};
+  const Measured adding = measure_short([&] {
+    for (int i = 0; i < 64; ++i) add_shape(block, blend_of(block), true, points[0].lane, points[0].lane);
+  });
+  run.add_time("activation.finite_shape.us_per_muscle_tick", adding, 64.0 * lane_count, 1e-6, "us").bound =
+      at_peak(run.machine, adding.best_s / (64.0 * lane_count));
+  return {};
+}
+
+/// Twelve motions of bellies that vibrate, and what it takes more that tension stiffens them.
+Result<void> bench_tuned(BenchRun& run) {
+  const Muscle muscle = *find_muscle("gastrocnemius_medial");
+  const auto basis = make_reduced_basis(finite_mesh(muscle, {4, 4, 16}), Material{}, Element::full, {});
+  if (!basis) return tl::unexpected(basis.error());
+  constexpr float tick_s = 1.0F / 60;
+  constexpr std::size_t blocks = 64;  // in a quarter of a megabyte
+  BellyScale<Lanes<float>> scale;
+  set_all(scale.across, 1), set_all(scale.along, 1);
+  const std::size_t motion = reduced_motion_width(basis->vectors, basis->inputs);
+  const std::size_t state = reduced_state_width(basis->vectors);
+  EndDrive<Lanes<float>> end;
+  set_all(end.from, 0), set_all(end.to, 1e-3);
+  Lanes<float> activation;
+  set_all(activation, 0.3);
+  std::array<double, 2> us{};
+  for (const bool tuned : {false, true}) {
+    ReducedBellies bellies;
+    bellies.tuned = tuned;
+    const std::vector<BellyScale<float>> bodies(lane_count, {1, 1});
+    if (auto solved = solve_bellies(*basis, bodies, bellies); !solved) return solved;
+    std::vector<Lanes<float>> motions(blocks * motion), states(blocks * state);
+    for (std::size_t b = 0; b < blocks; ++b) write_motions(bellies, 8, double{tick_s}, motions[b * motion].lane);
+    const Measured moving = measure_short([&] {
+      std::swap(end.from, end.to);
+      for (std::size_t b = 0; b < blocks; ++b) {
+        const ReducedBlock block{*basis, scale, states[b * state].lane, motions[b * motion].lane};
+        if (tuned) {
+          deform_tuned(block, {FarEnd::held, end}, activation, tick_s);
+        } else {
+          deform_reduced(block, {FarEnd::held, end}, tick_s);
+        }
+      }
+    });
+    us[tuned] = 1e6 * moving.best_s / (blocks * lane_count);
+    run.add_time(fmt::format("activation.{}.us_per_muscle_tick", tuned ? "tuned" : "untuned"), moving,
+                 blocks * lane_count, 1e-6, "us");
+  }
+  BenchResult& more = run.results.emplace_back();
+  more.name = "activation.tuned_more.us_per_muscle_tick";
+  more.value = us[1] - us[0];
+  more.unit = "us";
+  more.bound = "of twelve motions; " + at_peak(run.machine, 1e-6 * more.value);
+  return {};
+}
+
+}  // namespace
+
+Result<void> bench_activation(BenchRun& run) {
+  const Muscle muscle = *find_muscle("gastrocnemius_medial");
+  const MemberPlan plan = make_muscle_plan(*make_body({}), muscle)->member[0];
+  const RowExcitation row = row_excitation(muscle);
+  constexpr float weight = 1, tick_s = 1.0F / 60;
+  std::vector<PullBlock> blocks(std::min(most_blocks, run.humans));
+  for (std::size_t b = 0; b < blocks.size(); ++b) {
+    PullBlock& block = blocks[b];
+    set_all(block.design.fibre_m, plan.fibre_m), set_all(block.design.tendon_m, plan.tendon_m);
+    set_all(block.design.height_m, 0.3 * plan.fibre_m), set_all(block.design.force_n, 1500);
+    set_all(block.rest_m, plan.rest_length_m), set_all(block.clock.speed, 0.45);
+    find_rest_bellies(1, &block.rest_m, &block.design);
+    for (std::size_t l = 0; l < lane_count; ++l)
+      block.clock.cycle[l] = static_cast<float>((b * lane_count + l) % 101) / 101.0F;
+    block.length_m = block.rest_m;
+    set_all(block.excitation, 0.1);
+    settle({1, &weight, &block.design, &block.length_m, &block.excitation, &block.state}, block.activation,
+           block.muscle);
+  }
+  const auto time = [&](const auto& work) {
+    return measure_short([&] {
+      for (PullBlock& block : blocks) work(block);
+    });
+  };
+  const Measured exciting = time([&](PullBlock& block) { excite(row, block.clock, &block.excitation); });
+  float sway = 0.01F;
+  const Measured pulling = time([&](PullBlock& block) {
+    sway = -sway;
+    for (std::size_t l = 0; l < lane_count; ++l) block.length_m[l] = block.rest_m[l] + sway * block.clock.cycle[l];
+    contract({1, &weight, &block.design, &block.length_m, &block.excitation, &block.state}, tick_s, block.activation,
+             block.muscle);
+  });
+  const double muscles = static_cast<double>(blocks.size() * lane_count);
+  run.add_time("activation.excitation.us_per_muscle_tick", exciting, muscles, 1e-6, "us").bound =
+      at_peak(run.machine, exciting.best_s / muscles);
+  run.add_time("activation.kernel.us_per_muscle_tick", pulling, muscles, 1e-6, "us").bound =
+      at_peak(run.machine, pulling.best_s / muscles);
+  if (auto done = bench_shape(run); !done) return done;
+  return bench_tuned(run);
+}
+
+}  // namespace mobil

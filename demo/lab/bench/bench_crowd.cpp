@@ -1,0 +1,134 @@
+#include "demo/lab/bench/bench_crowd.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "demo/program/progress.h"
+#include "engine/access.h"
+#include "engine/schedule.h"
+
+namespace mobil {
+namespace {
+
+constexpr double least_cpu_s = 20e-6;  // asking a thread for its time on a processor takes about 0.5 us
+constexpr double settling_s = 2;       // until nobody steps in time with anybody else
+
+}  // namespace
+
+Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
+  std::shared_ptr<BenchCrowd> crowd(new BenchCrowd);
+  if (auto done = crowd->spawn(humans); !done) return tl::unexpected(done.error());
+  return crowd;
+}
+
+Result<void> BenchCrowd::spawn(std::size_t humans) {
+  constexpr std::uint32_t most_draws = 20;
+  ProgressBar progress("spawning", humans);
+  std::vector<double> wall;
+  double wall_s = 0, cpu_s = 0;
+  for (std::size_t i = 0; i < humans; ++i) {
+    for (std::uint32_t draw = 0;; ++draw) {
+      const CrowdPerson person = crowd_person(seed, i, draw);
+      const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
+      const auto entity = simulation_.spawn(person.body, person.gait);
+      const double wall_end = wall_now_s(), cpu_end = thread_cpu_now_s();
+      if (entity) {
+        wall.push_back(wall_end - wall_start);
+        wall_s += wall_end - wall_start;
+        cpu_s += cpu_end - cpu_start;
+        people_.push_back(*entity);
+        asked_.push_back(person);
+        break;
+      }
+      ++drawn_again_;
+      if (draw + 1 == most_draws) {
+        return fail(
+            fmt::format("person {} of the crowd was refused {} times: {}", i, most_draws, entity.error().message));
+      }
+    }
+    progress.at(i + 1);
+  }
+  const auto count = static_cast<double>(humans);
+  spawn_ = {wall_s / count, median(wall), cpu_s / count};
+  return {};
+}
+
+const Table* BenchCrowd::table_of(const System& system) const {
+  std::vector<Bound> bound(system.parameters);
+  for (const Table& table : simulation_.world().tables()) {
+    if (table.row_count() > 0 && system.bind(simulation_.world(), table, bound.data())) return &table;
+  }
+  return nullptr;
+}
+
+const std::map<std::string, Measured, std::less<>>& BenchCrowd::steady_ticks() {
+  if (!steady_.empty()) return steady_;
+  Schedule& schedule = simulation_.schedule();
+  const auto settling = static_cast<int>(settling_s / simulation_.tick_s());
+  const double start_s = wall_now_s();
+  for (int i = 0; i < settling; ++i) simulation_.tick();
+  const int ticks = runs_a_repeat((wall_now_s() - start_s) / settling);
+
+  const auto run = [&] {
+    for (int i = 0; i < ticks; ++i) simulation_.tick();
+  };
+  const std::size_t systems = schedule.systems().size();
+  std::vector<std::vector<double>> wall(systems), cpu(systems);
+  for (int repeat = 0; repeat < bench_repeats; ++repeat) {
+    schedule.reset_timings();
+    run();
+    for (std::size_t s = 0; s < systems; ++s) wall[s].push_back(schedule.timings()[s].seconds / ticks);
+    // in ticks of its own, as asking for it takes time too
+    const auto cpu_s = cpu_of(run);
+    for (std::size_t s = 0; s < systems; ++s) cpu[s].push_back(cpu_s[s] / ticks);
+  }
+  for (std::size_t s = 0; s < systems; ++s) {
+    const System& system = schedule.systems()[s];
+    if (table_of(system) == nullptr) continue;
+    const double cpu_s = std::ranges::min(cpu[s]);
+    steady_[system.name] = {std::ranges::min(wall[s]), median(wall[s]),
+                            cpu_s > least_cpu_s ? std::optional(cpu_s) : std::nullopt};
+  }
+  return steady_;
+}
+
+std::vector<double> BenchCrowd::cpu_of(const std::function<void()>& work) {
+  Schedule& schedule = simulation_.schedule();
+  schedule.reset_timings();
+  schedule.measure_with(&thread_cpu_now_s);
+  work();
+  schedule.measure_with(nullptr);
+  std::vector<double> seconds;
+  for (const Timing& timing : schedule.timings()) seconds.push_back(timing.seconds);
+  return seconds;
+}
+
+std::size_t BenchCrowd::bytes_per_human(std::string_view name) {
+  for (const System& system : simulation_.schedule().systems()) {
+    if (system.name != name) continue;
+    const Table* table = table_of(system);
+    if (table == nullptr) return 0;
+    std::size_t words = 0;
+    for (const Access& access : system.accesses) {
+      if (access.mode != Access::Mode::read && access.mode != Access::Mode::write) continue;
+      const KeyPart* part = find_part(table->key(), access.id);
+      if (part != nullptr) words += part->value;
+    }
+    return 4 * words;
+  }
+  return 0;
+}
+
+Result<void> BenchCrowd::change_speeds(std::uint32_t round, float forward_swing) {
+  for (std::size_t i = 0; i < people_.size(); ++i) {
+    CrowdRandom random(seed, i, 0x1000 + round);
+    asked_[i].gait.speed_m_s = crowd_speed(random);
+    asked_[i].gait.style.forward_swing = forward_swing;
+    if (auto done = simulation_.set_gait(people_[i], asked_[i].gait); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,295 @@
+// Bellies that move along a few vectors: a crowd's and one's that the caches hold, against memory and against this
+// core's peak, and against the paper's choice, 81 nodes by explicit central differences at 2 ms.
+
+#include <fmt/format.h>
+#include <sys/mman.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
+#include "demo/lab/bench/bench.h"
+#include "demo/lab/bench/bench_fem.h"
+#include "demo/lab/bench/bench_fem_bellies.h"
+#include "engine/jobs.h"
+#include "systems/deformation/reduced.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t cached_blocks = 16;  // 256 muscles: half a megabyte at most
+constexpr double tick_s = 1.0 / 60;
+constexpr double paper_steps_a_second = 500, ticks_a_second = 60;
+
+enum class What { tick, placed, still };
+
+struct Shape {
+  std::uint32_t vectors;
+  bool frame;
+  What what;
+};
+
+/// Memory for a crowd, in huge pages where the system gives them or, for comparison, in ordinary ones.
+class Pages {
+ public:
+  Pages(std::size_t floats, bool huge) {
+    constexpr std::size_t page = std::size_t{2} << 20;
+    const std::size_t bytes = (floats * sizeof(float) / page + 1) * page;
+    floats_.reset(static_cast<float*>(std::aligned_alloc(page, bytes)));
+    if (floats_ == nullptr) throw std::bad_alloc();
+    madvise(floats_.get(), bytes, huge ? MADV_HUGEPAGE : MADV_NOHUGEPAGE);
+    std::fill_n(floats_.get(), floats, 0.0F);
+  }
+  float* begin() const { return floats_.get(); }
+
+ private:
+  struct Free {
+    void operator()(float* p) const { std::free(p); }
+  };
+  std::unique_ptr<float, Free> floats_;
+};
+
+/// Blocks of bellies whose far face is held, each with all its columns in a row, as in a world's table. What their
+/// numbers are makes no difference to what they cost: each swings about a drive that grows evenly.
+class ReducedCrowd {
+ public:
+  ReducedCrowd(const Shape& shape, std::size_t blocks, bool huge_pages = true)
+      : what_(shape.what),
+        blocks_(blocks),
+        basis_(make_basis(shape)),
+        state_width_(what_ == What::still ? 0 : reduced_state_width(basis_.vectors)),
+        motion_width_(what_ == What::still ? 0 : reduced_motion_width(basis_.vectors, basis_.inputs)),
+        shape_width_(what_ == What::tick ? 0 : reduced_shape_width(basis_.vectors, basis_.inputs)),
+        node_width_(what_ == What::tick ? 0 : nodal_width(basis_.options.control_cells)),
+        head_width_(shape.frame ? 4 + 2 * frame_inputs : 4),
+        words_(head_width_ + state_width_ + motion_width_ + shape_width_ + node_width_),
+        pages_(blocks * words_ * lane_count, huge_pages) {
+    const std::size_t each = reduced_motion_width(1, basis_.inputs);
+    for (std::size_t b = 0; b < blocks; ++b) {
+      Columns column = columns(b);
+      std::ranges::fill(column.end->to.lane, 1e-4F);
+      std::ranges::fill(column.scale->across.lane, 1.0F);
+      std::ranges::fill(column.scale->along.lane, 1.0F);
+      for (std::size_t i = 0; i < motion_width_; ++i) {
+        const double omega = 20 + 3 * static_cast<double>((i / each + b) % 400), turn = omega * tick_s;
+        const std::array numbers = {0.93 * std::cos(turn), 0.93 * std::sin(turn), 8 / omega};
+        const float number = i % each < 3 ? static_cast<float>(numbers[i % each]) : 0.01F;
+        std::fill_n(column.motion + i * lane_count, lane_count, number);
+      }
+      std::fill_n(column.shape, shape_width_ * lane_count, 0.01F);
+    }
+  }
+
+  /// One tick of part `number` of `of`.
+  void tick(std::size_t number, std::size_t of, bool streamed) {
+    for (std::size_t b = number * blocks_ / of; b < (number + 1) * blocks_ / of; ++b) {
+      const Columns column = columns(b);
+      const bool last = b + 1 == blocks_ || of == 1;  // what the caches hold need not be fetched
+      const Columns next = last ? Columns{} : columns(b + 1);
+      const ReducedBlock block{
+          basis_,     *column.scale, column.state, column.motion, basis_.options.frame_loads ? column.frame : nullptr,
+          next.state, next.motion};
+      const ControlPoints points{column.shape, column.displacement, streamed, next.shape};
+      if (what_ != What::still) deform_reduced(block, {FarEnd::held, *column.end}, static_cast<float>(tick_s));
+      if (what_ == What::placed) place_control_points(block, points, {FarEnd::held, *column.end});
+      if (what_ == What::still) place_static(block, points, {FarEnd::held, *column.end});
+    }
+  }
+
+  void report(const MuscleTemplate& control) {
+    BellyReport<Lanes<float>> told;
+    for (std::size_t b = 0; b < blocks_; ++b) {
+      const Columns column = columns(b);
+      report_reduced({basis_, *column.scale, column.state, column.motion}, control, {column.shape, column.displacement},
+                     {FarEnd::held, *column.end}, static_cast<float>(tick_s), told);
+    }
+  }
+
+  double muscles() const { return static_cast<double>(blocks_ * lane_count); }
+  /// Read and written a muscle and tick, each once.
+  double bytes() const {
+    const double n = basis_.vectors, inputs = basis_.inputs;
+    double floats = 2 * inputs;
+    if (what_ != What::still) floats += 4 * n + static_cast<double>(motion_width_);
+    if (what_ != What::tick) floats += n * (n + inputs) - (what_ == What::still ? n * n : 0);
+    return 4 * (floats + (what_ == What::tick ? 0 : static_cast<double>(nodal_width(basis_.options.control_cells))));
+  }
+  double multiply_adds() const {
+    const double n = basis_.vectors, inputs = basis_.inputs;
+    const Cells& cells = basis_.options.control_cells;
+    double sum = 0;
+    if (what_ != What::still) sum += 8 * n + (inputs > 1 ? inputs * n : 0);
+    if (what_ != What::tick) sum += n * inputs + (what_ == What::placed ? n * n : 0);
+    if (what_ != What::tick) sum += 3.0 * plane_nodes(cells) * (cells[2] - 1) * (n + 1);
+    return sum;
+  }
+  bool finite() const {
+    for (std::size_t b = 0; b < blocks_; ++b) {
+      const Columns column = columns(b);
+      const std::size_t count = (state_width_ + motion_width_ + shape_width_ + node_width_) * lane_count;
+      if (!std::all_of(column.state, column.state + count, [](float x) { return std::isfinite(x); })) return false;
+    }
+    return true;
+  }
+
+ private:
+  /// Where one block's columns begin.
+  struct Columns {
+    EndDrive<Lanes<float>>* end;
+    BellyScale<Lanes<float>>* scale;
+    FrameLoad<Lanes<float>>* frame;
+    float *state, *motion, *shape, *displacement;
+  };
+
+  static ReducedBasis make_basis(const Shape& shape) {
+    ReducedBasis basis;
+    basis.vectors = basis.options.vectors = shape.vectors;
+    basis.inputs = input_count(FarEnd::held, shape.frame);
+    basis.options.frame_loads = shape.frame;
+    basis.shape.resize(nodal_width(basis.options.control_cells) * (shape.vectors + 1));
+    for (std::size_t i = 0; i < basis.shape.size(); ++i) basis.shape[i] = 0.01F * static_cast<float>(i % 97);
+    return basis;
+  }
+
+  Columns columns(std::size_t b) const {
+    float* const at = pages_.begin() + b * words_ * lane_count;
+    float* const state = at + head_width_ * lane_count;
+    float* const motion = state + state_width_ * lane_count;
+    float* const shape = motion + motion_width_ * lane_count;
+    return {reinterpret_cast<EndDrive<Lanes<float>>*>(at),
+            reinterpret_cast<BellyScale<Lanes<float>>*>(at + 2 * lane_count),
+            reinterpret_cast<FrameLoad<Lanes<float>>*>(at + 4 * lane_count),
+            state,
+            motion,
+            shape,
+            shape + shape_width_ * lane_count};
+  }
+
+  What what_;
+  std::size_t blocks_;
+  ReducedBasis basis_;
+  std::size_t state_width_, motion_width_, shape_width_, node_width_;
+  std::size_t head_width_, words_;  // the former: what drives, sizes, and the frame's loads where there are any
+  Pages pages_;
+};
+
+std::string stem_of(const Shape& shape, bool cached) {
+  return fmt::format("reduced.n{}{}{}{}", shape.vectors, shape.frame ? ".frame_loads" : "",
+                     shape.what == What::tick     ? ""
+                     : shape.what == What::placed ? ".control_points"
+                                                  : ".static",
+                     cached ? ".cached" : "");
+}
+
+Result<BenchResult> measure_crowd(BenchRun& run, const Shape& shape, std::size_t blocks, bool cached) {
+  ReducedCrowd crowd(shape, blocks);
+  // A part at a time, so that some fall within a turn of ours on a busy machine; by its next turn the others have
+  // driven it out of the caches.
+  const std::size_t parts = cached ? 1 : std::max<std::size_t>(1, blocks / 200);
+  std::size_t part = 0;
+  const auto tick_some = [&] { crowd.tick(part++ % parts, parts, !cached); };
+  const auto times = cached ? static_cast<std::size_t>(runs_a_repeat(measure(1, tick_some).best_s)) : 1;
+  const Measured time = measure(run.rounds(cached ? bench_repeats : 10 * static_cast<int>(parts)), [&] {
+    for (std::size_t n = 0; n < times; ++n) tick_some();
+  });
+  if (!crowd.finite()) return fail("a reduced belly's state is not a number");
+  BenchResult& result =
+      run.add_time(stem_of(shape, cached) + ".us_per_tick", time,
+                   crowd.muscles() / static_cast<double>(parts) * static_cast<double>(times), 1e-6, "us");
+  const double seconds = result.value * 1e-6;
+  result.of_peak = 2 * crowd.multiply_adds() / seconds * 1e-9 / run.machine.fma_peak_gflops;
+  result.of_bandwidth = crowd.bytes() / seconds * 1e-9 / run.machine.bandwidth_gbps;
+  result.bound = fmt::format("{:.0f} muscles; {:.0f} bytes, {:.0f} multiply-adds each", crowd.muscles(), crowd.bytes(),
+                             crowd.multiply_adds());
+  return result;
+}
+
+/// A muscle's step of the paper's 81 nodes at 2 ms, us.
+struct Paper {
+  double individual_us = 0, shared_us = 0;
+};
+
+/// Of as many muscles as ours are.
+Result<Paper> measure_paper(const BenchRun& run, std::size_t blocks) {
+  const auto muscle = paper_block({2, 2, 8});
+  if (!muscle) return tl::unexpected(muscle.error());
+  const auto us_per_step = [&](Stiffness stiffness) {
+    BenchBellies bellies(*muscle, stiffness, blocks);
+    std::size_t block = 0;
+    const Measured time = measure(run.rounds(200), [&] {
+      for (std::size_t n = 0; n < cached_blocks; ++n) bellies.tick_block(block++ % blocks, steps_a_tick, paper_tick_s);
+    });
+    return time.best_s / static_cast<double>(cached_blocks * lane_count * steps_a_tick) * 1e6;
+  };
+  return Paper{us_per_step(Stiffness::individual), us_per_step(Stiffness::shared)};
+}
+
+/// A report of points that are placed.
+Result<void> measure_report(BenchRun& run) {
+  auto mesh = make_block(ReducedOptions{}.control_cells, 0.015);
+  if (!mesh) return tl::unexpected(mesh.error());
+  const auto control = make_muscle_template(std::move(*mesh), {}, {});
+  if (!control) return tl::unexpected(control.error());
+  ReducedCrowd crowd({12, false, What::placed}, cached_blocks);
+  crowd.tick(0, 1, false);
+  const Measured time = measure_short([&] { crowd.report(*control); });
+  run.add_time("reduced.n12.report.us_per_tick", time, crowd.muscles(), 1e-6, "us").bound =
+      "volume, reaction and energies, where control points are";
+  return {};
+}
+
+}  // namespace
+
+Result<void> bench_reduced(BenchRun& run) {
+  const FlushDenormals flushed;
+  const std::size_t blocks = std::max<std::size_t>(1, run.humans * muscles_a_human / lane_count);
+  const auto paper = measure_paper(run, blocks), paper_cached = measure_paper(run, std::min(blocks, cached_blocks));
+  if (!paper) return tl::unexpected(paper.error());
+  if (!paper_cached) return tl::unexpected(paper_cached.error());
+  std::map<std::string, double> us;
+  for (const std::uint32_t vectors : {8U, 12U, 16U, 24U}) {
+    for (const bool frame : {false, true}) {
+      for (const What what : {What::tick, What::placed, What::still}) {
+        for (const bool cached : {false, true}) {
+          const Shape shape{vectors, frame, what};
+          const auto result = measure_crowd(run, shape, cached ? std::min(blocks, cached_blocks) : blocks, cached);
+          if (!result) return tl::unexpected(result.error());
+          us[stem_of(shape, cached)] = result->value;
+        }
+      }
+    }
+  }
+  if (auto done = measure_report(run); !done) return done;
+  const std::string line = "reduced.n12", points = "reduced.n12.control_points";
+  add_figure(run, "reduced.us_per_tick", us[line], "us", "12 vectors, a line's drive, the whole crowd");
+  add_figure(run, "reduced.us_per_tick_with_control_points", us[points], "us", "the same and its 81 nodes");
+  add_figure(run, "reduced.us_per_tick_with_frame_loads", us["reduced.n16.frame_loads"], "us",
+             "16 vectors, a line's drive and the frame's loads, the whole crowd");
+  const auto ratios = [&](const std::string& ending, const Paper& theirs, const std::string& ours) {
+    const auto add = [&](const char* name, double step_us, double tick_us, const char* whose) {
+      add_figure(run, fmt::format("reduced.ratio_to_paper{}{}", name, ending),
+                 step_us * paper_steps_a_second / (tick_us * ticks_a_second), "1",
+                 fmt::format("{:.3f} us a step of 81 nodes at 2 ms, {}; 500 of them against 60 ticks of {:.4f} us",
+                             step_us, whose, tick_us));
+    };
+    for (const auto& [name, tick_us] : {std::pair{"", us[line + ours]}, {"_with_control_points", us[points + ours]}}) {
+      add(name, theirs.individual_us, tick_us, "everybody's own size");
+      add(*name == 0 ? "_shared" : "_shared_with_control_points", theirs.shared_us, tick_us, "one stiffness for all");
+    }
+  };
+  ratios("", *paper, "");
+  ratios("_cached", *paper_cached, ".cached");
+  return {};
+}
+
+}  // namespace mobil

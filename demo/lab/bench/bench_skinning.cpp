@@ -1,0 +1,144 @@
+// Surfaces: positions and normals of people's muscles and bones in a vertex buffer, from their control points on.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "demo/lab/bench/bench.h"
+#include "systems/simulation.h"
+#include "systems/surfaces/surfaces.h"
+
+namespace mobil {
+namespace {
+
+// A muscle's vertex: eight nodes' weighted mean (45), its place in the cage (3), maps of frame and two bones (54),
+// their weighted sum (15), its side (1); its six neighbours' differences (12) and two products (21), its length (8;
+// root and quotient count as one each), and by that (3).
+constexpr double muscle_flops = 45 + 3 + 54 + 15 + 1 + 12 + 21 + 8 + 3;
+// Its tangent besides: four neighbours' differences (36), at right angles to the normal (11), its length (8), by that
+// (3).
+constexpr double tangent_flops = 36 + 11 + 8 + 3;
+constexpr double bone_flops = 18 + 15;  // rotated, and the position shifted
+
+/// A person and the vertices that they are drawn with.
+struct Person {
+  Entity entity;
+  std::vector<SurfaceMuscle> muscles;
+  const BodySurfaces* surfaces = nullptr;
+};
+
+struct Scene {
+  Simulation simulation;
+  std::deque<BodySurfaces> surfaces;
+  std::vector<Person> people;
+  double vertices = 0;     // of everybody
+  double bound_bytes = 0;  // that a vertex is made from, in the mean
+};
+
+double bytes_of(const PackedSurface& s) {
+  return static_cast<double>(s.node.size() * sizeof(s.node[0]) + s.cage.size() * sizeof(CageBlock) +
+                             s.bone.size() * sizeof(BoneBlock) + s.rings.vertex.size() * sizeof(PlacedRing) +
+                             s.along.size() * sizeof(PlacedAlong));
+}
+
+/// Bytes of all that a person's vertices are made from, each once: both sides share it.
+double bytes_of(const BodySurfaces& surfaces) {
+  double bytes = 0;
+  for (const auto& piece : surfaces.piece) {
+    const auto* rigid = std::get_if<RigidSurface>(&piece.surface);
+    bytes += rigid != nullptr ? static_cast<double>(rigid->block.size() * sizeof(RigidBlock))
+                              : bytes_of(std::get<PackedSurface>(piece.surface));
+  }
+  return bytes;
+}
+
+/// People of one body, with one set of surfaces for all of them or everybody's own in memory.
+Result<void> gather(Scene& scene, std::size_t count, bool shared, const SurfaceChoice& choice) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto entity = scene.simulation.spawn({});
+    if (!entity) return tl::unexpected(entity.error());
+    if (auto done = scene.simulation.add_leg_muscles(*entity); !done) return done;
+    const Human human = *scene.simulation.human(*entity);
+    if (i == 0) {
+      auto bound = bind_surfaces(human.body, choice);
+      if (!bound) return tl::unexpected(bound.error());
+      scene.surfaces.push_back(std::move(*bound));
+    } else if (!shared) {
+      scene.surfaces.push_back(BodySurfaces(scene.surfaces.front()));
+    }
+    Person person{*entity, {}, &scene.surfaces.back()};
+    for (const HumanMuscle& own : human.muscles) person.muscles.push_back({own.plan.muscle, own.entity});
+    scene.vertices += person.surfaces->vertices;
+    scene.people.push_back(std::move(person));
+  }
+  for (const BodySurfaces& surfaces : scene.surfaces) scene.bound_bytes += bytes_of(surfaces) / scene.vertices;
+  scene.simulation.advance(0.2);
+  return {};
+}
+
+/// Times one way to write everybody, `stride` bytes a vertex (12: positions alone; from 24 on normals, from 40 on
+/// tangents).
+Result<void> time_writing(BenchRun& run, const std::string& name, const Scene& scene, std::size_t stride,
+                          double flops) {
+  std::vector<std::byte> buffer(static_cast<std::size_t>(scene.vertices) * stride);
+  std::span<std::byte> free = buffer;
+  std::vector<SurfaceRequest> requests;
+  for (const Person& person : scene.people) {
+    SurfaceRequest request{person.entity, person.muscles, person.surfaces};
+    request.positions = {free.first(person.surfaces->vertices * stride), stride};
+    if (stride >= 24) request.normals = {request.positions.bytes.subspan(12), stride};
+    if (stride >= 40) request.tangents = {request.positions.bytes.subspan(24), stride};
+    free = free.subspan(person.surfaces->vertices * stride);
+    requests.push_back(request);
+  }
+  SurfaceWriter writer;
+  if (auto done = writer.write(scene.simulation.world(), requests); !done) return done;
+  const Measured time = measure_short([&] { (void)writer.write(scene.simulation.world(), requests); });
+  BenchResult& result = run.add_time(name, time, scene.vertices, 1e-9, "ns");
+  const double vertex_s = result.value * 1e-9;
+  const double bytes =
+      std::round(scene.bound_bytes) + 2 * static_cast<double>(stride);  // a line that is written is read before
+  result.of_peak = flops / vertex_s * 1e-9 / run.machine.fma_peak_gflops;
+  result.of_bandwidth = bytes / vertex_s * 1e-9 / run.machine.bandwidth_gbps;
+  result.bound = fmt::format("{:.0f} vertices of {} people, {} bytes apart, {:.0f} operations and {:.0f} bytes each",
+                             scene.vertices, scene.people.size(), stride, flops, bytes);
+  return {};
+}
+
+}  // namespace
+
+Result<void> bench_skinning(BenchRun& run) {
+  const SurfaceChoice muscles{.bones = false}, bones{.simulated = {}};
+  const SurfaceChoice textured{.bones = false, .textured = true}, coarse{.bones = false, .detail = 0.1};
+  constexpr std::size_t many = 100;
+  Scene one, shared, own, skeleton, tangents, tenth;
+  if (auto done = gather(one, 1, true, muscles); !done) return done;
+  if (auto done = gather(shared, many, true, muscles); !done) return done;
+  if (auto done = gather(own, many, false, muscles); !done) return done;
+  if (auto done = gather(skeleton, 1, true, bones); !done) return done;
+  if (auto done = gather(tangents, 1, true, textured); !done) return done;
+  if (auto done = gather(tenth, many, true, coarse); !done) return done;
+  struct Way {
+    const char* name;
+    const Scene& scene;
+    std::size_t stride;
+    double flops;
+  };
+  for (const Way& way : {Way{"skinning.ns_per_vertex", one, 24, muscle_flops},
+                         Way{"skinning.stride_32.ns_per_vertex", one, 32, muscle_flops},
+                         Way{"skinning.hundred_shared.ns_per_vertex", shared, 24, muscle_flops},
+                         Way{"skinning.hundred_shared.stride_32.ns_per_vertex", shared, 32, muscle_flops},
+                         Way{"skinning.hundred_own.ns_per_vertex", own, 24, muscle_flops},
+                         Way{"skinning.hundred_own.stride_32.ns_per_vertex", own, 32, muscle_flops},
+                         Way{"skinning.tangents.ns_per_vertex", tangents, 40, muscle_flops + tangent_flops},
+                         Way{"skinning.hundred_of_a_tenth.ns_per_vertex", tenth, 24, muscle_flops},
+                         Way{"skinning.bones.ns_per_vertex", skeleton, 24, bone_flops}}) {
+    if (auto done = time_writing(run, way.name, way.scene, way.stride, way.flops); !done) return done;
+  }
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,343 @@
+#include "demo/lab/compare/compare_reference.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <system_error>
+#include <utility>
+
+#include "assets/body/anthropometry.h"
+#include "assets/files/csv_table.h"
+#include "demo/lab/compare/reference_tables.h"
+
+namespace mobil {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where a quantity stands in a set's tables.
+struct CurveColumn {
+  std::size_t file;
+  std::string_view mean, sd;
+};
+
+/// What tells one set's tables from another's.
+struct SetLayout {
+  std::array<std::string_view, 3> file;  // angles, ground reaction, moments
+  std::string_view class_column;
+  std::array<std::string_view, speed_class_count> class_name;  // empty: not measured
+  std::array<CurveColumn, gait_quantity_count> column;
+};
+
+constexpr SetLayout schwartz_layout = {{"schwartz2008_angles", "schwartz2008_grf", "schwartz2008_moments_powers"},
+                                       "speed_class",
+                                       {"very_slow", "slow", "free", "fast", "very_fast"},
+                                       {{{0, "hip_flexion_deg", "hip_flexion_sd"},
+                                         {0, "knee_flexion_deg", "knee_flexion_sd"},
+                                         {0, "ankle_dorsiflexion_deg", "ankle_dorsiflexion_sd"},
+                                         {1, "vertical_BW", "vertical_sd"},
+                                         {1, "foreaft_BW", "foreaft_sd"},
+                                         {2, "hip_extensor_Nm_kg", "hip_moment_sd"},
+                                         {2, "knee_extensor_Nm_kg", "knee_moment_sd"},
+                                         {2, "ankle_plantarflexor_Nm_kg", "ankle_moment_sd"}}}};
+constexpr SetLayout winter_layout = {{"winter_joint_angles", "winter_grf", "winter_joint_moments"},
+                                     "cadence_class",
+                                     {"", "slow", "natural", "fast", ""},
+                                     {{{0, "hip_flexion_deg", "hip_sd"},
+                                       {0, "knee_flexion_deg", "knee_sd"},
+                                       {0, "ankle_dorsiflexion_deg", "ankle_sd"},
+                                       {1, "vertical_BW", "vertical_sd"},
+                                       {1, "foreaft_BW", "foreaft_sd"},
+                                       {2, "hip_extensor_Nm_kg", "hip_sd"},
+                                       {2, "knee_extensor_Nm_kg", "knee_sd"},
+                                       {2, "ankle_plantarflexor_Nm_kg", "ankle_sd"}}}};
+
+constexpr std::string_view schwartz_steps = "schwartz2008_spatiotemporal";
+constexpr std::string_view winter_speeds = "com_vertical_excursion_computed.csv";
+
+/// Legs of the people measured, m: of Schwartz's children estimated from their mean age of 10.5 years (0.71 to 0.77
+/// would change their moments by 4 %), of Winter's adults that of a height of 1.75 m.
+constexpr double children_leg_m = 0.74, adults_leg_m = 1.75 * fraction::hip_height;
+
+/// Where a class of a set stands: the slowest and the fastest of Schwartz were published apart.
+std::string table_name(std::string_view file, std::size_t speed_class) {
+  const bool extreme = speed_class == compared_class::very_slow || speed_class == compared_class::very_fast;
+  return fmt::format("{}{}.csv", file, extreme ? "_extremes" : "");
+}
+
+/// A table of the folder, or the built-in one of that name.
+class Tables {
+ public:
+  explicit Tables(const std::optional<fs::path>& folder) : folder_(folder) {}
+
+  bool in_folder(std::string_view name) const {
+    std::error_code ignored;
+    return folder_ && fs::is_regular_file(*folder_ / name, ignored);
+  }
+  Result<CsvTable> read(std::string_view name, std::span<const std::string_view> required) const {
+    if (in_folder(name)) return read_csv((*folder_ / name).string(), required);
+    for (const auto& table : reference_tables()) {
+      if (table.name == name) return parse_csv(table.text, name, required);
+    }
+    return fail(fmt::format("{} is missing in {}; put the table there, or leave --reference out", name,
+                            folder_ ? folder_->string() : "the program"));
+  }
+
+ private:
+  std::optional<fs::path> folder_;
+};
+
+/// A cell that must be a number.
+Result<double> value(const CsvTable& table, std::size_t row, std::string_view name) {
+  if (const auto read = number(cell(table, row, name))) return *read;
+  return fail(fmt::format("{}:{}: {} '{}' is not a number", table.path, table.line[row], name, cell(table, row, name)));
+}
+
+Result<CycleCurve> read_curve(const CsvTable& table, std::span<const std::size_t> rows, std::string_view name) {
+  CycleCurve curve{};
+  for (std::size_t i = 0; i < cycle_points; ++i) {
+    const auto read = value(table, rows[i], name);
+    if (!read) return tl::unexpected(read.error());
+    curve[i] = *read;
+  }
+  return curve;
+}
+
+/// The rows of one class, one each 2 % of the cycle.
+Result<std::vector<std::size_t>> rows_of_class(const CsvTable& table, std::string_view column_name,
+                                               std::string_view class_name) {
+  std::vector<std::size_t> rows;
+  for (std::size_t r = 0; r < table.row.size(); ++r) {
+    if (cell(table, r, column_name) == class_name) rows.push_back(r);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (number(cell(table, rows[i], "percent_gait")) != 2.0 * static_cast<double>(i)) rows.clear();
+  }
+  if (rows.size() == cycle_points) return rows;
+  return fail(fmt::format("{}: {} {} needs the {} rows of percent_gait 0, 2, … 100 in order", table.path, column_name,
+                          class_name, cycle_points));
+}
+
+Result<void> read_curves(const Tables& tables, const SetLayout& layout, MeasuredSet& set) {
+  for (std::size_t f = 0; f < layout.file.size(); ++f) {
+    std::vector<std::string_view> required = {layout.class_column, "percent_gait"};
+    for (const auto& column : layout.column) {
+      if (column.file == f) required.insert(required.end(), {column.mean, column.sd});
+    }
+    for (std::size_t c = 0; c < speed_class_count; ++c) {
+      if (layout.class_name[c].empty()) continue;
+      const auto table = tables.read(table_name(layout.file[f], c), required);
+      if (!table) return tl::unexpected(table.error());
+      set.measured[c] = true;
+      const auto rows = rows_of_class(*table, layout.class_column, layout.class_name[c]);
+      if (!rows) return tl::unexpected(rows.error());
+      for (std::size_t q = 0; q < gait_quantity_count; ++q) {
+        if (layout.column[q].file != f) continue;
+        const auto mean = read_curve(*table, *rows, layout.column[q].mean);
+        if (!mean) return tl::unexpected(mean.error());
+        const auto sd = read_curve(*table, *rows, layout.column[q].sd);
+        if (!sd) return tl::unexpected(sd.error());
+        set.curve[c][q] = {*mean, *sd};
+      }
+    }
+  }
+  return {};
+}
+
+Result<void> read_schwartz_pelvis(const Tables& tables, MeasuredSet& set) {
+  constexpr std::array<std::string_view, 3> names = {"pelvis_tilt_anterior_deg", "pelvis_rotation_forward_deg",
+                                                     "pelvis_obliquity_up_deg"};
+  const std::array<std::string_view, 5> required = {"speed_class", "percent_gait", names[0], names[1], names[2]};
+  for (std::size_t c = 0; c < speed_class_count; ++c) {
+    const auto table = tables.read(table_name(schwartz_layout.file[0], c), required);
+    if (!table) return tl::unexpected(table.error());
+    const auto rows = rows_of_class(*table, "speed_class", schwartz_layout.class_name[c]);
+    if (!rows) return tl::unexpected(rows.error());
+    std::array<CycleCurve, 3> curve;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const auto read = read_curve(*table, *rows, names[i]);
+      if (!read) return tl::unexpected(read.error());
+      curve[i] = *read;
+    }
+    const auto half_range = [](const CycleCurve& of) {
+      const auto [low, high] = std::ranges::minmax(of);
+      return 0.5 * (high - low);
+    };
+    set.pelvis_tilt_deg[c] = std::accumulate(curve[0].begin(), curve[0].end() - 1, 0.0) / (cycle_points - 1);
+    set.pelvis_rotation_deg[c] = half_range(curve[1]);
+    set.pelvis_list_deg[c] = half_range(curve[2]);
+  }
+  return {};
+}
+
+/// The numbers of the row that has `key` in `key_column`.
+template <std::size_t N>
+Result<std::array<double, N>> row_values(const CsvTable& table, std::string_view key_column, std::string_view key,
+                                         const std::array<std::string_view, N>& names) {
+  for (std::size_t r = 0; r < table.row.size(); ++r) {
+    if (cell(table, r, key_column) != key) continue;
+    std::array<double, N> values{};
+    for (std::size_t i = 0; i < N; ++i) {
+      const auto read = value(table, r, names[i]);
+      if (!read) return tl::unexpected(read.error());
+      values[i] = *read;
+    }
+    return values;
+  }
+  return fail(fmt::format("{}: a row with {} {} is missing", table.path, key_column, key));
+}
+
+/// Schwartz's speeds, and his steps as a band: from leg lengths to heights at the same leg as a generated body's.
+Result<void> read_schwartz_steps(const Tables& tables, MeasuredSet& set, StepBand& band) {
+  constexpr std::array<std::string_view, 6> names = {"speed_dimless",   "step_length_per_leg", "step_length_sd",
+                                                     "cadence_dimless", "cadence_sd",          "opposite_foot_off_pct"};
+  const std::array<std::string_view, 7> required = {"speed_class", names[0], names[1], names[2],
+                                                    names[3],      names[4], names[5]};
+  constexpr double leg = fraction::hip_height;
+  const double root = std::sqrt(leg);
+  for (std::size_t c = 0; c < speed_class_count; ++c) {
+    const auto table = tables.read(table_name(schwartz_steps, c), required);
+    if (!table) return tl::unexpected(table.error());
+    const auto v = row_values(*table, "speed_class", schwartz_layout.class_name[c], names);
+    if (!v) return tl::unexpected(v.error());
+    set.speed[c] = (*v)[0];
+    set.step_length[c] = (*v)[1];
+    set.double_support[c] = 0.01 * (*v)[5];
+    band.norm.push_back({(*v)[0] * root, (*v)[1] * leg, (*v)[2] * leg, (*v)[3] / root, (*v)[4] / root});
+  }
+  return {};
+}
+
+Result<void> read_lencioni_steps(const Tables& tables, std::vector<StepBand>& bands) {
+  constexpr std::array<std::string_view, 6> required = {"group",          "speed_dimless",   "step_length_per_height",
+                                                        "step_length_sd", "cadence_dimless", "cadence_sd"};
+  const auto table = tables.read("lencioni2019_steps.csv", required);
+  if (!table) return tl::unexpected(table.error());
+  for (const std::string_view group : {"adults", "children"}) {
+    StepBand band{fmt::format("Lencioni 2019, {}", group), {}};
+    for (std::size_t r = 0; r < table->row.size(); ++r) {
+      if (cell(*table, r, "group") != group) continue;
+      std::array<double, 5> v{};
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        const auto read = value(*table, r, required[i + 1]);
+        if (!read) return tl::unexpected(read.error());
+        v[i] = *read;
+      }
+      band.norm.push_back({v[0], v[1], v[2], v[3], v[4]});
+    }
+    std::ranges::sort(band.norm, {}, &StepNorm::speed);
+    bands.push_back(std::move(band));
+  }
+  return {};
+}
+
+Result<std::vector<ExcursionNorm>> read_excursion(const Tables& tables) {
+  constexpr std::array<std::string_view, 3> names = {"speed_m_s", "vertical_excursion_m", "vertical_excursion_sd"};
+  const auto table = tables.read("centre_of_mass_excursion.csv", names);
+  if (!table) return tl::unexpected(table.error());
+  std::vector<ExcursionNorm> norms;
+  for (std::size_t r = 0; r < table->row.size(); ++r) {
+    std::array<double, 3> v{};
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      const auto read = value(*table, r, names[i]);
+      if (!read) return tl::unexpected(read.error());
+      v[i] = *read;
+    }
+    norms.push_back({v[0], v[1], v[2]});
+  }
+  std::ranges::sort(norms, {}, &ExcursionNorm::speed_m_s);
+  return norms;
+}
+
+Result<MeasuredSet> read_winter(const Tables& tables) {
+  MeasuredSet set{"Winter 1991", true, adults_leg_m};
+  constexpr std::array<std::string_view, 1> speed = {"speed_m_s"};
+  const std::array<std::string_view, 2> required = {"source", "speed_m_s"};
+  const auto table = tables.read(winter_speeds, required);
+  if (!table) return tl::unexpected(table.error());
+  for (std::size_t c = 0; c < speed_class_count; ++c) {
+    if (winter_layout.class_name[c].empty()) continue;
+    const auto v = row_values(*table, "source", fmt::format("winter_{}", winter_layout.class_name[c]), speed);
+    if (!v) return tl::unexpected(v.error());
+    set.speed[c] = (*v)[0] / std::sqrt(gravity_m_s2 * set.leg_m);
+  }
+  if (auto done = read_curves(tables, winter_layout, set); !done) return tl::unexpected(done.error());
+  return set;
+}
+
+/// A folder that holds none of the tables is a mistake.
+Result<void> check_folder(const Tables& tables, const fs::path& folder) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) {
+    return fail(
+        fmt::format("--reference {}: no such folder; name one with tables of measured walking", folder.string()));
+  }
+  std::vector<std::string> names;
+  for (const auto& file : winter_layout.file) names.push_back(table_name(file, compared_class::slow));
+  for (const auto& table : reference_tables()) names.emplace_back(table.name);
+  if (std::ranges::any_of(names, [&](std::string_view name) { return tables.in_folder(name); })) return {};
+  return fail(
+      fmt::format("--reference {}: holds none of the tables, such as {}; leave the option out for those that "
+                  "the program carries",
+                  folder.string(), names[0]));
+}
+
+}  // namespace
+
+double MeasuredSet::speed_m_s(std::size_t speed_class, double person_leg_m) const {
+  return speed[speed_class] * std::sqrt(gravity_m_s2 * person_leg_m);
+}
+
+MeasuredCurve MeasuredSet::scaled(std::size_t speed_class, GaitQuantity quantity, double person_leg_m) const {
+  MeasuredCurve scaled = curve[speed_class][index(quantity)];
+  if (!is_moment(quantity)) return scaled;
+  for (double& v : scaled.mean) v *= person_leg_m / leg_m;
+  for (double& v : scaled.sd) v *= person_leg_m / leg_m;
+  return scaled;
+}
+
+std::optional<StepNorm> StepBand::at(double speed) const {
+  for (std::size_t i = 0; i + 1 < norm.size(); ++i) {
+    const StepNorm &a = norm[i], &b = norm[i + 1];
+    if (speed < a.speed || speed > b.speed) continue;
+    const double t = (speed - a.speed) / (b.speed - a.speed);
+    const auto mix = [t](double from, double to) { return from + t * (to - from); };
+    return StepNorm{speed, mix(a.length, b.length), mix(a.length_sd, b.length_sd), mix(a.cadence, b.cadence),
+                    mix(a.cadence_sd, b.cadence_sd)};
+  }
+  return std::nullopt;
+}
+
+Result<GaitReference> read_gait_reference(const std::optional<fs::path>& folder) {
+  const Tables tables(folder);
+  if (folder) {
+    if (auto ok = check_folder(tables, *folder); !ok) return tl::unexpected(ok.error());
+  }
+  GaitReference reference;
+  MeasuredSet set{"Schwartz 2008", false, children_leg_m};
+  StepBand band{"Schwartz 2008, children", {}};
+  if (auto done = read_schwartz_steps(tables, set, band); !done) return tl::unexpected(done.error());
+  if (auto done = read_curves(tables, schwartz_layout, set); !done) return tl::unexpected(done.error());
+  if (auto done = read_schwartz_pelvis(tables, set); !done) return tl::unexpected(done.error());
+  reference.sets.push_back(std::move(set));
+  if (auto done = read_lencioni_steps(tables, reference.steps); !done) return tl::unexpected(done.error());
+  reference.steps.push_back(std::move(band));
+  auto excursion = read_excursion(tables);
+  if (!excursion) return tl::unexpected(excursion.error());
+  reference.excursion = std::move(*excursion);
+
+  if (tables.in_folder(table_name(winter_layout.file[0], compared_class::slow))) {
+    auto second = read_winter(tables);
+    if (!second) return tl::unexpected(second.error());
+    reference.sets.push_back(std::move(*second));
+  } else {
+    reference.note =
+        "Winter's tables are not here (they may not be redistributed; --reference DIR reads them): the band is "
+        "Schwartz's alone";
+  }
+  return reference;
+}
+
+}  // namespace mobil

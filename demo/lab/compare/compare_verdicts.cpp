@@ -1,0 +1,186 @@
+#include "demo/lab/compare/compare_verdicts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+namespace mobil {
+namespace {
+
+constexpr GaitQuantity angle_quantities[] = {GaitQuantity::hip, GaitQuantity::knee, GaitQuantity::ankle};
+constexpr GaitQuantity moment_quantities[] = {GaitQuantity::hip_moment, GaitQuantity::knee_moment,
+                                              GaitQuantity::ankle_moment};
+constexpr double inside_bound = 0.9, timing_bound_percent = 3;
+constexpr double ground_peak_bound = 0.10, moment_peak_bound = 0.20, weight_bound = 0.01;
+constexpr double vertical_correlation_bound = 0.98, fore_aft_correlation_bound = 0.95, correlation_bound = 0.9;
+
+class Verdicts {
+ public:
+  void at_most(std::string what, double value, double bound, std::string_view unit) {
+    all.push_back({std::move(what), std::string(unit), fmt::format("at most {:g}", bound), value, value <= bound});
+  }
+  void at_least(std::string what, double value, double bound, std::string_view unit) {
+    all.push_back({std::move(what), std::string(unit), fmt::format("at least {:g}", bound), value, value >= bound});
+  }
+  void within(std::string what, double value, double low, double high, std::string_view unit) {
+    all.push_back({std::move(what), std::string(unit), fmt::format("{:.4g} to {:.4g}", low, high), value,
+                   value >= low && value <= high});
+  }
+  void not_simulated(std::string what) { all.push_back({std::move(what), "1", "not simulated", NAN, std::nullopt}); }
+
+  std::vector<Verdict> all;
+};
+
+/// How far the worst peak's size is from the references', as a share of them.
+double worst_size(const CurveFinding& finding) {
+  double worst = 0;
+  for (const auto& peak : finding.peaks) {
+    if (peak.name != "valley") worst = std::max(worst, std::abs(peak.size_outside));
+  }
+  return worst;
+}
+
+double worst_timing(const CurveFinding& finding) {
+  double worst = 0;
+  for (const auto& peak : finding.peaks) worst = std::max(worst, std::abs(peak.timing_outside));
+  return worst;
+}
+
+/// How much the lower hump stands over the valley between; negative where a hump is not one.
+double humps(const CurveFinding& vertical) {
+  const Peak &first = vertical.peaks[0].ours, &valley = vertical.peaks[1].ours, &second = vertical.peaks[2].ours;
+  if (!first.interior || !valley.interior || !second.interior) return -1;
+  return std::min(first.value, second.value) - valley.value;
+}
+
+void judge_angles(const Comparison& comparison, const ComparedWalk& walk, const std::string& name, Verdicts& verdicts) {
+  for (std::size_t i = 0; i < std::size(angle_quantities); ++i) {
+    const auto finding = examine(walk, comparison.reference, angle_quantities[i]);
+    const std::string of = fmt::format("{}: {} ", name, gait_quantity_name[index(angle_quantities[i])]);
+    verdicts.at_least(of + "inside the band, share of the cycle", finding->inside_union, inside_bound, "1");
+    verdicts.at_most(of + "rms from the nearer mean", finding->rms_nearer_set, angle_rms_bound_deg(walk.speed_class),
+                     "deg");
+    verdicts.at_most(of + "peaks off in time", worst_timing(*finding), timing_bound_percent, "% of the cycle");
+    verdicts.at_most(of + "fastest, of the fastest measured", finding->rate_ratio, rate_bound[i], "1");
+  }
+}
+
+void judge_forces(const Comparison& comparison, const ComparedWalk& walk, const std::string& name, Verdicts& verdicts) {
+  if (!walk.stride.forces) {
+    verdicts.not_simulated(name + ": ground reaction");
+    verdicts.not_simulated(name + ": joint moments");
+    return;
+  }
+  const auto vertical = examine(walk, comparison.reference, GaitQuantity::vertical);
+  const auto fore_aft = examine(walk, comparison.reference, GaitQuantity::fore_aft);
+  verdicts.at_least(name + ": humps of the vertical force over its valley", humps(*vertical), 0.005, "body weights");
+  verdicts.at_most(name + ": humps off in size, share", worst_size(*vertical), ground_peak_bound, "1");
+  verdicts.at_least(name + ": vertical force, correlation", vertical->best_correlation, vertical_correlation_bound,
+                    "1");
+  verdicts.at_most(name + ": fore-aft peaks off in size, share", worst_size(*fore_aft), ground_peak_bound, "1");
+  verdicts.at_least(name + ": fore-aft force, correlation", fore_aft->best_correlation, fore_aft_correlation_bound,
+                    "1");
+  verdicts.within(name + ": mean vertical force of both feet", walk.stride.forces->mean_weights, 1 - weight_bound,
+                  1 + weight_bound, "body weights");
+  for (const auto quantity : moment_quantities) {
+    const auto finding = examine(walk, comparison.reference, quantity);
+    const std::string of = fmt::format("{}: {}, ", name, gait_quantity_name[index(quantity)]);
+    verdicts.at_least(of + "correlation", finding->best_correlation, correlation_bound, "1");
+    verdicts.at_most(of + "peaks off in size, share", worst_size(*finding), moment_peak_bound, "1");
+  }
+}
+
+/// Highest in the middle half of single support, lowest in double support; excursion within one deviation.
+void judge_centre_of_mass(const Comparison& comparison, const ComparedWalk& walk, const std::string& name,
+                          Verdicts& verdicts) {
+  const double double_support = 100 * walk.stride.double_support_cycle;
+  const double quarter = (50 - double_support) / 4;
+  verdicts.within(name + ": centre of mass highest", walk.stride.com_highest_percent, double_support + quarter,
+                  50 - quarter, "% of the cycle");
+  // from either side: a little before heel strike is not yet double support
+  const double lowest = walk.stride.com_lowest_percent;
+  verdicts.within(name + ": centre of mass lowest", lowest > 49.5 ? lowest - 50 : lowest, -0.5, double_support,
+                  "% of the cycle");
+  const auto norm = excursion_at(comparison.reference, walk.speed_m_s);
+  verdicts.within(name + ": centre of mass, excursion", 1000 * (walk.stride.com_highest_m - walk.stride.com_lowest_m),
+                  1000 * (norm.mean_m - norm.sd_m), 1000 * (norm.mean_m + norm.sd_m), "mm");
+}
+
+void judge_steps(const GaitReference& reference, const std::vector<VariedWalk>& walks, const std::string& against,
+                 Verdicts& verdicts) {
+  for (const bool cadence : {false, true}) {
+    double worst = 0;
+    for (const auto& walk : walks) {
+      worst = std::max(worst, outside_step_bands(reference, step_of(walk.stride), cadence).value_or(0));
+    }
+    verdicts.at_most(fmt::format("{} against {}: farthest outside the published spread",
+                                 cadence ? "cadence" : "step length", against),
+                     worst, 0, "standard deviations");
+  }
+}
+
+/// The least drop from one walk to the next of what `height` reads; positive where all go down.
+template <class Height>
+double least_drop(const std::vector<VariedWalk>& walks, Height height) {
+  double least = walks.size() < 2 ? 0 : INFINITY;
+  for (std::size_t i = 1; i < walks.size(); ++i) {
+    least = std::min(least, height(walks[i - 1].stride) - height(walks[i].stride));
+  }
+  return 1000 * least;
+}
+
+}  // namespace
+
+std::string walk_name(const Comparison& comparison, const ComparedWalk& walk) {
+  return fmt::format("{} {:.2f} m/s ({})", compared_class_name[walk.speed_class], walk.speed_m_s,
+                     comparison.reference.sets[walk.set].name);
+}
+
+StepNorm step_of(const WalkedStride& stride) {
+  return {stride.speed_m_s / std::sqrt(gravity_m_s2 * stride.height_m), stride.step_length_m / stride.height_m, 0,
+          stride.step_frequency_hz * std::sqrt(stride.height_m / gravity_m_s2), 0};
+}
+
+std::optional<double> outside_step_bands(const GaitReference& reference, const StepNorm& step, bool cadence) {
+  std::optional<double> nearest;
+  for (const auto& band : reference.steps) {
+    const auto norm = band.at(step.speed);
+    if (!norm) continue;
+    const double off = cadence ? std::abs(step.cadence - norm->cadence) / norm->cadence_sd
+                               : std::abs(step.length - norm->length) / norm->length_sd;
+    nearest = std::min(nearest.value_or(INFINITY), std::max(off - 1, 0.0));
+  }
+  return nearest;
+}
+
+std::vector<Verdict> judge(const Comparison& comparison) {
+  Verdicts verdicts;
+  for (const auto& walk : comparison.walks) {
+    const std::string name = walk_name(comparison, walk);
+    judge_angles(comparison, walk, name, verdicts);
+    judge_forces(comparison, walk, name, verdicts);
+    judge_centre_of_mass(comparison, walk, name, verdicts);
+  }
+  for (const auto& scene : comparison.balance) {
+    const std::string of = fmt::format("{}: unbalanced moment, ", scene.name);
+    verdicts.at_most(of + "pitch, rms", scene.moment.pitch_rms, balance_bound, "N m/kg");
+    verdicts.at_most(of + "roll, rms", scene.moment.roll_rms, balance_bound, "N m/kg");
+  }
+  judge_steps(comparison.reference, comparison.by_speed, "speed", verdicts);
+  judge_steps(comparison.reference, comparison.by_height, "height", verdicts);
+  const auto lowest = [](const WalkedStride& stride) { return stride.com_lowest_m; };
+  const auto highest = [](const WalkedStride& stride) { return stride.com_highest_m; };
+  const auto mean = [](const WalkedStride& stride) { return stride.com_mean_m; };
+  verdicts.at_least("longer steps: least drop of the centre of mass's lowest point",
+                    least_drop(comparison.by_step_length, lowest), 0.1, "mm");
+  verdicts.at_least("65, 80, 120 kg: least drop of the centre of mass's mean height",
+                    least_drop(comparison.by_mass, mean), 0.1, "mm");
+  verdicts.at_least("65, 80, 120 kg: least drop of the centre of mass's highest point",
+                    least_drop(comparison.by_mass, highest), 0.1, "mm");
+  return std::move(verdicts.all);
+}
+
+}  // namespace mobil

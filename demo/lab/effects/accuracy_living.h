@@ -1,0 +1,22 @@
+#pragma once
+// The accuracy table's part of muscles that pull: people walk with each rung of their ladder, beside tissue at finite
+// strain whose fibres pull (assets/finite/finite_motion.h).
+
+#include <array>
+#include <vector>
+
+#include "demo/lab/effects/accuracy_measure.h"
+#include "engine/error.h"
+#include "systems/relevance/accuracy_table.h"
+
+namespace mobil {
+
+/// As accuracy_plan, for a shorter time, since a muscle's walk takes half a minute of a core: groups in two bodies;
+/// members in one, for those of the calf err by up to 1.6 times as much as their group.
+std::array<AccuracyPlan, 2> living_plans();
+
+/// Rows without inertia and with, the right leg's. Where nonlinear tissue is: its static shape as the tables are made
+/// from, and what inertia adds to that on 4×4×16 elements.
+Result<std::vector<AccuracyRow>> measure_living_errors(const AccuracyPlan& plan);
+
+}  // namespace mobil

@@ -1,0 +1,231 @@
+#include "demo/lab/effects/accuracy_measure.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "assets/reduction/reduced_basis.h"
+#include "demo/lab/effects/accuracy_reference.h"
+#include "engine/schedule.h"
+#include "systems/relevance/relevance.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::size_t classes = speed_class_m_s.size();
+constexpr std::size_t driving_rung = 1;  // whose lines move the references
+
+/// Copies of one walker, one a rung, and the references of their muscles, right and left.
+struct Walk {
+  std::size_t body = 0, speed = 0;
+  std::array<Entity, rung_count> human{};
+  std::vector<std::array<ReferenceMuscle, 2>> reference;            // by muscle
+  std::vector<std::array<std::vector<float>, rung_count>> error_m;  // by muscle
+};
+
+Result<void> follow(const Simulation& simulation, const AccuracyPlan& plan, Walk& walk, bool counted) {
+  for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
+    for (const Side side : {Side::right, Side::left}) {
+      ReferenceMuscle& reference = walk.reference[m][side];
+      if (auto done = reference.follow(simulation, simulation.muscle(walk.human[driving_rung], plan.muscles[m], side));
+          !done)
+        return done;
+      if (!counted) continue;
+      for (std::size_t r = 0; r < rung_count; ++r) {
+        const Entity muscle = simulation.muscle(walk.human[r], plan.muscles[m], side);
+        walk.error_m[m][r].push_back(reference.largest_error_m(simulation.nodal_displacement(muscle)));
+      }
+    }
+  }
+  return {};
+}
+
+std::string number_list(const std::array<float, rung_count>& values) {
+  const auto number = [](float value) {
+    std::string text = fmt::format("{:.3g}", value);
+    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    return text + "F";
+  };
+  std::array<std::string, rung_count> texts;
+  std::ranges::transform(values, texts.begin(), number);
+  return fmt::format("{{{}}}", fmt::join(texts, ", "));
+}
+
+}  // namespace
+
+Result<std::array<Entity, rung_count>> spawn_copies(Simulation& simulation, const BodyRequest& body, float speed_m_s,
+                                                    const LegMuscles& choice, bool living) {
+  std::array<Entity, rung_count> all{};
+  for (std::size_t r = 0; r < rung_count; ++r) {
+    const auto human = simulation.spawn(body, {.speed_m_s = speed_m_s});
+    if (!human) return tl::unexpected(human.error());
+    all[r] = *human;
+    if (auto done = simulation.add_leg_muscles(*human, choice); !done) return tl::unexpected(done.error());
+    for (std::size_t m = 0; m < choice.muscles.size(); ++m) {
+      if (!choice.muscles[m]) continue;
+      if (auto done = simulation.set_method(*human, static_cast<Muscle>(m), rung_method(r, true, living)); !done)
+        return tl::unexpected(done.error());
+    }
+  }
+  return all;
+}
+
+float percentile(std::vector<float>& values, double part) {
+  if (values.empty()) return 0;
+  const auto at = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), values.begin() + at, values.end());
+  return values[static_cast<std::size_t>(at)];
+}
+
+AccuracyPlan accuracy_plan() {
+  AccuracyPlan plan;
+  for (std::size_t g = 0; g < muscle_group_count; ++g) plan.muscles.push_back(static_cast<Muscle>(g));
+  const auto add = [&](float height_m, float mass_kg, Constitution constitution) {
+    BodyRequest body;
+    body.height_m = height_m;
+    body.mass_kg = mass_kg;
+    body.constitution = constitution;
+    plan.bodies.push_back(body);
+  };
+  add(1.80F, 80, Constitution::average);
+  add(1.60F, 52, Constitution::thin);
+  add(1.68F, 85, Constitution::athletic);
+  add(1.92F, 78, Constitution::average);
+  add(1.88F, 115, Constitution::heavy);
+  return plan;
+}
+
+Result<std::vector<AccuracyRow>> measure_errors(const AccuracyPlan& plan, bool inertia) {
+  Simulation simulation;
+  LegMuscles choice;
+  choice.inertia = inertia;
+  choice.muscles.reset();
+  for (const Muscle muscle : plan.muscles) choice.muscles.set(static_cast<std::size_t>(muscle));
+  const auto tell = [&](double part) {
+    if (plan.progress) plan.progress(part);
+  };
+  std::vector<Walk> walks;
+  for (std::size_t b = 0; b < plan.bodies.size(); ++b) {
+    std::vector<std::shared_ptr<const ReducedBasis>> basis;
+    for (std::size_t c = 0; c < classes; ++c) {
+      Walk walk{b, c, {}, {}, {}};
+      const float speed = speed_class_m_s[c] * std::sqrt(plan.bodies[b].height_m / accuracy_height_m);
+      const auto copies = spawn_copies(simulation, plan.bodies[b], speed, choice, false);
+      if (!copies) return tl::unexpected(copies.error());
+      walk.human = *copies;
+      const Human human = *simulation.human(walk.human[driving_rung]);
+      for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
+        const auto own = std::ranges::find(human.muscles, plan.muscles[m], [](const auto& h) { return h.plan.muscle; });
+        if (basis.size() <= m) {
+          auto made = reference_basis(own->plan, choice);
+          if (!made) return tl::unexpected(made.error());
+          basis.push_back(std::move(*made));
+          tell(0.8 * static_cast<double>(b * plan.muscles.size() + m) /
+               static_cast<double>(plan.bodies.size() * plan.muscles.size()));
+        }
+        auto reference = ReferenceMuscle::make(basis[m], *own, choice, simulation.tick_s());
+        if (!reference) return tl::unexpected(reference.error());
+        walk.reference.push_back({*reference, *reference});
+      }
+      walk.error_m.resize(plan.muscles.size());
+      walks.push_back(std::move(walk));
+    }
+  }
+  const auto ticks_of = [&](double s) { return static_cast<int>(std::lround(s / simulation.tick_s())); };
+  const int settling = ticks_of(plan.settle_s), ticks = settling + ticks_of(plan.seconds);
+  for (int t = 0; t < ticks; ++t) {
+    simulation.tick();
+    for (Walk& walk : walks) {
+      if (auto done = follow(simulation, plan, walk, t >= settling); !done) return tl::unexpected(done.error());
+    }
+    tell(0.8 + 0.2 * t / ticks);
+  }
+  std::vector<AccuracyRow> rows;
+  for (std::size_t m = 0; m < plan.muscles.size(); ++m) {
+    for (std::size_t c = 0; c < classes; ++c) {
+      AccuracyRow row{plan.muscles[m], static_cast<SpeedClass>(c), inertia, {}};
+      for (Walk& walk : walks) {
+        if (walk.speed != c) continue;
+        const float size = plan.bodies[walk.body].height_m / accuracy_height_m;
+        for (std::size_t r = 0; r < rung_count; ++r) {
+          row.error_m[r] = std::max(row.error_m[r], percentile(walk.error_m[m][r], 0.999) / size);
+        }
+      }
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+Result<RungCost> measure_costs(std::size_t humans, bool inertia, bool living) {
+  const auto crowd = BenchCrowd::make(humans);
+  if (!crowd) return tl::unexpected(crowd.error());
+  Simulation& simulation = (*crowd)->simulation();
+  LegMuscles choice;
+  choice.inertia = inertia;
+  if (living) choice.activation = ExcitationSource::phase;
+  for (const Entity human : (*crowd)->people()) {
+    if (auto done = simulation.add_leg_muscles(human, choice); !done) return tl::unexpected(done.error());
+  }
+  const auto measure = [&](std::size_t rung, bool points) -> Result<double> {
+    for (const Entity human : (*crowd)->people()) {
+      for (std::size_t g = 0; g < muscle_group_count; ++g) {
+        if (auto done = simulation.set_method(human, static_cast<Muscle>(g), rung_method(rung, points, living)); !done)
+          return tl::unexpected(done.error());
+      }
+    }
+    for (int i = 0; i < 60; ++i) simulation.tick();  // until nothing fades any more
+    constexpr int repeats = 12, ticks = 10;
+    double least = INFINITY;
+    for (int i = 0; i < repeats; ++i) {
+      const auto cpu_s = (*crowd)->cpu_of([&] {
+        for (int t = 0; t < ticks; ++t) simulation.tick();
+      });
+      double sum = 0;
+      for (std::size_t s = 0; s < cpu_s.size(); ++s) {
+        if (is_deformation(simulation.schedule().systems()[s].module)) sum += cpu_s[s];
+      }
+      least = std::min(least, sum);
+    }
+    return 1e6 * least / (ticks * 2.0 * muscle_group_count * static_cast<double>((*crowd)->size()));
+  };
+  RungCost cost;
+  const auto nothing = measure(0, false);  // what asking for the time takes
+  if (!nothing) return tl::unexpected(nothing.error());
+  for (std::size_t r = 1; r < rung_count; ++r) {
+    const Rung& rung = rungs_of(living)[r];
+    if (rung.cells == reference_cells) {  // in a tick a finer mesh's vectors are vectors like others
+      cost.state_us[r] = cost.state_us[r - 1];
+      cost.points_us[r] = cost.points_us[r - 1];
+      continue;
+    }
+    const auto bare = measure(r, false);
+    if (!bare) return tl::unexpected(bare.error());
+    const auto with = rung.method == Method::reduced ? measure(r, true) : bare;
+    if (!with) return tl::unexpected(with.error());
+    const double state_us = std::max(0.0, *bare - *nothing);
+    cost.state_us[r] = static_cast<float>(state_us);
+    cost.points_us[r] = static_cast<float>(std::max(0.0, *with - *bare));
+  }
+  return cost;
+}
+
+std::string accuracy_source(const std::vector<AccuracyRow>& rows) {
+  std::string source;
+  for (const AccuracyRow& row : rows) {
+    const std::string living = row.living ? fmt::format(", true, {}", number_list(row.volume_off)) : "";
+    source += fmt::format("    {{Muscle{{{}}}, SpeedClass::{}, {}, {}{}}},\n", static_cast<int>(row.muscle),
+                          speed_class_name[static_cast<std::size_t>(row.speed)], row.inertia, number_list(row.error_m),
+                          living);
+  }
+  return source;
+}
+
+std::string cost_source(const RungCost& cost) {
+  return fmt::format("    RungCost{{{}, {}}},\n", number_list(cost.state_us), number_list(cost.points_us));
+}
+
+}  // namespace mobil

@@ -1,0 +1,243 @@
+#include "demo/lab/frontier/frontier_answers.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "assets/fem/muscle_template.h"
+#include "assets/reduction/reduced_basis.h"
+#include "systems/deformation/deformation.h"
+#include "systems/deformation/reduced.h"
+
+namespace mobil {
+namespace {
+
+/// Lanes that are stepped alike.
+struct Group {
+  const FrontierIndividual* individual;
+  std::uint32_t lanes = 0;  // bits
+};
+
+std::vector<Group> groups_of(const std::vector<FrontierIndividual>& individuals) {
+  std::vector<Group> groups;
+  for (std::uint32_t lane = 0; lane < lane_count; ++lane) {
+    const FrontierIndividual& own = individuals[lane];
+    auto known = std::ranges::find_if(groups, [&](const Group& g) { return g.individual->alike(own); });
+    if (known == groups.end()) known = groups.insert(groups.end(), {&own});
+    known->lanes |= 1U << lane;
+  }
+  return groups;
+}
+
+/// The least number of ticks that is a whole number of steps.
+Result<std::size_t> meeting(double dt_s) {
+  for (std::size_t ticks = 1; ticks <= 60; ++ticks) {
+    const double steps = static_cast<double>(ticks) * frontier_tick_s / dt_s;
+    if (std::abs(steps - std::round(steps)) < 1e-6) return ticks;
+  }
+  return fail(
+      fmt::format("frontier: steps of {} s never meet ticks of {:.6g} s; give another step", dt_s, frontier_tick_s));
+}
+
+/// When a group's calls begin, and which of them are answers.
+struct Calendar {
+  double call_s = frontier_tick_s;
+  std::size_t calls = 1;  // between samples, `stride` ticks
+  FrontierAnswer* answer;
+
+  /// Calls advance(from_s, to_s), and take(sample) at each sample.
+  template <class Advance, class Take>
+  void go(Advance&& advance, Take&& take) const {
+    const std::size_t samples = answer->samples();
+    for (std::size_t stretch = 0, sample = 0; sample < samples; ++stretch) {
+      const double start_s = static_cast<double>(stretch * answer->stride) * frontier_tick_s;
+      if (stretch * answer->stride >= answer->first) take(answer->displacement_m.data() + sample++ * point_width);
+      for (std::size_t call = 0; call < calls; ++call) {
+        const double from_s = start_s + static_cast<double>(call) * call_s;
+        advance(from_s, from_s + call_s);
+      }
+    }
+  }
+};
+
+Result<void> answer_by_elements(const FrontierDrive& drive, const FrontierMethod& method, const Group& group,
+                                bool loads, const Calendar& calendar) {
+  const MuscleTemplate& shape = *group.individual->shape;
+  const auto points = frontier_mesh(drive.muscle, frontier_points);
+  if (!points) return tl::unexpected(points.error());
+  const auto sampler = FrontierSampler::make(shape.mesh, *points);
+  if (!sampler) return tl::unexpected(sampler.error());
+  std::vector<Lanes<float>> displacement(nodal_width(shape.mesh.cells)), velocity(displacement.size());
+  std::vector<Lanes<float>> scratch(scratch_floats(shape, method.choice.method) / lane_count + 1);
+  const std::uint32_t steps = method.fixed_step ? 1 : group.individual->steps;
+  calendar.go(
+      [&](double from_s, double to_s) {
+        const auto end = drive.end(from_s, to_s);
+        const auto load = loads ? drive.load(from_s, to_s) : FrameLoad<Lanes<float>>{};
+        BellyReport<Lanes<float>> unused;
+        const BellyBlock block{shape,  drive.scale,           displacement.data()->lane, velocity.data()->lane,
+                               unused, Stiffness::individual, loads ? &load : nullptr,   false};
+        const auto call_s = static_cast<float>(calendar.call_s);
+        if (group.individual->solver == nullptr) {
+          deform_explicit(block, {FarEnd::held, end}, steps, call_s, scratch.data()->lane);
+        } else {
+          deform_implicit(block, *group.individual->solver, {FarEnd::held, end}, steps, call_s, scratch.data()->lane);
+        }
+      },
+      [&](Lanes<float>* to) { sampler->sample(displacement.data()->lane, group.lanes, to); });
+  return {};
+}
+
+/// Sixteen individuals' numbers, sixteen lanes at each.
+std::vector<Lanes<float>> in_lanes(const std::vector<FrontierIndividual>& individuals,
+                                   std::vector<float> FrontierIndividual::*numbers, const Group& group) {
+  std::vector<Lanes<float>> all((group.individual->*numbers).size());
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const bool own = (group.lanes >> lane & 1) != 0;
+    const std::vector<float>& of = (own ? individuals[lane] : *group.individual).*numbers;
+    for (std::size_t i = 0; i < all.size(); ++i) all[i][lane] = of[i];
+  }
+  return all;
+}
+
+void answer_by_vectors(const FrontierDrive& drive, const FrontierMethod& method,
+                       const std::vector<FrontierIndividual>& individuals, const Group& group, bool loads,
+                       const Calendar& calendar) {
+  const ReducedBasis& basis = *group.individual->basis;
+  const auto motion = in_lanes(individuals, &FrontierIndividual::motion, group);
+  const auto shape = in_lanes(individuals, &FrontierIndividual::points, group);
+  std::vector<Lanes<float>> state(reduced_state_width(basis.vectors)), displacement(point_width);
+  EndDrive<Lanes<float>> end{};
+  FrameLoad<Lanes<float>> load{};
+  const ReducedBlock block{basis, drive.scale, state.data()->lane, motion.data()->lane, loads ? &load : nullptr};
+  calendar.go(
+      [&](double from_s, double to_s) {
+        end = drive.end(from_s, to_s);
+        if (loads) load = drive.load(from_s, to_s);
+        if (method.moving()) deform_reduced(block, {FarEnd::held, end}, static_cast<float>(calendar.call_s));
+      },
+      [&](Lanes<float>* to) {
+        const ControlPoints points{shape.data()->lane, displacement.data()->lane};
+        if (method.moving()) {
+          place_control_points(block, points, {FarEnd::held, end});
+        } else {
+          place_static(block, points, {FarEnd::held, end});
+        }
+        for (std::size_t i = 0; i < point_width; ++i) {
+          for (std::size_t l = 0; l < lane_count; ++l) {
+            if ((group.lanes >> l & 1) != 0) to[i][l] = displacement[i][l];
+          }
+        }
+      });
+}
+
+}  // namespace
+
+std::size_t FrontierAnswer::samples() const {
+  return displacement_m.size() / point_width;
+}
+
+Result<FrontierSampler> FrontierSampler::make(const HexahedralMesh& mesh, const HexahedralMesh& points) {
+  const Cells &fine = mesh.cells, &coarse = points.cells;
+  if (fine[0] % coarse[0] != 0 || fine[1] % coarse[1] != 0) {
+    return fail(
+        fmt::format("frontier: a mesh of {}x{}x{} cells has not the control points of {}x{}x{} across; take"
+                    " multiples",
+                    fine[0], fine[1], fine[2], coarse[0], coarse[1], coarse[2]));
+  }
+  FrontierSampler sampler;
+  for_each_node(coarse, [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
+    const double z = points.node[node_index(coarse, i, j, k)].z;
+    const auto node = [&](std::uint32_t at) {
+      return node_index(fine, i * (fine[0] / coarse[0]), j * (fine[1] / coarse[1]), at);
+    };
+    std::uint32_t at = 0;
+    while (at + 1 < fine[2] && mesh.node[node(at + 1)].z < z) ++at;
+    const double low = mesh.node[node(at)].z, high = mesh.node[node(at + 1)].z;
+    double part = std::clamp((z - low) / (high - low), 0.0, 1.0);
+    if (std::min(part, 1 - part) < 1e-4) part = std::round(part);
+    sampler.place_.push_back({node(at), node(at + 1), static_cast<float>(part)});
+  });
+  return sampler;
+}
+
+void FrontierSampler::sample(const float* displacement, std::uint32_t lanes, Lanes<float>* to) const {
+  for (const Place& place : place_) {
+    for (std::size_t c = 0; c < 3; ++c, ++to) {
+      const float* const a = displacement + lane_count * (3 * std::size_t{place.before} + c);
+      const float* const b = displacement + lane_count * (3 * std::size_t{place.after} + c);
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        if ((lanes >> l & 1) != 0) (*to)[l] = (1 - place.part) * a[l] + place.part * b[l];
+      }
+    }
+  }
+}
+
+Result<FrontierAnswer> answer_of(const FrontierDrive& drive, const FrontierMethod& method,
+                                 const std::vector<FrontierIndividual>& individuals, bool loads) {
+  FrontierAnswer answer;
+  Calendar calendar{.answer = &answer};
+  if (method.fixed_step) {
+    calendar.call_s = *method.choice.dt_s;
+    const auto ticks = meeting(calendar.call_s);
+    if (!ticks) return tl::unexpected(ticks.error());
+    answer.stride = *ticks;
+    calendar.calls =
+        static_cast<std::size_t>(std::lround(static_cast<double>(answer.stride) * frontier_tick_s / calendar.call_s));
+  }
+  answer.first = (drive.first + answer.stride - 1) / answer.stride * answer.stride;
+  answer.displacement_m.resize(((drive.ticks() - answer.first) / answer.stride + 1) * point_width);
+  for (const Group& group : groups_of(individuals)) {
+    if (method.reduced()) {
+      answer_by_vectors(drive, method, individuals, group, loads, calendar);
+    } else if (auto done = answer_by_elements(drive, method, group, loads, calendar); !done) {
+      return tl::unexpected(done.error());
+    }
+  }
+  return answer;
+}
+
+FrontierAnswer extrapolated(const FrontierAnswer& fine, const FrontierAnswer& coarse) {
+  FrontierAnswer both = fine;
+  for (std::size_t i = 0; i < both.displacement_m.size(); ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      both.displacement_m[i][l] += (fine.displacement_m[i][l] - coarse.displacement_m[i][l]) / 3;
+    }
+  }
+  return both;
+}
+
+void FrontierError::add(const FrontierAnswer& answer, const FrontierAnswer& truth, std::size_t walks) {
+  for (std::size_t s = 0; s < answer.samples(); ++s) {
+    const std::size_t t = answer.first + s * answer.stride - truth.first;
+    for (std::size_t n = 0; n < point_width; n += 3) {
+      for (std::size_t l = 0; l < walks; ++l) {
+        double distance = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+          const auto is = static_cast<double>(answer.displacement_m[s * point_width + n + c][l]);
+          const auto should = static_cast<double>(truth.displacement_m[t * point_width + n + c][l]);
+          distance += (is - should) * (is - should);
+          reference_square += should * should;
+        }
+        square += distance;
+        largest_m = std::max(largest_m, std::sqrt(distance));
+      }
+    }
+  }
+}
+
+void FrontierError::add(const FrontierError& other) {
+  square += other.square;
+  reference_square += other.reference_square;
+  largest_m = std::max(largest_m, other.largest_m);
+}
+
+double FrontierError::relative() const {
+  if (reference_square == 0) return std::numeric_limits<double>::quiet_NaN();
+  return std::sqrt(square / reference_square);
+}
+
+}  // namespace mobil

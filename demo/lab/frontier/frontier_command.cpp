@@ -1,0 +1,107 @@
+// `mobil frontier`: what accuracy costs.
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "assets/files/output_file.h"
+#include "assets/muscles/muscle_table.h"
+#include "demo/lab/frontier/frontier.h"
+#include "demo/lab/frontier/frontier_finite.h"
+#include "demo/lab/frontier/frontier_living.h"
+#include "demo/program/commands.h"
+#include "demo/program/progress.h"
+
+namespace mobil {
+namespace {
+
+struct FrontierText {
+  std::string out = "out", loads = "both";
+  bool short_form = false, long_form = false, check = false, finite = false;
+};
+
+Result<void> run_finite(const std::string& out) {
+  auto results = OutputFolder::make(out);
+  if (!results) return tl::unexpected(results.error());
+  const auto shapes = measure_finite(&show_part);
+  if (!shapes) return tl::unexpected(shapes.error());
+  std::vector<Muscle> all;
+  for (std::size_t m = 0; m < muscles().size(); ++m) all.push_back(static_cast<Muscle>(m));
+  const auto living = measure_living(all, &show_part);
+  show("");
+  if (!living) return tl::unexpected(living.error());
+  const auto& folder = results->inside();
+  if (auto done = write_file(folder / "finite.csv", finite_csv(*shapes)); !done) return done;
+  if (auto done = write_file(folder / "living.csv", living_csv(*living)); !done) return done;
+  if (auto done = write_file(folder / "living.svg", svg(living_figure(*living))); !done) return done;
+  if (auto done = results->put(); !done) return done;
+  fmt::print("{}\n{}", finite_text(*shapes), living_text(*living));
+  say_where(fmt::format("\nwritten {}: finite.csv living.csv living.svg", out));
+  return {};
+}
+
+Result<void> run_frontier(const FrontierText& text) {
+  if (text.finite) return run_finite(text.out);
+  if (text.short_form && text.long_form) return fail("--short and --long are both asked for; give one of them");
+  auto results = OutputFolder::make(text.out);
+  if (!results) return tl::unexpected(results.error());
+  FrontierRequest request = text.long_form ? long_frontier() : short_frontier();
+  if (text.loads != "both") request.scenes = {text.loads == "frame"};
+  if (text.check) request.checks = {{8, 8, 32}, {16, 16, 64}};
+  request.progress = &show_part;
+  const auto frontier = measure_frontier(request);
+  show("");
+  if (!frontier) return tl::unexpected(frontier.error());
+  const auto& out = results->inside();
+  if (auto done = write_file(out / "frontier.csv", frontier_csv(*frontier)); !done) return done;
+  if (auto done = write_file(out / "frontier.svg", svg(frontier_figure(*frontier))); !done) return done;
+  if (auto done = write_file(out / "frontier.json", frontier_json(*frontier)); !done) return done;
+  if (auto done = results->put(); !done) return done;
+  fmt::print("{}", frontier_text(*frontier));
+  say_where(fmt::format("\nwritten {}: frontier.csv frontier.svg frontier.json", text.out));
+  return {};
+}
+
+}  // namespace
+
+Subcommand frontier_command() {
+  auto text = std::make_shared<FrontierText>();
+  Subcommand command{.name = "frontier", .about = "What accuracy costs: every way to deform a muscle, error and time"};
+  command.footer =
+      "Sixteen walks by six bodies and speeds move four muscle groups; every method, mesh, step and number of vectors\n"
+      "gets the same line of action (and once more with gravity and the frame's motion), tick by tick, and is held\n"
+      "against a reference refined until it hardly moves. How much it still moves is told, and what is nearer than "
+      "ten\n"
+      "times that is marked uncertain. Costs are processor time of one thread with thousands of muscles, all ways in\n"
+      "turn; ratios are to the paper's choice, 81 nodes stepped explicitly by 2 ms.\n"
+      "On the frontier is what nothing else beats in both: nearer and cheaper. A reduced muscle that nobody looks at\n"
+      "has a state but no control points; its cost with them is given as well.\n"
+      "Methods (mobil muscle --help says what they are): static, ecd, icd, caa; reduced: so many vectors of a finer\n"
+      "mesh, its error extrapolated away (reduced-plain: left in; reduced-static: without motion of its own).\n"
+      "Examples: mobil frontier\n"
+      "          mobil frontier --long --loads line --out frontier";
+  command.options = {
+      {"--short", &text->short_form, "A minute at most on two cores; the default"},
+      {"--long", &text->long_form, "All meshes, and a reference twice as fine: twenty minutes"},
+      {.name = "--loads",
+       .target = &text->loads,
+       .help = "line: of the line of action alone; frame: with the frame's too; or both",
+       .choices = {"line", "frame", "both"}},
+      {"--check", &text->check,
+       "Hold the reference against plain explicit meshes too, up to 18785 nodes: four minutes more for each muscle and "
+       "kind of load"},
+      {"--finite", &text->finite,
+       "Instead: what accuracy costs where muscles pull and are shaken, against tissue that keeps its volume "
+       "(finite.csv, "
+       "living.csv, living.svg): four minutes"},
+      {"--out", &text->out, "Folder for frontier.csv, .svg and .json, made if missing"}};
+  command.empty_refused = true;
+  command.run = [text] { return exit_status_of("frontier", run_frontier(*text)); };
+  return command;
+}
+
+}  // namespace mobil

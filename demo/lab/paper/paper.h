@@ -1,0 +1,65 @@
+#pragma once
+// The paper's figures and questions, as `mobil paper` makes them.
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "demo/lab/paper/paper_stage.h"
+#include "demo/lab/paper/paper_table.h"
+#include "demo/pictures/svg_plot.h"
+#include "engine/error.h"
+
+namespace mobil {
+
+/// What an entry is made with, and what it made.
+class PaperRun {
+ public:
+  explicit PaperRun(std::optional<std::filesystem::path> anatomy_folder) : anatomy(std::move(anatomy_folder)) {}
+
+  /// How far the entry is, 0–1; `what` is said on a terminal.
+  void progress(std::string_view what, double part) const;
+
+  /// Writes ENTRY.svg, ENTRY.csv.
+  Result<void> write(const PlotFigure& figure);
+  Result<void> write_csv(const std::string& text);
+  /// Writes ENTRY.png and tells `caption`; without a graphics device says so, once, and goes on. `make` is the way to
+  /// the picture.
+  Result<void> write_picture(std::string_view caption, const std::function<Result<Image>()>& make);
+
+  std::string entry;          // the one that is being made
+  std::filesystem::path out;  // where its files are written until it is done
+  std::optional<std::filesystem::path> anatomy;
+  std::string text;  // what to report when it is done
+  std::vector<std::string> written;
+
+ private:
+  Result<void> wrote(const Result<void>& done, const std::string& file);
+  bool blind_ = false;  // there is no graphics device
+};
+
+inline constexpr double millimetres = 1000;      // in one metre
+inline constexpr Cells paper_mesh = {4, 4, 20};  // 525 nodes
+
+/// The person of the paper's experiments: 1.80 m, 80 kg, and how fast he walks.
+inline constexpr float paper_height_m = 1.80F, paper_mass_kg = 80, paper_speed_m_s = 5 / 3.6F;
+BodyRequest paper_body();
+GaitRequest paper_gait();
+/// These muscles alone.
+LegMuscles only(std::initializer_list<Muscle> muscles);
+
+Result<void> paper_figure14(PaperRun& run);
+Result<void> paper_figure15(PaperRun& run);
+Result<void> paper_figure16(PaperRun& run);
+Result<void> paper_figure17(PaperRun& run);
+Result<void> paper_weight(PaperRun& run);
+Result<void> paper_step_length(PaperRun& run);
+Result<void> paper_quadriceps(PaperRun& run);
+Result<void> paper_stature(PaperRun& run);
+Result<void> paper_contraction(PaperRun& run);
+Result<void> paper_anatomy(PaperRun& run);
+
+}  // namespace mobil

@@ -1,0 +1,40 @@
+#pragma once
+// The paper's block by the textbook: trilinear elements, 2×2×2 Gauss points, its fixed components left out.
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "demo/lab/rivals/rival.h"
+
+namespace rivals {
+
+inline constexpr int nodes_across = 3, nodes_along = 9;
+inline constexpr int nodes_a_plane = nodes_across * nodes_across, nodes = nodes_a_plane * nodes_along;
+inline constexpr int moving = 3 * (nodes - nodes_a_plane);  // components: 216
+inline constexpr double cube_m = 0.015, density = 1000, young_pa = 1.06667e4, poisson = 0.3333;
+
+struct Element {
+  int node[8];  // x fastest
+};
+std::vector<Element> elements();
+
+/// K (all structural entries kept, 9702), lumped M and each component's share of a traction over the far face, for a
+/// block `across` times as wide and `along` times as long.
+struct Block {
+  Eigen::SparseMatrix<double, Eigen::RowMajor> stiffness;
+  Eigen::VectorXd mass, share_x, share_z;
+};
+Block make_block(double across, double along);
+
+/// Total force on the far face during a step, N, of muscle `m`: axial pull, and a part of it sideways.
+double pull_n(int step);
+double strength(int m);
+inline constexpr double sideways = 0.05;
+
+/// Mean axial and sideways displacement of the far face, m.
+Eigen::Vector2d far_mean(const Block& block, const Eigen::VectorXd& u);
+/// Static answer to the constant force `pull` and its part sideways.
+Eigen::VectorXd deflection(const Block& block, double pull);
+
+}  // namespace rivals

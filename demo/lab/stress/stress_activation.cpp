@@ -1,0 +1,215 @@
+// Muscles that pull, at finite strain: what hosts may ask of them, and legs that no walk has.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assets/body/bent_legs.h"
+#include "components/activation.h"
+#include "demo/lab/stress/stress.h"
+#include "demo/lab/stress/stress_world.h"
+
+namespace mobil {
+namespace {
+
+LegMuscles hosted(Method method) {
+  LegMuscles choice;
+  choice.method = method;
+  choice.reduced.cells = {2, 2, 8};
+  choice.activation = ExcitationSource::host;
+  return choice;
+}
+
+/// What a person's muscles come to at worst since it was made; NaN stays.
+struct Worst {
+  double moved_m = 0, volume_off = 0, fibre_off = 0, end_off_m = 0;
+
+  void look(const Simulation& simulation, Entity human) {
+    for (const OwnMuscle& own : simulation.muscles(human)) {
+      for (const Entity muscle : own.entity) {
+        const auto pull = simulation.get<Musculotendon>(muscle);
+        const auto state = simulation.get<Activation>(muscle);
+        if (!pull || !state) continue;
+        for (const float x : {pull->force_n, pull->fibre_m, pull->tendon_m, pull->belly_m, state->activation})
+          keep_worst(fibre_off, std::isfinite(x) ? 0 : NAN);
+        if (const auto report = simulation.get<BellyReport>(muscle)) {
+          keep_worst(volume_off, std::abs(double{report->volume_ratio} - 1));
+          keep_worst(end_off_m, std::abs(double{report->elongation_m} - double{pull->belly_m}));
+        }
+      }
+    }
+    keep_worst(moved_m, largest(control_points(simulation, human)));
+  }
+};
+
+Result<void> excite_all(Simulation& simulation, Entity human, float level) {
+  for (const OwnMuscle& own : simulation.muscles(human)) {
+    for (const Side side : {Side::right, Side::left}) {
+      if (auto done = simulation.set_excitation(human, own.muscle, side, level); !done) return done;
+    }
+  }
+  return {};
+}
+
+/// Stiffness that goes up and down as fast as activation can, at any rate: what shakes must not be pumped up by it.
+Result<void> stress_tuned(StressRun& run) {
+  Worst walking, standing;
+  double grown = 0;
+  for (const int apart : {1, 2, 3, 5, 8}) {
+    Simulation simulation;
+    LegMuscles choice = hosted(Method::reduced);
+    choice.reduced.tuned = true;
+    choice.inertia = true;
+    const auto walker = simulation.spawn({}, {.speed_m_s = 1.8F});
+    if (!walker) return tl::unexpected(walker.error());
+    const auto stands = simulation.spawn_posed({});
+    if (!stands) return tl::unexpected(stands.error());
+    for (const Entity human : {*walker, *stands}) {
+      if (auto added = simulation.add_leg_muscles(human, choice); !added) return added;
+    }
+    const int ticks = run.quick ? 300 : 3600;
+    std::array<double, 2> most_j{};  // in the first second, and later
+    for (int tick = 0; tick < ticks; ++tick) {
+      const float level = tick / apart % 2 == 0 ? 1.0F : 0.0F;
+      for (const Entity human : {*walker, *stands}) {
+        if (auto done = excite_all(simulation, human, level); !done) return done;
+      }
+      simulation.tick();
+      walking.look(simulation, *walker);
+      standing.look(simulation, *stands);
+      for (const OwnMuscle& own : simulation.muscles(*stands)) {
+        for (const Entity muscle : own.entity)
+          keep_worst(most_j[tick >= 60], double{simulation.get<BellyReport>(muscle)->kinetic_energy_j});
+      }
+    }
+    keep_worst(grown, most_j[1] / most_j[0]);
+  }
+  constexpr const char* name = "tension on and off at 60, 30, 20, 12 and 7.5 times a second";
+  run.add({name, "control points' displacement walking, m", Promise::at_most, 0.1, "twice what these walks show",
+           walking.moved_m});
+  run.add({name, "control points' displacement standing, m", Promise::at_most, 0.03, "twice what a contraction takes",
+           standing.moved_m});
+  run.add({name, "kinetic energy of who stands after the first second, over that in it", Promise::at_most, 1,
+           "what pumps would grow; the first contraction is the largest", grown});
+  return {};
+}
+
+}  // namespace
+
+Result<void> stress_excitation(StressRun& run) {
+  Simulation simulation;
+  const auto human = simulation.spawn({}, {.speed_m_s = 1.3F});
+  if (!human) return tl::unexpected(human.error());
+  if (auto added = simulation.add_leg_muscles(*human, hosted(Method::ecd)); !added) return added;
+  for (int tick = 0; tick < 30; ++tick) simulation.tick();
+  const auto before = world_words(simulation);
+  std::size_t refused = 0, asked = 0;
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                          -std::numeric_limits<float>::infinity()}) {
+    for (std::size_t m = 0; m < muscle_group_count; ++m, ++asked)
+      refused += simulation.set_excitation(*human, static_cast<Muscle>(m), Side::right, bad) ? 0 : 1;
+  }
+  run.add({"excitations that are no numbers", "of them taken", Promise::at_most, 0, "each is refused",
+           static_cast<double>(asked - refused)});
+  run.add({"excitations that are no numbers", "words of the world changed", Promise::at_most, 0,
+           "a refusal changes nothing", static_cast<double>(different_words(before, world_words(simulation)))});
+
+  Worst worst;
+  const int ticks = run.quick ? 600 : 3600;
+  for (int tick = 0; tick < ticks; ++tick) {  // on and off, in every tick, while walking
+    if (auto done = excite_all(simulation, *human, tick % 2 == 0 ? 1.0F : 0.0F); !done) return done;
+    simulation.tick();
+    worst.look(simulation, *human);
+    if (tick % 60 == 0) run.progress(0.5 * tick / ticks);
+  }
+  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "control points' displacement, m", Promise::at_most, 0.1,
+           "twice what these walks show", worst.moved_m});
+  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "volume shown off rest", Promise::at_most, 0.06,
+           "the explicit method's vibration on top of a shape that keeps it within 0.6 %", worst.volume_off});
+  run.add({"excitation 0, 1, 0, 1 … from tick to tick", "end of the mesh off what the tendon leaves, m",
+           Promise::at_most, 1e-5, "single precision", worst.end_off_m});
+
+  Simulation still;
+  const auto stands = still.spawn_posed({});
+  if (!stands) return tl::unexpected(stands.error());
+  if (auto added = still.add_leg_muscles(*stands, hosted(Method::reduced)); !added) return added;
+  if (auto done = excite_all(still, *stands, 1); !done) return done;
+  const int minutes = run.quick ? 1 : 10;
+  const auto belly = [&](std::size_t m) {
+    return double{still.get<Musculotendon>(still.muscle(*stands, static_cast<Muscle>(m), Side::right))->belly_m};
+  };
+  std::array<double, muscle_group_count> at_first{};
+  Worst held;
+  for (int tick = 0; tick < minutes * 3600; ++tick) {
+    still.tick();
+    if (tick == 600)
+      for (std::size_t m = 0; m < at_first.size(); ++m) at_first[m] = belly(m);
+    if (tick % 600 == 599) held.look(still, *stands);
+    if (tick % 600 == 0) run.progress(0.5 + 0.5 * tick / (minutes * 3600.0));
+  }
+  double crept = 0;
+  for (std::size_t m = 0; m < at_first.size(); ++m) keep_worst(crept, std::abs(belly(m) - at_first[m]));
+  run.add({fmt::format("{} minutes of tetanus", minutes), "bellies creep, m", Promise::at_most, 1e-6,
+           "a steady pull is steady", crept});
+  run.add({fmt::format("{} minutes of tetanus", minutes), "volume shown off rest", Promise::at_most, 0.01,
+           "the tables' promise", held.volume_off});
+  return stress_tuned(run);
+}
+
+Result<void> stress_contraction(StressRun& run) {
+  // Every method, then another in each tick: knees and ankles bent as far as they go while all pull at their most.
+  constexpr std::array methods = {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced};
+  Worst steady, flickering;
+  std::uint32_t slack = 0;
+  double least_force_n = 0;
+  for (std::size_t m = 0; m <= methods.size(); ++m) {
+    const bool flickers = m == methods.size();
+    Simulation simulation;
+    const auto human = simulation.spawn_posed({});
+    if (!human) return tl::unexpected(human.error());
+    if (auto added = simulation.add_leg_muscles(*human, hosted(flickers ? Method::ecd : methods[m])); !added)
+      return added;
+    if (auto done = excite_all(simulation, *human, 1); !done) return done;
+    const Body body = simulation.human(*human)->body;
+    const int ticks = run.quick ? 120 : 480;
+    for (int tick = 0; tick < ticks; ++tick) {
+      const auto part = static_cast<float>(0.5 - 0.5 * std::cos(2 * std::numbers::pi * tick / 120));
+      const LegBend bend{90 * part, 120 * part, 60 * part - 40};
+      if (auto posed = simulation.set_pose(*human, with_bent_legs(body, bend)); !posed) return posed;
+      if (flickers) {
+        for (std::size_t g = 0; g < muscle_group_count; ++g) {
+          const Method method = methods[(static_cast<std::size_t>(tick) + g) % methods.size()];
+          if (auto set = simulation.set_method(*human, static_cast<Muscle>(g), {method, {.cells = {2, 2, 8}}}); !set)
+            return set;
+        }
+      }
+      simulation.tick();
+      (flickers ? flickering : steady).look(simulation, *human);
+      for (const OwnMuscle& own : simulation.muscles(*human)) {
+        const auto pull = simulation.get<Musculotendon>(own.entity[Side::right]);
+        slack += pull->slack;
+        least_force_n = std::min(least_force_n, double{pull->force_n});
+      }
+      run.progress((static_cast<double>(m) + static_cast<double>(tick) / ticks) / (methods.size() + 1.0));
+    }
+  }
+  run.add({"squats at full activation, every method", "control points' displacement, m", Promise::at_most, 0.25,
+           "lines lengthen by up to 0.2 m", steady.moved_m});
+  run.add({"squats at full activation, every method", "force, N", Promise::at_least, 0, "tendons do not push",
+           least_force_n, fmt::format("{} times a member's tendon was slack", slack)});
+  run.add({"squats at full activation, every method", "volume shown off rest", Promise::at_most, 0.08,
+           "vibration on top of what keeps it", steady.volume_off});
+  run.add({"another method in every tick", "control points' displacement, m", Promise::at_most, 0.25,
+           "lines lengthen by up to 0.2 m", flickering.moved_m});
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,134 @@
+#include "demo/lab/stress/stress_bellies.h"
+
+#include "assets/fem/muscle_template.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+
+namespace mobil {
+
+Bellies::Bellies(MuscleTemplate shape)
+    : muscle(std::move(shape)),
+      displacement(nodal_width(muscle.mesh.cells)),
+      velocity(nodal_width(muscle.mesh.cells)),
+      scratch(scratch_floats(muscle, Method::ecd) / lane_count) {
+  for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = scale.along[l] = 1;
+}
+
+Result<void> Bellies::solve_by(Method method, Mass mass, double dt_s) {
+  auto made = make_belly_solver(muscle, method, mass, dt_s);
+  if (!made) return tl::unexpected(made.error());
+  solver = std::move(*made);
+  scratch.resize(scratch_floats(muscle, method) / lane_count);
+  return {};
+}
+
+void Bellies::tick(const FarFaceDrive& end, std::uint32_t substeps, float tick_s) {
+  const BellyBlock block{muscle, scale,     displacement.data()->lane,       velocity.data()->lane,
+                         report, stiffness, frame ? &frame.value() : nullptr};
+  float* const memory = scratch.empty() ? nullptr : scratch.data()->lane;
+  if (solver) {
+    deform_implicit(block, *solver, end, substeps, tick_s, memory);
+  } else {
+    deform_explicit(block, end, substeps, tick_s, memory);
+  }
+}
+
+double Bellies::energy_j(std::size_t lane) const {
+  return static_cast<double>(report.kinetic_energy_j[lane]) + static_cast<double>(report.strain_energy_j[lane]);
+}
+
+bool Bellies::finite(std::size_t lane) const {
+  const auto sound = [lane](const Lanes<float>& x) { return std::isfinite(x[lane]); };
+  return std::ranges::all_of(displacement, sound) && std::ranges::all_of(velocity, sound);
+}
+
+double Bellies::reach_m(std::size_t lane) const {
+  float most = 0;
+  for (const auto& x : displacement) {
+    if (!(std::fabs(x[lane]) <= most)) most = std::fabs(x[lane]);
+    if (std::isnan(most)) break;
+  }
+  return static_cast<double>(most);
+}
+
+void make_sixteen_sizes(Bellies& bellies) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    bellies.scale.across[l] = 0.8F + 0.03F * static_cast<float>(l);
+    bellies.scale.along[l] = 0.85F + 0.02F * static_cast<float>(7 * l % lane_count);
+  }
+}
+
+double uniform(std::mt19937& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random()) / 4294967295.0;
+}
+
+namespace {
+
+template <class F>
+void for_each_moving(const Cells& cells, FarEnd end, F&& f) {
+  for (std::uint32_t n = 0; n < node_count(cells); ++n) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      if (moves(cells, end, n, c)) f(3 * std::size_t{n} + c);
+    }
+  }
+}
+
+}  // namespace
+
+void shake(Bellies& bellies, float size_m, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto size = static_cast<double>(size_m);
+  for_each_moving(bellies.muscle.mesh.cells, bellies.muscle.options.far_end, [&](std::size_t at) {
+    const auto value = static_cast<float>(uniform(random, -size, size));
+    for (float& x : bellies.displacement[at].lane) x = value;
+  });
+}
+
+void shake(ReferenceBelly& belly, const Cells& cells, FarEnd end, double size_m, std::uint32_t seed) {
+  std::mt19937 random(seed);
+  const auto u = belly.displacement();
+  for_each_moving(cells, end, [&](std::size_t at) { u[at] = uniform(random, -size_m, size_m); });
+}
+
+Result<std::uint32_t> substeps_of(const Bellies& bellies, double tick_s) {
+  std::uint32_t most = 1;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const auto limit = critical_step(bellies.muscle.critical_steps, static_cast<double>(bellies.scale.across[l]),
+                                     static_cast<double>(bellies.scale.along[l]));
+    if (!limit) return tl::unexpected(limit.error());
+    most = std::max(most, substeps_within(*limit, tick_s));
+  }
+  return most;
+}
+
+std::size_t different_lanes(const Lanes<float>& a, const Lanes<float>& b, std::size_t but_lane) {
+  std::size_t different = 0;
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    if (l != but_lane && std::bit_cast<std::uint32_t>(a.lane[l]) != std::bit_cast<std::uint32_t>(b.lane[l]))
+      ++different;
+  }
+  return different;
+}
+
+std::size_t different_words(const Bellies& a, const Bellies& b, std::size_t but_lane) {
+  std::size_t different = 0;
+  const auto count = [&](const std::vector<Lanes<float>>& x, const std::vector<Lanes<float>>& y) {
+    for (std::size_t i = 0; i < x.size(); ++i) different += different_lanes(x[i], y[i], but_lane);
+  };
+  count(a.displacement, b.displacement);
+  count(a.velocity, b.velocity);
+  return different;
+}
+
+HexahedralMesh spindle(const Cells& cells) {
+  constexpr std::array<CageStation, 3> stations = {
+      {{0, 0, 0, 0.014F, 0.016F}, {0.5F, 0.006F, -0.004F, 0.021F, 0.018F}, {1, 0, 0, 0.013F, 0.012F}}};
+  return bend_block(cells, stations, 0.12).value();
+}
+
+}  // namespace mobil

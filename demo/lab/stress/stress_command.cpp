@@ -1,0 +1,188 @@
+// `mobil stress`: the hard cases, what is promised of each, and what happened.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "demo/lab/stress/stress.h"
+#include "demo/program/commands.h"
+#include "demo/program/json.h"
+#include "demo/program/named_entries.h"
+#include "demo/program/progress.h"
+
+namespace mobil {
+
+void StressRun::add(StressRow row) {
+  row.entry = entry;
+  rows.push_back(std::move(row));
+}
+
+namespace {
+
+struct Stress {
+  std::string_view name, about;
+  Result<void> (*run)(StressRun&);
+};
+
+constexpr std::array stresses = {
+    Stress{"slivers", "elements with a corner almost in the plane of its neighbours", &stress_slivers},
+    Stress{"flat", "elements sheared until they are almost flat", &stress_flat},
+    Stress{"aspect", "elements a hundred times longer than wide, and wider than long", &stress_aspect},
+    Stress{"inverted", "elements turned inside out", &stress_inverted},
+    Stress{"poisson", "nearly incompressible material", &stress_poisson},
+    Stress{"young", "Young's modulus over eight decades", &stress_young},
+    Stress{"density", "density over four decades", &stress_density},
+    Stress{"damping", "no damping, and too much of it", &stress_damping},
+    Stress{"steps", "explicit steps just below and just above the critical one", &stress_steps},
+    Stress{"caa", "constant average acceleration at absurd steps", &stress_caa},
+    Stress{"step-load", "a load that is suddenly there", &stress_step_load},
+    Stress{"impulse", "a load for one step alone", &stress_impulse},
+    Stress{"resonance", "a load at the lowest resonance", &stress_resonance},
+    Stress{"energy-single", "ten million steps in single precision", &stress_energy_single},
+    Stress{"energy-double", "a million steps in double precision", &stress_energy_double},
+    Stress{"denormals", "a ring that dies away below the smallest normal number", &stress_denormals},
+    Stress{"nan", "not-a-number and infinity in every input of a block", &stress_nan},
+    Stress{"explosion", "one exploding lane beside fifteen sound ones", &stress_explosion},
+    Stress{"excitation", "muscles excited by no numbers, on and off, and for minutes", &stress_excitation},
+    Stress{"contraction", "squats at full activation, and another method in every tick", &stress_contraction},
+    Stress{"ways", "every method with every effect, shaken as no body can be", &stress_ways},
+    Stress{"requests", "not-a-number and infinity in what people are asked to be and to do", &stress_requests},
+    Stress{"tables", "not-a-number and infinity in files and options", &stress_tables},
+    Stress{"hitch", "a frame of two seconds", &stress_hitch},
+    Stress{"walkers", "one person whose state is NaN among sixteen who walk", &stress_walkers},
+    Stress{"many", "one person whose state is NaN among ten thousand", &stress_many},
+    Stress{"relevance", "cameras that flicker, and a budget of nothing", &stress_relevance},
+    Stress{"sleep", "people who fall asleep and wake at any time", &stress_sleep},
+    Stress{"ticks", "from ten to a thousand ticks a second", &stress_ticks},
+    Stress{"far", "up to 999 km from the origin", &stress_far},
+    Stress{"day", "a day of walking, awake and asleep", &stress_day},
+};
+
+struct StressText {
+  std::vector<std::string> names;
+  std::optional<std::string> json;
+  bool list = false, quick = false;
+};
+
+std::string_view words(Promise promise) {
+  return promise == Promise::at_most ? "at most" : "at least";
+}
+
+std::string promised(const StressRow& row) {
+  return fmt::format("{} {} {:.4g}", row.quantity, words(row.promise), row.bound);
+}
+
+std::string happened(const StressRow& row) {
+  return fmt::format("{:.4g}{}{}", row.value, row.detail.empty() ? "" : ", ", row.detail);
+}
+
+void print_row(const StressRow& row) {
+  fmt::print("{:<5} {:<13} {}: {} ({}): {}\n", row.held() ? "held" : "BROKE", row.entry, row.tried, promised(row),
+             row.reason, happened(row));
+  std::fflush(stdout);
+}
+
+Json number_or_name(double value) {
+  if (std::isfinite(value)) return value;
+  return std::isnan(value) ? "nan" : value > 0 ? "infinity" : "-infinity";
+}
+
+std::string to_json(const StressRun& run, double seconds) {
+  Json json;
+  json["quick"] = run.quick;
+  json["seconds"] = seconds;
+  json["held"] = std::ranges::count_if(run.rows, &StressRow::held);
+  json["broken"] = std::ranges::count_if(run.rows, [](const StressRow& row) { return !row.held(); });
+  auto& rows = json["rows"] = Json::array();
+  for (const StressRow& row : run.rows) {
+    rows.push_back({{"name", row.entry},
+                    {"tried", row.tried},
+                    {"promised", promised(row)},
+                    {"reason", row.reason},
+                    {"happened", happened(row)},
+                    {"quantity", row.quantity},
+                    {"promise", words(row.promise)},
+                    {"bound", row.bound},
+                    {"value", number_or_name(row.value)},
+                    {"held", row.held()}});
+  }
+  return json.dump(2) + "\n";
+}
+
+void print_list() {
+  for (const Stress& stress : stresses) fmt::print("{:<13} {}\n", stress.name, stress.about);
+}
+
+void try_one(const Stress& stress, StressRun& run) {
+  const std::size_t before = run.rows.size();
+  run.entry = stress.name;
+  run.progress(0);
+  if (const auto done = stress.run(run); !done) {
+    run.add({.tried = std::string(stress.about),
+             .quantity = "failures before anything could be tried",
+             .bound = 0,
+             .reason = "all of this is within range",
+             .value = 1,
+             .detail = done.error().message});
+  }
+  show("");
+  for (std::size_t i = before; i < run.rows.size(); ++i) print_row(run.rows[i]);
+}
+
+int stress(const StressText& text) {
+  const auto chosen = choose_named(stresses, text.names, "stress");
+  if (!chosen) return complain("stress", chosen.error().message);
+  if (text.json) {
+    if (auto ok = check_result_place("--json", *text.json); !ok) return complain("stress", ok.error().message);
+  }
+  if (text.list) {
+    print_list();
+    return 0;
+  }
+  StressRun run;
+  run.quick = text.quick;
+  run.show = &show_part;
+  const auto start = std::chrono::steady_clock::now();
+  for (const Stress& stress : *chosen) try_one(stress, run);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const auto broken = std::ranges::count_if(run.rows, [](const StressRow& row) { return !row.held(); });
+  fmt::print("{} of {} hold, in {:.0f} s\n", static_cast<std::ptrdiff_t>(run.rows.size()) - broken, run.rows.size(),
+             seconds);
+  if (text.json) {
+    if (auto ok = write_result("--json", *text.json, to_json(run, seconds)); !ok) return exit_status_of("stress", ok);
+  }
+  return broken == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+Subcommand stress_command() {
+  auto text = std::make_shared<StressText>();
+  Subcommand command{.name = "stress", .about = "The hard cases: what is promised of each, and what happened"};
+  command.footer =
+      "A line each: held or BROKE, the entry, what was tried: what is promised with its bound (why that bound): what "
+      "was\n"
+      "measured. Exit status 0 where all hold, 1 where some do not, 2 for bad usage.\n"
+      "Example: mobil stress slivers nan --json stress.json";
+  command.options = {named_option(stresses, text->names, "try"),
+                     {"--list", &text->list, "Say what there is to try, and try nothing"},
+                     {"--quick", &text->quick, "Shorter long runs, some seconds in all"},
+                     {"--json", &text->json, "File for the rows"}};
+  command.run = [text] { return stress(*text); };
+  return command;
+}
+
+}  // namespace mobil

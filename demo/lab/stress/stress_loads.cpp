@@ -1,0 +1,243 @@
+// Loads that come all at once, for one step alone, or at the resonance, against what theory allows.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "demo/lab/stress/stress.h"
+#include "demo/lab/stress/stress_bellies.h"
+
+namespace mobil {
+namespace {
+
+constexpr double load_step_s = 0.001;  // about half of the critical step
+
+/// A straight block, which a load along z only stretches, free at its end: sixteen times alike, and once in double.
+struct Pair {
+  Bellies lanes;
+  ReferenceBelly reference;
+  double at_rest_m;  // elongation under 1 N at rest
+};
+
+Result<Pair> make_pair(Method method, double stiffness_damping_s) {
+  MuscleOptions options{FarEnd::free, 0, 1, 1};
+  options.stiffness_damping_s = stiffness_damping_s;
+  const HexahedralMesh mesh = make_block({2, 2, 8}, 0.015).value();
+  auto made = make_muscle_template(mesh, Material{}, options);
+  if (!made) return tl::unexpected(made.error());
+  Bellies lanes(std::move(*made));
+  lanes.stiffness = Stiffness::shared;
+  const Mass mass = method == Method::icd ? Mass::consistent : Mass::lumped;
+  if (method == Method::ecd) {
+    lanes.scratch.resize(scratch_floats(lanes.muscle, method) / lane_count);
+  } else if (auto ok = lanes.solve_by(method, mass, load_step_s); !ok) {
+    return tl::unexpected(ok.error());
+  }
+  auto reference = ReferenceBelly::make(mesh, lanes.muscle.terms,
+                                        {.method = method,
+                                         .mass = mass,
+                                         .end = FarEnd::free,
+                                         .dt_s = load_step_s,
+                                         .stiffness_damping_s = stiffness_damping_s});
+  if (!reference) return tl::unexpected(reference.error());
+  auto settled = ReferenceBelly::make(mesh, lanes.muscle.terms, {.method = Method::statics, .end = FarEnd::free});
+  if (!settled) return tl::unexpected(settled.error());
+  settled->start({{0, 0, 1}, {}, {}});
+  return Pair{std::move(lanes), std::move(*reference), settled->report().elongation_m};
+}
+
+/// The lanes' state as the reference's.
+void copy_state(Pair& pair) {
+  const auto v = pair.reference.velocity();
+  for (std::size_t i = 0; i < v.size(); ++i) {
+    for (float& x : pair.lanes.velocity[i].lane) x = static_cast<float>(v[i]);
+  }
+}
+
+void step(Pair& pair, double from_n, double to_n) {
+  EndTraction<Lanes<float>> pull{};
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    pull.from_n.z[l] = static_cast<float>(from_n);
+    pull.to_n.z[l] = static_cast<float>(to_n);
+  }
+  pair.lanes.tick(pull, 1, static_cast<float>(load_step_s));
+  pair.reference.step({{0, 0, from_n}, {}, {}}, {{0, 0, to_n}, {}, {}});
+}
+
+}  // namespace
+
+Result<void> stress_step_load(StressRun& run) {
+  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
+    auto pair = make_pair(method, 0);
+    if (!pair) return tl::unexpected(pair.error());
+    pair->reference.start({{0, 0, 1}, {}, {}});
+    copy_state(*pair);
+    double most = 0, least = 0, in_double = 0;
+    const int steps = run.quick ? 1000 : 20000;
+    for (int s = 0; s < steps; ++s) {
+      step(*pair, 1, 1);
+      const double now = static_cast<double>(pair->lanes.report.elongation_m[3]) / pair->at_rest_m;
+      if (!(now <= most)) most = now;
+      if (!(now >= least)) least = now;
+      in_double = std::max(in_double, pair->reference.report().elongation_m / pair->at_rest_m);
+    }
+    const std::string tried =
+        fmt::format("1 N all at once, undamped, {} steps by {}", steps, method_name[static_cast<std::size_t>(method)]);
+    run.add(
+        {.tried = tried,
+         .quantity = "largest elongation in parts of the static one",
+         .bound = 2.001,
+         .reason = "2: every mode's part of the displacement under its own load swings between 0 and twice its rest",
+         .value = most,
+         .detail = fmt::format("in double {:.6g}", in_double)});
+    run.add({.tried = tried,
+             .quantity = "least elongation in parts of the static one",
+             .promise = Promise::at_least,
+             .bound = -0.001,
+             .reason = "0, likewise",
+             .value = least});
+  }
+  return {};
+}
+
+Result<void> stress_impulse(StressRun& run) {
+  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
+    auto pair = make_pair(method, 0);
+    if (!pair) return tl::unexpected(pair.error());
+    constexpr double blow_n = 1000;  // 1 N s in a millisecond, on 0.1 kg
+    step(*pair, blow_n, 0);
+    step(*pair, 0, 0);
+    const auto report = pair->reference.report();
+    const double given = report.kinetic_energy_j + report.strain_energy_j;
+    double error = 0, drift = 0;
+    const int steps = run.quick ? 1000 : 20000;
+    double first = 0;
+    for (int s = 0; s < steps; ++s) {
+      if (s > 0) step(*pair, 0, 0);
+      const double energy = pair->lanes.energy_j(3);
+      if (s == 0) {
+        first = energy;
+        error = std::fabs(energy / given - 1);
+      }
+      if (!(std::fabs(energy / first - 1) <= drift)) drift = std::fabs(energy / first - 1);
+    }
+    const std::string tried = fmt::format("a blow of {} N for one step of {} s by {}", blow_n, load_step_s,
+                                          method_name[static_cast<std::size_t>(method)]);
+    run.add({.tried = tried,
+             .quantity = "energy that it gives against double precision, relative",
+             .bound = 1e-5,
+             .reason = "linear: rounding alone",
+             .value = error,
+             .detail = fmt::format("{:.4g} J", given)});
+    run.add({.tried = tried,
+             .quantity = fmt::format("change of energy in the {} steps after it, in parts of itself", steps),
+             .bound = 1e-4,
+             .reason = "conserved; single precision, ten times what was measured",
+             .value = drift});
+  }
+  return {};
+}
+
+namespace {
+
+/// The lowest frequency that a load along z excites (1/s), in the time of central differences: pulled and let go, with
+/// so much stiffness damping that after a second it rings alone.
+Result<double> lowest_stretch(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
+  auto belly = ReferenceBelly::make(mesh, terms,
+                                    {.method = Method::ecd,
+                                     .end = FarEnd::free,
+                                     .dt_s = load_step_s,
+                                     .damping_per_s = 0,
+                                     .stiffness_damping_s = 2e-4});
+  if (!belly) return tl::unexpected(belly.error());
+  const ReferenceLoad none{};
+  for (int s = 0; s < 200; ++s) belly->step({{0, 0, s / 200.0}, {}, {}}, {{0, 0, (s + 1) / 200.0}, {}, {}});
+  double last = 0, first_crossing = 0, crossing = 0;
+  int crossings = 0;
+  for (int s = 0; s < 4000; ++s) {
+    belly->step(none, none);
+    const double now = belly->report().elongation_m;
+    if (s > 1000 && last < 0 && now >= 0) {
+      crossing = (s - now / (now - last)) * load_step_s;
+      if (crossings++ == 0) first_crossing = crossing;
+    }
+    last = now;
+  }
+  if (crossings < 3) return fail("the belly does not ring");
+  return 2 * std::numbers::pi * (crossings - 1) / (crossing - first_crossing);
+}
+
+}  // namespace
+
+Result<void> stress_resonance(StressRun& run) {
+  auto probe = make_pair(Method::ecd, 0);
+  if (!probe) return tl::unexpected(probe.error());
+  const auto omega = lowest_stretch(probe->lanes.muscle.mesh, probe->lanes.muscle.terms);
+  if (!omega) return tl::unexpected(omega.error());
+  const double period = 2 * std::numbers::pi / *omega;
+  for (const Method method : {Method::ecd, Method::caa}) {
+    const auto name = method_name[static_cast<std::size_t>(method)];
+    // a load of its own frequency in the method's time: central differences beat fast, mean acceleration slow
+    const double exact = 2 / load_step_s * std::sin(*omega * load_step_s / 2);
+    const double own = method == Method::ecd ? *omega : 2 / load_step_s * std::atan(exact * load_step_s / 2);
+    auto undamped = make_pair(method, 0);
+    if (!undamped) return tl::unexpected(undamped.error());
+    const int periods = run.quick ? 8 : 32;
+    const int steps = static_cast<int>(2 * periods * period / load_step_s);
+    double early = 0, late = 0, early_double = 0, late_double = 0;
+    for (int s = 0; s < steps; ++s) {
+      step(*undamped, std::sin(own * s * load_step_s), std::sin(own * (s + 1) * load_step_s));
+      const double now = std::fabs(static_cast<double>(undamped->lanes.report.elongation_m[3]));
+      const double in_double = std::fabs(undamped->reference.report().elongation_m);
+      (s < steps / 2 ? early : late) = std::max(s < steps / 2 ? early : late, now);
+      (s < steps / 2 ? early_double : late_double) = std::max(s < steps / 2 ? early_double : late_double, in_double);
+    }
+    run.add({.tried = fmt::format("a sine of 1 N at the lowest stretch, {:.2f} Hz, undamped by {}",
+                                  own / (2 * std::numbers::pi), name),
+             .quantity = fmt::format("distance from 2 of the amplitude after {} periods over that after {}",
+                                     2 * periods, periods),
+             .bound = 0.02,
+             .reason = "it grows linearly; other modes and the steps' coarseness add a per cent",
+             .value = std::fabs(late / early - 2),
+             .detail = fmt::format("in double {:.3g}; {:.3g} times the static elongation is reached",
+                                   std::fabs(late_double / early_double - 2), late / undamped->at_rest_m)});
+
+    constexpr double beta = 1e-3;
+    const double ratio = 0.5 * beta * *omega;
+    const double bound = 1 / std::tanh(std::numbers::pi * ratio / (2 * std::sqrt(1 - ratio * ratio)));
+    for (const bool square : {false, true}) {
+      auto damped = make_pair(method, beta);
+      if (!damped) return tl::unexpected(damped.error());
+      double most = 0, in_double = 0;
+      const auto load = [&](int s) {
+        const double wave = std::sin(own * s * load_step_s);
+        return square ? (wave >= 0 ? 1.0 : -1.0) : wave;
+      };
+      for (int s = 0; s < (run.quick ? 2000 : 8000); ++s) {
+        step(*damped, load(s), load(s + 1));
+        most = std::max(most, std::fabs(static_cast<double>(damped->lanes.report.elongation_m[3])));
+        in_double = std::max(in_double, std::fabs(damped->reference.report().elongation_m));
+      }
+      run.add(
+          {.tried = fmt::format("a {} of 1 N at the lowest stretch, {:.2g} of critical damping, by {}",
+                                square ? "square wave" : "sine", ratio, name),
+           .quantity = "largest elongation in parts of the static one",
+           .bound = 1.02 * bound,
+           .reason = fmt::format("no load within 1 N drives a mode beyond coth(pi/2 xi/sqrt(1 - xi^2)) = {:.4g} of its "
+                                 "rest, and the lowest has the least damping; 2 % for the step's length",
+                                 bound),
+           .value = most / damped->at_rest_m,
+           .detail = fmt::format("in double {:.4g}", in_double / damped->at_rest_m)});
+    }
+    run.progress(method == Method::ecd ? 0.5 : 1.0);
+  }
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,220 @@
+// Materials at the ends of their ranges, and damping beyond all measure.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "demo/lab/stress/stress.h"
+#include "demo/lab/stress/stress_bellies.h"
+#include "demo/lab/stress/stress_limits.h"
+
+namespace mobil {
+namespace {
+
+std::string_view name(Element element) {
+  return element_name[static_cast<std::size_t>(element)];
+}
+
+/// How far a far face moves sideways under 1 N sideways, m.
+Result<double> flexibility(const HexahedralMesh& mesh, const StiffnessTerms& terms) {
+  auto belly = ReferenceBelly::make(mesh, terms, {.method = Method::statics, .end = FarEnd::free});
+  if (!belly) return tl::unexpected(belly.error());
+  belly->start({{1, 0, 0}, {}, {}});
+  return belly->displacement()[3 * std::size_t{insertion_centre(mesh.cells).front()}];
+}
+
+}  // namespace
+
+Result<void> stress_poisson(StressRun& run) {
+  const HexahedralMesh mesh = spindle({2, 2, 8});
+  constexpr std::array<double, 6> ratios = {-0.99, 0.0, 0.3333, 0.49, 0.499, 0.4999};
+  std::array<std::array<double, ratios.size()>, all_elements.size()> bend{};
+  for (std::size_t e = 0; e < all_elements.size(); ++e) {
+    WorstProbe worst;
+    double drift = 0;
+    for (std::size_t r = 0; r < ratios.size(); ++r) {
+      const Material material{1000, 10000, ratios[r]};
+      const auto terms = assemble(mesh, material, all_elements[e]);
+      if (!terms) return tl::unexpected(terms.error());
+      const auto probe =
+          probe_limit(mesh, *terms, {.method = Method::ecd, .end = FarEnd::free}, run.quick ? 200 : 3000);
+      if (!probe) return tl::unexpected(probe.error());
+      worst.take(*probe);
+      const auto bent = flexibility(mesh, *terms);
+      if (!bent) return tl::unexpected(bent.error());
+      bend[e][r] = *bent;
+
+      MuscleOptions options{FarEnd::held, 0, 0.5, 2};
+      options.element = all_elements[e];
+      auto made = make_muscle_template(mesh, material, options);
+      if (!made) return tl::unexpected(made.error());
+      Bellies bellies(std::move(*made));
+      make_sixteen_sizes(bellies);
+      shake(bellies, 1e-3F);
+      const auto substeps = substeps_of(bellies, stress_tick_s);
+      if (!substeps) return tl::unexpected(substeps.error());
+      const EndDrive<Lanes<float>> still{};
+      bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(stress_tick_s));
+      std::array<double, lane_count> first{};
+      for (std::size_t l = 0; l < lane_count; ++l) first[l] = bellies.energy_j(l);
+      for (int tick = 0; tick < (run.quick ? 10 : 120); ++tick) {
+        bellies.tick({FarEnd::held, still}, *substeps, static_cast<float>(stress_tick_s));
+      }
+      for (std::size_t l = 0; l < lane_count; ++l) {
+        const double change = std::fabs(bellies.energy_j(l) / first[l] - 1);
+        if (!(change <= drift)) drift = change;
+      }
+      run.progress(static_cast<double>(e * ratios.size() + r + 1) / (all_elements.size() * ratios.size()));
+    }
+    const std::string tried = fmt::format("{} elements, Poisson's ratio -0.99 to 0.4999", name(all_elements[e]));
+    add_rows(run, tried, worst);
+    run.add({.tried = tried + ", sixteen sizes in lanes at the substeps that the engine chooses",
+             .quantity = "change of energy in parts of itself",
+             .bound = 1e-4,
+             .reason = "conserved; single precision, ten times what was measured",
+             .value = drift});
+  }
+  for (std::size_t e = 1; e < all_elements.size(); ++e) {
+    const double softer = bend[e][5] / bend[e][3];
+    run.add({.tried = fmt::format("{} elements bent sideways, Poisson's ratio 0.49 and 0.4999", name(all_elements[e])),
+             .quantity = "flexibility at 0.4999 in parts of that at 0.49",
+             .promise = Promise::at_least,
+             .bound = 0.9,
+             .reason = "bending depends on Young's modulus alone, shear by 0.7 %, clamping by some per cent; a locking "
+                       "element loses most of it",
+             .value = softer,
+             .detail = fmt::format("fully integrated elements {:.2g}, which lock and say so in their documentation",
+                                   bend[0][5] / bend[0][3])});
+  }
+  std::size_t accepted = 0;
+  constexpr std::array<double, 6> refused = {
+      -1.0, 0.49991, 0.5, 1.0, std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()};
+  for (const double ratio : refused) {
+    if (const auto terms = assemble(mesh, {1000, 10000, ratio}); terms) ++accepted;
+  }
+  run.add({.tried = "Poisson's ratio of -1, above 0.4999, no number, infinite",
+           .quantity = "not refused",
+           .bound = 0,
+           .reason = "no stiffness, or one that no precision holds",
+           .value = static_cast<double>(accepted)});
+  return {};
+}
+
+namespace {
+
+/// The motion of sixteen shaken sizes over some ticks by a method, in steps that scale with the material's period.
+Result<Bellies> ring(const Material& material, double dt_s, Method method, int ticks) {
+  auto made = make_muscle_template(spindle({2, 2, 8}), material, {FarEnd::held, 0, 0.5, 2});
+  if (!made) return tl::unexpected(made.error());
+  Bellies bellies(std::move(*made));
+  make_sixteen_sizes(bellies);
+  shake(bellies, 1e-3F);
+  if (method != Method::ecd) {
+    if (auto ok = bellies.solve_by(method, Mass::consistent, dt_s); !ok) return tl::unexpected(ok.error());
+  }
+  const EndDrive<Lanes<float>> still{};
+  for (int tick = 0; tick < ticks; ++tick) bellies.tick({FarEnd::held, still}, 8, static_cast<float>(8 * dt_s));
+  return bellies;
+}
+
+std::size_t different_displacements(const Bellies& a, const Bellies& b) {
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      if (!(a.displacement[i][l] == b.displacement[i][l])) ++different;
+    }
+  }
+  return different;
+}
+
+/// Rings of materials whose square root of stiffness over mass is a power of two from one to the next: in steps of the
+/// same part of their periods they are the same numbers.
+Result<void> scale_by_sixteens(StressRun& run, const std::string& what, double Material::*field, int lowest,
+                               int highest) {
+  const int ticks = run.quick ? 5 : 60;
+  const auto usual_terms = assemble(spindle({2, 2, 8}), Material{});
+  if (!usual_terms) return tl::unexpected(usual_terms.error());
+  constexpr double usual_dt = 0.00125;
+  const double usual_limit = critical_step(*usual_terms, 1, 1, FarEnd::held);
+  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
+    const double dt = method == Method::icd ? usual_dt / 2 : usual_dt;
+    const auto usual = ring(Material{}, dt, method, ticks);
+    if (!usual) return tl::unexpected(usual.error());
+    std::size_t different = 0, still = 0;
+    double limit_error = 0;
+    for (int power = lowest; power <= highest; ++power) {
+      Material material;
+      material.*field *= std::ldexp(1.0, 4 * power);
+      const int longer = (field == &Material::young_pa ? -2 : 2) * power;
+      const auto other = ring(material, std::ldexp(dt, longer), method, ticks);
+      if (!other) return tl::unexpected(other.error());
+      different += different_displacements(*usual, *other);
+      if (!(other->reach_m(0) > 0)) ++still;
+      const auto terms = assemble(spindle({2, 2, 8}), material);
+      if (!terms) return tl::unexpected(terms.error());
+      const double limit = critical_step(*terms, 1, 1, FarEnd::held);
+      const double error = std::fabs(limit / std::ldexp(usual_limit, longer) - 1);
+      if (!(error <= limit_error)) limit_error = error;
+      run.progress(static_cast<double>(power - lowest + 1) / (highest - lowest + 1));
+    }
+    const std::string tried = fmt::format("{}, in factors of 16, steps scaled with the period", what);
+    run.add({.tried = fmt::format("{}, sixteen sizes by {}", tried, method_name[static_cast<std::size_t>(method)]),
+             .quantity = "displacements that are not the same number",
+             .bound = 0,
+             .reason = "all of the arithmetic scales by powers of two, unless something over- or underflows",
+             .value = static_cast<double>(different + still),
+             .detail = fmt::format(
+                 "of {}", usual->displacement.size() * lane_count * static_cast<std::size_t>(highest - lowest + 1))});
+    if (method != Method::ecd) continue;
+    run.add({.tried = tried,
+             .quantity = "critical step against its scaling, relative",
+             .bound = 1e-12,
+             .reason = "it goes with the square root of density over Young's modulus",
+             .value = limit_error});
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<void> stress_young(StressRun& run) {
+  if (auto done = scale_by_sixteens(run, "Young's modulus from 2.6 Pa to 0.7 GPa", &Material::young_pa, -3, 4); !done) {
+    return done;
+  }
+  std::size_t accepted = 0;
+  for (const double young : {0.0, -1.0, 0.99, 4.5e-34, 1.1e12, std::numeric_limits<double>::quiet_NaN(),
+                             std::numeric_limits<double>::infinity()}) {
+    if (const auto terms = assemble(spindle({2, 2, 4}), {1000, young, 0.3}); terms) ++accepted;
+  }
+  run.add({.tried = "Young's modulus below 1 Pa, above 1e12 Pa, no number, infinite",
+           .quantity = "not refused",
+           .bound = 0,
+           .reason = "no such material",
+           .value = static_cast<double>(accepted)});
+  return {};
+}
+
+Result<void> stress_density(StressRun& run) {
+  if (auto done = scale_by_sixteens(run, "density from 3.9 to 256000 kg/m3", &Material::density_kg_m3, -2, 2); !done) {
+    return done;
+  }
+  std::size_t accepted = 0;
+  for (const double density : {0.0, -1.0, 0.99, 1e-30, 1.1e6, std::numeric_limits<double>::quiet_NaN(),
+                               std::numeric_limits<double>::infinity()}) {
+    if (const auto terms = assemble(spindle({2, 2, 4}), {density, 10000, 0.3}); terms) ++accepted;
+  }
+  run.add({.tried = "density below 1 kg/m3, above 1e6 kg/m3, no number, infinite",
+           .quantity = "not refused",
+           .bound = 0,
+           .reason = "no such material",
+           .value = static_cast<double>(accepted)});
+  return {};
+}
+
+}  // namespace mobil

@@ -1,0 +1,275 @@
+// NaN, too large and too small numbers in one lane of a block, and its fifteen neighbours.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cfloat>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "demo/lab/stress/stress.h"
+#include "demo/lab/stress/stress_bellies.h"
+#include "engine/jobs.h"
+
+namespace mobil {
+namespace {
+
+constexpr std::array<Method, 4> methods = {Method::ecd, Method::icd, Method::caa, Method::statics};
+
+std::string_view name(Method method) {
+  return method_name[static_cast<std::size_t>(method)];
+}
+
+/// All that a block is given.
+struct Inputs {
+  Bellies bellies;
+  EndDrive<Lanes<float>> end{};
+  EndTraction<Lanes<float>> traction{};
+  std::uint32_t substeps = 1;
+
+  FarFaceDrive drive() const {
+    const FarEnd way = bellies.muscle.options.far_end;
+    return way == FarEnd::free ? FarFaceDrive(traction) : FarFaceDrive(way, end);
+  }
+
+  void tick() { bellies.tick(drive(), substeps, static_cast<float>(stress_tick_s)); }
+
+  /// Every word that one lane reads.
+  std::vector<Lanes<float>*> words() {
+    std::vector<Lanes<float>*> all = {&bellies.scale.across, &bellies.scale.along};
+    const auto add = [&](Vec3<Lanes<float>>& v) { all.insert(all.end(), {&v.x, &v.y, &v.z}); };
+    if (bellies.muscle.options.far_end == FarEnd::free) {
+      add(traction.from_n);
+      add(traction.to_n);
+    } else {
+      all.insert(all.end(), {&end.from, &end.to});
+    }
+    add(bellies.frame->constant_from);
+    add(bellies.frame->constant_to);
+    for (Mat3<Lanes<float>>* m : {&bellies.frame->gradient_from, &bellies.frame->gradient_to}) {
+      add(m->x);
+      add(m->y);
+      add(m->z);
+    }
+    const std::size_t middle = bellies.displacement.size() / 2;
+    all.insert(all.end(), {&bellies.displacement[middle], &bellies.displacement.back(), &bellies.velocity[middle],
+                           &bellies.velocity.back()});
+    return all;
+  }
+};
+
+Result<Inputs> make_inputs(Method method, FarEnd end, const Cells& cells, double damping_per_s, double foundation_hz) {
+  MuscleOptions options{end, damping_per_s, 0.5, 2};
+  options.mass = method == Method::icd ? Mass::consistent : Mass::lumped;
+  options.foundation_hz = foundation_hz;
+  auto made = make_muscle_template(spindle(cells), Material{}, options);
+  if (!made) return tl::unexpected(made.error());
+  Inputs inputs{Bellies(std::move(*made))};
+  Bellies& bellies = inputs.bellies;
+  make_sixteen_sizes(bellies);
+  shake(bellies, 1e-3F);
+  const auto substeps = substeps_of(bellies, stress_tick_s);
+  if (!substeps) return tl::unexpected(substeps.error());
+  inputs.substeps = method == Method::statics ? 1 : *substeps;
+  if (method != Method::ecd) {
+    if (auto ok = bellies.solve_by(method, options.mass, stress_tick_s / inputs.substeps); !ok) {
+      return tl::unexpected(ok.error());
+    }
+  }
+  bellies.frame.emplace();
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const auto part = static_cast<float>(l) / lane_count;
+    bellies.frame->constant_from.y[l] = bellies.frame->constant_to.y[l] = -9.81F;
+    bellies.frame->gradient_from.x.z[l] = bellies.frame->gradient_to.z.x[l] = 20 * part;
+    inputs.end.to[l] = (inputs.bellies.muscle.options.far_end == FarEnd::held ? 0.01F : 0.3F) * part;
+    inputs.traction.to_n.z[l] = 0.3F * part;
+  }
+  return inputs;
+}
+
+std::size_t different_reports(const BellyReport<Lanes<float>>& a, const BellyReport<Lanes<float>>& b,
+                              std::size_t but_lane) {
+  std::size_t different = 0;
+  for (Lanes<float> BellyReport<Lanes<float>>::*field :
+       {&BellyReport<Lanes<float>>::elongation_m, &BellyReport<Lanes<float>>::reaction_n,
+        &BellyReport<Lanes<float>>::volume_ratio, &BellyReport<Lanes<float>>::kinetic_energy_j,
+        &BellyReport<Lanes<float>>::strain_energy_j})
+    different += different_lanes(a.*field, b.*field, but_lane);
+  return different;
+}
+
+}  // namespace
+
+Result<void> stress_nan(StressRun& run) {
+  constexpr std::array<float, 3> bad = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                                        -std::numeric_limits<float>::infinity()};
+  double part = 0;
+  for (const Method method : methods) {
+    std::size_t tried = 0, sick = 0, different = 0, compared = 0;
+    for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
+      auto clean = make_inputs(method, end, {2, 2, 4}, 8, 7);
+      if (!clean) return tl::unexpected(clean.error());
+      clean->tick();
+      const Inputs start = *clean;
+      clean->tick();
+      clean->tick();
+      const std::size_t count = clean->words().size();
+      for (std::size_t word = 0; word < count; ++word) {
+        for (const float value : bad) {
+          const std::size_t lane = 7 * ++tried % lane_count;
+          Inputs poisoned = start;
+          poisoned.words()[word]->lane[lane] = value;
+          poisoned.tick();
+          poisoned.tick();
+          different += different_words(clean->bellies, poisoned.bellies, lane) +
+                       different_reports(clean->bellies.report, poisoned.bellies.report, lane);
+          compared += (lane_count - 1) * (2 * clean->bellies.displacement.size() + 5);
+          if (!poisoned.bellies.finite(lane)) ++sick;
+        }
+      }
+      run.progress(++part / 12);
+    }
+    run.add(
+        {.tried = fmt::format("not-a-number, infinity or minus infinity in one lane of every input of a block by {}: "
+                              "scales, far face, frame, displacement, velocity; three kinds of far face",
+                              name(method)),
+         .quantity = "words of the fifteen neighbours that are not the same bits",
+         .bound = 0,
+         .reason = "lanes never meet",
+         .value = static_cast<double>(different),
+         .detail =
+             fmt::format("of {}, in {} cases; {} of the sick lanes ended without a number", compared, tried, sick)});
+  }
+  return {};
+}
+
+Result<void> stress_explosion(StressRun& run) {
+  constexpr std::size_t sick = 6;
+  for (const Method method : methods) {
+    auto sound = make_inputs(method, FarEnd::free, {2, 2, 8}, 0, 7);
+    if (!sound) return tl::unexpected(sound.error());
+    Inputs exploding = *sound;
+    std::string how = "at a tenth of its size, its step three and more times too long";
+    if (method == Method::ecd || method == Method::icd) {
+      exploding.bellies.scale.across[sick] = exploding.bellies.scale.along[sick] = 0.1F;
+    } else {
+      how = "pulled with 1e38 N";
+      exploding.traction.from_n.z[sick] = exploding.traction.to_n.z[sick] = 1e38F;
+    }
+    std::size_t different = 0;
+    double reach = 0;
+    const int ticks = run.quick ? 30 : 300;
+    for (int tick = 0; tick < ticks; ++tick) {
+      sound->tick();
+      exploding.tick();
+      different += different_words(sound->bellies, exploding.bellies, sick) +
+                   different_reports(sound->bellies.report, exploding.bellies.report, sick);
+      const double far = exploding.bellies.reach_m(sick);
+      if (!(far <= reach)) reach = far;
+    }
+    const std::string tried = fmt::format("one lane by {} {}, {} ticks", name(method), how, ticks);
+    run.add({.tried = tried,
+             .quantity = "words of the fifteen neighbours that are not the same bits, over all ticks",
+             .bound = 0,
+             .reason = "lanes never meet",
+             .value = static_cast<double>(different)});
+    run.add({.tried = tried,
+             .quantity = "how far it flew, m",
+             .promise = Promise::at_least,
+             .bound = 1e6,
+             .reason = "else nothing was tried; no number counts as infinitely far",
+             .value = std::isnan(reach) ? std::numeric_limits<double>::infinity() : reach});
+  }
+  return {};
+}
+
+namespace {
+
+std::size_t subnormals(const Bellies& bellies) {
+  std::size_t count = 0;
+  for (const auto* column : {&bellies.displacement, &bellies.velocity}) {
+    for (const auto& lanes : *column) {
+      count += static_cast<std::size_t>(
+          std::ranges::count_if(lanes.lane, [](float x) { return std::fpclassify(x) == FP_SUBNORMAL; }));
+    }
+  }
+  return count;
+}
+
+double largest_difference(const Bellies& a, const Bellies& b) {
+  double largest = 0;
+  for (std::size_t i = 0; i < a.displacement.size(); ++i) {
+    for (std::size_t l = 0; l < lane_count; ++l) {
+      const double difference =
+          std::fabs(static_cast<double>(a.displacement[i][l]) - static_cast<double>(b.displacement[i][l]));
+      if (!(difference <= largest)) largest = difference;
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+Result<void> stress_denormals(StressRun& run) {
+  for (const Method method : {Method::ecd, Method::icd, Method::caa}) {
+    auto flushed = make_inputs(method, FarEnd::held, {2, 2, 4}, 40, 0);
+    if (!flushed) return tl::unexpected(flushed.error());
+    flushed->bellies.frame.reset();
+    flushed->end = {};
+    Inputs plain = *flushed;
+    std::size_t with = 0, without = 0;
+    double apart = 0;
+    int ticks_with_subnormals = 0;
+    constexpr int ticks = 720;  // twelve seconds: the slowest part of the ring is divided by e^100 or more
+    for (int tick = 0; tick < ticks; ++tick) {
+      {
+        const FlushDenormals flush;
+        flushed->tick();
+      }
+      plain.tick();
+      with += subnormals(flushed->bellies);
+      const std::size_t now = subnormals(plain.bellies);
+      without += now;
+      if (now > 0) ++ticks_with_subnormals;
+      const double difference = largest_difference(flushed->bellies, plain.bellies);
+      if (!(difference <= apart)) apart = difference;
+    }
+    const std::string tried = fmt::format(
+        "a ring by {} that dies away within {} ticks, as systems run it and without that", name(method), ticks);
+    run.add({.tried = tried,
+             .quantity = "subnormal numbers left by the ticks as systems run them",
+             .bound = 0,
+             .reason = "systems take them for zero, so that no tick takes a hundred times as long",
+             .value = static_cast<double>(with)});
+    // what conjugate gradients square must not underflow: they let forces below some 1e-19 N be
+    const bool solves = method == Method::caa;
+    if (!solves) {
+      run.add({.tried = tried,
+               .quantity = "subnormal numbers left without that",
+               .promise = Promise::at_least,
+               .bound = 1,
+               .reason = "else nothing was tried",
+               .value = static_cast<double>(without),
+               .detail = fmt::format("in {} ticks", ticks_with_subnormals)});
+    }
+    run.add(
+        {.tried = tried,
+         .quantity = "largest difference between the two motions, m",
+         .bound = solves ? 1e-16 : 1e-34,
+         .reason =
+             solves
+                 ? "its conjugate gradients square the forces, take those below some 1e-19 N for none and leave what "
+                   "they would move"
+                 : "what is taken for zero is below 1.2e-38, and a motion is a sum of some thousand of such",
+         .value = apart});
+  }
+  return {};
+}
+
+}  // namespace mobil

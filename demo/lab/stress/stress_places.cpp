@@ -1,0 +1,241 @@
+// Far from the origin, for a day, in ticks of any length, asleep and awake by turns.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "demo/lab/stress/stress.h"
+#include "demo/lab/stress/stress_world.h"
+#include "engine/geometry.h"
+
+namespace mobil {
+namespace {
+
+using namespace geometry;
+
+double distance_m(const Vec3<float>& a, const Vec3<float>& b) {
+  return std::hypot(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
+}
+
+/// Distances of all joints from the pelvis.
+std::vector<double> shape_of(const Pose<float>& pose) {
+  std::vector<double> shape;
+  for (const auto& p : pose.position_m) shape.push_back(distance_m(p, pose.position_m[0]));
+  return shape;
+}
+
+/// Distance between floats of that size.
+double spacing_m(double far_m) {
+  const auto at = static_cast<float>(far_m);
+  return double{std::nextafter(at, std::numeric_limits<float>::infinity())} - double{at};
+}
+
+Result<Entity> walker(Simulation& simulation, float speed_m_s, bool muscles, Method method = Method::reduced) {
+  GaitRequest gait;
+  gait.speed_m_s = speed_m_s;
+  auto human = simulation.spawn({.height_m = 1.75F, .mass_kg = 72}, gait);
+  if (!human || !muscles) return human;
+  LegMuscles choice;
+  choice.method = method;
+  choice.reduced.cells = {2, 2, 8};
+  if (auto added = simulation.add_leg_muscles(*human, choice); !added) return tl::unexpected(added.error());
+  return human;
+}
+
+}  // namespace
+
+Result<void> stress_far(StressRun& run) {
+  constexpr std::array places_m = {100.0, 1e3, 8e3, 64e3, 100e3, 999e3};
+  for (const double far_m : places_m) {
+    Simulation near, far;
+    const auto here = walker(near, 1.3F, true), there = walker(far, 1.3F, true);
+    if (!here || !there) return tl::unexpected((here ? there : here).error());
+    if (auto put = far.place(*there, static_cast<float>(far_m), static_cast<float>(-far_m), 0); !put) return put;
+    double limb_m = 0, points_m = 0;
+    for (int tick = 0; tick < 240; ++tick) {
+      near.tick();
+      far.tick();
+      const auto a = shape_of(*near.get<Pose>(*here)), b = shape_of(*far.get<Pose>(*there));
+      for (std::size_t i = 0; i < a.size(); ++i) {
+        keep_worst(limb_m, std::abs(a[i] - b[i]));
+      }
+      keep_worst(points_m, largest_difference(control_points(near, *here), control_points(far, *there)));
+    }
+    const double spacing = spacing_m(far_m);
+    const std::string tried = fmt::format("{:g} km from the origin along both axes", far_m / 1e3);
+    run.add({.tried = tried,
+             .quantity = "joints' distances from the pelvis off those at the origin, m",
+             .bound = 8 * spacing + 1e-5,
+             .reason = fmt::format(
+                 "floats are {:.2g} m apart there, and a place is a sum of up to thirty along the spine", spacing),
+             .value = limb_m});
+    run.add({.tried = tried,
+             .quantity = "control points off those at the origin, m",
+             .bound = 4 * spacing + 1e-4,
+             .reason = "lines of action are a few roundings off, and bellies follow them",
+             .value = points_m});
+    if (auto moved = far.shift_origin(static_cast<float>(far_m), static_cast<float>(-far_m)); !moved) return moved;
+    for (int tick = 0; tick < 240; ++tick) {
+      near.tick();
+      far.tick();
+    }
+    run.add({.tried = tried + ", then the origin moved there and 4 s walked",
+             .quantity = "control points off those of who never left, m",
+             .bound = 1e-4,
+             .reason = "nothing is left of the way but e^-16 of what it excited",
+             .value = largest_difference(control_points(near, *here), control_points(far, *there))});
+  }
+  return {};
+}
+
+Result<void> stress_day(StressRun& run) {
+  const double hours = run.quick ? 0.1 : 24;
+  const auto ticks = static_cast<std::uint32_t>(hours * 3600 * 60);
+  Simulation awake, asleep;
+  const auto walks = walker(awake, 1.4F, false), sleeps = walker(asleep, 1.4F, false);
+  if (!walks || !sleeps) return tl::unexpected((walks ? sleeps : walks).error());
+  for (int tick = 0; tick < 300; ++tick) {
+    awake.tick();
+    asleep.tick();
+  }
+  const Vec3<float> from = awake.get<Pose>(*walks)->position_m[0];
+  const std::uint32_t steps_before = awake.get<GaitState>(*walks)->steps;
+  if (auto done = asleep.sleep({&*sleeps, 1}); !done) return tl::unexpected(done.error());
+  const double duration_s = double{awake.get<StepPlan>(*walks)->duration_s};
+  for (std::uint32_t tick = 0; tick < ticks; ++tick) {
+    awake.tick();
+    if (tick % 100000 == 0) run.progress(static_cast<double>(tick) / ticks);
+  }
+  for (std::uint32_t tick = 0; tick < ticks; ++tick) asleep.tick();
+  const Vec3<float> to = awake.get<Pose>(*walks)->position_m[0];
+  const double walked_m = distance_m(from, to), seconds = ticks / 60.0;
+  const std::string tried = fmt::format("{:g} hours of walking, {:.1f} km", hours, walked_m / 1e3);
+  run.add({.tried = tried,
+           .quantity = "of the way too much or too little",
+           .bound = 1e-3,
+           .reason = "the step's length and duration are what was asked for to single precision; a step more or less",
+           .value = std::abs(walked_m / (1.4 * seconds) - 1)});
+  run.add({.tried = tried,
+           .quantity = "steps too many or too few",
+           .bound = 1 + 1e-6 * seconds / duration_s,
+           .reason = "the clock counts whole units of 2^-15 ticks",
+           .value = std::abs(awake.get<GaitState>(*walks)->steps - steps_before - seconds / duration_s)});
+  run.add({.tried = tried,
+           .quantity = "off the line aside, m",
+           .bound = 1,
+           .reason = "a straight line is anchor + k chord, not a sum",
+           .value = std::abs(double{to.x} - double{from.x})});
+  if (auto done = asleep.wake({&*sleeps, 1}); !done) return done;
+  for (int tick = 0; tick < 60; ++tick) {
+    awake.tick();
+    asleep.tick();
+  }
+  run.add({.tried = fmt::format("{:g} hours asleep against the same awake", hours),
+           .quantity = "words of the person that differ, a second after waking",
+           .bound = 0,
+           .reason = "clock and place follow in closed form, to the bit",
+           .value = static_cast<double>(different_words(human_words(awake, *walks), human_words(asleep, *sleeps)))});
+  return {};
+}
+
+Result<void> stress_ticks(StressRun& run) {
+  constexpr double longest_tick_s = 1.0 / 10;
+  constexpr std::array rates_hz = {10.0, 20.0, 24.0, 30.0, 50.0, 60.0, 75.0, 90.0, 120.0, 144.0, 240.0, 500.0, 1000.0};
+  for (const double rate_hz : rates_hz) {
+    double speed_off = 0, worst_m = 0;
+    for (const Method method : {Method::ecd, Method::caa, Method::reduced}) {
+      Simulation simulation({.tick_s = 1 / rate_hz});
+      const auto human = walker(simulation, 1.4F, true, method);
+      if (!human) return tl::unexpected(human.error());
+      const auto run_s = [&](double seconds) {
+        for (int tick = 0; tick < static_cast<int>(seconds * rate_hz); ++tick) {
+          simulation.tick();
+          keep_worst(worst_m, largest(control_points(simulation, *human)));
+        }
+      };
+      run_s(run.quick ? 1 : 2);
+      const Vec3<float> from = simulation.get<Pose>(*human)->position_m[0];
+      const double start_s = simulation.time_s();
+      run_s(run.quick ? 2 : 20);
+      const Vec3<float> to = simulation.get<Pose>(*human)->position_m[0];
+      const double speed = distance_m(from, to) / (simulation.time_s() - start_s);
+      keep_worst(speed_off, std::abs(speed / 1.4 - 1));
+    }
+    const std::string tried = fmt::format("{:g} ticks a second", rate_hz);
+    run.add({.tried = tried,
+             .quantity = "of the speed asked for, off",
+             .bound = run.quick ? 0.1 : 0.01,
+             .reason = "a step begins or ends within the time measured",
+             .value = speed_off});
+    run.add({.tried = tried,
+             .quantity = "largest displacement of a control point, m",
+             .bound = 1 / rate_hz >= longest_tick_s ? 0.15 : 0.1,
+             .reason = "twice what this walk shows at 60 ticks a second; steps within a tick stay below critical ones",
+             .value = worst_m});
+  }
+  return {};
+}
+
+Result<void> stress_sleep(StressRun& run) {
+  constexpr int people = 24;
+  const int rounds = run.quick ? 6 : 60;
+  Simulation awake, drowsy;
+  std::vector<Entity> walks, sleeps;
+  for (int i = 0; i < people; ++i) {
+    const float speed = 0.8F + 0.04F * static_cast<float>(i);
+    const auto a = walker(awake, speed, false), b = walker(drowsy, speed, false);
+    if (!a || !b) return tl::unexpected((a ? b : a).error());
+    walks.push_back(*a);
+    sleeps.push_back(*b);
+  }
+  for (int tick = 0; tick < 300; ++tick) {
+    awake.tick();
+    drowsy.tick();
+  }
+  std::size_t slept = 0, different = 0;
+  for (int round = 0; round < rounds; ++round) {
+    const auto fell = drowsy.sleep(sleeps);
+    if (!fell) return tl::unexpected(fell.error());
+    slept += *fell;
+    const int ticks = 1 + 17 * round % 200;
+    for (int tick = 0; tick < ticks; ++tick) {
+      if (tick == ticks / 2 && round % 2 == 0) {
+        const std::size_t who = static_cast<std::size_t>(7 * round % people);
+        const float heading = 0.1F * static_cast<float>(round % 40 - 20);
+        if (auto done = awake.turn_to(walks[who], heading); !done) return done;
+        if (auto done = drowsy.turn_to(sleeps[who], heading); !done) return done;
+      }
+      awake.tick();
+      drowsy.tick();
+    }
+    if (auto done = drowsy.wake(sleeps); !done) return done;
+    for (int tick = 0; tick < 200; ++tick) {  // until turns are done and everybody may sleep again
+      awake.tick();
+      drowsy.tick();
+    }
+    for (std::size_t i = 0; i < people; ++i) {
+      different += different_words(human_words(awake, walks[i]), human_words(drowsy, sleeps[i]));
+    }
+    run.progress(round / static_cast<double>(rounds));
+  }
+  const std::string tried = fmt::format("{} people asleep and awake {} times, some turned meanwhile", people, rounds);
+  run.add({.tried = tried,
+           .quantity = "words that differ from those of people who never slept",
+           .bound = 0,
+           .reason = "a sleeper's walk is a function of its ticks",
+           .value = static_cast<double>(different)});
+  run.add({.tried = tried,
+           .quantity = "of them fell asleep when asked",
+           .promise = Promise::at_least,
+           .bound = 0.9,
+           .reason = "all but those who are still turning",
+           .value = static_cast<double>(slept) / (static_cast<double>(people) * rounds)});
+  return {};
+}
+
+}  // namespace mobil

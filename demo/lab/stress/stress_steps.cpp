@@ -1,0 +1,244 @@
+// Steps: just below the critical one, just above it, and absurd ones of the method that takes any.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "assets/fem/critical_step.h"
+#include "demo/lab/stress/stress.h"
+#include "demo/lab/stress/stress_bellies.h"
+#include "demo/lab/stress/stress_limits.h"
+#include "demo/muscle/muscle_options.h"
+
+namespace mobil {
+namespace {
+
+struct Block {
+  std::string cells, young, damping;
+};
+
+/// What `mobil muscle` makes of a step a little below and a little above the limit that it names.
+Result<void> ask_for_steps(StressRun& run) {
+  const std::vector<Block> blocks = {
+      {"2x2x8", "10666.7", "0"}, {"1x1x1", "1e6", "0"}, {"4x4x16", "10666.7", "8"}, {"3x2x5", "200", "1000"}};
+  std::size_t refused = 0, named = 0, accepted = 0, asked = 0;
+  std::string example;
+  for (const Block& block : blocks) {
+    for (const auto* method : {"ecd", "icd"}) {
+      MuscleText text;
+      text.cells = block.cells;
+      text.young = block.young;
+      text.damping = block.damping;
+      text.method = method;
+      text.seconds = "0.01";
+      const auto usual = read_muscle_request(text);
+      if (!usual) return tl::unexpected(usual.error());
+      const double limit = *usual->critical_step_s;
+      ++asked;
+      text.dt = fmt::format("{:.12g}", 0.9999 * limit);
+      if (read_muscle_request(text)) ++accepted;
+      text.dt = fmt::format("{:.12g}", 1.0001 * limit);
+      const auto above = read_muscle_request(text);
+      if (above) continue;
+      ++refused;
+      if (above.error().message.find(fmt::format("critical step {:.4g} s", limit)) == std::string::npos) continue;
+      ++named;
+      example = above.error().message;
+    }
+  }
+  run.add({.tried = fmt::format("{} blocks of `mobil muscle` by ecd and icd at 1.0001 of the critical step", asked),
+           .quantity = "steps not refused with the limit named, or refused at 0.9999 of it",
+           .bound = 0,
+           .reason = "above it the solution grows without bound",
+           .value = static_cast<double>(3 * asked - refused - named - accepted),
+           .detail = fmt::format("\"{}\"", example)});
+  return {};
+}
+
+Result<void> try_in_double(StressRun& run) {
+  const std::vector<HexahedralMesh> meshes = {spindle({2, 2, 8}), spindle({3, 2, 5}),
+                                              make_block({1, 1, 2}, 0.01).value(), make_block({4, 3, 2}, 0.02).value()};
+  for (const Method method : {Method::ecd, Method::icd}) {
+    WorstProbe worst;
+    for (const HexahedralMesh& mesh : meshes) {
+      const auto terms = assemble(mesh, Material{});
+      if (!terms) return tl::unexpected(terms.error());
+      for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
+        for (const auto& [across, along] : {std::pair{1.0, 1.0}, std::pair{0.6, 1.4}, std::pair{1.5, 0.7}}) {
+          for (const double foundation : {0.0, 300.0}) {
+            const auto probe = probe_limit(
+                mesh, *terms,
+                {.method = method, .end = end, .foundation_1_s = foundation, .across = across, .along = along},
+                run.quick ? 100 : 2000);
+            if (!probe) return tl::unexpected(probe.error());
+            worst.take(*probe);
+          }
+        }
+      }
+      run.progress(static_cast<double>(worst.tried) / (18.0 * static_cast<double>(meshes.size())));
+    }
+    const std::string tried = fmt::format("{} bellies by {}, held, sliding and free, braced or not, three sizes",
+                                          worst.tried, method_name[static_cast<std::size_t>(method)]);
+    add_rows(run, tried, worst);
+  }
+  return {};
+}
+
+/// The tabulated limit, which is that of individuals, in the kernel.
+Result<void> try_in_lanes(StressRun& run) {
+  double drift = 0, growth = 1e300;
+  std::size_t tried = 0;
+  for (const FarEnd end : {FarEnd::held, FarEnd::sliding, FarEnd::free}) {
+    auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {end, 0, 0.4, 2.5});
+    if (!made) return tl::unexpected(made.error());
+    const EndDrive<Lanes<float>> still{};
+    const EndTraction<Lanes<float>> slack{};
+    const FarFaceDrive drive = end == FarEnd::free ? FarFaceDrive(slack) : FarFaceDrive(end, still);
+    for (const auto& [across, along] :
+         {std::pair{1.0F, 1.0F}, std::pair{0.6F, 1.4F}, std::pair{1.5F, 0.7F}, std::pair{0.83F, 1.17F}}) {
+      const auto limit = critical_step(made->critical_steps, static_cast<double>(across), static_cast<double>(along));
+      if (!limit) return tl::unexpected(limit.error());
+      for (const bool above : {false, true}) {
+        Bellies bellies(*made);
+        for (std::size_t l = 0; l < lane_count; ++l) {
+          bellies.scale.across[l] = across;
+          bellies.scale.along[l] = along;
+        }
+        shake(bellies, 1e-3F);
+        const auto dt = static_cast<float>((above ? 1.015 : 0.999) * *limit);
+        bellies.tick(drive, 1, dt);
+        const double first = bellies.energy_j(0), kinetic = static_cast<double>(bellies.report.kinetic_energy_j[0]);
+        const std::uint32_t steps = above ? 600 : run.quick ? 1000 : 20000;
+        bellies.tick(drive, steps, static_cast<float>(steps) * dt);
+        ++tried;
+        if (above) {
+          const double grown =
+              bellies.finite(0) ? static_cast<double>(bellies.report.kinetic_energy_j[0]) / kinetic : 1e300;
+          if (!(grown >= growth)) growth = grown;
+        } else {
+          const double change = std::fabs(bellies.energy_j(0) / first - 1);
+          if (!(change <= drift)) drift = change;
+        }
+      }
+    }
+  }
+  const std::string bellies = fmt::format("{} blocks of the 81-node spindle in lanes", tried / 2);
+  run.add({.tried = bellies + " at 0.999 of the tabulated critical step",
+           .quantity = "change of energy in parts of itself",
+           .bound = 1e-3,
+           .reason = "conserved; rounding in single precision is amplified by at most 500",
+           .value = drift});
+  run.add({.tried = bellies + " at 1.015 of it",
+           .quantity = "growth of kinetic energy in 600 steps",
+           .promise = Promise::at_least,
+           .bound = 1e6,
+           .reason = "the table is at most 1 % low, which leaves at least e^0.2 a step",
+           .value = growth});
+  return {};
+}
+
+}  // namespace
+
+Result<void> stress_steps(StressRun& run) {
+  if (auto done = ask_for_steps(run); !done) return done;
+  if (auto done = try_in_double(run); !done) return done;
+  return try_in_lanes(run);
+}
+
+namespace {
+
+/// The range of sizes that one solver serves (assets/fem/belly_solver.h).
+void make_sizes_of_one_solver(Bellies& bellies) {
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    const auto part = [](std::size_t i) { return (static_cast<double>(i) - 1.5) / 1.5; };
+    const double ratio = std::pow(1.06, part(l % 4)), product = std::pow(1.12, part(l / 4));
+    bellies.scale.across[l] = static_cast<float>(std::sqrt(product * ratio));
+    bellies.scale.along[l] = static_cast<float>(std::sqrt(product / ratio));
+  }
+}
+
+/// Elongation of every lane that answers its load of 1 N at rest, m.
+Result<std::array<double, lane_count>> static_elongation(const Bellies& bellies, FarEnd end) {
+  std::array<double, lane_count> elongation{};
+  for (std::size_t l = 0; l < lane_count; ++l) {
+    auto belly = ReferenceBelly::make(bellies.muscle.mesh, bellies.muscle.terms,
+                                      {.method = Method::statics,
+                                       .end = end,
+                                       .across = static_cast<double>(bellies.scale.across[l]),
+                                       .along = static_cast<double>(bellies.scale.along[l])});
+    if (!belly) return tl::unexpected(belly.error());
+    belly->start({{0, 0, 1}, {}, {}});
+    elongation[l] = belly->report().elongation_m;
+  }
+  return elongation;
+}
+
+}  // namespace
+
+Result<void> stress_caa(StressRun& run) {
+  const int steps = run.quick ? 50 : 1000;
+  double part = 0;
+  for (const Mass mass : {Mass::lumped, Mass::consistent}) {
+    for (const bool alike : {true, false}) {
+      double most = 0, energy = 0, in_double = 0;
+      constexpr std::array<double, 5> absurd = {0.05, 0.5, 5, 50, 100};
+      for (const double dt : absurd) {
+        auto made = make_muscle_template(spindle({2, 2, 8}), Material{}, {FarEnd::free, 0, 0.5, 2});
+        if (!made) return tl::unexpected(made.error());
+        Bellies bellies(std::move(*made));
+        if (alike) {
+          bellies.stiffness = Stiffness::shared;
+        } else {
+          make_sizes_of_one_solver(bellies);
+        }
+        if (auto ok = bellies.solve_by(Method::caa, mass, dt); !ok) return ok;
+        const auto rest = static_elongation(bellies, FarEnd::free);
+        if (!rest) return tl::unexpected(rest.error());
+        EndTraction<Lanes<float>> pull{};
+        for (std::size_t l = 0; l < lane_count; ++l) pull.from_n.z[l] = pull.to_n.z[l] = 1;
+        auto reference = ReferenceBelly::make(bellies.muscle.mesh, bellies.muscle.terms,
+                                              {.method = Method::caa, .mass = mass, .end = FarEnd::free, .dt_s = dt});
+        if (!reference) return tl::unexpected(reference.error());
+        const ReferenceLoad load{{0, 0, 1}, {}, {}};
+        const double own = alike ? (*rest)[0] : 1e300;
+        for (int step = 0; step < steps; ++step) {
+          bellies.tick(pull, 1, static_cast<float>(dt));
+          for (std::size_t l = 0; l < lane_count; ++l) {
+            const double of_static = static_cast<double>(bellies.report.elongation_m[l]) / (*rest)[l];
+            if (!(of_static <= most)) most = of_static;
+            const double strain = static_cast<double>(bellies.report.strain_energy_j[l]) / (0.5 * (*rest)[l]);
+            if (!(strain <= energy)) energy = strain;
+          }
+          if (!alike || step >= 200) continue;
+          reference->step(load, load);
+          const double of_static = reference->report().elongation_m / own;
+          if (!(of_static <= in_double)) in_double = of_static;
+        }
+        run.progress(++part / (4.0 * absurd.size()));
+      }
+      const std::string tried = fmt::format(
+          "{} mass, {}, {} steps of 0.05 to 100 s each (critical 2 ms), 1 N all at once, undamped",
+          mass_name[static_cast<std::size_t>(mass)], alike ? "all alike" : "sixteen sizes of one solver", steps);
+      run.add({.tried = tried,
+               .quantity = "largest elongation in parts of the static one",
+               .bound = alike ? 2.01 : 2.2,
+               .reason = alike ? "2 exactly: the method conserves energy and work at any step"
+                               : "2, and what eight sweeps on another body's factor leave",
+               .value = most,
+               .detail = alike ? fmt::format("in double {:.6g}", in_double) : std::string()});
+      run.add({.tried = tried,
+               .quantity = "largest strain energy in parts of the static one",
+               .bound = alike ? 4.04 : 4.4,
+               .reason = "4, by the same invariant: it bounds every part of the motion",
+               .value = energy});
+    }
+  }
+  return {};
+}
+
+}  // namespace mobil

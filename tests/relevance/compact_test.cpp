@@ -16,7 +16,7 @@
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 
-namespace mobil {
+namespace mobil::relevance_compact_test {
 namespace {
 
 /// People round a camera that turns.
@@ -161,4 +161,4 @@ TEST(RelevanceCompact, NeedsAndReasonsAreAnsweredOfThem) {
 }
 
 }  // namespace
-}  // namespace mobil
+}  // namespace mobil::relevance_compact_test

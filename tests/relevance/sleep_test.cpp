@@ -19,7 +19,7 @@
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 
-namespace mobil {
+namespace mobil::relevance_sleep_test {
 namespace {
 
 constexpr std::size_t everybody = 900;
@@ -479,4 +479,4 @@ TEST(RelevanceSleep, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace mobil
+}  // namespace mobil::relevance_sleep_test

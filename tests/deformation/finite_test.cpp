@@ -23,6 +23,7 @@
 #include "tests/deformation/finite_oracle.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/fem/spindle.h"
+#include "tests/labels.h"
 
 namespace mobil::finite_test {
 namespace {
@@ -318,6 +319,7 @@ double rms(const std::vector<double>& values) {
 /// Shortened and stretched, relaxed and pulling: beside elements of eight points on the same mesh, by Newton's method.
 /// Those have sections held where they are by fascia, these are held softly.
 TEST(FiniteStatics, AreThoseOfNewtonsMethod) {
+  MOBIL_SLOW();
   for (const char* const name : {"vastus_lateralis", "triceps_surae"}) {
     const HexahedralMesh mesh = finite_mesh(*find_muscle(name), {4, 4, 16});
     Bellies bellies(make(mesh, FarEnd::held, 30, 7));

@@ -13,6 +13,7 @@
 #include "assets/fem/muscle_template.h"
 #include "tests/deformation/implicit_oracle.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/labels.h"
 
 namespace mobil::implicit_test {
 using namespace oracle;  // NOLINT(google-build-using-namespace)
@@ -74,11 +75,13 @@ TEST(Implicit, MeanAccelerationOfIndividualsFollowsTheDenseModel) {
 }
 
 TEST(Implicit, CentralDifferencesWithConsistentMassFollowTheDenseModel) {
+  MOBIL_SLOW();
   follows(Method::icd, Mass::consistent, false, {2, 1, 4}, 30);
   follows(Method::icd, Mass::consistent, true, {1, 2, 3}, 30);
 }
 
 TEST(Implicit, StaticAnswersFollowTheDenseModel) {
+  MOBIL_SLOW();
   follows(Method::statics, Mass::lumped, false, {2, 2, 8}, 5);
   follows(Method::statics, Mass::consistent, false, {2, 1, 4}, 5);
   follows(Method::statics, Mass::lumped, true, {2, 2, 8}, 5);

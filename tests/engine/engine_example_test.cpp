@@ -3,6 +3,9 @@
 
 #include "components/muscle.h"
 #include "engine/schedule.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_example_test {
 template <class F>

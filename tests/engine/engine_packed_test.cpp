@@ -17,6 +17,9 @@
 #include "engine/schedule.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_packed_test {
 /// Whether to be chosen, and by whom it can be told.

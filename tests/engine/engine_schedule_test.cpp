@@ -14,6 +14,9 @@
 #include <vector>
 
 #include "engine/schedule_order.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_schedule_test {
 template <class F>

@@ -20,6 +20,9 @@
 #include "assets/export/usd_writer.h"
 #include "assets/export/x3d_writer.h"
 #include "tests/files/formats_fixture.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::formats_test {
 

@@ -21,6 +21,9 @@
 #include "assets/import/mesh_file.h"
 #include "assets/import/mesh_text.h"
 #include "tests/files/capsule.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::mesh_reader_test {
 namespace fs = std::filesystem;
@@ -395,6 +398,7 @@ constexpr double most_s = 2;
 #endif
 
 TEST(MeshReader, AMillionTrianglesTakeLessThanTwoSeconds) {
+  MOBIL_SLOW();
   const TestMesh mesh = test::capsule({0, 0, 0}, 100, 400, 700, 715);
   for (const auto& [path, bytes] : every_format(mesh)) {
     const std::clock_t start = std::clock();

@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("slow");
+
 namespace mobil::steering::steering_test {
 constexpr double degree = std::numbers::pi / 180;
 

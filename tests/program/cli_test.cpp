@@ -13,7 +13,10 @@
 #include <vector>
 
 #include "components/gait_style.h"
+#include "tests/labels.h"
 #include "tests/program/refusals.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::cli_test {
 using namespace refusals;

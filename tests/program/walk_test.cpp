@@ -18,7 +18,10 @@
 #include "components/gait_style.h"
 #include "components/muscle.h"
 #include "demo/walk/walk_tables.h"
+#include "tests/labels.h"
 #include "tests/program/program.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::walk_test {
 namespace fs = std::filesystem;
@@ -268,6 +271,7 @@ TEST_P(WalkOf, SceneIsValidToKhronosValidator) {
 }
 
 TEST(Walk, TheSameCommandWritesTheSameBytes) {
+  MOBIL_SLOW();
   const Walk again(everybody[0].arguments);
   for (const std::string name : {"motion.csv", "muscles.csv", "walk.glb"}) {
     const std::string first = read_bytes(walk_of(0).file(name));
@@ -293,6 +297,7 @@ TEST(Walk, UnitsAreOtherWaysToSayTheSame) {
 }
 
 TEST(Walk, ForceDrivenEndsLagTheirLines) {
+  MOBIL_SLOW();
   const Walk walk(everybody[0].arguments + " --drive force");
   EXPECT_EQ(walk.summary().at("drive"), "force");
   double most = 0, missed = 0;

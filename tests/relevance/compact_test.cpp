@@ -15,6 +15,9 @@
 #include "systems/gait/gait.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::relevance_compact_test {
 namespace {
@@ -87,6 +90,7 @@ std::optional<double> apart(const Simulation& a, Entity one, const Simulation& b
 }
 
 TEST(RelevanceCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
+  MOBIL_SLOW();
   constexpr std::size_t count = 90;
   const MuscleSet muscles(5);
   Turning compact(true, 1, count, muscles), whole(false, 1, count, muscles);

@@ -18,6 +18,9 @@
 #include "systems/gait/gait.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::relevance_sleep_test {
 namespace {
@@ -127,6 +130,7 @@ struct Scene {
 };
 
 TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
+  MOBIL_SLOW();
   Scene sleeps(true), wakes(false);
   std::size_t least = everybody, most = 0, woken = 0, slept = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -149,6 +153,7 @@ TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
 }
 
 TEST(RelevanceSleep, NobodyWhoIsSeenSleeps) {
+  MOBIL_SLOW();
   Scene scene(true);
   std::size_t seen = 0;
   for (int i = 0; i < 700; ++i) {
@@ -362,6 +367,7 @@ TEST(RelevanceSleep, WhoIsReleasedHasTheirMuscles) {
 /// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those
 /// are who never slept, whatever the threads; one crowd is taken back to what it was half way and goes on from there.
 TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
+  MOBIL_SLOW();
   const int ticks = std::getenv("MOBIL_LONG") != nullptr ? 216'000 : 1800;
   constexpr std::size_t few = 160;
   std::size_t compact = 0;

@@ -14,8 +14,11 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::crowd_memory_test {
 using play::coarse;
@@ -261,6 +264,7 @@ TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
 }
 
 TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
+  MOBIL_SLOW();
   CountingMemory memory;
   Simulation simulation({.memory = &memory});
   LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};

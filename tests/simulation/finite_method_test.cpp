@@ -9,7 +9,10 @@
 
 #include "assets/fem/finite_element.h"
 #include "components/activation.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::finite_method_test {
 namespace {

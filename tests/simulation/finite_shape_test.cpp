@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/activation.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
 
@@ -54,6 +55,7 @@ TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
 
 /// Without vibration within 1 %, single muscles and groups, as they walk; linear statics lose up to ten times that.
 TEST(FiniteShape, KeepsItsVolumeInAWalk) {
+  MOBIL_SLOW();
   for (const Method method : {Method::reduced, Method::statics}) {
     Simulation simulation;
     LegMuscles choice = finite(method);

@@ -15,7 +15,10 @@
 #include "assets/muscles/muscle_table.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::leg_muscles_change_test {
 // ------------------------------------------------------------------------------------------------ changes under way
@@ -206,6 +209,7 @@ std::map<int, std::uint64_t> walk_crowd(Method method, int threads, const std::v
 }
 
 TEST(Determinism, NeitherThreadsNorOrderNorCompanyMatterToAnyMethod) {
+  MOBIL_SLOW();
   std::vector<int> who(18);
   std::iota(who.begin(), who.end(), 0);
   std::mt19937 random(3);

@@ -8,8 +8,11 @@
 #include "components/forces.h"
 #include "engine/schedule.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_change_test {
 std::uint64_t solved(const Simulation& simulation) {

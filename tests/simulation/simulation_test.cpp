@@ -15,8 +15,11 @@
 
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_test {
 constexpr int crowd_size = 40;

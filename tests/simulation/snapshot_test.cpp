@@ -13,10 +13,13 @@
 #include "systems/simulation.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/reseal.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::snapshot_test {
 using Bytes = std::vector<std::byte>;

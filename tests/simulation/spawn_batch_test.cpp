@@ -10,8 +10,11 @@
 
 #include "systems/simulation.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::spawn_batch_test {
 LegMuscles muscles_of_kind(int kind) {

@@ -11,8 +11,11 @@
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
 #include "systems/simulation_world.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::state_hash_test {
 /// People 0 to count − 1 with muscles, come in that order.

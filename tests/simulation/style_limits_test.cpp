@@ -21,12 +21,16 @@
 #include "systems/people/style_limits.h"
 #include "systems/people/walk_limits.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::style_limits_test {
 
 /// Some hundred; ten thousand with MOBIL_LONG in the environment.
 TEST(StyleLimits, WalksOfAnyStyleKeepThem) {
+  MOBIL_SLOW();
   const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 10000 : 480;
   constexpr std::size_t together = 240;
   Dice dice{std::mt19937(7)};
@@ -60,6 +64,7 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
 }
 
 TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(5)};
   std::vector<Asked> asked;
   for (int i = 0; i < 160; ++i) {
@@ -78,6 +83,7 @@ TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
 /// Of any style nearly all do: in steps that turn or change speed it is nearer to the usual one, and styles far from it
 /// keep more clear of limits. Some hundred; 4800 with MOBIL_LONG in the environment.
 TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(6)};
   std::vector<Asked> asked;
   const std::size_t tens = std::getenv("MOBIL_LONG") != nullptr ? 10 : 1;
@@ -203,6 +209,7 @@ TEST(StyleLimits, CalmStepsAreEven) {
 
 /// Of any style no foot in the air is bent up far, whatever its walker does.
 TEST(StyleLimits, FeetInTheAirAreNotBentUp) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(6)};
   std::vector<Asked> asked;
   for (unsigned i = 0; i < 240; ++i) asked.push_back(anyone(dice, i % 6, false));
@@ -268,6 +275,7 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
 
 /// Nor on how many lanes a walker has in a block, which follows from how many threads there are.
 TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(12)};
   std::size_t moved = 0;
   for (int round = 0; round < 4; ++round) {

@@ -9,8 +9,11 @@
 
 #include "components/activation.h"
 #include "systems/deformation/belly_motion.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::tuned_people_test {
 namespace {

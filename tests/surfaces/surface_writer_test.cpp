@@ -17,8 +17,11 @@
 #include "systems/surfaces/surfaces.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_pool.h"
 #include "tests/surfaces/skinned.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::surface_writer_test {
 using namespace geometry;

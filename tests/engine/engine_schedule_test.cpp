@@ -58,14 +58,6 @@ std::string order_of(const ScheduleBuilder& builder) {
   return names;
 }
 
-TEST(EngineSchedule, AReaderRunsAfterTheWriter) {
-  EXPECT_EQ(order_of(ScheduleBuilder().add("c", &b_to_c).add("b", &a_to_b).add("a", &write_a)), "a b c");
-}
-
-TEST(EngineSchedule, UnrelatedSystemsKeepTheOrderOfAdding) {
-  EXPECT_EQ(order_of(ScheduleBuilder().add("z", &write_b).add("a", &write_a).add("m", [](Tick) {})), "z a m");
-}
-
 TEST(EngineSchedule, ALookupAndAFieldAreReadsToo) {
   EXPECT_EQ(order_of(ScheduleBuilder().add("look", [](Lookup<A>, LB&) {}).add("write", &write_a)), "write look");
   EXPECT_EQ(order_of(ScheduleBuilder().add("look", [](Field<const Nodes>) {}).add("write", [](Field<Nodes>) {})),
@@ -336,59 +328,6 @@ void follow(const Friend<Lanes<float>>& f, const Lookup<A>& lookup, LB& b) {
   for (std::size_t l = 0; l < lane_count; ++l) {
     const float* x = lookup.find({f.index[l], f.generation[l]});
     b.x[l] = x != nullptr ? b.x[l] * 0.5F + *x : -1.0F;
-  }
-}
-
-/// Every entity's bits after some ticks, by handle.
-std::map<std::uint32_t, float> outcome(unsigned people, unsigned gone, const Jobs& jobs) {
-  World world;
-  std::vector<Entity> all;
-  for (unsigned i = 0; i < people; ++i) {
-    const Entity before = all.empty() ? Entity{} : all[i / 2];
-    const Friend<float> f{before.index, before.generation};
-    const A<float> a{static_cast<float>(i) * 0.1F};
-    all.push_back(i % 3 == 0 ? world.create(a, f, B<float>{}) : world.create(a, f, B<float>{}, C<float>{}));
-  }
-  auto schedule = ScheduleBuilder().add("follow", &follow).add("grow", &grow).build();
-  for (std::uint32_t tick = 0; tick < 4; ++tick) {
-    schedule->run(world, {0.1F, tick}, jobs);
-    if (gone < people) world.destroy(all[(gone + tick) % people]);
-  }
-  std::map<std::uint32_t, float> values;
-  for (const Entity e : all) {
-    if (world.alive(e)) values[e.index] = world.get<B>(e)->x;
-  }
-  return values;
-}
-
-RC_GTEST_PROP(EngineSchedule, TheResultIsTheSameOnAnyThreadsAndAnyCut, ()) {
-  const auto people = *rc::gen::inRange(1U, 400U);
-  const auto gone = *rc::gen::inRange(0U, 400U);
-  std::size_t cut = *rc::gen::inRange<std::size_t>(1, 9);
-  // backwards, in ranges of `cut`
-  Jobs backwards{&cut, [](void* user, std::size_t count, Jobs::Body body, void* context) {
-                   const std::size_t step = *static_cast<std::size_t*>(user);
-                   for (std::size_t end = count; end > 0; end -= std::min(step, end)) {
-                     body(context, end - std::min(step, end), end);
-                   }
-                 }};
-  // three threads of the caller's own, each every third block
-  Jobs three{nullptr, [](void*, std::size_t count, Jobs::Body body, void* context) {
-               std::vector<std::jthread> threads;
-               for (std::size_t t = 0; t < 3; ++t) {
-                 threads.emplace_back([=] {
-                   for (std::size_t i = t; i < count; i += 3) body(context, i, i + 1);
-                 });
-               }
-             }};
-  const auto alone = outcome(people, gone, {});
-  RC_ASSERT(!alone.empty() || people <= 4);
-  RC_ASSERT(outcome(people, gone, backwards) == alone);
-  RC_ASSERT(outcome(people, gone, three) == alone);
-  for (const int count : {1, 2, 3}) {
-    const Threads threads(count);
-    RC_ASSERT(threads.count() >= 1 && threads.count() <= count);
-    RC_ASSERT(outcome(people, gone, threads.jobs()) == alone);
   }
 }
 

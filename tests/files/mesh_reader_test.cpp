@@ -263,55 +263,6 @@ TEST(MeshReaderRefuses, OtherFormatsByName) {
   }
 }
 
-/// Ends soon, and where it is refused in one line that begins with the path.
-void expect_calm(const std::string& path, const std::string& bytes) {
-  const std::clock_t start = std::clock();
-  const auto read = read_mesh_bytes(bytes, path);
-  RC_ASSERT(std::clock() - start < CLOCKS_PER_SEC);
-  if (read) {
-    for (const auto v : read->mesh.triangle) RC_ASSERT(v < read->mesh.position.size());
-    for (const auto& p : read->mesh.position) RC_ASSERT(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-    return;
-  }
-  RC_ASSERT(read.error().message.starts_with(path));
-  for (const char c : read.error().message) RC_ASSERT(c != '\n' && c != '\r' && c != '\0' && c != '\x1b');
-}
-
-RC_GTEST_PROP(MeshReader, DamagedFilesAreReadOrRefusedInOneLine, ()) {
-  for (auto [path, bytes] : every_format(random_mesh())) {
-    const int changes = *rc::gen::inRange(1, 6);
-    for (int i = 0; i < changes && !bytes.empty(); ++i) {
-      const auto at = *rc::gen::inRange<std::size_t>(0, bytes.size());
-      switch (*rc::gen::inRange(0, 5)) {
-        case 0:
-          bytes[at] = static_cast<char>(*rc::gen::inRange(0, 256));
-          break;
-        case 1:
-          bytes.resize(at);
-          break;
-        case 2:
-          bytes.erase(at, *rc::gen::inRange<std::size_t>(1, 40));
-          break;
-        case 3:
-          bytes.insert(at, bytes.substr(*rc::gen::inRange<std::size_t>(0, bytes.size()), 40));
-          break;
-        default:
-          bytes.insert(at, *rc::gen::element<std::string>("4294967295", "-1", "\\\n", "\r", "end_header\n", " 1e999 ",
-                                                          "nan", std::string(4, '\0'), "\xFF\xFF\xFF\x7F"));
-      }
-    }
-    expect_calm(path, bytes);
-  }
-}
-
-RC_GTEST_PROP(MeshReader, AnyBytesAreReadOrRefusedInOneLine, (const std::string& bytes)) {
-  for (const auto* path : {"a.obj", "a.stl", "a.ply"}) {
-    for (const auto* start : {"", "v ", "f ", "solid a\nfacet ", "ply\nformat ascii 1.0\nelement vertex 3\n"}) {
-      expect_calm(path, start + bytes);
-    }
-  }
-}
-
 // ---------------------------------------------------------------------------------------------------------- files
 
 class Folder {

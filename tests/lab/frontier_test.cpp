@@ -233,14 +233,4 @@ TEST(Frontier, BadUsageIsOneLineAndNothingIsWritten) {
                  folder.path);
 }
 
-TEST(Frontier, HelpTeachesWhatItWrites) {
-  const TemporaryFolder folder;
-  const Ran ran = run_mobil("frontier --help", folder.path);
-  EXPECT_EQ(ran.status, 0);
-  for (const auto* piece : {"--short", "--long", "--out", "frontier.csv", "81 nodes", "uncertain", "Examples"}) {
-    EXPECT_NE(ran.out.find(piece), std::string::npos) << piece;
-  }
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 0);
-}
-
 }  // namespace mobil::frontier_test

@@ -64,25 +64,6 @@ TEST(BadParameter, NamesTheNearestTheRangeAndTheList) {
   expect_refused("walk --set toe_out_deg=1 toe_clearance_m=0 --out out", {"'toe_clearance_m=0' was not expected"});
 }
 
-TEST(BadScript, NamesFileAndLine) {
-  const TemporaryFolder folder;
-  const std::map<std::string, std::pair<std::string, std::string>> bad = {
-      {"empty", {"", "no rows"}},
-      {"header", {"time,parameter,value\n0,speed,1\n", "no column 'time_s'"}},
-      {"backwards", {"time_s,parameter,value\n1,speed,1\n0.5,speed,1\n", "line 3: time 0.5 s comes before 1 s"}},
-      {"unknown", {"time_s,parameter,value\n1,steplength,1\n", "line 2: there is no parameter 'steplength'"}},
-      {"short", {"time_s,parameter,value\n1,stop\n", "line 2: 2 cells"}},
-      {"beyond", {"time_s,parameter,value\n\n1,toe_out_deg,31\n", "line 3: toe_out_deg 31: outside"}},
-      {"body", {"time_s,parameter,value\n1,speed,9km/h\n", "line 2: gait: a speed of 2.5 m/s"}},  // for 1.75 m
-  };
-  for (const auto& [name, text] : bad) {
-    std::ofstream(folder.path / (name + ".csv")) << text.first;
-    expect_refused(folder.path, fmt::format("walk --seconds 0.1 --script {}.csv --out out", name),
-                   {"--script", name + ".csv", text.second});
-  }
-  expect_refused(folder.path, "walk --script nowhere.csv --out out", {"nowhere.csv", "time_s, parameter, value"});
-}
-
 TEST(Listing, GaitParametersAndNothingElse) {
   const TemporaryFolder folder;
   const Ran ran = run_mobil("walk --list-parameters", folder.path);
@@ -127,68 +108,14 @@ TEST(BadWalk, NamesTheMethodsAndElements) {
   expect_refused("walk --element cube", {"--element", "'cube'", "full, bbar, one-point"});
 }
 
-// ---------------------------------------------------------------------------------------------------- anatomy
-
-/// A cube of half edge `half` about (x, y, z), mm, as an OBJ file.
-std::string cube(double x, double y, double z, double half) {
-  static constexpr std::array<std::array<int, 4>, 6> faces = {
-      {{1, 3, 4, 2}, {5, 6, 8, 7}, {1, 2, 6, 5}, {3, 7, 8, 4}, {1, 5, 7, 3}, {2, 4, 8, 6}}};
-  std::string text;
-  for (unsigned i = 0; i < 8; ++i) {
-    text += fmt::format("v {} {} {}\n", x + ((i & 1U) != 0 ? half : -half), y + ((i & 2U) != 0 ? half : -half),
-                        z + ((i & 4U) != 0 ? half : -half));
-  }
-  for (const auto& f : faces) text += fmt::format("f {} {} {} {}\n", f[0], f[1], f[2], f[3]);
-  return text;
-}
-
-/// The smallest folder that would do, in which `femur` is the thigh's mesh.
-void write_anatomy(const fs::path& folder, const std::string& femur, int triangles = 12) {
-  fs::create_directories(folder / "bones");
-  const auto write = [&](const std::string& name, const std::string& text) {
-    std::ofstream(folder / name, std::ios::binary) << text;
-  };
-  write("landmarks.csv",
-        "name,side,x,y,z,method\nhip_joint_centre,right,-82,-93,820,made up\nknee_joint_centre,right,-74,-65,434,made "
-        "up\nankle_joint_centre,right,-80,-54,60,made up\n");
-  const std::string head = "file,name,side,kind,group,triangles,watertight,origin_bone,insertion_bone\n";
-  write("manifest.csv", head + fmt::format("bones/femur_right.obj,Femur,right,bone,,{},yes,,\n", triangles) +
-                            "bones/tibia_right.obj,Tibia,right,bone,,12,yes,,\n");
-  write("bones/tibia_right.obj", cube(-78, -60, 250, 30));
-  write("bones/femur_right.obj", femur);
-}
-
-TEST(BadAnatomy, NamesTheFileAndTheMend) {
-  const std::string good = cube(-80, -90, 620, 30);
-  std::string not_a_number = good;
-  not_a_number.replace(2, not_a_number.find(' ', 2) - 2, "nan");
-  const std::map<std::string, std::pair<std::string, std::string>> bad = {
-      {"truncated", {good.substr(0, good.size() / 2), "bones/femur_right.obj"}},
-      {"blank", {"", "bones/femur_right.obj"}},
-      {"rubbish", {std::string(1000, '\x07'), "bones/femur_right.obj"}},
-      {"not_finite", {not_a_number, "bones/femur_right.obj"}},
-      {"not_manifold", {good + "v -80 -90 700\nf 1 2 9\nf 5 6 9\n", "more than two triangles"}},
-  };
+/// What is within files is refused by those who read them (Script, BadAnatomy).
+TEST(BadFile, IsNamed) {
   const TemporaryFolder folder;
-  for (const auto& [name, text] : bad) {
-    write_anatomy(folder.path / name, text.first, name == "not_manifold" ? 14 : 12);
-    expect_refused(folder.path, fmt::format("walk --seconds 0.1 --anatomy {} --out out", name),
-                   {"bones/femur_right.obj", text.second});
-  }
-  fs::create_directories(folder.path / "void");
-  expect_refused(folder.path, "walk --seconds 0.1 --anatomy void --out out", {"void/", ".csv", "cannot be read"});
-  expect_refused(folder.path, "walk --seconds 0.1 --anatomy nowhere --out out", {"nowhere"});
-  std::ofstream(folder.path / "file") << "no folder";
-  expect_refused(folder.path, "walk --seconds 0.1 --anatomy file --out out", {"file"});
-}
-
-TEST(GoodAnatomy, TheSameFolderUnspoilt) {
-  const TemporaryFolder folder;
-  write_anatomy(folder.path / "anatomy", cube(-80, -90, 620, 30));
-  const Ran ran = run_mobil("walk --seconds 0.1 --anatomy anatomy --out out", folder.path);
-  EXPECT_EQ(ran.status, 0) << ran.err;
-  EXPECT_EQ(ran.err, "");
-  EXPECT_TRUE(fs::exists(folder.path / "out" / "walk.glb"));
+  std::ofstream(folder.path / "short.csv") << "time_s,parameter,value\n1,stop\n";
+  expect_refused(folder.path, "walk --script short.csv --out out", {"--script", "short.csv", "line 2: 2 cells"});
+  expect_refused(folder.path, "walk --script nowhere.csv --out out", {"nowhere.csv", "time_s, parameter, value"});
+  expect_refused(folder.path, "walk --anatomy nowhere --out out", {"nowhere"});
+  expect_refused(folder.path, "walk --anatomy short.csv --out out", {"short.csv"});
 }
 
 }  // namespace mobil::cli_test

@@ -129,29 +129,6 @@ struct Scene {
   std::vector<std::uint32_t> changes;
 };
 
-TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
-  MOBIL_SLOW();
-  Scene sleeps(true), wakes(false);
-  std::size_t least = everybody, most = 0, woken = 0, slept = 0;
-  for (int i = 0; i < 1500; ++i) {
-    const RelevanceReport report = sleeps.tick();
-    wakes.tick();
-    woken += report.woken;
-    slept += report.slept;
-    ASSERT_EQ(report.refused, 0U) << report.refusal;
-    if (i % 30 != 29) continue;
-    least = std::min(least, sleeps.asleep());
-    most = std::max(most, sleeps.asleep());
-    if (i % 300 == 299) {
-      ASSERT_EQ(sleeps.walks_hash(), wakes.walks_hash()) << "tick " << i;
-    }
-  }
-  EXPECT_LT(least, everybody * 9 / 10);
-  EXPECT_GT(most, everybody / 2);
-  EXPECT_GT(woken, everybody / 2);
-  EXPECT_GT(slept, everybody / 4);
-}
-
 TEST(RelevanceSleep, NobodyWhoIsSeenSleeps) {
   MOBIL_SLOW();
   Scene scene(true);

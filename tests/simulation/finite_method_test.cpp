@@ -127,19 +127,5 @@ TEST(FiniteMethod, RefusesWhatItCannotDo) {
   EXPECT_TRUE(simulation.muscles(human).empty());
 }
 
-TEST(FiniteMethod, GoesOnFromASnapshotWithTheSameBits) {
-  Simulation simulation;
-  join_with(simulation, person(1), close_up());
-  simulation.tick(20);
-  std::vector<std::byte> saved(simulation.snapshot_bytes());
-  ASSERT_TRUE(simulation.save(saved));
-  simulation.tick(20);
-  Simulation other;
-  const auto restored = other.restore(saved, RestoreLimits::none());
-  ASSERT_TRUE(restored) << restored.error().message;
-  other.tick(20);
-  EXPECT_EQ(simulation.state_hash(), other.state_hash());
-}
-
 }  // namespace
 }  // namespace mobil::finite_method_test

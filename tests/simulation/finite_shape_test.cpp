@@ -255,25 +255,6 @@ TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
   }
 }
 
-TEST(FiniteShape, SurvivesSnapshots) {
-  Simulation simulation;
-  const Entity human = join_with(simulation, person(7), finite(Method::ecd));
-  const Entity reduced = join_with(simulation, person(8), finite(Method::reduced));
-  run(simulation, 20);
-  std::vector<std::byte> bytes(simulation.snapshot_bytes());
-  ASSERT_TRUE(simulation.save(bytes));
-  run(simulation, 10);
-  Simulation other;
-  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
-  run(other, 10);
-  EXPECT_EQ(other.state_hash(), simulation.state_hash());
-  for (const Entity one : {human, reduced}) {
-    const Entity a = simulation.muscle(one, Muscle::hamstrings, Side::right);
-    const Entity b = other.muscle(one, Muscle::hamstrings, Side::right);
-    EXPECT_EQ(displacement(simulation, a), displacement(other, b));
-  }
-}
-
 TEST(FiniteShape, TheForceDrivenEndIsRefused) {
   Simulation simulation;
   const Entity human = *simulation.spawn({});

@@ -172,30 +172,6 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
   }
 }
 
-TEST(SpawnBatch, WhereMemoryRunsOutNobodyHasCome) {
-  CountingMemory memory;
-  Simulation simulation({.memory = &memory});
-  std::vector<SpawnRequest> people;
-  for (int i = 0; i < 40; ++i) people.push_back(request(i % 3));
-  std::vector<Entity> first(people.size()), made(people.size());
-  ASSERT_TRUE(simulation.spawn(people, first));
-  const std::uint64_t before = hash_world(simulation);
-  bool done = false;
-  for (std::size_t granted = 0; !done; ++granted) {
-    ASSERT_LT(granted, 1000U);
-    memory.refuse_after = granted;
-    try {
-      done = simulation.spawn(people, made).has_value();
-    } catch (const std::bad_alloc&) {
-    }
-    memory.refuse_after = SIZE_MAX;
-    if (done) break;
-    ASSERT_EQ(hash_world(simulation), before);
-    ASSERT_EQ(simulation.people().size(), first.size());
-  }
-  EXPECT_EQ(simulation.people().size(), 2 * first.size());
-}
-
 TEST(SpawnBatch, PreparingChangesNobodysBits) {
   for (const int kind : {2, 3}) {
     Simulation simulation({.threads = 2});

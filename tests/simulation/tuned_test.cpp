@@ -183,25 +183,5 @@ TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {
   }
 }
 
-TEST(TunedPeople, SurviveSnapshots) {
-  Simulation simulation;
-  const Entity human = join_with(simulation, person(7), pulling(true));
-  join_with(simulation, person(8), pulling(true, false));
-  run(simulation, 20);
-  std::vector<std::byte> bytes(simulation.snapshot_bytes());
-  ASSERT_TRUE(simulation.save(bytes));
-  run(simulation, 10);
-  Simulation other;
-  const auto restored = other.restore(bytes, RestoreLimits::none());
-  ASSERT_TRUE(restored) << restored.error().message;
-  run(other, 10);
-  EXPECT_EQ(other.state_hash(), simulation.state_hash());
-  // and who goes on by another method does so from the same place
-  const MuscleMethod to{Method::reduced, pulling(false).reduced};
-  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to));
-  ASSERT_TRUE(other.set_method(human, Muscle::hamstrings, to));
-  EXPECT_EQ(other.state_hash(), simulation.state_hash());
-}
-
 }  // namespace
 }  // namespace mobil::tuned_people_test

@@ -316,18 +316,6 @@ TEST(EngineSchedule, CountsCallsAndTime) {
   EXPECT_EQ(schedule->timing("a")->calls, 0U);
 }
 
-// --- the same bits however the work is cut ---
-
-void grow(LA& a, float tick_s) {
-  for (float& x : a.x.lane) x = x * 1.25F + tick_s;
-}
-void follow(const Friend<Lanes<float>>& f, const Lookup<A>& lookup, LB& b) {
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const float* x = lookup.find({f.index[l], f.generation[l]});
-    b.x[l] = x != nullptr ? b.x[l] * 0.5F + *x : -1.0F;
-  }
-}
-
 TEST(EngineSchedule, RunsEveryBlockOnce) {
   World world;
   std::vector<Entity> all;

@@ -76,10 +76,11 @@ const std::map<std::string, std::vector<std::string>> order = {
     {"systems",
      {"people", "muscles", "relevance", "avoidance", "terrain", "surfaces", "snapshot", no_folder, "skin", "cluster",
       "c"}},
-    {"demo", {"examples",    "program",      "measure",    "pictures",       "walk",         "body",
-              "anatomy",     "lab/rivals",   "lab/muscle", "lab/compare",    "lab/gait_fit", "lab/paper",
-              "bake",        "crowd",        "town",       "view",           "schedule",     "lab/bench",
-              "lab/effects", "lab/frontier", "lab/stress", "lab/completion", "lab/man",      "lab"}},
+    {"demo",
+     {"examples",   "scene",          "program",    "measure",     "pictures",     "walk",        "body",
+      "anatomy",    "lab/rivals",     "lab/muscle", "lab/compare", "lab/gait_fit", "lab/paper",   "bake",
+      "crowd",      "town",           "view",       "schedule",    "lab/bench",    "lab/effects", "lab/frontier",
+      "lab/stress", "lab/completion", "lab/man",    "lab"}},
 };
 
 /// Folders of systems/ whose systems know nothing of each other; modules and the facade may use them all.

@@ -1,10 +1,12 @@
 # Sourced by demo/run and tests/run: the Debian packages each needs, and how they are installed when missing.
 # Sets nothing but functions; the caller has set -euo pipefail.
 
-build_packages="g++ cmake ninja-build libeigen3-dev libassimp-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
-  libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libpng-dev libegl-dev libgles-dev libegl1
-  libgles2 libgl1-mesa-dri ffmpeg libbullet-dev libgl-dev libglfw3-dev libimgui-dev
-  librecast-dev"
+walk_packages="g++ cmake ninja-build libeigen3-dev libhwy-dev libtbb-dev libexpected-dev libfmt-dev
+  libmeshoptimizer-dev libcli11-dev nlohmann-json3-dev libtinygltf-dev libassimp-dev libpng-dev libegl-dev libgles-dev
+  libegl1 libgles2 libgl1-mesa-dri ffmpeg"
+crowd_packages="libgl-dev libglfw3-dev libimgui-dev librecast-dev"  # mobil-lab needs them too
+rivals_packages="libbullet-dev"
+build_packages="$walk_packages $crowd_packages $rivals_packages"
 test_packages="libgtest-dev librapidcheck-dev libspectra-dev libboost-dev calculix-ccx
   python3-numpy python3-cffi python3-setuptools python3-wheel xvfb xauth"
 cluster_packages="libopenmpi-dev openmpi-bin"
@@ -29,24 +31,58 @@ need() {
     echo "missing packages; as root, run:  apt-get install -y ${missing[*]}" >&2
     return 1
   fi
-  echo "installing ${#missing[@]} packages: ${missing[*]}"
-  local log
-  log=$(mktemp)
-  if ! { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"; } >"$log" 2>&1; then
-    tail -n 20 "$log" >&2
-    echo "apt-get install failed (log: $log); mend: check the network and apt sources, then run this again" >&2
+  if ! quietly "install ${#missing[@]} packages" apt_install "${missing[@]}"; then
+    echo "apt-get install failed; mend: check the network and apt sources, then run this again" >&2
     return 1
   fi
-  rm -f "$log"
 }
 
-# quietly NAME COMMAND…: runs a long step, shows nothing unless it fails, then the end of its log and where the rest is.
+apt_install() {
+  apt-get update -q && DEBIAN_FRONTEND=noninteractive apt-get install -y -q --no-install-recommends "$@"
+}
+
+# step_of LOG: how far the command that writes it is, by what ninja, ctest and apt say: "37 of 112"; nothing of others.
+step_of() {
+  awk '/^\[[0-9]+\/[0-9]+\]/ { split($1, n, /[][\/]/); step = n[2] " of " n[3] }
+    /^ *[0-9]+\/[0-9]+ Test / { split($1, n, "/"); step = n[1] " of " n[2] }
+    / newly installed/ { of = $3 }
+    /^Get:/ { step = "download " ++got (of ? " of " of : "") }
+    / newly installed/ { got = 0 }
+    /^Unpacking / { step = "unpack " ++unpacked " of " of }
+    /^Setting up / { step = "set up " ++ready " of " of }
+    END { print step }' "$1" 2>/dev/null
+}
+
+# progress NAME LOG: "build: 37 of 112, 41 s", on a terminal a line that is replaced each second, elsewhere a line each
+# ten seconds; until it is killed, or whoever began it is gone.
+progress() {
+  local started=$SECONDS step next=1 for_s
+  while kill -0 $$ 2>/dev/null; do
+    for_s=$((SECONDS - started)) step=$(step_of "$2")
+    if [ -t 1 ]; then
+      printf '\r\033[K%s: %s%d s' "$1" "${step:+$step, }" "$for_s"
+    elif [ "$for_s" -ge "$next" ]; then
+      echo "$1: ${step:+$step, }$for_s s"
+      next=$((for_s + 10))
+    fi
+    sleep 1 >/dev/null 2>&1
+  done
+}
+
+# quietly NAME COMMAND…: runs a long step and shows how far it is; where it fails the end of its log, and where the rest is.
 quietly() {
-  local name=$1 log started=$SECONDS
+  local name=$1 log started=$SECONDS status=0 watcher
   shift
   mkdir -p build/log
   log=build/log/${name// /_}.log
-  if ! "$@" >"$log" 2>&1; then
+  : >"$log"
+  progress "$name" "$log" &
+  watcher=$!
+  "$@" >"$log" 2>&1 || status=$?
+  kill "$watcher" 2>/dev/null || true
+  wait "$watcher" 2>/dev/null || true
+  [ ! -t 1 ] || printf '\r\033[K'
+  if [ "$status" -ne 0 ]; then
     tail -n 40 "$log" >&2
     echo "$name failed; the whole log is in $log" >&2
     return 1

@@ -47,7 +47,7 @@ Result<void> run_anatomy(const AnatomyText& text) {
 
 Subcommand anatomy_command() {
   auto text = std::make_shared<AnatomyText>();
-  Subcommand command{.name = "anatomy", .about = "What a folder of meshes holds, what is mended in it, every fault"};
+  Subcommand command{.name = "anatomy"};
   command.footer =
       "A folder as `mobil walk --anatomy` takes it: manifest.csv, landmarks.csv and meshes (.obj, .stl, .ply, .gltf,\n"
       ".glb). Every row of the right side and the middle is read. Columns: triangles, open edges and edges of more "

@@ -67,8 +67,7 @@ Result<void> bake(const BakeText& text) {
 
 Subcommand bake_command() {
   auto text = std::make_shared<BakeText>();
-  Subcommand command{.name = "bake",
-                     .about = "Make what the muscles of usual bodies share, for programs to load in milliseconds"};
+  Subcommand command{.name = "bake"};
   command.footer =
       "Meshes, operators and bases of all methods among which a scene may choose, for bodies of usual build. A "
       "program\n"

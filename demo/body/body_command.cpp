@@ -55,7 +55,7 @@ Result<void> run_body(const BodyCommand& text) {
 
 Subcommand body_command() {
   auto text = std::make_shared<BodyCommand>();
-  Subcommand command{.name = "body", .about = "What height, mass and build make of a body: body.json and a picture"};
+  Subcommand command{.name = "body"};
   command.footer =
       "Height gives the lengths, mass the masses; both give the leg's muscles. Constitution and mesomorphy make "
       "muscles\n"

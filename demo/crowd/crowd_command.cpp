@@ -153,7 +153,7 @@ int run_command(const CrowdText& text) {
 
 Subcommand crowd_command() {
   auto text = std::make_shared<CrowdText>();
-  Subcommand command{.name = "crowd", .about = "A crowd walks, turns, comes and goes; what a tick of it takes"};
+  Subcommand command{.name = "crowd"};
   command.footer =
       "People differ in height (1.72 m, deviation 0.09), body mass index (24, 3), build, speed (1.35 m/s, 0.15) and\n"
       "style, begin anywhere on a square of 2.5 m2 each, and turn, change speed or stop and go on four times a "

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string_view>
+#include <vector>
 
 #include "demo/program/options.h"
 #include "engine/error.h"
@@ -29,21 +30,29 @@ void say_where(std::string_view line);
 Result<void> write_result(std::string_view option, const std::filesystem::path& file, std::string_view text);
 
 Subcommand walk_command();
-Subcommand muscle_command();
-Subcommand body_command();
-Subcommand anatomy_command();
-Subcommand bake_command();
-Subcommand bench_command();
-Subcommand compare_command();
-Subcommand gait_fit_command();
-Subcommand stress_command();
-Subcommand paper_command();
-Subcommand frontier_command();
-Subcommand effects_command();
-Subcommand schedule_command();
 Subcommand crowd_command();
 Subcommand town_command();
 Subcommand view_command();
+Subcommand bake_command();
+Subcommand body_command();
+Subcommand muscle_command();
+Subcommand schedule_command();
+Subcommand anatomy_command();
+Subcommand bench_command();
+Subcommand compare_command();
+Subcommand robustness_command();
+Subcommand paper_command();
+Subcommand frontier_command();
+Subcommand effects_command();
+Subcommand gait_fit_command();
 Subcommand completion_command();
+Subcommand man_command();
+
+/// Those of `mobil`, `mobil-crowd` and `mobil-lab`.
+inline std::vector<Subcommand> walk_commands() {
+  return {walk_command()};
+}
+std::vector<Subcommand> crowd_commands();
+std::vector<Subcommand> lab_commands();
 
 }  // namespace mobil

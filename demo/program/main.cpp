@@ -1,4 +1,4 @@
-// The `mobil` program: the face of the library for people and for scripts.
+// `mobil`, `mobil-crowd` and `mobil-lab`: the face of the library for people and for scripts.
 // Exit status: 0 done, or nobody reads what is printed any more (`| head`); 1 ran but did not hold, or standard output
 // could not be written; 2 bad usage or input (one line on stderr says what and how to mend it).
 
@@ -7,7 +7,7 @@
 
 #include <cstdio>
 
-#include "demo/program/interruption.h"
+#include "demo/program/commands.h"
 #include "demo/program/program.h"
 
 namespace {
@@ -29,6 +29,5 @@ int finish(int status) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  mobil::handle_interruption();
-  return finish(mobil::run_program(mobil::mobil_program(), argc, argv));
+  return finish(mobil::run_own(MOBIL_NAME, mobil::MOBIL_COMMANDS(), argc, argv));
 }

@@ -44,6 +44,7 @@ CLI::Option* add_option(CLI::App& command, const Option& option) {
 void add_subcommand(CLI::App& app, const Program& program, const Subcommand& from, int& exit_status) {
   CLI::App* command = app.add_subcommand(from.name, from.about);
   command->footer(from.footer);
+  if (!from.program.empty() && from.program != program.name) command->group("Subcommands of " + from.program);
   if (from.last_stands) command->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   std::vector<Option> options = from.options;
   options.insert(options.end(), program.options.begin(), program.options.end());

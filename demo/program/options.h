@@ -37,18 +37,20 @@ std::vector<std::string> words_of(const Names& names) {
 extern const Option help_option;
 
 struct Subcommand {
-  std::string name, about;
+  std::string name;
+  std::string about{};                 // filled from the table of subcommands (subcommands.h)
   std::string footer{};                // the end of --help
   std::vector<Option> options{};       // in the order of --help
   bool last_stands = true;             // an option given twice takes its last value; an error otherwise
   bool empty_refused = false;          // an empty value, as scripts leave it, is an error
   std::function<int()> run = nullptr;  // when chosen, after the targets are set; the exit status
+  std::string program{};               // the one that has it, which is its heading in --help; empty: the only one
 };
 
 struct Program {
   std::string name, about, version, footer;
   std::vector<Option> options{};  // that every subcommand has after its own
-  std::vector<Subcommand> commands;
+  std::vector<Subcommand> commands{};
 };
 
 void add_options(Subcommand& command, const std::vector<Option>& options);

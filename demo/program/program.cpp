@@ -1,12 +1,36 @@
 #include "demo/program/program.h"
 
-#include "demo/program/commands.h"
-#include "demo/program/named_entries.h"
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+#include "demo/program/interruption.h"
 #include "demo/program/progress.h"
+#include "demo/program/subcommands.h"
 
 namespace mobil {
+namespace {
 
-Program mobil_program() {
+/// Replaces this process; returns where that program is not built.
+int run_beside(const SubcommandRow& row, char** argv) {
+  std::error_code none;
+  const auto folder = std::filesystem::read_symlink("/proc/self/exe", none).parent_path();
+  execv((folder / row.program).c_str(), argv);
+  std::string target(row.program == "mobil" ? "mobil_program" : row.program);
+  std::ranges::replace(target, '-', '_');
+  fmt::print(stderr,
+             "mobil: '{}' is a subcommand of {}, which is not beside this program; build it: cmake --build "
+             "build/release --target {}\n",
+             row.name, row.program, target);
+  return 2;
+}
+
+}  // namespace
+
+Result<Program> make_program(std::string_view name, std::vector<Subcommand> commands) {
   Program program = {
       .name = "mobil",
       .about =
@@ -16,13 +40,39 @@ Program mobil_program() {
           "surfaces come out. Quantities are SI or carry a unit: 180cm, 5km/h, 110steps/min.",
       .version = MOBIL_VERSION,
       .footer = "Example: mobil walk --height 1.80 --mass 80 --speed 5km/h --video --out out",
-      .options = {{"--quiet", &quiet, "Say nothing of progress and of what was written; errors stay"}},
-      .commands = {walk_command(), muscle_command(), body_command(), anatomy_command(), bench_command(),
-                   compare_command(), stress_command(), paper_command(), frontier_command(), effects_command(),
-                   schedule_command(), crowd_command(), town_command(), view_command(), bake_command(),
-                   gait_fit_command(), completion_command()}};
-  program.commands.push_back(man_command(names_of(program.commands)));
+      .options = {{"--quiet", &quiet, "Say nothing of progress and of what was written; errors stay"}}};
+  for (const SubcommandRow& row : subcommand_rows()) {
+    const auto own = std::ranges::find(commands, row.name, &Subcommand::name);
+    Subcommand command{.name = std::string(row.name)};
+    if (name.empty() || row.program == name) {
+      if (own == commands.end()) return fail(fmt::format("'{}' is in the table alone", row.name));
+      command = std::move(*own);
+      commands.erase(own);
+    }
+    command.about = row.help;
+    command.program = row.program;
+    program.commands.push_back(std::move(command));
+  }
+  if (!commands.empty()) return fail(fmt::format("the table has no '{}' of this program", commands.front().name));
   return program;
+}
+
+int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, char** argv) {
+  std::vector<std::string> arguments(argv, argv + argc);
+  if (const auto* row = argc > 1 ? find_subcommand(arguments[1]) : nullptr) {
+    if (row->program != name) return run_beside(*row, argv);
+    arguments[1] = row->name;
+  }
+  handle_interruption();  // not before another program takes over, which would inherit blocked signals
+  const auto program = make_program(name, std::move(commands));
+  if (!program) {
+    fmt::print(stderr, "{}: subcommands differ from demo/program/subcommands.cpp: {}\n", name, program.error().message);
+    return 2;
+  }
+  std::vector<const char*> texts;
+  for (const std::string& argument : arguments) texts.push_back(argument.c_str());
+  texts.push_back(nullptr);
+  return run_program(*program, argc, texts.data());
 }
 
 }  // namespace mobil

@@ -1,17 +1,23 @@
 #pragma once
-// The `mobil` program as data: what it says of itself, its subcommands and their options.
+// The programs `mobil`, `mobil-crowd` and `mobil-lab` as data: what they say of themselves, their subcommands.
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "demo/program/options.h"
+#include "engine/error.h"
 
 namespace mobil {
 
-/// Made anew at every call, options at their usual values.
+/// Fails unless `commands` are those that the table of subcommands gives to a program of that name; to any, where it is
+/// empty. Subcommands of other programs are in it by name and help alone.
+Result<Program> make_program(std::string_view name, std::vector<Subcommand> commands);
+
+/// All subcommands, as if they were one program's: what the manual and shells' completion are made of. Made anew at
+/// every call, options at their usual values.
 Program mobil_program();
 
-/// `mobil man`, which a shell completes by the names of the others and its own.
-Subcommand man_command(std::vector<std::string> others);
+/// Runs the subcommand that is asked for, or the program beside this one that has it. The exit status.
+int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, char** argv);
 
 }  // namespace mobil

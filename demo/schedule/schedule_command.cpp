@@ -27,7 +27,7 @@ Result<void> show_schedule(const std::optional<std::string>& svg) {
 
 Subcommand schedule_command() {
   auto svg = std::make_shared<std::optional<std::string>>();
-  Subcommand command{.name = "schedule", .about = "What a tick does: its systems in order, what they read and write"};
+  Subcommand command{.name = "schedule"};
   command.footer =
       "Made from the schedule itself, whose order follows from what systems read and write. A system without rows\n"
       "takes no time. A host's own schedule: simulation.schedule().describe().\n"

@@ -158,8 +158,7 @@ Result<void> run_town(const TownText& text) {
 
 Subcommand town_command() {
   auto text = std::make_shared<TownText>();
-  Subcommand command{.name = "town",
-                     .about = "People go about a small town with kerbs, stairs and a ramp, out of each other's way"};
+  Subcommand command{.name = "town"};
   command.footer =
       "A street with kerbs, a square, houses, stairs up to a terrace and a ramp down from it. Everybody has a place "
       "to\n"

@@ -136,7 +136,7 @@ Result<void> run_view(const ViewText& text) {
 
 Subcommand view_command() {
   auto text = std::make_shared<ViewText>();
-  Subcommand command{.name = "view", .about = "A window: a person, a crowd, and sliders for all that can be asked"};
+  Subcommand command{.name = "view"};
   command.footer =
       "Drag to turn, wheel to come nearer, Space stops time, '.' makes one tick. What cannot be is refused in the\n"
       "library's words, and the slider goes back.\n"

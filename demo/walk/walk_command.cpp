@@ -322,8 +322,7 @@ Result<void> run_walk(const WalkOptions& asked) {
 
 Subcommand walk_command() {
   auto text = std::make_shared<WalkText>();
-  Subcommand command{.name = "walk",
-                     .about = "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures"};
+  Subcommand command{.name = "walk"};
   command.footer = std::string(walk_muscles_help) + "\n" + std::string(walk_script_help) + "\n\n" + walk_ground_help +
                    "\n\n" + walk_exports_help +
                    "\nExamples: mobil walk --height 180cm --mass 80 --constitution athletic --speed 5km/h --video\n"

@@ -319,40 +319,6 @@ TEST(EngineSchedule, CountsCallsAndTime) {
   EXPECT_EQ(schedule->timing("a")->calls, 0U);
 }
 
-// --- the same bits however the work is cut ---
-
-void grow(LA& a, float tick_s) {
-  for (float& x : a.x.lane) x = x * 1.25F + tick_s;
-}
-void follow(const Friend<Lanes<float>>& f, const Lookup<A>& lookup, LB& b) {
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const float* x = lookup.find({f.index[l], f.generation[l]});
-    b.x[l] = x != nullptr ? b.x[l] * 0.5F + *x : -1.0F;
-  }
-}
-
-TEST(EngineSchedule, RunsEveryBlockOnce) {
-  World world;
-  std::vector<Entity> all;
-  for (unsigned i = 0; i < 1000; ++i) {
-    // Rows so wide that a table has many tiles, tables of unlike lengths.
-    const FieldWidth<Nodes> wide{500};
-    all.push_back(i % 7 == 0 ? world.create(A<float>{}, wide, TagValue<Substeps>{i % 3 == 0 ? 0U : i % 5})
-                             : world.create(A<float>{}, wide));
-  }
-  auto schedule = ScheduleBuilder()
-                      .add("count",
-                           [](LA& a) {
-                             for (float& x : a.x.lane) x += 1;
-                           })
-                      .build();
-  const Threads threads(2);
-  for (int i = 1; i <= 50; ++i) {
-    schedule->run(world, {}, threads.jobs());
-    for (const Entity e : all) ASSERT_EQ(world.get<A>(e)->x, static_cast<float>(i));
-  }
-}
-
 struct Odd {};
 struct Never {};
 

@@ -21,6 +21,7 @@
 #include "assets/import/simplify_surface.h"
 #include "assets/muscles/muscle_table.h"
 #include "assets/surfaces/surface_mesh.h"
+#include "tests/files/temporary_folder.h"
 
 namespace mobil::import_test {
 namespace fs = std::filesystem;
@@ -62,11 +63,9 @@ const std::map<std::string, Cube> leg = {
 };
 
 /// A folder of cubes that loads; gone with its owner.
-class Folder {
+class Folder : public TemporaryFolder {
  public:
   explicit Folder(double unit = 1) {
-    static int made = 0;
-    path = fs::temp_directory_path() / fmt::format("mobil_import_{}_{}", ::getpid(), made++);
     fs::create_directories(path / "bones");
     fs::create_directories(path / "muscles");
     const auto row = [&](const char* name, const char* side, double x, double y, double z) {
@@ -79,13 +78,6 @@ class Folder {
     for (const auto& [name, cube] : leg) write(name + ".obj", obj(cube, unit));
     write("manifest.csv", manifest());
   }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-
   static std::string manifest(const std::string& extension = ".obj") {
     std::string text = "file,name,side,kind,group,triangles,watertight,origin_bone,insertion_bone\n";
     for (const auto& [name, cube] : leg) {
@@ -100,12 +92,7 @@ class Folder {
     }
     return text;
   }
-  void write(const std::string& name, const std::string& text) const {
-    std::ofstream(path / name, std::ios::binary) << text;
-  }
   [[nodiscard]] Result<Anatomy> load() const { return load_anatomy(path.string()); }
-
-  fs::path path;
 };
 
 /// One line that holds every given piece.

@@ -21,6 +21,7 @@
 #include "assets/import/mesh_file.h"
 #include "assets/import/mesh_text.h"
 #include "tests/files/capsule.h"
+#include "tests/files/temporary_folder.h"
 #include "tests/labels.h"
 
 MOBIL_TEST_LABELS("long");
@@ -265,25 +266,7 @@ TEST(MeshReaderRefuses, OtherFormatsByName) {
 
 // ---------------------------------------------------------------------------------------------------------- files
 
-class Folder {
- public:
-  Folder() {
-    static int made = 0;
-    path = fs::temp_directory_path() / fmt::format("mobil_meshes_{}_{}", ::getpid(), made++);
-    fs::create_directories(path);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-    return (path / name).string();
-  }
-  fs::path path;
-};
+using Folder = TemporaryFolder;
 
 /// The smallest glTF of a mesh, its numbers in a file beside it.
 std::string gltf(const TestMesh& mesh, const std::string& uri) {

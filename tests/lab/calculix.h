@@ -15,7 +15,7 @@
 
 #include "assets/fem/hexahedral_mesh.h"
 #include "components/muscle.h"
-#include "demo/muscle/force_history.h"
+#include "demo/lab/muscle/force_history.h"
 #include "tests/program/program.h"
 
 namespace mobil::calculix {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "demo/bake/baked_file.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/crowd/crowd_run.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/crowd/heap_count.h"

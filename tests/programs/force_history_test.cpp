@@ -1,5 +1,5 @@
 // Loads as tables: interpolation, and which tables are refused and where.
-#include "demo/muscle/force_history.h"
+#include "demo/lab/muscle/force_history.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>

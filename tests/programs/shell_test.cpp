@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "demo/completion/completion.h"
-#include "demo/man/manual.h"
+#include "demo/lab/completion/completion.h"
+#include "demo/lab/man/manual.h"
 #include "demo/program/program.h"
 #include "demo/program/progress.h"
 #include "demo/program/units.h"

@@ -11,7 +11,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/relevance.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "systems/gait/gait.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"

@@ -12,7 +12,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/relevance.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/row_hash.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"

@@ -32,12 +32,6 @@ Difference walk_both(const Person& p, const LegMuscles& one, const LegMuscles& o
 /// A step that all methods resolve well.
 constexpr double fine_s = 1.0 / 1920;
 
-Person slow(int who) {
-  Person p = person(who);
-  p.gait.speed_m_s = 0.6F;
-  return p;
-}
-
 // -------------------------------------------------------------------------------------------- methods follow the walk
 
 TEST(Methods, AgreeWhereTheStepIsShort) {

@@ -11,7 +11,7 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/forces.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"

@@ -85,15 +85,6 @@ TEST(TunedPeople, CoarseMeshesPullAsWell) {
   }
 }
 
-TEST(TunedPeople, WhoDoesNotAskIsAsBefore) {
-  Simulation with, without;
-  join_with(with, person(1), pulling(true));
-  const Entity does_not = join_with(with, person(2), pulling(false));
-  const Entity alone = join_with(without, person(2), pulling(false));
-  run(with, 60), run(without, 60);
-  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
-}
-
 /// How far a jolt throws the calf of someone who stands, and what is left of it a quarter of a second later.
 struct Shaken {
   double most_m = 0, left_m = 0;

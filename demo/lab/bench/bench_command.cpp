@@ -165,7 +165,7 @@ int bench(const BenchText& text) {
 
 Subcommand bench_command() {
   auto text = std::make_shared<BenchText>();
-  Subcommand command{.name = "bench", .about = "Kernels against the machine's own limits"};
+  Subcommand command{.name = "bench"};
   command.footer =
       "Best: the least time (the highest rate) of the repeats, one thread; with --json it is the value. CPU: the "
       "least\n"

@@ -133,7 +133,7 @@ Result<bool> run_compare(const CompareText& text) {
 
 Subcommand compare_command() {
   auto text = std::make_shared<CompareText>();
-  Subcommand command{.name = "compare", .about = "Walk at the speeds of measured people and be held against them"};
+  Subcommand command{.name = "compare"};
   command.footer =
       "Writes compare.json and plots of ours over the measured bands (SVG). The program carries the curves of\n"
       "Schwartz et al. 2008 and the steps of Lencioni et al. 2019.\n"

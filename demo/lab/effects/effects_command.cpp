@@ -88,7 +88,7 @@ int run_effects(const EffectsCommand& text) {
 
 Subcommand effects_command() {
   auto text = std::make_shared<EffectsCommand>();
-  Subcommand command{.name = "effects", .about = "What can be simulated, and what each effect costs here"};
+  Subcommand command{.name = "effects"};
   command.footer =
       "Every effect is switched on in a crowd of its own and its systems' time read off the simulation's report: what "
       "a\n"

@@ -70,7 +70,7 @@ Result<void> run_frontier(const FrontierText& text) {
 
 Subcommand frontier_command() {
   auto text = std::make_shared<FrontierText>();
-  Subcommand command{.name = "frontier", .about = "What accuracy costs: every way to deform a muscle, error and time"};
+  Subcommand command{.name = "frontier"};
   command.footer =
       "Sixteen walks by six bodies and speeds move four muscle groups; every method, mesh, step and number of vectors\n"
       "gets the same line of action (and once more with gravity and the frame's motion), tick by tick, and is held\n"

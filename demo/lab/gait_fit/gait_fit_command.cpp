@@ -155,7 +155,7 @@ Result<void> run_fit(const FitText& text) {
 
 Subcommand gait_fit_command() {
   auto text = std::make_shared<FitText>();
-  Subcommand command{.name = "fit-gait", .about = "Fit the table of steps to measured walking, and write it as source"};
+  Subcommand command{.name = "fit-gait"};
   command.footer =
       "For those who change the library: some minutes. Prints how near each step is to what it was fitted to.\n"
       "Example: mobil fit-gait --out assets/gait/step_table.cpp";

@@ -117,7 +117,7 @@ Result<void> run_paper(const PaperText& text) {
 
 Subcommand paper_command() {
   auto text = std::make_shared<PaperText>();
-  Subcommand command{.name = "paper", .about = "The paper's figures 14 to 17 and its four questions"};
+  Subcommand command{.name = "paper"};
   command.footer = help_footer();
   command.options = {named_option(entries, text->names, "make"),
                      {"--out", &text->out, "Folder for the results, made if missing"},

@@ -1,4 +1,4 @@
-// `mobil stress`: the hard cases, what is promised of each, and what happened.
+// `mobil robustness`: the hard cases, what is promised of each, and what happened.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -144,9 +144,9 @@ void try_one(const Stress& stress, StressRun& run) {
 
 int stress(const StressText& text) {
   const auto chosen = choose_named(stresses, text.names, "stress");
-  if (!chosen) return complain("stress", chosen.error().message);
+  if (!chosen) return complain("robustness", chosen.error().message);
   if (text.json) {
-    if (auto ok = check_result_place("--json", *text.json); !ok) return complain("stress", ok.error().message);
+    if (auto ok = check_result_place("--json", *text.json); !ok) return complain("robustness", ok.error().message);
   }
   if (text.list) {
     print_list();
@@ -162,21 +162,21 @@ int stress(const StressText& text) {
   fmt::print("{} of {} hold, in {:.0f} s\n", static_cast<std::ptrdiff_t>(run.rows.size()) - broken, run.rows.size(),
              seconds);
   if (text.json) {
-    if (auto ok = write_result("--json", *text.json, to_json(run, seconds)); !ok) return exit_status_of("stress", ok);
+    if (auto ok = write_result("--json", *text.json, to_json(run, seconds)); !ok) return exit_status_of("robustness", ok);
   }
   return broken == 0 ? 0 : 1;
 }
 
 }  // namespace
 
-Subcommand stress_command() {
+Subcommand robustness_command() {
   auto text = std::make_shared<StressText>();
-  Subcommand command{.name = "stress", .about = "The hard cases: what is promised of each, and what happened"};
+  Subcommand command{.name = "robustness"};
   command.footer =
       "A line each: held or BROKE, the entry, what was tried: what is promised with its bound (why that bound): what "
       "was\n"
       "measured. Exit status 0 where all hold, 1 where some do not, 2 for bad usage.\n"
-      "Example: mobil stress slivers nan --json stress.json";
+      "Example: mobil robustness slivers nan --json stress.json";
   command.options = {named_option(stresses, text->names, "try"),
                      {"--list", &text->list, "Say what there is to try, and try nothing"},
                      {"--quick", &text->quick, "Shorter long runs, some seconds in all"},

@@ -13,9 +13,9 @@
 
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_world.h"
-#include "demo/muscle/force_history.h"
-#include "demo/muscle/muscle_options.h"
-#include "demo/muscle/muscle_run.h"
+#include "demo/lab/muscle/force_history.h"
+#include "demo/lab/muscle/muscle_options.h"
+#include "demo/lab/muscle/muscle_run.h"
 #include "systems/simulation.h"
 
 namespace mobil {

@@ -13,7 +13,7 @@
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 #include "demo/lab/stress/stress_limits.h"
-#include "demo/muscle/muscle_options.h"
+#include "demo/lab/muscle/muscle_options.h"
 
 namespace mobil {
 namespace {

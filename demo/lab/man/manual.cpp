@@ -1,4 +1,4 @@
-#include "demo/man/manual.h"
+#include "demo/lab/man/manual.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

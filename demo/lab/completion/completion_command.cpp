@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/completion/completion.h"
+#include "demo/lab/completion/completion.h"
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/program.h"
@@ -34,7 +34,7 @@ Result<void> run_completion(const std::vector<std::string>& names) {
 
 Subcommand completion_command() {
   auto names = std::make_shared<std::vector<std::string>>();
-  Subcommand command{.name = "completion", .about = "A script by which a shell completes what is typed"};
+  Subcommand command{.name = "completion"};
   command.footer =
       "Installed with the program, the scripts are found by the shells themselves.\n"
       "\nExamples: source <(mobil completion bash)\n"

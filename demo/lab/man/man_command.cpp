@@ -8,10 +8,11 @@
 #include <vector>
 
 #include "assets/files/output_file.h"
-#include "demo/man/manual.h"
+#include "demo/lab/man/manual.h"
 #include "demo/program/commands.h"
 #include "demo/program/named_entries.h"
 #include "demo/program/program.h"
+#include "demo/program/subcommands.h"
 
 namespace mobil {
 namespace {
@@ -54,10 +55,9 @@ Result<void> run_man(const ManText& text) {
 
 }  // namespace
 
-Subcommand man_command(std::vector<std::string> others) {
+Subcommand man_command() {
   auto text = std::make_shared<ManText>();
-  others.emplace_back("man");
-  Subcommand command{.name = "man", .about = "Pages of the manual, for man to read"};
+  Subcommand command{.name = "man"};
   command.footer =
       "Installed with the program, they are read by man mobil, man mobil-walk and the like.\n"
       "\nExamples: mobil man walk | man -l -\n"
@@ -65,7 +65,7 @@ Subcommand man_command(std::vector<std::string> others) {
   command.options = {{.name = "subcommand",
                       .target = &text->pages,
                       .help = "Whose page; that of the whole program by default",
-                      .words = std::move(others)},
+                      .words = names_of(subcommand_rows())},
                      {"--out", &text->out, "Folder for the pages as files, of all subcommands where none is named"}};
   command.empty_refused = true;
   command.run = [text] { return exit_status_of("man", run_man(*text)); };

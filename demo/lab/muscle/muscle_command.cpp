@@ -8,9 +8,9 @@
 
 #include "assets/fem/muscle_template.h"
 #include "assets/files/output_file.h"
-#include "demo/muscle/muscle_contraction.h"
-#include "demo/muscle/muscle_options.h"
-#include "demo/muscle/muscle_run.h"
+#include "demo/lab/muscle/muscle_contraction.h"
+#include "demo/lab/muscle/muscle_options.h"
+#include "demo/lab/muscle/muscle_run.h"
 #include "demo/program/commands.h"
 
 namespace mobil {
@@ -97,10 +97,7 @@ int muscle(const MuscleText& text) {
 
 Subcommand muscle_command() {
   auto text = std::make_shared<MuscleText>();
-  Subcommand command{.name = "muscle",
-                     .about =
-                         "Deform one block of muscle: the face z = 0 fixed, a uniform traction on the far face, at "
-                         "rest at t = 0; or contract a real one"};
+  Subcommand command{.name = "muscle"};
   command.footer = help_footer;
   command.options = muscle_options(*text);
   command.last_stands = false;

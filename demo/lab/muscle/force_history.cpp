@@ -1,4 +1,4 @@
-#include "demo/muscle/force_history.h"
+#include "demo/lab/muscle/force_history.h"
 
 #include <fmt/format.h>
 

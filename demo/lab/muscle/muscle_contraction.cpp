@@ -1,4 +1,4 @@
-#include "demo/muscle/muscle_contraction.h"
+#include "demo/lab/muscle/muscle_contraction.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "demo/muscle/muscle_run.h"
+#include "demo/lab/muscle/muscle_run.h"
 
 #include <fmt/format.h>
 

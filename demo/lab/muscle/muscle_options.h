@@ -10,7 +10,7 @@
 #include "assets/fem/belly_solver.h"
 #include "assets/fem/muscle_template.h"
 #include "assets/reduction/reduced_basis.h"
-#include "demo/muscle/force_history.h"
+#include "demo/lab/muscle/force_history.h"
 #include "demo/program/options.h"
 
 namespace mobil {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "assets/export/basis_writer.h"
-#include "demo/muscle/muscle_options.h"
+#include "demo/lab/muscle/muscle_options.h"
 
 namespace mobil {
 

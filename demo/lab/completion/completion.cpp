@@ -1,4 +1,4 @@
-#include "demo/completion/completion.h"
+#include "demo/lab/completion/completion.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "demo/muscle/muscle_options.h"
+#include "demo/lab/muscle/muscle_options.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,0 +1,21 @@
+#include <stdexcept>
+
+#include "demo/program/commands.h"
+#include "demo/program/program.h"
+
+namespace mobil {
+
+std::vector<Subcommand> lab_commands() {
+  return {muscle_command(),   bench_command(),   compare_command(),  robustness_command(), paper_command(),
+          frontier_command(), effects_command(), gait_fit_command(), completion_command(), man_command()};
+}
+
+Program mobil_program() {
+  std::vector<Subcommand> all = walk_commands();
+  for (auto& part : {crowd_commands(), lab_commands()}) all.insert(all.end(), part.begin(), part.end());
+  auto program = make_program("", std::move(all));
+  if (!program) throw std::logic_error("demo/program/subcommands.cpp: " + program.error().message);
+  return *std::move(program);
+}
+
+}  // namespace mobil

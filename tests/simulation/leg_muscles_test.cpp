@@ -50,28 +50,6 @@ TEST(Methods, AgreeWhereTheStepIsShort) {
   }
 }
 
-TEST(Methods, DifferAtTheirOwnStepsByNoMoreThanTheseExplain) {
-  MOBIL_SLOW();
-  for (const int who : {5, 12}) {
-    for (const Method method : {Method::icd, Method::caa}) {
-      const auto own = walk_both(slow(who), {.dt_s = fine_s}, {.method = method}, 90);
-      EXPECT_LT(own.apart, 0.12 * own.most) << name(method);
-    }
-    const auto halved = walk_both(slow(who), {.dt_s = fine_s}, {.method = Method::caa, .dt_s = 1.0 / 120}, 90);
-    const auto whole = walk_both(slow(who), {.dt_s = fine_s}, {.method = Method::caa}, 90);
-    EXPECT_LT(halved.apart, 0.6 * whole.apart);
-  }
-}
-
-TEST(Methods, StaticIsNearASlowWalk) {
-  MOBIL_SLOW();
-  for (const int who : {5, 12}) {
-    const auto d = walk_both(slow(who), {}, {.method = Method::statics}, 90);
-    EXPECT_LT(d.apart, 0.25 * d.most);
-    EXPECT_GT(d.apart, 0.01 * d.most);  // it does not vibrate
-  }
-}
-
 TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
   MOBIL_SLOW();
   for (const bool inertia : {false, true}) {

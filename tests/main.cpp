@@ -5,10 +5,12 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -35,10 +37,27 @@ std::map<std::string, std::string> filter_by_file() {
     const auto& suite = *all.GetTestSuite(s);
     for (int t = 0; t < suite.total_test_count(); ++t) {
       const auto& test = *suite.GetTestInfo(t);
-      filters[stem(test.file())] += std::string(":") + suite.name() + "." + test.name();
+      filters[stem(test.file())] += std::string(suite.name()) + "." + test.name() + ":";
     }
   }
   return filters;
+}
+
+bool is_long(const std::string& labels) {
+  return labels.find("long") != labels.npos || labels.find("slow") != labels.npos;
+}
+
+/// Under ThreadSanitizer (MOBIL_QUICK=threads) a long file's tests that speak of threads, else all.
+std::string chosen(const std::string& file, const std::string& filter) {
+  const char* quick = std::getenv("MOBIL_QUICK");
+  if (quick == nullptr || std::string_view(quick) != "threads" ||
+      labels_by_file()[file].find("long") == std::string::npos)
+    return filter;
+  std::istringstream names(filter);
+  std::string some, name;
+  while (std::getline(names, name, ':'))
+    if (name.find("Thread") != name.npos || name.find("AtOnce") != name.npos) some += name + ":";
+  return some;
 }
 
 bool write_list(const std::string& to, const std::string& program, const std::string& folder) {
@@ -46,7 +65,7 @@ bool write_list(const std::string& to, const std::string& program, const std::st
   for (const auto& [file, filter] : filter_by_file()) {
     const std::string name = folder + "/" + file.substr(0, file.rfind("_test")), labels = labels_by_file()[file];
     out << "add_test(" << name << " \"" << program << "\" --file=" << file << ")\nset_tests_properties(" << name
-        << " PROPERTIES LABELS \"" << folder << ";" << labels << "\" COST " << (labels.find("slow") != labels.npos)
+        << " PROPERTIES LABELS \"" << folder << ";" << labels << "\" COST " << (is_long(labels))
         << " TIMEOUT ${hangs_after} ENVIRONMENT \"${environment}\")\n";
   }
   return static_cast<bool>(out.flush());
@@ -78,7 +97,7 @@ int main(int argc, char** argv) {
     }
     const std::string asked = GTEST_FLAG_GET(filter);
     const auto minus = asked.find('-');
-    GTEST_FLAG_SET(filter, found->second.substr(1) + (minus == asked.npos ? "" : asked.substr(minus)));
+    GTEST_FLAG_SET(filter, chosen(found->first, found->second) + (minus == asked.npos ? "" : asked.substr(minus)));
     argc = 1;
   }
   if (argc > 1) {

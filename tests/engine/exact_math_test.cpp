@@ -61,13 +61,11 @@ TEST(ExactMath, IsTheNearestDouble) {
       -1, 1, [](double x) { return exact::acos(x); }, acosq);
   for (const double other : {-3.0, -1e-3, 0.7, 1e6}) {
     expect_nearest(
-        -10, 10, [&](double x) { return exact::atan2(x, other); },
-        [&](Long x) { return atan2q(x, other); });
+        -10, 10, [&](double x) { return exact::atan2(x, other); }, [&](Long x) { return atan2q(x, other); });
   }
   for (const double power : {-2.5, 1.0 / 3, 0.1, 7.0}) {
     expect_nearest(
-        1e-3, 1e3, [&](double x) { return exact::pow(x, power); },
-        [&](Long x) { return powq(x, power); });
+        1e-3, 1e3, [&](double x) { return exact::pow(x, power); }, [&](Long x) { return powq(x, power); });
   }
 }
 

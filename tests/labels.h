@@ -1,8 +1,10 @@
 #pragma once
 // What a file of tests says of itself, once, outside all namespaces: MOBIL_TEST_LABELS("threads;slow");
 //   threads  also under ThreadSanitizer
-//   long     takes more than five seconds: CTest begins with these; under ThreadSanitizer only TESTs named after
-//   threads slow     long, and left out under AddressSanitizer
+//   long     takes more than five seconds: CTest begins with these. Under ThreadSanitizer only its TESTs with Thread or
+//            AtOnce in their names run.
+//   slow     long, and left out under AddressSanitizer
+//
 // Labels of a whole folder (its name; programs, lab) are given in tests/CMakeLists.txt.
 //
 // A TEST that begins with MOBIL_SLOW() is left out under sanitizers and valgrind, which take ten times as long

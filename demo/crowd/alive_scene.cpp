@@ -9,7 +9,6 @@
 #include "demo/bake/baked_file.h"
 #include "systems/cluster/shard.h"
 #include "systems/cluster/shard_bytes.h"
-#include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
 
 namespace mobil {

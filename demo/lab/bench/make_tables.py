@@ -229,7 +229,7 @@ def documents(root):
 
 
 def main():
-    here = pathlib.Path(__file__).resolve().parents[2]
+    here = pathlib.Path(__file__).resolve().parents[3]
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--check", action="store_true", help="change nothing; status 1 where a document differs")
     parser.add_argument("--root", type=pathlib.Path, default=here, help="the project's folder")

@@ -1,16 +1,16 @@
 #!/usr/bin/env bash
 # Tables of speed in documents are those that demo/lab/bench/make_tables.py writes from committed files; a figure changed by
 # hand, or a file without its table made anew, is found.
-# Usage: figures_test.sh SOURCE_FOLDER
+# Usage: figures_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
-make_tables=$1/demo/lab/bench/make_tables.py
+make_tables=$2/demo/lab/bench/make_tables.py
 command -v python3 >/dev/null || { echo "skipped: no python3"; exit 77; }
 python3 "$make_tables" --check
 
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/demo/lab/bench"
-cp -r "$1/demo/lab/bench/figures" "$1/demo/lab/bench/README.md" "$scratch/demo/lab/bench/"
+cp -r "$2/demo/lab/bench/figures" "$2/demo/lab/bench/README.md" "$scratch/demo/lab/bench/"
 check() { python3 "$make_tables" --root "$scratch" --check >"$scratch/said" 2>&1; }
 check
 document=$scratch/demo/lab/bench/README.md
@@ -22,14 +22,14 @@ grep -q '^-| .* µs' "$scratch/said"
 
 # made anew, it is as before
 python3 "$make_tables" --root "$scratch" >/dev/null
-cmp "$document" "$1/demo/lab/bench/README.md"
+cmp "$document" "$2/demo/lab/bench/README.md"
 
 # a file changes, and no document follows
 sed -i 's/"value": \([0-9]\)/"value": 9\1/' "$scratch"/demo/lab/bench/figures/*.json
 if check; then echo "a changed file is not found" >&2; exit 1; fi
 
 # a table that is none
-cp "$1"/demo/lab/bench/figures/*.json "$scratch/demo/lab/bench/figures/"
+cp "$2"/demo/lab/bench/figures/*.json "$scratch/demo/lab/bench/figures/"
 printf '<!-- figures: nothing -->\n<!-- end -->\n' >"$scratch/other.md"
 if check; then echo "an unknown table is not refused" >&2; exit 1; fi
 grep -q "other.md: there is no table 'nothing'" "$scratch/said"

@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # Takes the project in with add_subdirectory, from a host that has a target `hello` and an engine/world.h of its own.
 # Nothing but the libraries of mobil::systems appears in the host's build, nothing of ours is installed with it, and its
-# sources compile. Usage: subproject_test.sh SOURCE_FOLDER
+# sources compile. Usage: subproject_test.sh BUILD_FOLDER SOURCE_FOLDER
 set -euo pipefail
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$scratch/own/engine"
 echo 'namespace game { struct World { int cells = 7; }; }' >"$scratch/own/engine/world.h"
-cmake -G Ninja -S "$1/tests/consumer" -B "$scratch/build" -DMOBIL_SUBPROJECT="$1" \
-  -DHOSTS="$1/demo/hello.cpp;$1/tests/consumer/game_host.cpp" -DOWN_HEADERS="$scratch/own"
+cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/build" -DMOBIL_SUBPROJECT="$2" \
+  -DHOSTS="$2/demo/hello.cpp;$2/tests/consumer/game_host.cpp" -DOWN_HEADERS="$scratch/own"
 ninja -C "$scratch/build" -t targets all >"$scratch/targets"
 # Programs and libraries: what is linked, and what has no rule but a name.
 sed -n 's/: \(CXX_.*_LINKER__.*\)$//p' "$scratch/targets" | sort >"$scratch/linked"
@@ -18,10 +18,10 @@ if grep -rq 'file(INSTALL' "$scratch/build/mobil"; then
   echo "a host's installation would install ours too" >&2
   exit 1
 fi
-ninja -C "$scratch/build" CMakeFiles/game_host.dir/game_host.cpp.o CMakeFiles/hello.dir"$1"/demo/hello.cpp.o
+ninja -C "$scratch/build" CMakeFiles/game_host.dir/game_host.cpp.o CMakeFiles/hello.dir"$2"/demo/hello.cpp.o
 # With shared libraries the host links libmobil_core.so.
-cmake -G Ninja -S "$1/tests/consumer" -B "$scratch/shared" -DMOBIL_SUBPROJECT="$1" -DBUILD_SHARED_LIBS=ON \
-  -DHOSTS="$1/demo/hello.cpp" -DOWN_HEADERS="$scratch/own"
+cmake -G Ninja -S "$2/tests/consumer" -B "$scratch/shared" -DMOBIL_SUBPROJECT="$2" -DBUILD_SHARED_LIBS=ON \
+  -DHOSTS="$2/demo/hello.cpp" -DOWN_HEADERS="$scratch/own"
 ninja -C "$scratch/shared" -t query hello >"$scratch/query"
 grep -q 'mobil/libmobil_core\.so' "$scratch/query"
 # Without a build type ours are optimised.

@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # `mobil view` on a display that nobody sees: it opens, walks, and shows its panel on a picture. Without one it says so.
-# Usage: view_test.sh PROGRAM. Exit status 77: skipped.
+# Usage: view_test.sh BUILD_FOLDER SOURCE_FOLDER PROGRAM. Exit status 77: skipped.
 set -euo pipefail
 command -v Xvfb >/dev/null || { echo "Xvfb is not there (apt-get install xvfb xauth)"; exit 77; }
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
-if env -u DISPLAY -u WAYLAND_DISPLAY "$1" view --seconds 1 2>"$scratch/said"; then
+if env -u DISPLAY -u WAYLAND_DISPLAY "$3" view --seconds 1 2>"$scratch/said"; then
   echo "it opened a window without a display"
   exit 1
 elif [ $? -ne 2 ] || [ "$(wc -l <"$scratch/said")" -ne 1 ] || ! grep -q '^mobil view: no window: .*display' "$scratch/said"; then
@@ -14,7 +14,7 @@ elif [ $? -ne 2 ] || [ "$(wc -l <"$scratch/said")" -ne 1 ] || ! grep -q '^mobil 
 fi
 # LeakSanitizer now and then falls over Mesa's threads, which end with the window.
 export ASAN_OPTIONS=${ASAN_OPTIONS:+$ASAN_OPTIONS:}detect_leaks=0
-xvfb-run -a -s "-screen 0 800x600x24" "$1" view --seconds 1 --people 20 --width 760 --height-px 500 \
+xvfb-run -a -s "-screen 0 800x600x24" "$3" view --seconds 1 --people 20 --width 760 --height-px 500 \
   --capture "$scratch/view.png"
 ffmpeg -v error -i "$scratch/view.png" -f rawvideo -pix_fmt gray "$scratch/grey"
 # The panel is dark, the sky above the ground is light, and in the middle somebody stands out from it.

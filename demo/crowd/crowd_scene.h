@@ -13,7 +13,7 @@
 #include <span>
 #include <vector>
 
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/error.h"
 #include "systems/avoidance/avoidance.h"
 #include "systems/relevance/relevance.h"

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "components/avoidance.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/measure/measure.h"
 #include "demo/town/town_map.h"
 

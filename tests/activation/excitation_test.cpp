@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "assets/files/csv_table.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::excitation_test {
 namespace {

@@ -19,7 +19,10 @@
 #include "tests/avoidance/room.h"
 #include "tests/avoidance/walkers.h"
 #include "tests/engine/counting_heap.h"
+#include "tests/labels.h"
 #include "tests/simulation/reseal.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil {
 namespace {

@@ -11,6 +11,9 @@
 #include "assets/skin/body_skin.h"
 #include "systems/simulation.h"
 #include "tests/c/c_fixture.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::c_close_up_test {
 namespace {

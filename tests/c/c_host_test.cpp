@@ -9,6 +9,9 @@
 #include <utility>
 
 #include "tests/c/c_fixture.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::c_test {
 namespace {

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # `mobil crowd` under mpirun: the same hash and picture from one, two and three ranks; a rank that is killed, and one that
 # hangs, end the run, and --resume goes on to the hash of an undisturbed one. Status 77 where there is no MPI.
-# Usage: mpi_test.sh MOBIL
+# Usage: mpi_test.sh BUILD_FOLDER SOURCE_FOLDER MOBIL
 set -euo pipefail
-mobil=$(realpath "$1")
+mobil=$(realpath "$3")
 command -v mpirun >/dev/null || { echo "no mpirun here (Debian: openmpi-bin)"; exit 77; }
 scratch=$(mktemp -d)
 trap 'kill "${running:-}" 2>/dev/null || true; rm -rf "$scratch"' EXIT

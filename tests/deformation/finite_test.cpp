@@ -23,6 +23,7 @@
 #include "tests/deformation/finite_oracle.h"
 #include "tests/engine/instruction_sets.h"
 #include "tests/fem/spindle.h"
+#include "tests/labels.h"
 
 namespace mobil::finite_test {
 namespace {
@@ -318,6 +319,7 @@ double rms(const std::vector<double>& values) {
 /// Shortened and stretched, relaxed and pulling: beside elements of eight points on the same mesh, by Newton's method.
 /// Those have sections held where they are by fascia, these are held softly.
 TEST(FiniteStatics, AreThoseOfNewtonsMethod) {
+  MOBIL_SLOW();
   for (const char* const name : {"vastus_lateralis", "triceps_surae"}) {
     const HexahedralMesh mesh = finite_mesh(*find_muscle(name), {4, 4, 16});
     Bellies bellies(make(mesh, FarEnd::held, 30, 7));
@@ -376,40 +378,6 @@ TEST(FiniteEnergy, StaysThroughRandomKicks) {
       ASSERT_NEAR(last[l] / first[l], 1, 0.02) << "second " << second << " lane " << l;
     }
   }
-}
-
-TEST(FiniteLanes, HoldTheSameBitsOnEveryInstructionSet) {
-  std::vector<Lanes<float>> first;
-  for (const Cells& cells : {Cells{2, 2, 8}, Cells{3, 2, 5}}) {
-    first.clear();
-    for_each_fused_instruction_set([&] {
-      Bellies bellies(make(spindle(cells), FarEnd::held, 8, 7));
-      bellies.throw_about(0.1F);
-      const Loads loads(bellies);
-      for (int tick = 0; tick < 3; ++tick)
-        bellies.tick(loads.drive(FarEnd::held), bellies.substeps(), tick_s, &loads.frame);
-      std::vector<Lanes<float>> now = bellies.u;
-      now.insert(now.end(), bellies.v.begin(), bellies.v.end());
-      now.push_back(bellies.report.strain_energy_j);
-      if (first.empty()) first = now;
-      EXPECT_TRUE(same_bits(first, now, lane_count));
-    });
-  }
-  if (first.empty()) GTEST_SKIP() << "no instruction set of this build fuses multiply and add";
-}
-
-TEST(FiniteLanes, KeepWhatIsNotANumberToThemselves) {
-  const auto run = [](std::size_t ill) {
-    Bellies bellies(make(spindle({2, 2, 8}), FarEnd::held, 8, 7));
-    bellies.throw_about(0.05F);
-    if (ill < lane_count) bellies.u[100][ill] = std::numeric_limits<float>::quiet_NaN();
-    const EndDrive<Lanes<float>> still{};
-    for (int tick = 0; tick < 4; ++tick) bellies.tick({FarEnd::held, still}, bellies.substeps());
-    return bellies.u;
-  };
-  const auto well = run(lane_count), ill = run(6);
-  EXPECT_TRUE(std::isnan(ill.back()[6]) || std::isnan(ill[100][6]));
-  EXPECT_TRUE(same_bits(well, ill, 6));
 }
 
 /// Thrown about by most of an element: far beyond what the step is proven for.

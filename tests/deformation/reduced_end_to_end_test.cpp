@@ -11,6 +11,7 @@
 #include "systems/deformation/reduced.h"
 #include "systems/deformation/reference.h"
 #include "tests/fem/spindle.h"
+#include "tests/labels.h"
 
 namespace mobil::reduced_end_to_end_test {
 constexpr double tick_s = 1.0 / 60, damping = 8, foundation_hz = 7;
@@ -194,6 +195,7 @@ double distance(const History& fast, const History& whole, Pick&& pick) {
 }
 
 TEST(ReducedEndToEnd, BelliesMoveAndReportAsTheWholeMeshDoes) {
+  MOBIL_SLOW();
   for (const Case& what :
        {Case{FarEnd::held, false}, Case{FarEnd::held, true}, Case{FarEnd::sliding, false}, Case{FarEnd::free, true}}) {
     const auto fast = reduced(what);

@@ -136,23 +136,5 @@ TEST(Tuned, AtTheToneOfItsMotionsItSwingsAsUntuned) {
   EXPECT_LT(off, 1e-4 * most);
 }
 
-TEST(Tuned, ALaneThatIsNoNumberStaysAlone) {
-  TunedBodies clean(12, FarEnd::held, true), spoilt(clean);
-  ReducedDrive drive(clean, 3);
-  for (int tick = 0; tick < 60; ++tick) {
-    drive.advance();
-    if (tick == 20) spoilt.activation[5] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_EQ(clean.tick_tuned(drive, 1.0 / 60), 0U);
-    EXPECT_EQ(spoilt.tick_tuned(drive, 1.0 / 60), tick < 20 ? 0U : 1U << 5);
-  }
-  for (std::size_t i = 0; i < clean.state.size(); ++i) {
-    EXPECT_EQ(spoilt.state[i][5], 0);
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l == 5) continue;
-      EXPECT_EQ(std::bit_cast<std::uint32_t>(clean.state[i][l]), std::bit_cast<std::uint32_t>(spoilt.state[i][l]));
-    }
-  }
-}
-
 }  // namespace
 }  // namespace mobil::tuned_test

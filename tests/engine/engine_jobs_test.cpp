@@ -11,6 +11,9 @@
 #include <vector>
 
 #include "engine/schedule.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_jobs_test {
 template <class F>

@@ -6,6 +6,9 @@
 #include "engine/schedule.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_memory_test {
 template <class F>

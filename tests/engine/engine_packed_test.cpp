@@ -17,6 +17,9 @@
 #include "engine/schedule.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_packed_test {
 /// Whether to be chosen, and by whom it can be told.
@@ -282,31 +285,6 @@ TEST(EnginePacked, TablesWithoutAPartOfTheChooserOrTheFunctionAreLeftOut) {
   schedule.run(world, {1, 1});
   EXPECT_EQ(schedule.timing("packed")->rows, 2U);
   EXPECT_NE(words(*world.get<Value>(no_given)), words(value));
-}
-
-TEST(EnginePacked, ASteadyTickTakesNoMemoryHoweverManyAreChosen) {
-  const std::size_t at_start = heap_requests;
-  CountingMemory memory;
-  Population people(&memory);
-  for (unsigned i = 0; i < 500; ++i) people.add(false, i % 3);
-  auto schedule = packed();
-  ASSERT_GT(heap_requests, at_start);  // the counter counts
-  for (const int count : {1, 2}) {
-    const Threads threads(count);
-    for (std::uint32_t i = 0; i < 3; ++i) schedule.run(people.world, {0.5F, i}, threads.jobs());
-    const std::size_t heap_before = heap_requests, lent_before = memory.requests;
-    for (std::uint32_t tick = 0; tick < 100; ++tick) {
-      // None in the warm-up; then ever more, up to all.
-      for (unsigned i = 0; i < 5; ++i) people.world.set(people.all[5 * tick + i], Choice<float>{1, i});
-      schedule.run(people.world, {0.5F, tick}, threads.jobs());
-    }
-    if (count == 1) {  // a pool of threads may still take memory of its own
-      EXPECT_EQ(heap_requests, heap_before);
-    }
-    EXPECT_EQ(memory.requests, lent_before) << count << " threads";
-    EXPECT_GT(schedule.timing("packed")->rows, 5U * 100 * 101 / 2 - 1);
-    for (const Entity e : people.all) people.world.set(e, Choice<float>{0, 0});
-  }
 }
 
 }  // namespace mobil::engine_packed_test

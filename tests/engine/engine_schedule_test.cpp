@@ -14,6 +14,9 @@
 #include <vector>
 
 #include "engine/schedule_order.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_schedule_test {
 template <class F>
@@ -53,14 +56,6 @@ std::string order_of(const ScheduleBuilder& builder) {
   std::string names;
   for (const System& system : schedule->systems()) names += (names.empty() ? "" : " ") + system.name;
   return names;
-}
-
-TEST(EngineSchedule, AReaderRunsAfterTheWriter) {
-  EXPECT_EQ(order_of(ScheduleBuilder().add("c", &b_to_c).add("b", &a_to_b).add("a", &write_a)), "a b c");
-}
-
-TEST(EngineSchedule, UnrelatedSystemsKeepTheOrderOfAdding) {
-  EXPECT_EQ(order_of(ScheduleBuilder().add("z", &write_b).add("a", &write_a).add("m", [](Tick) {})), "z a m");
 }
 
 TEST(EngineSchedule, ALookupAndAFieldAreReadsToo) {
@@ -322,93 +317,6 @@ TEST(EngineSchedule, CountsCallsAndTime) {
   EXPECT_EQ(schedule->timing("b"), nullptr);
   schedule->reset_timings();
   EXPECT_EQ(schedule->timing("a")->calls, 0U);
-}
-
-// --- the same bits however the work is cut ---
-
-void grow(LA& a, float tick_s) {
-  for (float& x : a.x.lane) x = x * 1.25F + tick_s;
-}
-void follow(const Friend<Lanes<float>>& f, const Lookup<A>& lookup, LB& b) {
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const float* x = lookup.find({f.index[l], f.generation[l]});
-    b.x[l] = x != nullptr ? b.x[l] * 0.5F + *x : -1.0F;
-  }
-}
-
-/// Every entity's bits after some ticks, by handle.
-std::map<std::uint32_t, float> outcome(unsigned people, unsigned gone, const Jobs& jobs) {
-  World world;
-  std::vector<Entity> all;
-  for (unsigned i = 0; i < people; ++i) {
-    const Entity before = all.empty() ? Entity{} : all[i / 2];
-    const Friend<float> f{before.index, before.generation};
-    const A<float> a{static_cast<float>(i) * 0.1F};
-    all.push_back(i % 3 == 0 ? world.create(a, f, B<float>{}) : world.create(a, f, B<float>{}, C<float>{}));
-  }
-  auto schedule = ScheduleBuilder().add("follow", &follow).add("grow", &grow).build();
-  for (std::uint32_t tick = 0; tick < 4; ++tick) {
-    schedule->run(world, {0.1F, tick}, jobs);
-    if (gone < people) world.destroy(all[(gone + tick) % people]);
-  }
-  std::map<std::uint32_t, float> values;
-  for (const Entity e : all) {
-    if (world.alive(e)) values[e.index] = world.get<B>(e)->x;
-  }
-  return values;
-}
-
-RC_GTEST_PROP(EngineSchedule, TheResultIsTheSameOnAnyThreadsAndAnyCut, ()) {
-  const auto people = *rc::gen::inRange(1U, 400U);
-  const auto gone = *rc::gen::inRange(0U, 400U);
-  std::size_t cut = *rc::gen::inRange<std::size_t>(1, 9);
-  // backwards, in ranges of `cut`
-  Jobs backwards{&cut, [](void* user, std::size_t count, Jobs::Body body, void* context) {
-                   const std::size_t step = *static_cast<std::size_t*>(user);
-                   for (std::size_t end = count; end > 0; end -= std::min(step, end)) {
-                     body(context, end - std::min(step, end), end);
-                   }
-                 }};
-  // three threads of the caller's own, each every third block
-  Jobs three{nullptr, [](void*, std::size_t count, Jobs::Body body, void* context) {
-               std::vector<std::jthread> threads;
-               for (std::size_t t = 0; t < 3; ++t) {
-                 threads.emplace_back([=] {
-                   for (std::size_t i = t; i < count; i += 3) body(context, i, i + 1);
-                 });
-               }
-             }};
-  const auto alone = outcome(people, gone, {});
-  RC_ASSERT(!alone.empty() || people <= 4);
-  RC_ASSERT(outcome(people, gone, backwards) == alone);
-  RC_ASSERT(outcome(people, gone, three) == alone);
-  for (const int count : {1, 2, 3}) {
-    const Threads threads(count);
-    RC_ASSERT(threads.count() >= 1 && threads.count() <= count);
-    RC_ASSERT(outcome(people, gone, threads.jobs()) == alone);
-  }
-}
-
-TEST(EngineSchedule, RunsEveryBlockOnce) {
-  World world;
-  std::vector<Entity> all;
-  for (unsigned i = 0; i < 1000; ++i) {
-    // Rows so wide that a table has many tiles, tables of unlike lengths.
-    const FieldWidth<Nodes> wide{500};
-    all.push_back(i % 7 == 0 ? world.create(A<float>{}, wide, TagValue<Substeps>{i % 3 == 0 ? 0U : i % 5})
-                             : world.create(A<float>{}, wide));
-  }
-  auto schedule = ScheduleBuilder()
-                      .add("count",
-                           [](LA& a) {
-                             for (float& x : a.x.lane) x += 1;
-                           })
-                      .build();
-  const Threads threads(2);
-  for (int i = 1; i <= 50; ++i) {
-    schedule->run(world, {}, threads.jobs());
-    for (const Entity e : all) ASSERT_EQ(world.get<A>(e)->x, static_cast<float>(i));
-  }
 }
 
 struct Odd {};

@@ -13,6 +13,9 @@
 #include "engine/schedule.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::engine_scratch_test {
 template <class F>
@@ -115,25 +118,6 @@ TEST(Scratch, IsAsLargeAsTheTableSaysAndNullWhereItSaysNothing) {
   schedule->run(world, {1, 1});
   EXPECT_EQ(world.get<A>(some.back())->x, 1);
   EXPECT_EQ(world.get<A>(some.front())->x, 2);
-}
-
-TEST(Scratch, ASteadyTickTakesNoMemoryAndAllComesFromTheCaller) {
-  CountingMemory memory;
-  World world;
-  for (unsigned i = 0; i < 400; ++i) world.create(A<float>{}, TagValue<Floats>{i % 2 == 0 ? 64U : 640U});
-  {
-    auto schedule = ScheduleBuilder().add("work", &work).build(&memory);
-    for (const int count : {1, 2}) {
-      const Threads threads(count);
-      for (std::uint32_t i = 0; i < 3; ++i) schedule->run(world, {1, i}, threads.jobs());
-      EXPECT_GT(memory.requests, 0U);
-      const std::size_t heap = heap_requests, lent = memory.requests;
-      for (std::uint32_t i = 0; i < 200; ++i) schedule->run(world, {1, i}, threads.jobs());
-      EXPECT_EQ(heap_requests, heap) << count << " threads";
-      EXPECT_EQ(memory.requests, lent) << count << " threads";
-    }
-  }
-  EXPECT_EQ(memory.lent(), 0U);
 }
 
 TEST(Scratch, MoreThreadsThanPromisedAreServed) {

@@ -313,19 +313,6 @@ RC_GTEST_PROP(EngineWorld, FullBlocksGrowAndShrinkOneAtATime, ()) {
   pair.compare();
 }
 
-TEST(EngineWorld, GivesAllMemoryBack) {
-  CountingMemory memory;
-  {
-    World world(&memory);
-    std::vector<Entity> all;
-    for (unsigned i = 0; i < 100; ++i) all.push_back(world.create(Size<float>{1, i}, FieldWidth<Nodes>{i % 3}));
-    for (unsigned i = 0; i < 100; i += 2) EXPECT_EQ(world.add(all[i], Arms<float>{}), Status::ok);
-    for (unsigned i = 0; i < 100; i += 3) EXPECT_EQ(world.destroy(all[i]), Status::ok);
-    EXPECT_GT(memory.lent(), 0U);
-  }
-  EXPECT_EQ(memory.lent(), 0U);
-}
-
 TEST(EngineWorld, AnEmptiedTableKeepsItsFirstMemoryAtMost) {
   CountingMemory memory;
   World world(&memory);
@@ -335,33 +322,6 @@ TEST(EngineWorld, AnEmptiedTableKeepsItsFirstMemoryAtMost) {
   EXPECT_GT(memory.lent(), one_block + 4);  // each piece as large as all before
   for (const Entity e : all) EXPECT_EQ(world.destroy(e), Status::ok);
   EXPECT_LE(memory.lent(), one_block + 2);  // the registers' own arrays
-}
-
-TEST(EngineWorld, IsUnchangedWhenMemoryRunsOut) {
-  for (std::size_t granted = 0; granted < 12; ++granted) {
-    CountingMemory memory;
-    World world(&memory);
-    const Entity first = world.create(Size<float>{1.5F, 7});
-    memory.refuse_after = granted;
-    bool refused = false;
-    std::vector<Entity> added;
-    try {
-      EXPECT_EQ(world.add(first, Arms<float>{}), Status::ok);
-      for (int i = 0; i < 40; ++i) added.push_back(world.create(Size<float>{2.5F, 9}));
-    } catch (const std::bad_alloc&) {
-      refused = true;
-    }
-    memory.refuse_after = SIZE_MAX;
-    EXPECT_TRUE(refused || granted > 3);
-    EXPECT_EQ(world.get<Size>(first)->height_m, 1.5F);
-    for (const Entity e : added) EXPECT_EQ(world.get<Size>(e)->bits, 9U);
-    std::size_t rows = 0;
-    for (const Table& table : world.tables()) rows += table.row_count();
-    EXPECT_EQ(rows, added.size() + 1);
-    const Entity next = world.create(Size<float>{3.5F, 1});
-    EXPECT_EQ(world.get<Size>(next)->height_m, 3.5F);
-    EXPECT_EQ(world.destroy(first), Status::ok);
-  }
 }
 
 TEST(EngineWorld, TheDefaultHandleIsNobody) {

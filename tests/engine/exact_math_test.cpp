@@ -1,18 +1,30 @@
-// Elementary functions are the nearest doubles to what fifty digits say.
+// Elementary functions are the nearest doubles to what thirty-three digits say.
 
 #include "engine/exact_math.h"
 
 #include <gtest/gtest.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <limits>
 #include <random>
 
+// gcc's libquadmath, whose header other compilers do not find.
+using Long = __float128;
+extern "C" {
+Long expq(Long);
+Long expm1q(Long);
+Long logq(Long);
+Long cbrtq(Long);
+Long sinq(Long);
+Long cosq(Long);
+Long asinq(Long);
+Long acosq(Long);
+Long atan2q(Long, Long);
+Long powq(Long, Long);
+}
+
 namespace mobil {
 namespace {
-
-using Long = boost::multiprecision::cpp_bin_float_50;
 
 /// Of random numbers of a range, mostly even in the logarithm of their size.
 template <class Ours, class Theirs>
@@ -29,34 +41,33 @@ void expect_nearest(double low, double high, Ours ours, Theirs theirs) {
 }
 
 TEST(ExactMath, IsTheNearestDouble) {
-  using namespace boost::multiprecision;
   expect_nearest(
-      -700, 700, [](double x) { return exact::exp(x); }, [](const Long& x) { return Long(exp(x)); });
+      -700, 700, [](double x) { return exact::exp(x); }, expq);
   expect_nearest(
-      -30, 30, [](double x) { return exact::expm1(x); }, [](const Long& x) { return Long(expm1(x)); });
+      -30, 30, [](double x) { return exact::expm1(x); }, expm1q);
   expect_nearest(
-      1e-9, 1e9, [](double x) { return exact::log(x); }, [](const Long& x) { return Long(log(x)); });
+      1e-9, 1e9, [](double x) { return exact::log(x); }, logq);
   expect_nearest(
-      0.9, 1.1, [](double x) { return exact::log(x); }, [](const Long& x) { return Long(log(x)); });
+      0.9, 1.1, [](double x) { return exact::log(x); }, logq);
   expect_nearest(
-      1e-9, 1e9, [](double x) { return exact::cbrt(x); }, [](const Long& x) { return Long(cbrt(x)); });
+      1e-9, 1e9, [](double x) { return exact::cbrt(x); }, cbrtq);
   expect_nearest(
-      -100, 100, [](double x) { return exact::sin(x); }, [](const Long& x) { return Long(sin(x)); });
+      -100, 100, [](double x) { return exact::sin(x); }, sinq);
   expect_nearest(
-      -1e5, 1e5, [](double x) { return exact::cos(x); }, [](const Long& x) { return Long(cos(x)); });
+      -1e5, 1e5, [](double x) { return exact::cos(x); }, cosq);
   expect_nearest(
-      -1, 1, [](double x) { return exact::asin(x); }, [](const Long& x) { return Long(asin(x)); });
+      -1, 1, [](double x) { return exact::asin(x); }, asinq);
   expect_nearest(
-      -1, 1, [](double x) { return exact::acos(x); }, [](const Long& x) { return Long(acos(x)); });
+      -1, 1, [](double x) { return exact::acos(x); }, acosq);
   for (const double other : {-3.0, -1e-3, 0.7, 1e6}) {
     expect_nearest(
         -10, 10, [&](double x) { return exact::atan2(x, other); },
-        [&](const Long& x) { return Long(atan2(x, Long(other))); });
+        [&](Long x) { return atan2q(x, other); });
   }
   for (const double power : {-2.5, 1.0 / 3, 0.1, 7.0}) {
     expect_nearest(
         1e-3, 1e3, [&](double x) { return exact::pow(x, power); },
-        [&](const Long& x) { return Long(pow(x, Long(power))); });
+        [&](Long x) { return powq(x, power); });
   }
 }
 

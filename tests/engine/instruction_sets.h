@@ -50,14 +50,4 @@ inline bool same_bits(const std::vector<Lanes<float>>& a, const std::vector<Lane
   return true;
 }
 
-/// Whether all lanes of each block are the first.
-inline bool lanes_alike(const std::vector<Lanes<float>>& blocks) {
-  for (const Lanes<float>& lanes : blocks) {
-    for (const float x : lanes.lane) {
-      if (std::memcmp(&x, &lanes.lane[0], sizeof(float)) != 0) return false;
-    }
-  }
-  return true;
-}
-
 }  // namespace mobil

@@ -33,30 +33,6 @@ void arithmetic(const float* a, const float* b, const float* c, float* out) {
     out += lane_count;
   }
 }
-/// 1 where a comparison holds, 0 elsewhere, one comparison a row of `out`.
-void comparisons(const float* a, const float* b, const Lanes<std::uint32_t>& words, std::uint32_t value, float* out) {
-  const Wide x = load(a), y = load(b);
-  const WideMask all[] = {
-      x<y, x <= y, x> y,  x >= y, x<1.0F, x <= 1.0F, x> 1.0F, x >= 1.0F, (x < y) & (x > 1.0F), (x < y) | (x > 1.0F),
-      equal(words, value)};
-  for (const WideMask& holds : all) {
-    store(select(holds, wide(1.0F), wide(0.0F)), out);
-    out += lane_count;
-  }
-}
-void gathered(const float* column, const float* word, float* out) {
-  store(gather(column, load(word)), out);
-}
-void between(const float* u, const float* a, const float* b, float* eased, float* mixed) {
-  store(smooth(load(u)), eased);
-  store(mix(load(a), load(b), load(u)), mixed);
-}
-void turned(const Quat<Lanes<float>>& q, const Quat<Lanes<float>>& p, const Vec3<Lanes<float>>& v,
-            Vec3<Lanes<float>>& rotated, Quat<Lanes<float>>& product, float* long_as) {
-  store(rotate(load(q), load(v)), rotated);
-  store(load(q) * load(p), product);
-  store(length(load(v)), long_as);
-}
 }  // namespace mobil::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
@@ -76,10 +52,6 @@ namespace mobil {
 HWY_EXPORT(circular);
 HWY_EXPORT(exponential);
 HWY_EXPORT(arithmetic);
-HWY_EXPORT(comparisons);
-HWY_EXPORT(gathered);
-HWY_EXPORT(between);
-HWY_EXPORT(turned);
 
 namespace {
 
@@ -223,110 +195,6 @@ TEST(Wide, ArithmeticIsCorrectlyRounded) {
         }
       }
     }
-  });
-}
-
-TEST(Wide, ComparisonsAndSelectionGoLaneByLane) {
-  for_each_instruction_set([](const char* set) {
-    Dice dice;
-    std::array<Lanes<float>, 11> out;
-    for (int block = 0; block < blocks; ++block) {
-      Lanes<float> x, y;
-      Lanes<std::uint32_t> words;
-      for (std::size_t l = 0; l < lane_count; ++l) {  // of few values: equal ones are frequent
-        x[l] = static_cast<float>(dice.engine() % 4), y[l] = static_cast<float>(dice.engine() % 4);
-        words[l] = 0xFFFFFFFDU + static_cast<std::uint32_t>(dice.engine() % 3);
-      }
-      const std::uint32_t value = 0xFFFFFFFDU + static_cast<std::uint32_t>(dice.engine() % 3);
-      HWY_DYNAMIC_DISPATCH(comparisons)(x.lane, y.lane, words, value, out[0].lane);
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const float a = x[l], b = y[l];
-        const std::array<bool, 11> wanted = {a<b, a <= b, a> b, a >= b,         a<1, a <= 1, a> 1, a >= 1,
-                                             a < b && a > 1,    a < b || a > 1, words[l] == value};
-        for (std::size_t i = 0; i < wanted.size(); ++i) {
-          ASSERT_EQ(out[i][l], wanted[i] ? 1.0F : 0.0F) << set << ", comparison " << i << " of " << a << ", " << b;
-        }
-      }
-    }
-  });
-}
-
-TEST(Wide, GatherPicksEachLanesOwnWord) {
-  for_each_instruction_set([](const char* set) {
-    Dice dice;
-    std::vector<Lanes<float>> column(50);
-    for (std::size_t i = 0; i < column.size(); ++i) {
-      for (std::size_t l = 0; l < lane_count; ++l) column[i][l] = static_cast<float>(16 * i + l);
-    }
-    for (int block = 0; block < 200; ++block) {
-      Lanes<float> word, out;
-      for (float& w : word.lane) w = static_cast<float>(dice.engine() % column.size());
-      HWY_DYNAMIC_DISPATCH(gathered)(column[0].lane, word.lane, out.lane);
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        ASSERT_EQ(out[l], 16 * word[l] + static_cast<float>(l)) << set;
-      }
-    }
-  });
-}
-
-TEST(Wide, GoesFromOneValueToAnother) {
-  for_each_instruction_set([](const char* set) {
-    Dice dice;
-    double worst_ease = 0, worst_mix = 0;
-    Lanes<float> eased, mixed;
-    for (int block = 0; block < blocks; ++block) {
-      const Lanes<float> u = dice.lanes(-0.2, 1.2), a = dice.lanes(-1, 1), b = dice.lanes(-1, 1);
-      HWY_DYNAMIC_DISPATCH(between)(u.lane, a.lane, b.lane, eased.lane, mixed.lane);
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const double v = std::fmin(std::fmax(of(u[l]), 0), 1);
-        keep(worst_ease, std::fabs(of(eased[l]) - v * v * v * (10 + v * (6 * v - 15))));
-        keep(worst_mix, std::fabs(of(mixed[l]) - of(a[l]) - of(u[l]) * (of(b[l]) - of(a[l]))));
-      }
-    }
-    EXPECT_LT(worst_ease, 12 * ulp(1)) << set;
-    EXPECT_LT(worst_mix, 2 * ulp(2)) << set;
-  });
-}
-
-TEST(Wide, RotationsTurnAsInDoublePrecision) {
-  for_each_instruction_set([](const char* set) {
-    Dice dice;
-    double worst = 0, worst_product = 0, worst_length = 0;
-    for (int block = 0; block < blocks; ++block) {
-      const auto unit = [&] {
-        Quat<Lanes<float>> q = {dice.lanes(-1, 1), dice.lanes(-1, 1), dice.lanes(-1, 1), dice.lanes(-1, 1)};
-        for (std::size_t l = 0; l < lane_count; ++l) {
-          const float size = std::sqrt(q.x[l] * q.x[l] + q.y[l] * q.y[l] + q.z[l] * q.z[l] + q.w[l] * q.w[l]);
-          q.x[l] /= size, q.y[l] /= size, q.z[l] /= size, q.w[l] /= size;
-        }
-        return q;
-      };
-      const Quat<Lanes<float>> q = unit(), p = unit();
-      const Vec3<Lanes<float>> v = {dice.lanes(-1, 1), dice.lanes(-1, 1), dice.lanes(-1, 1)};
-      Vec3<Lanes<float>> rotated;
-      Quat<Lanes<float>> product;
-      Lanes<float> length;
-      HWY_DYNAMIC_DISPATCH(turned)(q, p, v, rotated, product, length.lane);
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        const auto exact = [l](const Quat<Lanes<float>>& of_lanes) {
-          return Quat<double>{of(of_lanes.x[l]), of(of_lanes.y[l]), of(of_lanes.z[l]), of(of_lanes.w[l])};
-        };
-        const Vec3<double> from = {of(v.x[l]), of(v.y[l]), of(v.z[l])};
-        const Vec3<double> to = geometry::rotated(exact(q), from);
-        const Quat<double> both = geometry::product(exact(q), exact(p));
-        keep(worst, std::fabs(of(rotated.x[l]) - to.x));
-        keep(worst, std::fabs(of(rotated.y[l]) - to.y));
-        keep(worst, std::fabs(of(rotated.z[l]) - to.z));
-        keep(worst_product, std::fabs(of(product.x[l]) - both.x));
-        keep(worst_product, std::fabs(of(product.y[l]) - both.y));
-        keep(worst_product, std::fabs(of(product.z[l]) - both.z));
-        keep(worst_product, std::fabs(of(product.w[l]) - both.w));
-        keep(worst_length, ulps(length[l], geometry::length(from)));
-      }
-    }
-    EXPECT_LT(worst, 3.5 * ulp(1)) << set;
-    EXPECT_LT(worst_product, 1.1 * ulp(1)) << set;
-    EXPECT_LT(worst_length, 1.5) << set;
   });
 }
 

@@ -15,6 +15,7 @@
 #include "systems/capture/renderer.h"
 #include "systems/capture/vertex_normals.h"
 #include "systems/capture/video.h"
+#include "tests/files/temporary_folder.h"
 
 using namespace mobil;
 namespace fs = std::filesystem;
@@ -23,13 +24,8 @@ using Point = Vec3<float>;
 constexpr int width = 160, height = 120;
 constexpr Colour red{0.9F, 0.1F, 0.1F}, green{0.1F, 0.8F, 0.1F};
 
-/// A folder of this process's own, gone at the end.
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("mobil-capture-" + std::to_string(getpid()));
-  Folder() { fs::create_directories(path); }
-  ~Folder() { fs::remove_all(path); }
+struct Folder : TemporaryFolder {
   std::string file(const char* name) const { return (path / name).string(); }
-  std::ptrdiff_t files() const { return std::distance(fs::directory_iterator(path), fs::directory_iterator()); }
 };
 
 /// An upright triangle of about 1 m, counter-clockwise seen from +Z, at that depth.
@@ -359,7 +355,7 @@ RC_GTEST_PROP(CapturePng, ReadsBackAsTheSamePixels, (bool opaque)) {
   std::vector<std::uint8_t> back(PNG_IMAGE_SIZE(png));
   RC_ASSERT(png_image_finish_read(&png, nullptr, back.data(), 0, nullptr) != 0);
   RC_ASSERT(back == image.rgba);
-  RC_ASSERT(folder.files() == 1);
+  RC_ASSERT(folder.files() == 1U);
 }
 
 TEST(CapturePng, AFailedWriteIsOneLineAndLeavesNothing) {
@@ -373,10 +369,10 @@ TEST(CapturePng, AFailedWriteIsOneLineAndLeavesNothing) {
     EXPECT_EQ(written.error().message.find('\n'), std::string::npos);
     EXPECT_NE(written.error().message.find(path), std::string::npos);
   }
-  EXPECT_EQ(folder.files(), 1);
+  EXPECT_EQ(folder.files(), 1U);
   EXPECT_FALSE(write_png(folder.file("empty.png"), Image{}).has_value());
   EXPECT_FALSE(write_png(folder.file("short.png"), Image{3, 3, std::vector<std::uint8_t>(16)}).has_value());
-  EXPECT_EQ(folder.files(), 1);
+  EXPECT_EQ(folder.files(), 1U);
 }
 
 TEST(CapturePng, AFullDiskIsAnErrorAndLeavesNothing) {
@@ -384,7 +380,7 @@ TEST(CapturePng, AFullDiskIsAnErrorAndLeavesNothing) {
   const Folder folder;
   fs::create_symlink("/dev/full", folder.path / "picture.png");
   EXPECT_FALSE(write_png(folder.file("picture.png"), Image{64, 64, std::vector<std::uint8_t>(16384, 9)}).has_value());
-  EXPECT_EQ(folder.files(), 1);
+  EXPECT_EQ(folder.files(), 1U);
   EXPECT_TRUE(fs::is_symlink(folder.path / "picture.png"));
 }
 
@@ -405,7 +401,7 @@ TEST_F(CaptureVideo, TenPicturesMakeAFilmWithItsIndexInFront) {
   EXPECT_FALSE(fs::exists(path));
   const auto closed = video->close();
   ASSERT_TRUE(closed.has_value()) << closed.error().message;
-  EXPECT_EQ(folder.files(), 1);
+  EXPECT_EQ(folder.files(), 1U);
   std::ifstream file(path, std::ios::binary);
   const std::string bytes{std::istreambuf_iterator<char>(file), {}};
   EXPECT_EQ(bytes.substr(4, 4), "ftyp");
@@ -423,7 +419,7 @@ TEST_F(CaptureVideo, AnAbandonedEmptyOrImpossibleFilmLeavesNothing) {
     auto video = VideoWriter::create(folder.file("abandoned.mp4"), 64, 48, 30);
     ASSERT_TRUE(video.has_value());
     for (int i = 0; i < 2000 && folder.files() == 0; ++i) ASSERT_TRUE(video->add(image).has_value());
-    EXPECT_EQ(folder.files(), 1);  // the film has begun, under its temporary name
+    EXPECT_EQ(folder.files(), 1U);  // the film has begun, under its temporary name
     EXPECT_FALSE(fs::exists(folder.path / "abandoned.mp4"));
     EXPECT_FALSE(video->add(Image{2, 2, std::vector<std::uint8_t>(16)}).has_value());
   }
@@ -443,14 +439,14 @@ TEST_F(CaptureVideo, AnAbandonedEmptyOrImpossibleFilmLeavesNothing) {
   ASSERT_FALSE(last.has_value());
   EXPECT_EQ(last.error().message.find('\n'), std::string::npos);
   fs::remove(folder.path / "full.mp4");
-  EXPECT_EQ(folder.files(), 0);
+  EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST_F(CaptureVideo, OutOfRangeRequestsNameTheRange) {
   EXPECT_NE(VideoWriter::create(folder.file("film.avi"), 64, 48, 30).error().message.find(".mp4"), std::string::npos);
   EXPECT_NE(VideoWriter::create(folder.file("film.mp4"), 63, 48, 30).error().message.find("even"), std::string::npos);
   EXPECT_NE(VideoWriter::create(folder.file("film.mp4"), 64, 48, 0).error().message.find("1-240"), std::string::npos);
-  EXPECT_EQ(folder.files(), 0);
+  EXPECT_EQ(folder.files(), 0U);
 }
 
 TEST(CaptureVideoWithoutFfmpeg, SaysWhichPackageIsMissing) {

@@ -25,29 +25,13 @@
 #include "assets/export/gltf_writer.h"
 #include "assets/export/recorded_skin.h"
 #include "tests/files/export_fixture.h"
+#include "tests/files/temporary_folder.h"
 
 namespace mobil::export_test {
 namespace fs = std::filesystem;
 using namespace export_fixture;
 
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "mobil-export-XXXXXX").string();
-    path = mkdtemp(name.data());
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  ~Folder() { fs::remove_all(path); }
-  std::size_t files() const {
-    return static_cast<std::size_t>(std::distance(fs::directory_iterator(path), fs::directory_iterator()));
-  }
-};
-
-std::string bytes_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using Folder = TemporaryFolder;
 
 void expect_same_poses(const Viewer& viewer, const std::vector<Pose<float>>& frames) {
   for (std::size_t f = 0; f < frames.size(); ++f) {
@@ -386,7 +370,7 @@ TEST(Export, TheSameRecordingGivesTheSameBytes) {
   const Folder folder;
   ASSERT_TRUE(write_glb(folder.path / "a.glb", small_walk()));
   ASSERT_TRUE(write_glb(folder.path / "b.glb", small_walk()));
-  EXPECT_EQ(bytes_of(folder.path / "a.glb"), bytes_of(folder.path / "b.glb"));
+  EXPECT_EQ(read_bytes(folder.path / "a.glb"), read_bytes(folder.path / "b.glb"));
 }
 
 TEST(Export, AFailureIsOneLineAndLeavesNothingNewAndNothingBroken) {
@@ -409,7 +393,7 @@ TEST(Export, AFailureIsOneLineAndLeavesNothingNewAndNothingBroken) {
     auto walk = good;
     spoil(walk);
     expect_failure(folder.path / "walk.glb", walk, says);
-    EXPECT_EQ(bytes_of(folder.path / "walk.glb"), "before");
+    EXPECT_EQ(read_bytes(folder.path / "walk.glb"), "before");
     EXPECT_EQ(folder.files(), 2U);
   };
   spoilt([](auto& w) { w.frames.clear(); }, "no frames");

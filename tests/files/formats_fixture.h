@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "tests/files/export_fixture.h"
+#include "tests/files/temporary_folder.h"
 
 namespace mobil::formats_test {
 namespace fs = std::filesystem;
@@ -27,17 +28,6 @@ using namespace export_fixture;
 
 inline constexpr double near_m = 1e-4;
 inline const std::vector<std::size_t> some_frames = {0, 9, 44};
-
-struct Place {
-  fs::path folder;
-  Place() {
-    std::string name = (fs::temp_directory_path() / "mobil-formats-XXXXXX").string();
-    folder = mkdtemp(name.data());
-  }
-  Place(const Place&) = delete;
-  Place& operator=(const Place&) = delete;
-  ~Place() { fs::remove_all(folder); }
-};
 
 struct Said {
   int status = -1;

@@ -20,12 +20,15 @@
 #include "assets/export/usd_writer.h"
 #include "assets/export/x3d_writer.h"
 #include "tests/files/formats_fixture.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::formats_test {
 
 TEST(Formats, AssimpReadsTheJointsOfAGlbAndOneSkinOfAllBones) {
-  const Place place;
-  const auto file = place.folder / "walk.glb";
+  const TemporaryFolder place;
+  const auto file = place.path / "walk.glb";
   const auto walk = small_walk();
   ASSERT_TRUE(write_glb(file, walk));
   expect_assimp_joints(file, walk.frames);
@@ -41,23 +44,23 @@ TEST(Formats, AssimpReadsTheJointsOfAGlbAndOneSkinOfAllBones) {
 }
 
 TEST(Formats, AssimpReadsTheJointsOfABvhHoweverTheyTurn) {
-  const Place place;
+  const TemporaryFolder place;
   for (const unsigned seed : {0U, 1U, 2U}) {
     WalkRecording walk;
     walk.frames = seed == 0 ? swinging(45) : writhing(45, seed);
-    ASSERT_TRUE(write_bvh(place.folder / "walk.bvh", walk));
-    expect_assimp_joints(place.folder / "walk.bvh", walk.frames);
+    ASSERT_TRUE(write_bvh(place.path / "walk.bvh", walk));
+    expect_assimp_joints(place.path / "walk.bvh", walk.frames);
   }
 }
 
 TEST(Formats, ABvhTellsItsTipsItsFramesAndWhichJointsSlide) {
-  const Place place;
+  const TemporaryFolder place;
   WalkRecording walk;
   walk.frames = swinging(45);
   walk.tip_m.assign(segment_count, {0, 0, 0});
   walk.tip_m[index(Segment::head)] = {0, 0.25F, 0};
-  ASSERT_TRUE(write_bvh(place.folder / "walk.bvh", walk));
-  std::ifstream in(place.folder / "walk.bvh");
+  ASSERT_TRUE(write_bvh(place.path / "walk.bvh", walk));
+  std::ifstream in(place.path / "walk.bvh");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   EXPECT_NE(text.find("OFFSET 0.000000 0.250000 0.000000"), std::string::npos);
   EXPECT_NE(text.find("Frames: 45\nFrame Time: 0.0333333"), std::string::npos);
@@ -105,8 +108,8 @@ WalkRecording oddly_named_walk() {
 
 TEST(Formats, UsdPutsJointsBonesAndMusclesWhereTheyAre) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
-  const Place place;
-  const auto file = place.folder / "walk.usda";
+  const TemporaryFolder place;
+  const auto file = place.path / "walk.usda";
   const auto walk = oddly_named_walk();
   ASSERT_TRUE(write_usda(file, walk));
   expect_python_joints("joints", file, walk.frames);
@@ -115,15 +118,15 @@ TEST(Formats, UsdPutsJointsBonesAndMusclesWhereTheyAre) {
 
 TEST(Formats, UsdOfSeveralPeopleRefersToWhatTheyShare) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
-  const Place place;
+  const TemporaryFolder place;
   const auto walk = small_walk();
   CrowdRecording crowd;
   crowd.figures.push_back({walk.bones, {0, 1}, {}, {}});
   crowd.people.push_back({"anna", 0, {1, 1, 1}, {{0, 0, 0}, {1, 1, 1}}, walk.frames, {}});
   crowd.people.push_back({"bert", 0, {1.2F, 1.1F, 1.3F}, {{0, 0, 1}, {1, 1, 0}}, writhing(45, 3), {}});
-  ASSERT_TRUE(write_usda(place.folder / "crowd.usda", crowd));
+  ASSERT_TRUE(write_usda(place.path / "crowd.usda", crowd));
   for (const std::size_t f : some_frames) {
-    const Said said = read_by_python("bones", place.folder / "crowd.usda", f);
+    const Said said = read_by_python("bones", place.path / "crowd.usda", f);
     ASSERT_EQ(said.status, 0) << said.text;
     const auto rows = number_rows(said.text);
     std::size_t at = 0;
@@ -141,29 +144,29 @@ TEST(Formats, UsdOfSeveralPeopleRefersToWhatTheyShare) {
 
 TEST(Formats, TheUsdLibraryReadsTheSameJoints) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
-  const Place place;
+  const TemporaryFolder place;
   const auto walk = oddly_named_walk();
-  ASSERT_TRUE(write_usda(place.folder / "walk.usda", walk));
-  expect_python_joints("pxr", place.folder / "walk.usda", walk.frames);
+  ASSERT_TRUE(write_usda(place.path / "walk.usda", walk));
+  expect_python_joints("pxr", place.path / "walk.usda", walk.frames);
 }
 
 TEST(Formats, VrmlAndX3dPutJointsBonesAndMusclesWhereTheyAre) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
-  const Place place;
+  const TemporaryFolder place;
   const auto walk = oddly_named_walk();
   for (const auto& [name, notation] :
        {std::pair{"walk.wrl", SceneNotation::vrml}, std::pair{"walk.x3d", SceneNotation::x3d}}) {
-    ASSERT_TRUE(write_x3d(place.folder / name, walk, notation));
-    expect_python_joints("joints", place.folder / name, walk.frames);
-    expect_python_surfaces(place.folder / name, walk);
+    ASSERT_TRUE(write_x3d(place.path / name, walk, notation));
+    expect_python_joints("joints", place.path / name, walk.frames);
+    expect_python_surfaces(place.path / name, walk);
   }
 }
 
 TEST(Formats, AssimpReadsTheFirstPoseOfAnX3d) {
   Assimp::Importer importer;
   if (!importer.IsExtensionSupported(".x3d")) GTEST_SKIP() << "this assimp does not read X3D";
-  const Place place;
-  const auto file = place.folder / "walk.x3d";
+  const TemporaryFolder place;
+  const auto file = place.path / "walk.x3d";
   auto walk = small_walk();
   walk.bones.clear();  // assimp 5.2 loses its place at a Transform with nothing in it
   for (std::size_t s = 0; s < segment_count; ++s) {
@@ -185,8 +188,8 @@ TEST(Formats, AssimpReadsTheFirstPoseOfAnX3d) {
 
 TEST(Formats, GlCoordinatesAreThoseOfTheFrameWithUnitNormals) {
   if (!has_python()) GTEST_SKIP() << "python3 is not installed";
-  const Place place;
-  const auto file = place.folder / "walk.gl";
+  const TemporaryFolder place;
+  const auto file = place.path / "walk.gl";
   const auto walk = small_walk();
   ASSERT_TRUE(write_gl(file, walk));
   for (const std::size_t f : some_frames) {
@@ -211,25 +214,25 @@ TEST(Formats, GlCoordinatesAreThoseOfTheFrameWithUnitNormals) {
 }
 
 TEST(Formats, AStandingBodyHasNothingThatMoves) {
-  const Place place;
+  const TemporaryFolder place;
   auto walk = small_walk();
   walk.frames.resize(1);
   for (auto& muscle : walk.muscles) muscle.position_m.resize(1);
-  ASSERT_TRUE(write_x3d(place.folder / "still.wrl", walk, SceneNotation::vrml));
-  std::ifstream in(place.folder / "still.wrl");
+  ASSERT_TRUE(write_x3d(place.path / "still.wrl", walk, SceneNotation::vrml));
+  std::ifstream in(place.path / "still.wrl");
   const std::string text{std::istreambuf_iterator<char>(in), {}};
   EXPECT_EQ(text.find("TimeSensor"), std::string::npos);
   EXPECT_EQ(text.find("ROUTE"), std::string::npos);
-  EXPECT_TRUE(write_bvh(place.folder / "still.bvh", walk));
-  EXPECT_TRUE(write_usda(place.folder / "still.usda", walk));
-  EXPECT_TRUE(write_gl(place.folder / "still.gl", walk));
+  EXPECT_TRUE(write_bvh(place.path / "still.bvh", walk));
+  EXPECT_TRUE(write_usda(place.path / "still.usda", walk));
+  EXPECT_TRUE(write_gl(place.path / "still.gl", walk));
 }
 
 TEST(Formats, WhatCannotBeWrittenIsOneLineAndLeavesNothing) {
-  const Place place;
+  const TemporaryFolder place;
   WalkRecording walk = small_walk();
   walk.frames[3].position_m[index(Segment::head)].y = NAN;
-  const auto file = place.folder / "walk";
+  const auto file = place.path / "walk";
   for (const auto& result : {write_bvh(file, walk), write_opensim_motion(file, walk), write_opensim_forces(file, walk),
                              write_usda(file, walk), write_x3d(file, walk, SceneNotation::x3d), write_gl(file, walk)}) {
     ASSERT_FALSE(result);
@@ -246,7 +249,7 @@ TEST(Formats, WhatCannotBeWrittenIsOneLineAndLeavesNothing) {
   EXPECT_NE(write_glb(file, crowd).error().message.find("bert has 2 frames, anna has 3"), std::string::npos);
   crowd.people[1] = {"bert", 1, {1, 1, 1}, {}, swinging(3), {}};
   EXPECT_NE(write_glb(file, crowd).error().message.find("figure 1 of 1"), std::string::npos);
-  EXPECT_TRUE(fs::is_empty(place.folder));
+  EXPECT_TRUE(fs::is_empty(place.path));
 }
 
 TEST(Formats, NamesAreUniqueIdentifiers) {

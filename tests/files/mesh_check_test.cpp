@@ -23,6 +23,7 @@
 #include "assets/import/triangle_cuts.h"
 #include "tests/files/capsule.h"
 #include "tests/files/reference_data.h"
+#include "tests/files/temporary_folder.h"
 
 namespace mobil::mesh_check_test {
 namespace fs = std::filesystem;
@@ -30,23 +31,14 @@ using Eigen::Vector3f;
 using test::TestMesh;
 
 /// A folder with a shin bone and a soleus, in mm, z up; gone with its owner.
-class Shin {
+class Shin : public TemporaryFolder {
  public:
   Shin() {
-    static int made = 0;
-    path = fs::temp_directory_path() / fmt::format("mobil_shin_{}_{}", ::getpid(), made++);
     fs::create_directories(path / "in");
     landmarks("name,side,x,y,z\n", 1, false);
     write("tibia.obj", obj_text(test::capsule({-78, -60, 250}, 15, 360, 8, 8)));
     manifest("in/soleus.obj,Soleus,right,muscle,triceps_surae");
   }
-  ~Shin() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Shin(const Shin&) = delete;
-  Shin& operator=(const Shin&) = delete;
-
   void landmarks(const std::string& head, float per_mm, bool y_up, const std::string& more = "") const {
     std::string text = head;
     const auto row = [&](const char* name, const char* side, float x, float y, float z) {
@@ -63,9 +55,6 @@ class Shin {
     write("manifest.csv",
           "file,name,side,kind,group" + columns + "\ntibia.obj,Tibia,right,bone," + tibia + "\n" + row + "\n");
   }
-  void write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-  }
   [[nodiscard]] SurveyedMesh soleus(const TestMesh& mesh) const {
     write("in/soleus.obj", obj_text(mesh));
     return soleus();
@@ -76,7 +65,6 @@ class Shin {
     if (survey.mesh.size() != 2) return {};
     return std::move(survey.mesh[1]);
   }
-  fs::path path;
 };
 
 TestMesh belly() {

@@ -21,6 +21,10 @@
 #include "assets/import/mesh_file.h"
 #include "assets/import/mesh_text.h"
 #include "tests/files/capsule.h"
+#include "tests/files/temporary_folder.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::mesh_reader_test {
 namespace fs = std::filesystem;
@@ -260,76 +264,9 @@ TEST(MeshReaderRefuses, OtherFormatsByName) {
   }
 }
 
-/// Ends soon, and where it is refused in one line that begins with the path.
-void expect_calm(const std::string& path, const std::string& bytes) {
-  const std::clock_t start = std::clock();
-  const auto read = read_mesh_bytes(bytes, path);
-  RC_ASSERT(std::clock() - start < CLOCKS_PER_SEC);
-  if (read) {
-    for (const auto v : read->mesh.triangle) RC_ASSERT(v < read->mesh.position.size());
-    for (const auto& p : read->mesh.position) RC_ASSERT(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
-    return;
-  }
-  RC_ASSERT(read.error().message.starts_with(path));
-  for (const char c : read.error().message) RC_ASSERT(c != '\n' && c != '\r' && c != '\0' && c != '\x1b');
-}
-
-RC_GTEST_PROP(MeshReader, DamagedFilesAreReadOrRefusedInOneLine, ()) {
-  for (auto [path, bytes] : every_format(random_mesh())) {
-    const int changes = *rc::gen::inRange(1, 6);
-    for (int i = 0; i < changes && !bytes.empty(); ++i) {
-      const auto at = *rc::gen::inRange<std::size_t>(0, bytes.size());
-      switch (*rc::gen::inRange(0, 5)) {
-        case 0:
-          bytes[at] = static_cast<char>(*rc::gen::inRange(0, 256));
-          break;
-        case 1:
-          bytes.resize(at);
-          break;
-        case 2:
-          bytes.erase(at, *rc::gen::inRange<std::size_t>(1, 40));
-          break;
-        case 3:
-          bytes.insert(at, bytes.substr(*rc::gen::inRange<std::size_t>(0, bytes.size()), 40));
-          break;
-        default:
-          bytes.insert(at, *rc::gen::element<std::string>("4294967295", "-1", "\\\n", "\r", "end_header\n", " 1e999 ",
-                                                          "nan", std::string(4, '\0'), "\xFF\xFF\xFF\x7F"));
-      }
-    }
-    expect_calm(path, bytes);
-  }
-}
-
-RC_GTEST_PROP(MeshReader, AnyBytesAreReadOrRefusedInOneLine, (const std::string& bytes)) {
-  for (const auto* path : {"a.obj", "a.stl", "a.ply"}) {
-    for (const auto* start : {"", "v ", "f ", "solid a\nfacet ", "ply\nformat ascii 1.0\nelement vertex 3\n"}) {
-      expect_calm(path, start + bytes);
-    }
-  }
-}
-
 // ---------------------------------------------------------------------------------------------------------- files
 
-class Folder {
- public:
-  Folder() {
-    static int made = 0;
-    path = fs::temp_directory_path() / fmt::format("mobil_meshes_{}_{}", ::getpid(), made++);
-    fs::create_directories(path);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    fs::remove_all(path, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::string write(const std::string& name, const std::string& bytes) const {
-    std::ofstream(path / name, std::ios::binary) << bytes;
-    return (path / name).string();
-  }
-  fs::path path;
-};
+using Folder = TemporaryFolder;
 
 /// The smallest glTF of a mesh, its numbers in a file beside it.
 std::string gltf(const TestMesh& mesh, const std::string& uri) {
@@ -395,6 +332,7 @@ constexpr double most_s = 2;
 #endif
 
 TEST(MeshReader, AMillionTrianglesTakeLessThanTwoSeconds) {
+  MOBIL_SLOW();
   const TestMesh mesh = test::capsule({0, 0, 0}, 100, 400, 700, 715);
   for (const auto& [path, bytes] : every_format(mesh)) {
     const std::clock_t start = std::clock();

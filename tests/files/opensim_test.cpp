@@ -34,8 +34,8 @@ WalkRecording bent(Segment segment, const Vector3d& axis, double angle) {
 }
 
 TEST(Opensim, AnglesHaveTheSignsOfGait2392) {
-  const Place place;
-  const auto file = place.folder / "walk.mot";
+  const TemporaryFolder place;
+  const auto file = place.path / "walk.mot";
   const Vector3d x(1, 0, 0), y(0, 1, 0), z(0, 0, 1);
   using enum Segment;
   // A positive coordinate turns the segment about this axis of the model (its joints' SpatialTransforms; of the foot's
@@ -71,12 +71,12 @@ TEST(Opensim, AnglesHaveTheSignsOfGait2392) {
 }
 
 TEST(Opensim, ForcesAreInItsAxesAndRefusedWhereThereAreNone) {
-  const Place place;
+  const TemporaryFolder place;
   WalkRecording walk;
   walk.frames = swinging(3);
   walk.frame_s = 0.5F;
   walk.start_s = 0.25;
-  const auto refused = write_opensim_forces(place.folder / "walk.sto", walk);
+  const auto refused = write_opensim_forces(place.path / "walk.sto", walk);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find("forces of 0 frames"), std::string::npos);
   GroundReaction<float> ground{};
@@ -85,8 +85,8 @@ TEST(Opensim, ForcesAreInItsAxesAndRefusedWhereThereAreNone) {
   ground.force_n[Side::left] = {-20, 300, 40};
   ground.centre_m[Side::left] = {0.1F, 0, 2.0F};
   walk.ground.assign(3, ground);
-  ASSERT_TRUE(write_opensim_forces(place.folder / "walk.sto", walk));
-  const OpensimTable table(place.folder / "walk.sto");
+  ASSERT_TRUE(write_opensim_forces(place.path / "walk.sto", walk));
+  const OpensimTable table(place.path / "walk.sto");
   ASSERT_EQ(table.names.size(), 1U + 18);
   EXPECT_NEAR(table.at("time", 2), 1.25, 1e-6);
   const std::map<std::string, double> expected = {

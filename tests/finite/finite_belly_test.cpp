@@ -11,6 +11,7 @@
 #include "assets/finite/finite_shape.h"
 #include "assets/finite/shape_tables.h"
 #include "assets/muscles/muscle_table.h"
+#include "tests/labels.h"
 
 namespace mobil::finite_belly_test {
 namespace {
@@ -92,6 +93,7 @@ TEST(FiniteShapes, RestIsRestAndEndsAreWhereTheyAreHeld) {
 
 /// Solved anew, at places that tables were not made from.
 TEST(FiniteShapes, TablesAreWhatTheSolverSays) {
+  MOBIL_SLOW();
   for (const char* const name : {"tibialis_anterior", "gastrocnemius_medial", "vastus_lateralis"}) {
     const Muscle muscle = *find_muscle(name);
     const std::array shortenings = {-0.075, 0.075}, activations = {0.1, 0.5};

@@ -19,7 +19,10 @@
 #include "tests/fuzz/script_target.h"
 #include "tests/fuzz/snapshot_target.h"
 #include "tests/fuzz/table_target.h"
+#include "tests/labels.h"
 #include "tests/program/program.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::fuzz {
 namespace {

@@ -4,17 +4,13 @@
 // section 4.1; Burden and Faires, Numerical Analysis, section 5.7).
 //
 // The step is not doubled and halved: the coefficients follow the steps as they come. Hence a changed step costs
-// neither a restart nor interpolated derivatives, steps meet the end and the breaks exactly, and the step follows the
-// tolerance smoothly.
-//
-// Double precision; only additions, multiplications, divisions and square roots, so that the bits depend on neither
-// the C library nor the instruction set. No heap but for the text of an error.
+// neither a restart nor interpolated derivatives, steps meet the end exactly, and the step follows the tolerance
+// smoothly.
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <span>
 
 #include "engine/error.h"
 #include "tests/gait/adams_step.h"
@@ -35,47 +31,30 @@ constexpr Unknowns<N> alike(double value) {
 /// which carries it over a jump of the derivative that nobody named.
 template <std::size_t N>
 struct AdamsOptions {
-  Unknowns<N> absolute = alike<N>(1e-9);  // in the component's unit, above 0; infinite: not controlled
+  Unknowns<N> absolute = alike<N>(1e-9);  // in the component's unit, above 0
   Unknowns<N> relative = alike<N>(1e-9);  // 0 or more; tolerances below 1e-13·|y_i| ask more than double precision has
-  /// Adds Milne's estimate to the corrected state (local extrapolation), which makes the method one of fifth order.
-  /// Each step, whatever its length, may then err by a tenth of the tolerance before that. The error at the end still
-  /// follows the tolerance in proportion, at about half the evaluations, but its bound is experience and not a sum.
-  bool extrapolate = false;
-  double fixed_step_s = 0.0;  // above 0: no adaption, the greatest even steps not above this, per piece
-  double first_step_s = 0.0;  // 0: chosen from the derivative
-  double least_step_s = 0.0;  // below this it is an error; 0: 16 units in the last place of the times
-  double greatest_step_s = std::numeric_limits<double>::infinity();
-  /// Times, in any order, at which f or a derivative of it jumps. Steps end exactly there and the history begins anew.
-  /// Those outside the interval do nothing.
-  std::span<const double> breaks_s = {};
-  long most_evaluations = 1'000'000;
+  double fixed_step_s = 0.0;              // above 0: no adaption, the greatest even steps not above this
 };
 
 struct AdamsCounts {
-  long evaluations = 0;                              // of f
-  long accepted = 0, rejected = 0;                   // steps; a rejected start counts as one
-  long starts = 0;                                   // accepted starts, of three Runge–Kutta steps each
-  double least_step_s = 0.0, greatest_step_s = 0.0;  // of the accepted
+  long evaluations = 0;             // of f
+  long accepted = 0, rejected = 0;  // steps; a rejected start counts as one
 };
 
 template <std::size_t N>
 struct AdamsResult {
   Unknowns<N> state;  // at the end
-  Unknowns<N> error;  // sum of the estimated local errors' magnitudes, before extrapolation
+  Unknowns<N> error;  // sum of the estimated local errors' magnitudes
   AdamsCounts counts;
 };
-
-enum class AdamsFailure { none, interval, options, not_finite, underflow, evaluations };
-
-/// The line for a failure at `time_s` under a step of `step_s`.
-Error adams_error(AdamsFailure why, double time_s, double step_s, const AdamsCounts& counts);
 
 namespace adams {
 
 inline constexpr double last_place = std::numeric_limits<double>::epsilon();
-inline constexpr double least_share = 1e-3, extrapolated_share = 0.1;
+inline constexpr double least_share = 1e-3;
 inline constexpr double safety = 0.8, most_growth = 2.0, most_shrinking = 0.2;
 inline constexpr int failures_before_restart = 3;
+inline constexpr long most_evaluations = 1'000'000;
 
 template <std::size_t N>
 bool finite(const Unknowns<N>& v) {
@@ -91,7 +70,7 @@ inline double step_factor(double ratio) {
   return std::fmin(std::fmax(factor, most_shrinking), most_growth);
 }
 
-/// One integration under way. A piece is the time between two breaks.
+/// One integration under way.
 template <std::size_t N, class Derivative, class Visit>
 struct Run {
   const AdamsOptions<N>& options;
@@ -100,28 +79,23 @@ struct Run {
   double span, grain;  // of the whole interval; `grain`: 16 units in the last place of its times
   Unknowns<N> y, error{};
   AdamsCounts counts{};
-  double time = 0.0, wish = 0.0;  // `wish`: the step that accuracy alone would take
-  double piece_first = 0.0, piece_last = 0.0;
+  double time, end_s, wish = 0.0;  // `wish`: the step that accuracy alone would take
   AdamsHistory<N> past{};
 
-  /// At a break f is asked a grain inside the piece: however it compares and rounds, it gives this piece's forces.
   bool evaluate(double t, const Unknowns<N>& at, Unknowns<N>& f) {
     ++counts.evaluations;
-    f = derivative(std::fmin(std::fmax(t, piece_first), piece_last), at);
+    f = derivative(t, at);
     return finite(f);
   }
 
   void accept(const DenseStep<N>& step) {
-    const double h = step.end_s - step.begin_s;
-    counts.least_step_s = counts.accepted == 0 ? h : std::fmin(counts.least_step_s, h);
-    counts.greatest_step_s = std::fmax(counts.greatest_step_s, h);
     ++counts.accepted;
     visit(step);
   }
 
   /// The worst component's error over what a step of h may make.
   double ratio(const Unknowns<N>& local, const Unknowns<N>& there, double h) const {
-    const double share = options.extrapolate ? extrapolated_share : std::fmax(h / span, least_share);
+    const double share = std::fmax(h / span, least_share);
     double worst = 0.0;
     for (std::size_t i = 0; i < N; ++i) {
       const double size = std::fmax(std::fabs(y[i]), std::fabs(there[i]));
@@ -135,11 +109,10 @@ struct Run {
   /// The step at which the corrector's error 19/720 h⁵ λ⁴|f| would be a tenth of its share; λ, the pace of change, is
   /// taken from the derivative a thousandth of the interval on.
   double guess(const Unknowns<N>& f) {
-    if (options.first_step_s > 0.0) return options.first_step_s;
     double size = 0.0, change = 0.0;
     for (std::size_t i = 0; i < N; ++i)
       size = std::fmax(size, std::fabs(f[i]) / (options.absolute[i] + options.relative[i] * std::fabs(y[i])));
-    const double ahead = std::fmin(1e-3 * span, 0.1 * (piece_last - piece_first));
+    const double ahead = 1e-3 * span;
     Unknowns<N> at, there;
     for (std::size_t i = 0; i < N; ++i) at[i] = y[i] + ahead * f[i];
     if (!evaluate(time + ahead, at, there)) return 1e-6 * span;
@@ -162,7 +135,6 @@ struct Run {
       past.push(s.rate[k + 1], h);
     }
     if (count == 3) {
-      ++counts.starts;
       const Unknowns<N> local = start_error(s, h);
       for (std::size_t i = 0; i < N; ++i) error[i] += 3.0 * local[i];
     }
@@ -177,11 +149,9 @@ struct Run {
     Unknowns<N> rate, local;
     was_finite = finite(step.predicted) && evaluate(end, step.predicted, rate);
     if (!was_finite) return no;
-    Unknowns<N> corrected = correct(y, past, step, rate, local);
+    const Unknowns<N> corrected = correct(y, past, step, rate, local);
     const double r = ratio(local, corrected, h);
     if (!(r <= 1.0) && !keep_all) return r;
-    if (options.extrapolate)
-      for (std::size_t i = 0; i < N; ++i) corrected[i] += local[i];
     was_finite = finite(corrected) && evaluate(end, corrected, rate);
     if (!was_finite) return no;
     auto dense = dense_step<N>(time, end, y, corrected, past.rate[0], rate);
@@ -194,41 +164,39 @@ struct Run {
     return r;
   }
 
-  AdamsFailure fixed_piece(double stop) {
-    const double begin = time, length = stop - begin;
+  /// What went wrong, or nothing.
+  const char* fixed_steps() {
+    const double begin = time, length = end_s - begin;
     const double count = std::ceil(length / options.fixed_step_s * (1.0 - 1e-12)), h = length / count;
-    if (!(2.0 * count < static_cast<double>(options.most_evaluations - counts.evaluations)))
-      return AdamsFailure::evaluations;
-    if (h < grain) return AdamsFailure::underflow;
+    if (!(2.0 * count < static_cast<double>(most_evaluations))) return "too many evaluations";
     const long steps = static_cast<long>(count), start = steps < 3 ? steps : 3;
-    auto at = [&](long k) { return k == steps ? stop : begin + length * (static_cast<double>(k) / count); };
+    auto at = [&](long k) { return k == steps ? end_s : begin + length * (static_cast<double>(k) / count); };
     RungeKuttaStart<N> s;
     s.state[0] = y;
     auto ask = [&](double t, const Unknowns<N>& there, Unknowns<N>& f) { return evaluate(t, there, f); };
-    if (!evaluate(time, y, s.rate[0])) return AdamsFailure::not_finite;
+    if (!evaluate(time, y, s.rate[0])) return "not finite";
     past.rate[0] = s.rate[0];
-    if (!runge_kutta_start(s, time, h, static_cast<std::size_t>(start), ask)) return AdamsFailure::not_finite;
+    if (!runge_kutta_start(s, time, h, static_cast<std::size_t>(start), ask)) return "not finite";
     accept_start(s, h, static_cast<std::size_t>(start), at(start));
     for (long k = start; k < steps; ++k) {
       bool was_finite = true;
       advance(h, at(k + 1), true, was_finite);
-      if (!was_finite) return AdamsFailure::not_finite;
+      if (!was_finite) return "not finite";
     }
-    return AdamsFailure::none;
+    return nullptr;
   }
 
-  AdamsFailure adaptive_piece(double stop) {
-    const double least = std::fmax(options.least_step_s, grain);
+  const char* adaptive_steps() {
     auto ask = [&](double t, const Unknowns<N>& there, Unknowns<N>& f) { return evaluate(t, there, f); };
     Unknowns<N> newest;
-    if (!evaluate(time, y, newest)) return AdamsFailure::not_finite;
-    if (counts.accepted == 0) wish = guess(newest);
+    if (!evaluate(time, y, newest)) return "not finite";
+    wish = guess(newest);
     bool started = false;
     int failures = 0;
-    while (time < stop) {
-      if (counts.evaluations >= options.most_evaluations) return AdamsFailure::evaluations;
-      const double left = stop - time;
-      double h = std::fmin(std::fmax(wish, least), options.greatest_step_s), r = 0.0;
+    while (time < end_s) {
+      if (counts.evaluations >= most_evaluations) return "too many evaluations";
+      const double left = end_s - time;
+      double h = std::fmax(wish, grain), r = 0.0;
       bool was_finite = true;
       if (!started) {
         const bool whole = 3.0 * h >= left;
@@ -239,7 +207,7 @@ struct Run {
         was_finite = runge_kutta_start(s, time, h, 3, ask);
         r = was_finite ? ratio(start_error(s, h), s.state[3], h) : std::numeric_limits<double>::infinity();
         if (r <= 1.0) {
-          accept_start(s, h, 3, whole ? stop : time + 3.0 * h);
+          accept_start(s, h, 3, whole ? end_s : time + 3.0 * h);
           started = true;
         }
       } else {
@@ -247,7 +215,7 @@ struct Run {
           h = left;
         else if (2.0 * h > left)
           h = 0.5 * left;  // no tiny last step
-        r = advance(h, h == left ? stop : time + h, false, was_finite);
+        r = advance(h, h == left ? end_s : time + h, false, was_finite);
       }
       if (r <= 1.0) {
         // A step cut short by the end says little about a longer one.
@@ -258,57 +226,30 @@ struct Run {
       }
       ++counts.rejected;
       wish = h;
-      if (h <= least) return was_finite ? AdamsFailure::underflow : AdamsFailure::not_finite;
-      wish = std::fmax(h * std::fmin(step_factor(r), safety), least);
+      if (h <= grain) return was_finite ? "the step fell to nothing" : "not finite";
+      wish = std::fmax(h * std::fmin(step_factor(r), safety), grain);
       if (++failures >= failures_before_restart && started) {
         // The past does not foretell what comes: a kink or jump that nobody named.
         newest = past.rate[0];
         started = false;
       }
     }
-    return AdamsFailure::none;
+    return nullptr;
   }
 };
 
-template <std::size_t N>
-bool valid(const AdamsOptions<N>& o) {
-  bool good = o.fixed_step_s >= 0.0 && o.first_step_s >= 0.0 && o.least_step_s >= 0.0 && o.greatest_step_s > 0.0 &&
-              o.least_step_s <= o.greatest_step_s && o.most_evaluations > 0;
-  for (std::size_t i = 0; i < N; ++i)
-    good = good && o.absolute[i] > 0.0 && o.relative[i] >= 0.0 && std::fabs(o.relative[i]) < 1.0;
-  return good;
-}
-
 }  // namespace adams
 
-/// Integrates from `state` at begin_s to end_s ≥ begin_s. `derivative(t, y)` gives y′ as Unknowns<N>; `visit(step)` is
-/// called with every accepted DenseStep<N>, in order and without gaps. Breaks nearer to each other than 64 units in the
-/// last place count as one. Fails, naming the time, where the options or the interval are not valid, the derivative
-/// stays not finite however short the step, the step underflows, or the evaluations run out; steps already visited
-/// stay visited.
+/// Integrates from `state` at begin_s to end_s > begin_s. `derivative(t, y)` gives y′ as Unknowns<N>; `visit(step)` is
+/// called with every accepted DenseStep<N>, in order and without gaps.
 template <std::size_t N, class Derivative, class Visit>
 Result<AdamsResult<N>> integrate_adams(Derivative&& derivative, const Unknowns<N>& state, double begin_s, double end_s,
                                        const AdamsOptions<N>& options, Visit&& visit) {
-  const double size = std::fmax(std::fabs(begin_s), std::fabs(end_s)), grain = 16.0 * adams::last_place * size;
-  auto failed = [](AdamsFailure why, double t, double h, const AdamsCounts& counts) {
-    return tl::unexpected<Error>(adams_error(why, t, h, counts));
-  };
-  if (!(begin_s <= end_s) || !(size <= std::numeric_limits<double>::max()))
-    return failed(AdamsFailure::interval, begin_s, end_s, {});
-  if (!adams::valid(options)) return failed(AdamsFailure::options, begin_s, 0.0, {});
-  if (!adams::finite(state)) return failed(AdamsFailure::not_finite, begin_s, 0.0, {});
-  adams::Run<N, Derivative, Visit> run{options, derivative, visit, end_s - begin_s, grain, state};
-  run.time = begin_s;
-  while (run.time < end_s) {
-    double stop = end_s;
-    for (double b : options.breaks_s)
-      if (b > run.time + 4.0 * grain && b < end_s - 4.0 * grain) stop = std::fmin(stop, b);
-    const double inset = std::fmin(grain, 0.01 * (stop - run.time));
-    run.piece_first = run.time == begin_s ? begin_s : run.time + inset;
-    run.piece_last = stop == end_s ? end_s : stop - inset;
-    const AdamsFailure why = options.fixed_step_s > 0.0 ? run.fixed_piece(stop) : run.adaptive_piece(stop);
-    if (why != AdamsFailure::none) return failed(why, run.time, run.wish, run.counts);
-  }
+  const double grain = 16.0 * adams::last_place * std::fmax(std::fabs(begin_s), std::fabs(end_s));
+  adams::Run<N, Derivative, Visit> run{options, derivative, visit, end_s - begin_s, grain,
+                                       state,   {},         {},    begin_s,         end_s};
+  const char* const why = options.fixed_step_s > 0.0 ? run.fixed_steps() : run.adaptive_steps();
+  if (why != nullptr) return tl::unexpected<Error>({why});
   return AdamsResult<N>{run.y, run.error, run.counts};
 }
 

@@ -8,6 +8,7 @@
 
 #include "systems/gait/asleep.h"
 #include "tests/gait/walkers.h"
+#include "tests/labels.h"
 
 namespace mobil {
 namespace {
@@ -122,6 +123,7 @@ TEST(Asleep, ASteadyWalkIsKnownAtAnyTick) {
 }
 
 TEST(Asleep, WhatAChangeLeadsToFollowsFromStrikesAlone) {
+  MOBIL_SLOW();
   std::size_t settled = 0, asked = 0;
   for (unsigned seed = 20; seed < 32; ++seed) {
     Scene scene(seed);

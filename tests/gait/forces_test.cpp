@@ -101,30 +101,6 @@ TEST(Forces, StandingIsBalancedByHalfTheWeightUnderEachFoot) {
   }
 }
 
-TEST(Forces, StandingToOneSideLoadsThatFoot) {
-  const auto b = random_people(3);
-  const auto leaning = [&](std::size_t l, double) {
-    // Swaying at the ankles, feet where they are.
-    const double height = height_of(*b, l), angle = 0.03;
-    Stance s = upright(height);
-    const Rotation q = turn(-angle, Vector::UnitZ());
-    const double leg = (fraction::thigh + fraction::shank) * height;
-    s.pelvis += Vector(leg * std::sin(angle), leg * (std::cos(angle) - 1), 0);
-    for (std::size_t side = 0; side < 2; ++side)
-      for (std::size_t i = 0; i < 3; ++i) s.rotation[index(on_side(Segment::thigh_right, side)) + i] = q;
-    return s;
-  };
-  forces_of(*b, leaning, tick);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const Vector body = body_centre(height_of(*b, l), leaning(l, 0));
-    Vector moment = Vector::Zero();
-    for (std::size_t side = 0; side < 2; ++side) moment += (b->pressure(l, side) - body).cross(b->force(l, side));
-    EXPECT_GT(b->force(l, Side::left).y(), b->force(l, Side::right).y());
-    EXPECT_NEAR(moment.x(), 0, 1e-3 * weight_of(*b, l));
-    EXPECT_NEAR(moment.z(), 0, 1e-3 * weight_of(*b, l));
-  }
-}
-
 TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
   const auto b = random_people(8);
   // The trunk swings while somebody who walks is on both feet.
@@ -147,87 +123,6 @@ TEST(Forces, OnBothFeetNothingIsLeftUnbalanced) {
       for (std::size_t side = 0; side < 2; ++side) moment += (b->pressure(l, side) - body).cross(b->force(l, side));
       EXPECT_NEAR(moment.x(), 0, 6e-3 * weight_of(*b, l));
       EXPECT_NEAR(moment.z(), 0, 6e-3 * weight_of(*b, l));
-    }
-  }
-}
-
-TEST(Forces, AnAcceleratedFigureIsPushedByMassTimesAcceleration) {
-  for (unsigned seed = 1; seed <= 20; ++seed) {
-    const auto b = random_people(seed);
-    somewhere_in_a_step(*b);
-    std::mt19937 engine(seed);
-    std::vector<Vector> a(lane_count), v(lane_count);
-    for (std::size_t l = 0; l < lane_count; ++l)
-      for (int c = 0; c < 3; ++c) {
-        a[l](c) = 3.0 * static_cast<double>(engine()) / 4294967296.0 - 1.5;
-        v[l](c) = 3.0 * static_cast<double>(engine()) / 4294967296.0 - 1.5;
-      }
-    forces_of(
-        *b,
-        [&](std::size_t l, double t) {
-          return moved(upright(height_of(*b, l)), 0.3 * static_cast<double>(l), v[l] * t + 0.5 * t * t * a[l]);
-        },
-        tick);
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const Vector f = mass_of(*b, l) * (a[l] + Vector(0, gravity, 0));
-      EXPECT_LT((total(*b, l) - f).norm(), 2e-3 * weight_of(*b, l));
-    }
-  }
-}
-
-TEST(Forces, FallingFreelyNothingIsFelt) {
-  const auto b = random_people(5);
-  forces_of(
-      *b,
-      [&](std::size_t l, double t) {
-        Stance s = Thrashing(7, height_of(*b, l)).at(0);
-        s.pelvis += Vector(1.2 * t, 0.8 * t - 0.5 * gravity * t * t, -0.4 * t);
-        return s;
-      },
-      tick);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    EXPECT_LT(total(*b, l).norm(), 3e-3 * weight_of(*b, l));
-    for (std::size_t side = 0; side < 2; ++side) EXPECT_LT(b->joints(l, side).norm(), 3e-3 * weight_of(*b, l));
-  }
-}
-
-TEST(Forces, AFreeLegSwingsLikeTheCompoundPendulumItIs) {
-  const auto b = random_people(6);
-  const double mean = 0.2, swing = 0.3, rate = 7.0;
-  for (const double phase : {0.0, 1.0, 2.5}) {
-    auto angle = [&](double t) { return mean + swing * std::sin(rate * t + phase); };
-    for (std::size_t l = 0; l < lane_count; ++l) on_one_foot(*b, l, Side::left);
-    forces_of(
-        *b,
-        [&](std::size_t l, double t) {
-          Stance s = upright(height_of(*b, l));
-          for (std::size_t i = index(Segment::thigh_right); i <= index(Segment::toes_right); ++i)
-            s.rotation[i] = turn(-angle(t), Vector::UnitX());
-          return s;
-        },
-        tick);
-    const double second = -swing * rate * rate * std::sin(phase);
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const double height = height_of(*b, l), mass = mass_of(*b, l);
-      const auto at = centres(height, upright(height)), joint = places(height, upright(height));
-      const Vector hip = joint[index(Segment::thigh_right)];
-      double inertia = 0, torque = 0;
-      auto hang = [&](const Vector& r, double m) {
-        inertia += m * r.squaredNorm();
-        torque += m * gravity * (turn(-angle(0), Vector::UnitX()) * r).z();
-      };
-      const std::size_t t = index(Segment::thigh_right), f = index(Segment::foot_right);
-      const double toes_part = unit_body.mass_fraction[f + 1] / 0.0145;
-      hang(at[t] - hip, mass * unit_body.mass_fraction[t]);
-      hang(at[t + 1] - hip, mass * unit_body.mass_fraction[t + 1]);
-      hang(at[t + 2] - hip, mass * 0.0465);
-      hang((1 - toes_part) * at[f] + toes_part * at[f + 1] - hip, mass * 0.0145);
-      const double thigh = 0.1000 * mass * std::pow(0.323 * fraction::thigh * height, 2),
-                   shank = 0.0465 * mass * std::pow(0.302 * fraction::shank * height, 2),
-                   foot = 0.0145 * mass * std::pow(0.475 * std::hypot(0.078, 0.031) * height, 2);
-      inertia += thigh + shank + foot;
-      EXPECT_NEAR(b->joints(l, Side::right)(0), -inertia * second - torque, 0.0015 * mass * height * height);
-      EXPECT_EQ(b->force(l, Side::right).norm(), 0);
     }
   }
 }
@@ -343,31 +238,6 @@ TEST(Forces, TheMirrorImageChangesSides) {
         EXPECT_LT((m->force(l, 1 - side) - Vector(-f.x(), f.y(), f.z())).norm(), 2e-3 * weight);
         EXPECT_LT((m->pressure(l, 1 - side) - Vector(-c.x(), c.y(), c.z())).norm(), 1e-3);
         EXPECT_LT((m->joints(l, 1 - side) - b->joints(l, side)).norm(), 4e-3 * weight);
-      }
-    }
-  }
-}
-
-TEST(Forces, TurningTheWorldTurnsTheForcesAndLeavesTheMoments) {
-  for (unsigned seed = 1; seed <= 10; ++seed) {
-    const auto b = random_people(seed), w = random_people(seed);
-    somewhere_in_a_step(*b);
-    somewhere_in_a_step(*w);
-    auto motion = [&](std::size_t l, double t) {
-      return Thrashing(seed + 50 * static_cast<unsigned>(l), height_of(*b, l)).at(t);
-    };
-    auto heading = [&](std::size_t l) { return 0.4 * static_cast<double>(l + seed); };
-    const Vector by(2, 0, -3);
-    forces_of(*b, motion, tick);
-    forces_of(
-        *w, [&](std::size_t l, double t) { return moved(motion(l, t), heading(l), by); }, tick);
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const double weight = weight_of(*b, l);
-      const Rotation q = turn(heading(l), Vector::UnitY());
-      for (std::size_t side = 0; side < 2; ++side) {
-        EXPECT_LT((w->force(l, side) - q * b->force(l, side)).norm(), 6e-3 * weight);
-        EXPECT_LT((w->pressure(l, side) - by - q * b->pressure(l, side)).norm(), 3e-3);
-        EXPECT_LT((w->joints(l, side) - b->joints(l, side)).norm(), 8e-3 * weight);
       }
     }
   }

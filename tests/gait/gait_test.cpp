@@ -20,15 +20,6 @@ Body body_of(double height, double mass) {
   return *make_body({.height_m = static_cast<float>(height), .mass_kg = static_cast<float>(mass)});
 }
 
-TEST(StepMath, SineAndCosineAgreeWithTheCLibrary) {
-  Dice dice{std::mt19937(1)};
-  for (int i = 0; i < 20000; ++i) {
-    const double x = dice(-100, 100);
-    EXPECT_NEAR(step::sin_cos(x).sine, std::sin(x), 1e-13);
-    EXPECT_NEAR(step::sin_cos(x).cosine, std::cos(x), 1e-13);
-  }
-}
-
 // d/dt ∂L/∂q̇ − ∂L/∂q by central differences along q(t) = q + q̇ t + ½ q̈ t².
 template <std::size_t N, class Lagrangian>
 std::array<double, N> generalised_force(Lagrangian lagrangian, const std::array<double, N>& q,

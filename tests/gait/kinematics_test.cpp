@@ -10,7 +10,6 @@
 #include "tests/gait/walkers.h"
 
 namespace mobil::kinematics_test {
-constexpr double degree = 3.14159265358979323846 / 180.0;
 constexpr float tick = 1.0F / 120.0F;
 
 /// Runs blocks of random walkers through several steps; check(walkers, tick number) after each.
@@ -412,23 +411,6 @@ TEST(Kinematics, TheHeadStaysInTheWalkingPlaneWhileTheShouldersTurnAgainstThePel
   });
 }
 
-TEST(Kinematics, EachVertebraTurnsALittleOnTheOneBelow) {
-  double most = 0, all = 0;
-  over_walks([&](const Walkers& w, int) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      double sum = 0;
-      for (std::size_t s = index(Segment::L4); s <= index(Segment::head); ++s) {
-        const double a = angle_between(at(w.pose.rotation[s], l), at(w.pose.rotation[s - 1], l));
-        most = std::fmax(most, a);
-        sum += a;
-      }
-      all = std::fmax(all, sum);
-    }
-  });
-  EXPECT_LT(most, 3 * degree);
-  EXPECT_GT(all, 5 * degree);  // together they do turn
-}
-
 TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
   // Ranges of Winter's natural cadence and Schwartz's free speed with two standard deviations' room.
   const auto w = random_walkers(1);
@@ -472,26 +454,6 @@ TEST(Kinematics, ANaturalWalkLooksLikeAPersons) {
   EXPECT_NEAR(ankle_low, -20, 9);
   EXPECT_NEAR(high - low, 0.040, 0.012);
   EXPECT_NEAR(aside_high - aside_low, 0.042, 0.020);  // what the soles ask; people sway by more
-}
-
-TEST(Kinematics, AnatomicalPositionStandsOnTheGround) {
-  const auto w = random_walkers(2);
-  for (std::size_t l = 0; l < lane_count; ++l) put_row(standing_pose(w->body[l]), w->pose, l);
-  centre_of_mass(w->size, w->pose, w->centre);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const float height = w->size.height_m[l];
-    const std::size_t head = index(Segment::head), foot = index(Segment::foot_left);
-    EXPECT_NEAR(w->pose.position_m[head].y[l] + w->body[l].tip_m[head].y, height, 1e-5);
-    EXPECT_NEAR(w->pose.position_m[foot].y[l] + w->body[l].heel_m.y, 0.0F, 1e-6);
-    EXPECT_GT(w->pose.position_m[foot].x[l], 0.0F);
-    // The same centre from the body's own masses, in double.
-    double mass = 0, y = 0;
-    for (std::size_t s = 0; s < segment_count; ++s) {
-      mass += w->body[l].mass_kg[s];
-      y += w->body[l].mass_kg[s] * (w->pose.position_m[s].y[l] + w->body[l].centre_of_mass_m[s].y);
-    }
-    EXPECT_NEAR(w->centre.position_m.y[l], y / mass, 1e-5);
-  }
 }
 
 }  // namespace mobil::kinematics_test

@@ -41,30 +41,4 @@ struct SwingState {
 std::array<double, 2> swing_acceleration(const SwingModel& model, const SwingState& state,
                                          const std::array<double, 2>& force, const std::array<double, 2>& hip);
 
-/// One fourth-order Runge–Kutta step of h seconds; `acceleration(t, state)` gives q̈.
-template <class State, class Acceleration>
-State runge_kutta(const State& s, double t, double h, Acceleration acceleration) {
-  auto moved = [&](const State& velocity_of, const auto& a, double by) {
-    State r = s;
-    for (std::size_t i = 0; i < s.q.size(); ++i) {
-      r.q[i] = s.q[i] + by * velocity_of.rate[i];
-      r.rate[i] = s.rate[i] + by * a[i];
-    }
-    return r;
-  };
-  const auto a1 = acceleration(t, s);
-  const State s2 = moved(s, a1, 0.5 * h);
-  const auto a2 = acceleration(t + 0.5 * h, s2);
-  const State s3 = moved(s2, a2, 0.5 * h);
-  const auto a3 = acceleration(t + 0.5 * h, s3);
-  const State s4 = moved(s3, a3, h);
-  const auto a4 = acceleration(t + h, s4);
-  State r = s;
-  for (std::size_t i = 0; i < s.q.size(); ++i) {
-    r.q[i] += h / 6.0 * (s.rate[i] + 2.0 * s2.rate[i] + 2.0 * s3.rate[i] + s4.rate[i]);
-    r.rate[i] += h / 6.0 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]);
-  }
-  return r;
-}
-
 }  // namespace mobil::step

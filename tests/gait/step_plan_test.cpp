@@ -271,41 +271,6 @@ TEST(NextStep, StylesAtTheEndsOfTheirRangesStillJoin) {
   EXPECT_LT(jump.hip_rate, 0.8);  // where a leg is too short at a strike the pelvis sinks with it
 }
 
-/// One walker of sixteen unlike ones, alone in all lanes: the same words as among the others.
-TEST(NextStep, LanesDoNotKnowOfEachOther) {
-  Dice dice{std::mt19937(7)};
-  const auto together = random_walkers(7, 1.0);
-  const auto alone = std::make_unique<std::array<Walkers, lane_count>>();
-  auto share = [&](std::size_t l) {
-    Walkers& w = (*alone)[l];
-    for (std::size_t i = 0; i < lane_count; ++i) {
-      put(row(together->size, l), w.size, i);
-      put(row(together->gait, l), w.gait, i);
-    }
-  };
-  for (std::size_t l = 0; l < lane_count; ++l) share(l), (*alone)[l].begin();
-  for (int step = 0; step < 12; ++step) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const StepPlan<float> a = row(together->plan, l);
-      const Pose<float> pose = row(together->pose, l);
-      for (const std::size_t lane : {std::size_t{0}, l, std::size_t{15}}) {
-        const StepPlan<float> b = row((*alone)[l].plan, lane);
-        ASSERT_EQ(std::memcmp(&a, &b, sizeof(a)), 0) << "step " << step << ", lane " << l << " in " << lane;
-        const Pose<float> same = row((*alone)[l].pose, lane);
-        ASSERT_EQ(std::memcmp(&pose, &same, sizeof(pose)), 0) << "step " << step << ", lane " << l << " in " << lane;
-      }
-    }
-    change_some(*together, dice, 1.0);
-    together->strike();
-    together->place_at(0.3F);
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      share(l);
-      (*alone)[l].strike();
-      (*alone)[l].place_at(0.3F);
-    }
-  }
-}
-
 TEST(NextStep, WhatNoLegCanDoIsClampedAndStillGoesOnSmoothly) {
   Dice dice{std::mt19937(8)};
   auto w = random_walkers(8);

@@ -20,10 +20,6 @@ struct Cycle {
   float off;  // toe-off, of the cycle
 };
 
-Quat<float> conjugate(const Quat<float>& q) {
-  return {-q.x, -q.y, -q.z, q.w};
-}
-
 Cycle walk(float speed_m_s, const GaitStyle& style) {
   const auto w = std::make_unique<Walkers>();
   for (std::size_t l = 0; l < lane_count; ++l) {

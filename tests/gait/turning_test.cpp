@@ -172,46 +172,6 @@ TEST(Turning, PlantedFeetDoNotMove) {
   EXPECT_LT(turned, 1e-4);
 }
 
-TEST(Turning, ThePoseGoesOnThroughTheStrike) {
-  double moved = 0, turned = 0, jerked = 0;
-  constexpr float h = 1e-3F;
-  for (unsigned seed = 51; seed <= 54; ++seed) {
-    const auto w = turning(seed);
-    for (int step = 0; step < 8; ++step) {
-      // Places at h before the strike, at it on both sides, and h after.
-      std::array<std::unique_ptr<Pose<Lanes<float>>>, 4> pose;
-      auto keep = [&](std::size_t i, bool at_end, float away) {
-        for (std::size_t l = 0; l < lane_count; ++l) w->state.time_s[l] = at_end ? w->plan.duration_s[l] - away : away;
-        w->place();
-        pose[i] = std::make_unique<Pose<Lanes<float>>>(w->pose);
-      };
-      keep(0, true, h);
-      keep(1, true, 0);
-      w->strike();
-      keep(2, false, 0);
-      keep(3, false, h);
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        for (std::size_t s = 0; s < segment_count; ++s) {
-          std::array<Vec3<float>, 4> p;
-          for (std::size_t i = 0; i < 4; ++i) p[i] = at(pose[i]->position_m[s], l);
-          moved = std::fmax(moved, distance(p[1], p[2]));
-          turned = std::fmax(turned, angle_between(at(pose[1]->rotation[s], l), at(pose[2]->rotation[s], l)));
-          const Vec3<float> in = {p[1].x - p[0].x, p[1].y - p[0].y, p[1].z - p[0].z};
-          const Vec3<float> out = {p[3].x - p[2].x, p[3].y - p[2].y, p[3].z - p[2].z};
-          // The knee of a leg that is all but straight runs away from any difference.
-          const std::size_t side = s < index(Segment::thigh_left) ? Side::right : Side::left;
-          const bool of_leg = s >= index(Segment::thigh_right) && s < index(Segment::clavicle_right);
-          if (of_leg && w->angles.knee_flexion[side][l] < 0.1F) continue;
-          jerked = std::fmax(jerked, distance(in, out) / double{h});
-        }
-      }
-    }
-  }
-  EXPECT_LT(moved, 1e-4);
-  EXPECT_LT(turned, 3e-3);  // the angle between two equal rotations in single precision is known no better
-  EXPECT_LT(jerked, 0.35);  // m/s, of them up to 0.1 the acceleration within two milliseconds
-}
-
 TEST(Turning, AtAStrikeTheWalkerIsToBePlannedWhenAnythingChangesAndOnlyThen) {
   // However the ticks fall, also where a step ends within rounding of a tick.
   Dice dice{std::mt19937(61)};

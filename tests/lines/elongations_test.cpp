@@ -72,24 +72,5 @@ TEST(Elongations, AreThoseOfThePathsInAnyPose) {
   EXPECT_GT(constant, 0.05);  // some ways are within one bone
 }
 
-TEST(Elongations, NotANumberStaysInItsLane) {
-  Random random;
-  KneeFrame<Lanes<float>> knees;
-  LegScale<Lanes<float>> scale;
-  const Body body = random.body();
-  const auto size = leg_scale(body);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    put_row(knee_frame(posed(body, {10, 20, 5}), 20 * degree), knees, l);
-    put_row(LegScale<float>{static_cast<float>(size.thigh), static_cast<float>(size.shank),
-                            static_cast<float>(size.across)},
-            scale, l);
-  }
-  knees.hip_m.y[5] = NAN;
-  Lanes<float> slack{}, out;
-  const ElongatedLine line{&lines_of(Muscle::hamstrings), &slack, &out};
-  elongations({&line, 1}, scale, knees);
-  for (std::size_t l = 0; l < lane_count; ++l) EXPECT_EQ(std::isnan(out[l]), l == 5) << l;
-}
-
 }  // namespace
 }  // namespace mobil::test

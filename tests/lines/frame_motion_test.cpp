@@ -194,26 +194,6 @@ TEST(FrameMotion, TheMirrorImageFeelsTheMirrorImage) {
   }
 }
 
-TEST(FrameMotion, ANaNStaysInItsLane) {
-  Frames sound, ill;
-  for (int k = 0; k < 6; ++k) {
-    for (Frames* frames : {&sound, &ill}) {
-      for (std::size_t l = 0; l < lane_count; ++l) frames->put(swinging()(k / 60.0 + 0.1 * static_cast<double>(l)), l);
-    }
-    ill.line.start_m.y[5] = std::numeric_limits<float>::quiet_NaN();
-    frame_motion(sound.line, sound.history, sound.load, 1 / 60.0F);
-    frame_motion(ill.line, ill.history, ill.load, 1 / 60.0F);
-  }
-  const auto words = [](const Frames& f) { return reinterpret_cast<const float*>(&f.load); };
-  for (std::size_t w = 0; w < sizeof(FrameLoad<float>) / 4; ++w) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l == 5) continue;
-      EXPECT_EQ(words(sound)[w * lane_count + l], words(ill)[w * lane_count + l]);
-    }
-  }
-  EXPECT_TRUE(std::isnan(ill.load.constant_to.y[5]));
-}
-
 // ------------------------------------------------------------------------------------------------- a belly in it
 
 MuscleTemplate belly(double foundation_hz, double damping_per_s) {

@@ -193,40 +193,4 @@ TEST(LineCycle, OurWalkLengthensMusclesAsMeasuredOnesDo) {
   }
 }
 
-TEST(LineCycle, LineMotionIsThereWhereItWasAskedForAndFollowsTheLine) {
-  Simulation simulation;
-  const Entity with = simulation.spawn({1.7F, 65}).value(), without = simulation.spawn({1.8F, 80}).value();
-  LegMuscles choice = only({"hamstrings", "soleus"});
-  ASSERT_TRUE(simulation.add_leg_muscles(without, choice));
-  choice.line_motion = true;
-  ASSERT_TRUE(simulation.add_leg_muscles(with, choice));
-  const Muscle soleus = *find_muscle("soleus");
-  const auto motion_of = [&](Entity human, Side side) {
-    return simulation.get<LineMotion>(simulation.muscle(human, soleus, side));
-  };
-  EXPECT_FALSE(motion_of(without, Side::left));
-  ASSERT_TRUE(motion_of(with, Side::left));
-  EXPECT_EQ(motion_of(with, Side::left)->speed_m_s, 0);
-  EXPECT_LT(motion_of(with, Side::left)->ankle_dorsiflexion_arm_m, 0);
-  float fastest = 0;
-  for (int tick = 0; tick < 90; ++tick) {
-    // Other tissue half way through changes nothing of the line.
-    if (tick == 45) {
-      choice.material.young_pa *= 2;
-      ASSERT_TRUE(simulation.change_leg_muscles(with, choice));
-    }
-    const float before = simulation.get<LineOfAction>(simulation.muscle(with, soleus, Side::left))->length_m;
-    simulation.tick();
-    const float now = simulation.get<LineOfAction>(simulation.muscle(with, soleus, Side::left))->length_m;
-    const float speed = motion_of(with, Side::left)->speed_m_s;
-    EXPECT_EQ(speed, (now - before) / static_cast<float>(simulation.tick_s()));
-    fastest = std::max(fastest, speed);
-  }
-  EXPECT_GT(fastest, 0.1F);
-  EXPECT_LT(fastest, 0.6F);
-  choice.line_motion = false;
-  ASSERT_TRUE(simulation.change_leg_muscles(with, choice));
-  EXPECT_FALSE(motion_of(with, Side::left));
-}
-
 }  // namespace mobil::line_cycle_test

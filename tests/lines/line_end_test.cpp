@@ -7,7 +7,10 @@
 
 #include "assets/muscles/muscle_table.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("slow");
 
 namespace mobil::line_end_test {
 constexpr double rounding_m = 2e-6;

@@ -59,28 +59,6 @@ TEST(LineMotion, ArmsAreTheLengthsDerivatives) {
   }
 }
 
-TEST(LineMotion, AMusclesArmsAreThoseOfTheJointsItCrosses) {
-  Random random;
-  for (const auto& member : member_muscles()) {
-    const Muscle muscle = find_muscle(member.name).value();
-    const MuscleLines lines = make_muscle_lines(muscle);
-    Block block;
-    Motion motion{};
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const Body body = random.body();
-      set(block, body, random.leg(body), muscle, l);
-    }
-    line_motion(lines, block.scale, block.legs, block.line, motion, 0.01F);
-    const LegBone from = member.path.front().bone;
-    const LegBone to = member.kneecap ? LegBone::shank : member.path.back().bone;
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      EXPECT_EQ(motion.hip_flexion_arm_m[l] != 0, from == LegBone::pelvis) << member.name;
-      EXPECT_EQ(motion.knee_flexion_arm_m[l] != 0, from <= LegBone::thigh && to >= LegBone::shank) << member.name;
-      EXPECT_EQ(motion.ankle_dorsiflexion_arm_m[l] != 0, to == LegBone::foot) << member.name;
-    }
-  }
-}
-
 TEST(LineMotion, SpeedIsWhatTheLengthGrewByInATick) {
   Random random;
   constexpr float tick_s = 1.0F / 60;
@@ -103,77 +81,6 @@ TEST(LineMotion, SpeedIsWhatTheLengthGrewByInATick) {
       }
       before = block.line.length_m;
     }
-  }
-}
-
-// Slowly enough for a tick's chord to be the tangent: dL/dt = −Σ arm · dθ/dt.
-TEST(LineMotion, ArmsTimesJointSpeedsMakeTheSpeed) {
-  constexpr float tick_s = 0.01F;
-  Random random;
-  for (const Muscle muscle : every_muscle()) {
-    const MuscleLines lines = make_muscle_lines(muscle);
-    Block block;
-    Motion motion{};
-    std::array<std::array<double, 3>, lane_count> rate_deg;  // a tick
-    for (int tick = 0; tick < 2; ++tick) {
-      for (std::size_t l = 0; l < lane_count; ++l) {
-        Random same;
-        same.engine.seed(static_cast<unsigned>(100 + l));
-        const Body body = same.body();
-        LegFrames<double> leg = same.leg(body);
-        for (const Joint joint : {Joint::hip, Joint::knee, Joint::ankle}) {
-          double& rate = rate_deg[l][static_cast<std::size_t>(joint)];
-          rate = same.between(-0.4, 0.4);
-          leg = flexed(leg, joint, (tick - 0.5) * rate);
-        }
-        set(block, body, leg, muscle, l);
-      }
-      lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
-      line_motion(lines, block.scale, block.legs, block.line, motion, tick_s);
-    }
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      double expected = 0;
-      for (const Joint joint : {Joint::hip, Joint::knee, Joint::ankle}) {
-        expected -= arm_at(motion, joint, l) * rate_deg[l][static_cast<std::size_t>(joint)] * degree / 0.01;
-      }
-      EXPECT_NEAR(motion.speed_m_s[l], expected, 5e-4) << muscle_name(muscle);
-    }
-  }
-}
-
-TEST(LineMotion, EveryInstructionSetHasTheSameBitsAndANaNStaysInItsLane) {
-  constexpr std::size_t bad_lane = 5;
-  Random random;
-  for (const Muscle muscle : every_muscle()) {
-    const MuscleLines lines = make_muscle_lines(muscle);
-    Block good;
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      const Body body = random.body();
-      set(good, body, random.leg(body), muscle, l);
-    }
-    Block bad = good;
-    bad.legs.shank.y[bad_lane] = bad.legs.hip_m.x[bad_lane] = std::numeric_limits<float>::quiet_NaN();
-    std::vector<Lanes<float>> first;
-    for_each_fused_instruction_set([&] {
-      for (const Block* of : {&good, &bad}) {
-        Block block = *of;
-        Motion motion{};
-        lines_of_action(lines, block.scale, block.legs, FarEnd::held, block.line, block.end);
-        line_motion(lines, block.scale, block.legs, block.line, motion, 0.01F);
-        if (of == &bad && muscle != Muscle::tibialis_anterior && muscle_name(muscle) != "soleus") {
-          EXPECT_TRUE(std::isnan(motion.knee_flexion_arm_m[bad_lane])) << muscle_name(muscle);
-        }
-        std::vector<Lanes<float>> words = {motion.length_m,
-                                           motion.speed_m_s,
-                                           motion.hip_flexion_arm_m,
-                                           motion.knee_flexion_arm_m,
-                                           motion.ankle_dorsiflexion_arm_m,
-                                           block.line.length_m,
-                                           block.end.to};
-        if (first.empty()) first = words;
-        EXPECT_TRUE(same_bits(words, first, bad_lane)) << muscle_name(muscle);
-      }
-    });
   }
 }
 

@@ -284,27 +284,4 @@ TEST(LineOfAction, ATickBeginsWhereTheLastOneEnded) {
   }
 }
 
-TEST(LineOfAction, ANaNStaysInItsLane) {
-  Random random;
-  const MuscleLines lines = make_muscle_lines(Muscle::hamstrings);
-  Block good;
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    const Body body = random.body();
-    set(good, body, random.leg(body), Muscle::hamstrings, l);
-  }
-  Block bad = good;
-  bad.legs.thigh.x[3] = bad.legs.hip_m.z[3] = std::numeric_limits<float>::quiet_NaN();
-  lines_of_action(lines, good.scale, good.legs, FarEnd::held, good.line, good.end);
-  lines_of_action(lines, bad.scale, bad.legs, FarEnd::held, bad.line, bad.end);
-  for (std::size_t l = 0; l < lane_count; ++l) {
-    if (l == 3) {
-      EXPECT_TRUE(std::isnan(bad.line.length_m[l]));
-      continue;
-    }
-    EXPECT_EQ(good.line.length_m[l], bad.line.length_m[l]);
-    EXPECT_EQ(good.line.start_m.z[l], bad.line.start_m.z[l]);
-    EXPECT_EQ(good.end.to[l], bad.end.to[l]);
-  }
-}
-
 }  // namespace mobil::line_of_action_test

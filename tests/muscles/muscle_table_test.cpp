@@ -84,17 +84,6 @@ TEST(MuscleTable, VolumesAreThePublishedOnes) {
   }
 }
 
-RC_GTEST_PROP(MusclePlan, VolumeGrowsWithHeightAndWithMass, ()) {
-  const auto height = static_cast<float>(*rc::gen::inRange(1200, 2190)) / 1000;
-  const float mass = living_mass(height + 0.01F, *rc::gen::inRange(0, 951) / 1000.0);
-  for (const auto group : groups) {
-    const double volume = plan_of(body_of(height, mass), group).volume_m3;
-    RC_ASSERT(volume > 0);
-    RC_ASSERT(plan_of(body_of(height + 0.01F, mass), group).volume_m3 > volume);
-    RC_ASSERT(plan_of(body_of(height, mass + 1), group).volume_m3 > volume);
-  }
-}
-
 TEST(MusclePlan, SectionGrowsWithPhysique) {
   for (const auto group : groups) {
     const auto section = [group](Constitution c, float meso) {

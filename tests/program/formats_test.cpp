@@ -14,7 +14,10 @@
 #include <vector>
 
 #include "tests/files/opensim_table.h"
+#include "tests/labels.h"
 #include "tests/program/program.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::formats_program_test {
 namespace fs = std::filesystem;

@@ -18,6 +18,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/files/temporary_folder.h"
+
 namespace mobil {
 
 /// Built with a sanitizer, under which measuring takes minutes and means nothing.
@@ -26,29 +28,6 @@ inline constexpr bool sanitized = true;
 #else
 inline constexpr bool sanitized = false;
 #endif
-
-/// A folder of one's own, gone with its owner.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    static int made = 0;
-    path = std::filesystem::temp_directory_path() / fmt::format("mobil_program_{}_{}", ::getpid(), made++);
-    std::filesystem::create_directories(path);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path path;
-};
-
-inline std::string read_bytes(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 struct Ran {
   int status = -1;

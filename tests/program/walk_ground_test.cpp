@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/program/program.h"
+#include "tests/labels.h"
 
 namespace mobil {
 namespace {
@@ -23,6 +24,7 @@ double last_height_m(const std::filesystem::path& motion) {
 }
 
 TEST(WalkGround, StairsAndSlopesLeadUpAndDown) {
+  MOBIL_SLOW();
   const TemporaryFolder folder;
   const std::string brief = "walk --muscles quadriceps --method static --seconds 3 ";
   const auto height_m = [&](const std::string& options) {

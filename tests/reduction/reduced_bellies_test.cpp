@@ -12,7 +12,6 @@
 #include "assets/fem/hexahedral_mesh.h"
 #include "assets/reduction/reduced_basis.h"
 #include "assets/reduction/reduced_rows.h"
-#include "tests/reduction/scalar_belly.h"
 
 namespace mobil::reduced_bellies_test {
 const ReducedBasis& basis_of(int kind) {
@@ -79,57 +78,6 @@ RC_GTEST_PROP(ReducedBellies, WhatALaneGetsDoesNotDependOnTheOthers, ()) {
     const auto own = rows_of(basis, {bodies[l]}, damping, alone);
     RC_ASSERT(same_bits(own[0].motion, rows[l].motion));
     RC_ASSERT(same_bits(own[0].shape, rows[l].shape));
-  }
-}
-
-RC_GTEST_PROP(ReducedBellies, MatchTheScalarSolver, ()) {
-  const ReducedBasis& basis = basis_of(*rc::gen::inRange(0, 6));
-  const double damping = *rc::gen::element(0.0, 8.0, 500.0);
-  std::vector<BellyScale<float>> bodies(16);
-  for (auto& body : bodies) body = random_scale(basis);
-  ReducedBellies bellies;
-  const auto rows = rows_of(basis, bodies, damping, bellies);
-  for (std::size_t l = 0; l < bodies.size(); ++l) {
-    const auto expected =
-        oracle::make_reduced_belly(basis, static_cast<double>(bodies[l].across), static_cast<double>(bodies[l].along))
-            .value();
-    const ReducedBelly own = belly_of(bellies, l);
-    for (std::size_t j = 0; j < basis.vectors; ++j) {
-      RC_ASSERT(std::abs(own.omega_1_s[j] / expected.omega_1_s[j] - 1) < 1e-9);
-      if (j > 0) RC_ASSERT(own.omega_1_s[j] >= own.omega_1_s[j - 1]);
-      for (std::size_t k = 0; k <= j; ++k) {
-        double product = 0;
-        for (std::size_t i = 0; i < basis.vectors; ++i) product += own.eigenvector[i][j] * own.eigenvector[i][k];
-        RC_ASSERT(std::abs(product - (j == k ? 1 : 0)) < 1e-11);
-      }
-    }
-    for (std::size_t k = 0; k < basis.inputs; ++k) {
-      RC_ASSERT(std::abs(own.reaction[k] - expected.reaction[k]) <= 1e-7 * (1 + std::abs(expected.reaction[k])));
-      // Where a motion's sign is free, what all of them come to is not.
-      for (std::size_t i = 0; i < basis.vectors; ++i) {
-        double rest = 0, should = 0, most = 0;
-        for (std::size_t j = 0; j < basis.vectors; ++j) {
-          rest += own.eigenvector[i][j] * own.participation[j][k];
-          should += expected.eigenvector[i][j] * expected.participation[j][k];
-          most = std::max(most, std::abs(expected.participation[j][k]));
-        }
-        RC_ASSERT(std::abs(rest - should) <= 1e-8 * most);
-      }
-    }
-    std::vector<float> motion(rows[l].motion.size()), shape(rows[l].shape.size());
-    oracle::write_motion(own, damping, 1.0 / 60, motion);
-    oracle::write_shape(own, damping, shape);
-    const std::size_t stride = motion.size() / basis.vectors;
-    for (std::size_t w = 0; w < motion.size(); ++w) {
-      if (w % stride < 3) {
-        RC_ASSERT(std::abs(motion[w] - rows[l].motion[w]) <= 2e-7F * (1 + std::abs(motion[w])));
-      } else {
-        RC_ASSERT(std::bit_cast<std::uint32_t>(motion[w]) == std::bit_cast<std::uint32_t>(rows[l].motion[w]));
-      }
-    }
-    for (std::size_t w = 0; w < shape.size(); ++w) {
-      RC_ASSERT(std::abs(shape[w] - rows[l].shape[w]) <= 1e-6F * (1e-3F + std::abs(shape[w])));
-    }
   }
 }
 

@@ -14,6 +14,7 @@
 #include "assets/reduction/reduced_belly.h"
 #include "assets/surfaces/muscle_cage.h"
 #include "tests/fem/oracle.h"
+#include "tests/labels.h"
 #include "tests/reduction/reduction_truth.h"
 
 namespace mobil::reduction_bound_test {
@@ -117,6 +118,7 @@ Size size_of(double ratio, double product) {
 }
 
 TEST(ReductionBound, IsNeverBelowTheErrorWhateverTheBellyItsEndAndItsLoads) {
+  MOBIL_SLOW();
   std::mt19937 random(7);
   std::uniform_real_distribution<double> part(0, 1);
   const auto between = [&](double low, double high) { return low + (high - low) * part(random); };

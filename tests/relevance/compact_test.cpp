@@ -11,12 +11,15 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/relevance.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "systems/gait/gait.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 
-namespace mobil {
+MOBIL_TEST_LABELS("long");
+
+namespace mobil::relevance_compact_test {
 namespace {
 
 /// People round a camera that turns.
@@ -87,6 +90,7 @@ std::optional<double> apart(const Simulation& a, Entity one, const Simulation& b
 }
 
 TEST(RelevanceCompact, WhoIsUnseenIsCompactAndTheSameAsEver) {
+  MOBIL_SLOW();
   constexpr std::size_t count = 90;
   const MuscleSet muscles(5);
   Turning compact(true, 1, count, muscles), whole(false, 1, count, muscles);
@@ -161,4 +165,4 @@ TEST(RelevanceCompact, NeedsAndReasonsAreAnsweredOfThem) {
 }
 
 }  // namespace
-}  // namespace mobil
+}  // namespace mobil::relevance_compact_test

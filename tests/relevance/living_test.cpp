@@ -11,6 +11,7 @@
 #include "assets/finite/finite_shape.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation_world.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
 
@@ -106,6 +107,7 @@ TEST(LivingRelevance, TheNearerTheMoreEffectsAndNoneOutOfSight) {
 /// The largest step of a control point between ticks; of two runs alike up to `change`, when another ladder's rung is
 /// asked for, that after it.
 TEST(LivingRelevance, EffectsComeAndGoWithoutAJump) {
+  MOBIL_SLOW();
   constexpr int before = 100, after = 40;
   for (const auto& [from_m, to_m] : {std::pair(0.02F, 0.001F), std::pair(0.001F, 0.02F)}) {
     Scene changes(1), stays(1);

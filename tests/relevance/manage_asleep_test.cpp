@@ -9,6 +9,9 @@
 #include "components/relevance.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil {
 namespace {

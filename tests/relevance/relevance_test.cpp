@@ -15,8 +15,11 @@
 
 #include "systems/simulation_world.h"
 #include "tests/engine/counting_malloc.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::relevance_test {
 /// Reduced bellies of one body alone need a basis a muscle; all are quick to make.

@@ -12,14 +12,17 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/relevance.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/row_hash.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 
-namespace mobil {
+MOBIL_TEST_LABELS("long");
+
+namespace mobil::relevance_sleep_test {
 namespace {
 
 constexpr std::size_t everybody = 900;
@@ -126,29 +129,8 @@ struct Scene {
   std::vector<std::uint32_t> changes;
 };
 
-TEST(RelevanceSleep, WalksAreThoseOfACrowdThatNeverSlept) {
-  Scene sleeps(true), wakes(false);
-  std::size_t least = everybody, most = 0, woken = 0, slept = 0;
-  for (int i = 0; i < 1500; ++i) {
-    const RelevanceReport report = sleeps.tick();
-    wakes.tick();
-    woken += report.woken;
-    slept += report.slept;
-    ASSERT_EQ(report.refused, 0U) << report.refusal;
-    if (i % 30 != 29) continue;
-    least = std::min(least, sleeps.asleep());
-    most = std::max(most, sleeps.asleep());
-    if (i % 300 == 299) {
-      ASSERT_EQ(sleeps.walks_hash(), wakes.walks_hash()) << "tick " << i;
-    }
-  }
-  EXPECT_LT(least, everybody * 9 / 10);
-  EXPECT_GT(most, everybody / 2);
-  EXPECT_GT(woken, everybody / 2);
-  EXPECT_GT(slept, everybody / 4);
-}
-
 TEST(RelevanceSleep, NobodyWhoIsSeenSleeps) {
+  MOBIL_SLOW();
   Scene scene(true);
   std::size_t seen = 0;
   for (int i = 0; i < 700; ++i) {
@@ -362,6 +344,7 @@ TEST(RelevanceSleep, WhoIsReleasedHasTheirMuscles) {
 /// An hour with MOBIL_LONG in the environment (tests/run --long), else half a minute: nobody drifts from where those
 /// are who never slept, whatever the threads; one crowd is taken back to what it was half way and goes on from there.
 TEST(RelevanceSleep, AnHourAsleepIsAnHourAwake) {
+  MOBIL_SLOW();
   const int ticks = std::getenv("MOBIL_LONG") != nullptr ? 216'000 : 1800;
   constexpr std::size_t few = 160;
   std::size_t compact = 0;
@@ -479,4 +462,4 @@ TEST(RelevanceSleep, WhatCannotBeIsRefused) {
 }
 
 }  // namespace
-}  // namespace mobil
+}  // namespace mobil::relevance_sleep_test

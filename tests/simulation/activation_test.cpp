@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "components/activation.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
 
@@ -47,6 +48,7 @@ TEST(Activation, WhoDoesNotAskIsAsBefore) {
 
 /// The mesh's end is where the tendon leaves it, by every method.
 TEST(Activation, BellyFollowsWhatTheTendonLeaves) {
+  MOBIL_SLOW();
   for (const Method method :
        {Method::ecd, Method::icd, Method::caa, Method::statics, Method::reduced, Method::finite}) {
     Simulation simulation;

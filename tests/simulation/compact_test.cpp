@@ -13,7 +13,10 @@
 #include "components/sleep.h"
 #include "systems/people/pose_writer.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil {
 namespace {
@@ -106,6 +109,7 @@ TEST(Compact, WhoWasCompactIsWhereWhoNeverWasIs) {
 
 /// Near the origin: far from it whole people's places, and with them their lines, lose digits that compact ones keep.
 TEST(Compact, MusclesGoOnWithinFourMicrometres) {
+  MOBIL_SLOW();
   for (const std::uint32_t vectors : {4U, 12U}) {
     Pair pair(40, unseen(vectors));
     pair.tick(20);

@@ -14,8 +14,11 @@
 
 #include "engine/schedule.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::crowd_determinism_test {
 constexpr int ticks = 120, apart = 30;
@@ -40,6 +43,7 @@ const Hashes& alone() {
 }
 
 TEST(CrowdDeterminism, EverythingIsUnderWay) {
+  MOBIL_SLOW();
   play::Crowd crowd({}, script);
   std::set<std::string_view> worked;
   std::set<int> seen;
@@ -73,12 +77,14 @@ TEST(CrowdDeterminism, ThreadsDoNotMatter) {
 }
 
 TEST(CrowdDeterminism, TheCallersLoopMayCutAsItLikes) {
+  MOBIL_SLOW();
   EXPECT_EQ(run({.jobs = backwards()}), alone());
   WilfulPool more_than_promised(4, 2);
   EXPECT_EQ(run({.jobs = more_than_promised.jobs(1)}), alone());
 }
 
 TEST(CrowdDeterminism, InstructionSetsDoNotMatter) {
+  MOBIL_SLOW();
   int sets = 0;
   const Hashes& reference = alone();
   for_each_fused_instruction_set([&] {
@@ -89,6 +95,7 @@ TEST(CrowdDeterminism, InstructionSetsDoNotMatter) {
 }
 
 TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
+  MOBIL_SLOW();
   std::mt19937 random(3);
   for (int i = 0; i < 2; ++i) {
     auto order = play::Crowd::in_turn(script);
@@ -98,6 +105,7 @@ TEST(CrowdDeterminism, OrderOfComingDoesNotMatter) {
 }
 
 TEST(CrowdDeterminism, TwoWorldsAtOnceDoNotMeet) {
+  MOBIL_SLOW();
   WilfulPool pool(2, 4);  // the same for both
   play::Crowd a({.jobs = pool.jobs()}, script), b({.tick_s = 1.0 / 50, .jobs = pool.jobs()}, {.seed = 2});
   Hashes in_a, in_b, b_alone;

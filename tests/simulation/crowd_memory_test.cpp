@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <functional>
 #include <memory_resource>
 #include <new>
@@ -14,8 +15,11 @@
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::crowd_memory_test {
 using play::coarse;
@@ -119,7 +123,8 @@ void refuse_at_every_request(const Change& change, Refuses who) {
   const std::size_t before_requests = asked();
   change(*other, others);
   const std::size_t requests = asked() - before_requests;
-  const std::size_t stride = requests / 60 + 1;  // where templates are made the heap is asked very often
+  // Where templates are made the heap is asked very often: more of it with MOBIL_LONG in the environment.
+  const std::size_t stride = requests / (std::getenv("MOBIL_LONG") != nullptr ? 60 : 20) + 1;
   other->tick();
   for (std::size_t granted = 0;; granted += stride) {
     const std::uint64_t before = all_of(*simulation, people);
@@ -261,6 +266,7 @@ TEST(CrowdMemory, PeopleKeepNothingOnTheHeap) {
 }
 
 TEST(CrowdMemory, GrowsWithPeopleAndShrinksWithThem) {
+  MOBIL_SLOW();
   CountingMemory memory;
   Simulation simulation({.memory = &memory});
   LegMuscles choice{.method = Method::reduced, .reduced = play::reduced(12, true, false)};

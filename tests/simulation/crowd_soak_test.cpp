@@ -14,8 +14,11 @@
 #include <vector>
 
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
+
+MOBIL_TEST_LABELS("slow");
 
 namespace mobil::crowd_soak_test {
 using play::mixed;

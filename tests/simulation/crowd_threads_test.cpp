@@ -8,8 +8,11 @@
 #include <vector>
 
 #include "systems/people/pose_writer.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/crowd_pool.h"
+
+MOBIL_TEST_LABELS("threads;slow");
 
 namespace mobil::crowd_threads_test {
 constexpr play::Script script{.at_first = 20, .comers = 8};

@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "systems/relevance/relevance.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::door_test {
 

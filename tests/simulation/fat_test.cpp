@@ -247,23 +247,5 @@ TEST(Fat, IsSavedAndTakenAwayAllOrNone) {
   EXPECT_FALSE(simulation.get<FatWobble>(shaken.person));
 }
 
-TEST(Fat, OfAPoseThatIsNotFiniteStaysInItsLaneAndComesBack) {
-  BodySize<Lanes<float>> size;
-  for (std::size_t l = 0; l < lane_count; ++l) put_row(BodySize<float>{1.75F, 75, 0}, size, l);
-  Block alone{}, beside{};
-  for (int tick = 0; tick < 40; ++tick) {
-    Pose<Lanes<float>> pose = pose_at(0.02F * std::sin(static_cast<float>(tick)));
-    fat_motion(size, pose, alone, 1.0F / 60);
-    if (tick == 10) pose.position_m[index(Segment::L3)].x[3] = std::numeric_limits<float>::quiet_NaN();
-    fat_motion(size, pose, beside, 1.0F / 60);
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      if (l == 3) continue;
-      ASSERT_EQ(alone.beside_m[index(FatRegion::belly)].x[l], beside.beside_m[index(FatRegion::belly)].x[l]);
-    }
-  }
-  EXPECT_TRUE(std::isfinite(beside.beside_m[index(FatRegion::belly)].x[3]));
-  EXPECT_NE(beside.beside_m[index(FatRegion::belly)].x[3], 0);
-}
-
 }  // namespace
 }  // namespace mobil::fat_test

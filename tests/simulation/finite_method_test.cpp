@@ -9,7 +9,10 @@
 
 #include "assets/fem/finite_element.h"
 #include "components/activation.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::finite_method_test {
 namespace {
@@ -122,20 +125,6 @@ TEST(FiniteMethod, RefusesWhatItCannotDo) {
   ASSERT_FALSE(slow);
   EXPECT_NE(slow.error().message.find("critical step"), std::string::npos) << slow.error().message;
   EXPECT_TRUE(simulation.muscles(human).empty());
-}
-
-TEST(FiniteMethod, GoesOnFromASnapshotWithTheSameBits) {
-  Simulation simulation;
-  join_with(simulation, person(1), close_up());
-  simulation.tick(20);
-  std::vector<std::byte> saved(simulation.snapshot_bytes());
-  ASSERT_TRUE(simulation.save(saved));
-  simulation.tick(20);
-  Simulation other;
-  const auto restored = other.restore(saved, RestoreLimits::none());
-  ASSERT_TRUE(restored) << restored.error().message;
-  other.tick(20);
-  EXPECT_EQ(simulation.state_hash(), other.state_hash());
 }
 
 }  // namespace

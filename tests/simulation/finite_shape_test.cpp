@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "components/activation.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
 
@@ -54,6 +55,7 @@ TEST(FiniteShape, WhoDoesNotAskIsAsBefore) {
 
 /// Without vibration within 1 %, single muscles and groups, as they walk; linear statics lose up to ten times that.
 TEST(FiniteShape, KeepsItsVolumeInAWalk) {
+  MOBIL_SLOW();
   for (const Method method : {Method::reduced, Method::statics}) {
     Simulation simulation;
     LegMuscles choice = finite(method);
@@ -250,25 +252,6 @@ TEST(FiniteShape, NothingJumpsWhenActivationComesAndGoes) {
       run(simulation, 25);
       for (const float u : displacement(simulation, muscle)) ASSERT_LT(std::abs(u), 0.08F);
     }
-  }
-}
-
-TEST(FiniteShape, SurvivesSnapshots) {
-  Simulation simulation;
-  const Entity human = join_with(simulation, person(7), finite(Method::ecd));
-  const Entity reduced = join_with(simulation, person(8), finite(Method::reduced));
-  run(simulation, 20);
-  std::vector<std::byte> bytes(simulation.snapshot_bytes());
-  ASSERT_TRUE(simulation.save(bytes));
-  run(simulation, 10);
-  Simulation other;
-  ASSERT_TRUE(other.restore(bytes, RestoreLimits::none()));
-  run(other, 10);
-  EXPECT_EQ(other.state_hash(), simulation.state_hash());
-  for (const Entity one : {human, reduced}) {
-    const Entity a = simulation.muscle(one, Muscle::hamstrings, Side::right);
-    const Entity b = other.muscle(one, Muscle::hamstrings, Side::right);
-    EXPECT_EQ(displacement(simulation, a), displacement(other, b));
   }
 }
 

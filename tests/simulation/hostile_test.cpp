@@ -13,8 +13,11 @@
 
 #include "engine/snapshot_bytes.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/reseal.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil {
 namespace {
@@ -193,6 +196,7 @@ TEST(Jobs, ThatThrowLeaveASimulationThatCanBeRestored) {
 
 /// Wherever a posed person is said to be, muscles stay finite, and other people do not notice.
 TEST(Posed, WildPosesAreRefusedOrFinite) {
+  MOBIL_SLOW();
   Simulation simulation;
   const auto wild = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});
   const auto calm = *simulation.spawn_posed({.height_m = 1.8F, .mass_kg = 80});

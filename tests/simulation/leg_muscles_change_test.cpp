@@ -15,7 +15,10 @@
 #include "assets/muscles/muscle_table.h"
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::leg_muscles_change_test {
 // ------------------------------------------------------------------------------------------------ changes under way
@@ -174,69 +177,6 @@ TEST(Change, ARefusedChangeChangesNothing) {
 }
 
 // ----------------------------------------------------------------------------------------------- bits and memory
-
-LegMuscles choice_of(Method method, int who) {
-  LegMuscles choice{.method = method, .inertia = who % 2 == 0};
-  if (!choice.inertia) {
-    choice.stiffness_damping_s = 0.001;
-    choice.drive = Drive::force;
-  }
-  return choice;
-}
-
-std::map<int, std::uint64_t> walk_crowd(Method method, int threads, const std::vector<int>& who) {
-  Simulation simulation({.threads = threads});
-  std::map<int, Entity> crowd;
-  for (const int i : who) crowd[i] = join_with(simulation, person(i), choice_of(method, i));
-  for (int tick = 0; tick < 24; ++tick) {
-    if (tick == 12) {
-      for (const auto& [i, human] : crowd) {
-        LegMuscles other = choice_of(method, i);
-        other.material.young_pa *= 2;
-        if (i % 4 == 1) {
-          EXPECT_TRUE(simulation.change_leg_muscles(human, other));
-        }
-      }
-    }
-    simulation.tick();
-  }
-  std::map<int, std::uint64_t> hashes;
-  for (const auto& [i, human] : crowd) hashes[i] = hash_human(simulation, human);
-  return hashes;
-}
-
-TEST(Determinism, NeitherThreadsNorOrderNorCompanyMatterToAnyMethod) {
-  std::vector<int> who(18);
-  std::iota(who.begin(), who.end(), 0);
-  std::mt19937 random(3);
-  for (const Method method : methods) {
-    const auto reference = walk_crowd(method, 1, who);
-    EXPECT_EQ(walk_crowd(method, 2, who), reference) << name(method);
-    EXPECT_EQ(walk_crowd(method, 3, who), reference) << name(method);
-    auto shuffled = who;
-    std::shuffle(shuffled.begin(), shuffled.end(), random);
-    EXPECT_EQ(walk_crowd(method, 2, shuffled), reference) << name(method);
-    shuffled.resize(3);
-    for (const auto& [i, hash] : walk_crowd(method, 1, shuffled)) EXPECT_EQ(hash, reference.at(i)) << name(method);
-  }
-}
-
-TEST(Memory, ASteadyTickTakesNoneWithAnyMethod) {
-  CountingMemory memory;
-  for (const Method method : methods) {
-    for (const int threads : {1, 2}) {
-      Simulation simulation({.threads = threads, .memory = &memory});
-      for (int i = 0; i < 8; ++i) join_with(simulation, person(i), choice_of(method, i));
-      for (int i = 0; i < 3; ++i) simulation.tick();
-      const std::size_t heap = heap_requests, lent = memory.requests;
-      ASSERT_GT(heap, 0U);
-      for (int i = 0; i < 20; ++i) simulation.tick();
-      EXPECT_EQ(heap_requests, heap) << name(method) << " " << threads << " threads";
-      EXPECT_EQ(memory.requests, lent) << name(method) << " " << threads << " threads";
-    }
-  }
-  EXPECT_EQ(memory.lent(), 0U);
-}
 
 TEST(ChangingMuscles, TakesOthersAndLetsThoseThatStayGoOn) {
   Simulation simulation;

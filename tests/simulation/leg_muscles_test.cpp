@@ -11,6 +11,9 @@
 
 #include "assets/muscles/muscle_table.h"
 #include "systems/muscles/choice_words.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::leg_muscles_test {
 /// The same person with two sets of muscles, in two simulations.
@@ -29,15 +32,10 @@ Difference walk_both(const Person& p, const LegMuscles& one, const LegMuscles& o
 /// A step that all methods resolve well.
 constexpr double fine_s = 1.0 / 1920;
 
-Person slow(int who) {
-  Person p = person(who);
-  p.gait.speed_m_s = 0.6F;
-  return p;
-}
-
 // -------------------------------------------------------------------------------------------- methods follow the walk
 
 TEST(Methods, AgreeWhereTheStepIsShort) {
+  MOBIL_SLOW();
   for (const int who : {0, 12}) {
     for (const bool inertia : {false, true}) {
       const auto lumped = walk_both(person(who), {.inertia = inertia, .dt_s = fine_s},
@@ -53,6 +51,7 @@ TEST(Methods, AgreeWhereTheStepIsShort) {
 }
 
 TEST(Methods, DifferAtTheirOwnStepsByNoMoreThanTheseExplain) {
+  MOBIL_SLOW();
   for (const int who : {5, 12}) {
     for (const Method method : {Method::icd, Method::caa}) {
       const auto own = walk_both(slow(who), {.dt_s = fine_s}, {.method = method}, 90);
@@ -65,6 +64,7 @@ TEST(Methods, DifferAtTheirOwnStepsByNoMoreThanTheseExplain) {
 }
 
 TEST(Methods, StaticIsNearASlowWalk) {
+  MOBIL_SLOW();
   for (const int who : {5, 12}) {
     const auto d = walk_both(slow(who), {}, {.method = Method::statics}, 90);
     EXPECT_LT(d.apart, 0.25 * d.most);
@@ -73,6 +73,7 @@ TEST(Methods, StaticIsNearASlowWalk) {
 }
 
 TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
+  MOBIL_SLOW();
   for (const bool inertia : {false, true}) {
     Simulation simulation;
     std::vector<Entity> people;
@@ -91,6 +92,7 @@ TEST(Methods, RestInTheSameShapeUnderAStandingPerson) {
 }
 
 TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
+  MOBIL_SLOW();
   for (const Method method : methods) {
     for (const Element element : {Element::full, Element::bbar, Element::one_point}) {
       for (const Drive drive : {Drive::displacement, Drive::force}) {
@@ -122,6 +124,7 @@ TEST(Methods, OfEveryKindFollowTheLineExactlyOrArePulled) {
 }
 
 TEST(Methods, OtherCellsDampingAndMassWalkToo) {
+  MOBIL_SLOW();
   Simulation simulation;
   const LegMuscles choices[] = {
       {.stiffness_damping_s = 0.003, .cells = {1, 2, 5}},
@@ -252,6 +255,7 @@ TEST(Inertia, ShanksTurnAsFastAsTheyDo) {
 }
 
 TEST(Inertia, TenSecondsStayWithinAFewCentimetres) {
+  MOBIL_SLOW();
   for (const Method method : methods) {
     Simulation simulation;
     const Person p = {{}, {.speed_m_s = 1.5F}};

@@ -15,6 +15,9 @@
 #include "engine/jobs.h"
 #include "systems/simulation.h"
 #include "tests/engine/counting_heap.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::pose_writer_test {
 

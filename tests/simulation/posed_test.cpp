@@ -176,18 +176,6 @@ TEST(Posed, RequestsForAGaitAreRefusedAndChangeNothing) {
   EXPECT_EQ(rows(simulation.world()), 1U);
 }
 
-TEST(Posed, DoNotChangeWalkersBits) {
-  Simulation alone, together;
-  const Entity a = join(alone, person(6)), b = join(together, person(6));
-  const Entity puppet = pose_person(together, 6);
-  ASSERT_TRUE(together.add_leg_muscles(puppet));
-  for (int i = 0; i < 30; ++i) {
-    alone.tick();
-    together.tick();
-  }
-  EXPECT_EQ(hash_human(alone, a), hash_human(together, b));
-}
-
 TEST(Posed, WithChangedMethodsHasTheWalkersMusclesAtEveryTick) {
   Couple two(5, {.line_motion = true});
   for (int i = 0; i < 4; ++i) two.tick();

@@ -8,8 +8,11 @@
 #include "components/forces.h"
 #include "engine/schedule.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_change_test {
 std::uint64_t solved(const Simulation& simulation) {
@@ -182,45 +185,6 @@ TEST(Change, SteadyWalkersAreNotSolvedAgain) {
 }
 
 // ------------------------------------------------------------------------------------------------- determinism
-
-/// Everything after four seconds in which everybody is asked for something every half second.
-std::vector<std::uint64_t> changeable_crowd(int threads) {
-  Simulation simulation({.threads = threads});
-  std::vector<Entity> crowd;
-  for (int i = 0; i < 40; ++i) crowd.push_back(join(simulation, person(i), i % 10 == 0));
-  for (int tick = 0; tick < 240; ++tick) {
-    for (int i = 0; i < 40; ++i) {
-      if ((tick + 7 * i) % 30 != 0) continue;
-      const Entity human = crowd[static_cast<std::size_t>(i)];
-      switch ((tick / 30 + i) % 5) {
-        case 0:
-          EXPECT_TRUE(simulation.change_gait(human, {.speed_m_s = 0.8F + 0.02F * static_cast<float>(i)}));
-          break;
-        case 1:
-          EXPECT_TRUE(simulation.turn_to(human, static_cast<float>(i - 20)));
-          break;
-        case 2:
-          EXPECT_TRUE(simulation.change_gait(human, {.speed_m_s = 0.0F}));
-          break;
-        case 3:
-          EXPECT_EQ(simulation.add_forces(human), Status::ok);
-          break;
-        default:
-          EXPECT_NE(simulation.remove_forces(human), Status::stale_entity);
-      }
-    }
-    simulation.tick();
-  }
-  std::vector<std::uint64_t> hashes;
-  for (const Entity human : crowd) hashes.push_back(hash_human(simulation, human));
-  return hashes;
-}
-
-TEST(Change, ThreadsDoNotMatter) {
-  const auto alone = changeable_crowd(1);
-  EXPECT_EQ(changeable_crowd(2), alone);
-  EXPECT_EQ(changeable_crowd(3), alone);
-}
 
 TEST(Change, ARequestShowsFromTheNextStepOn) {
   Simulation changed, unchanged;

@@ -16,7 +16,10 @@
 
 #include "assets/muscles/muscle_table.h"
 #include "components/fade.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_method_test {
 // Coarse meshes, whose bases are made in no time.
@@ -333,6 +336,7 @@ std::map<int, std::uint64_t> switch_crowd(int threads, const std::vector<int>& w
 }
 
 TEST(Switching, NeitherThreadsNorOrderNorCompanyMatter) {
+  MOBIL_SLOW();
   std::vector<int> who = {0, 1, 2, 3, 4, 5, 6};
   const auto reference = switch_crowd(1, who);
   EXPECT_EQ(switch_crowd(2, who), reference);

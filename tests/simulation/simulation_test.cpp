@@ -15,8 +15,11 @@
 
 #include "tests/engine/counting_heap.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::simulation_test {
 constexpr int crowd_size = 40;
@@ -44,18 +47,6 @@ std::vector<int> everybody() {
 const std::vector<std::uint64_t>& reference() {
   static const auto hashes = walk_crowd({}, everybody(), 120);
   return hashes;
-}
-
-TEST(Determinism, ThreadsDoNotMatter) {
-  EXPECT_EQ(walk_crowd({.threads = 2}, everybody(), 120), reference());
-  EXPECT_EQ(walk_crowd({.threads = 3}, everybody(), 120), reference());
-}
-
-TEST(Determinism, TheCallersOwnLoopMayRunBlocksBackwards) {
-  const Jobs backwards{nullptr, [](void*, std::size_t count, Jobs::Body body, void* context) {
-                         for (std::size_t i = count; i-- > 0;) body(context, i, i + 1);
-                       }};
-  EXPECT_EQ(walk_crowd({.jobs = backwards}, everybody(), 120), reference());
 }
 
 TEST(Determinism, PeopleDiffer) {
@@ -94,21 +85,6 @@ TEST(Determinism, ComersAndGoersLeaveOthersAlone) {
     simulation.tick();
   }
   EXPECT_EQ(hash_human(simulation, stayer), reference()[3]);
-}
-
-TEST(Simulation, TwoSideBySideDoNotMeet) {
-  Simulation a, b({.tick_s = 1.0 / 50});
-  const Entity in_a = join(a, person(3));
-  const Entity in_b = join(b, person(4));
-  for (int i = 0; i < 120; ++i) {
-    a.tick();
-    if (i % 3 != 0) b.tick();
-  }
-  EXPECT_EQ(hash_human(a, in_a), reference()[3]);
-  Simulation alone({.tick_s = 1.0 / 50});
-  const Entity same = join(alone, person(4));
-  for (int i = 0; i < 80; ++i) alone.tick();
-  EXPECT_EQ(hash_human(b, in_b), hash_human(alone, same));
 }
 
 // ------------------------------------------------------------------------------------------------------- physics
@@ -396,26 +372,6 @@ TEST(Time, AdvanceRunsWholeTicksAndReportsTheRest) {
   EXPECT_EQ(hash_human(simulation, human), hash_human(ticked, same));
   EXPECT_THROW(Simulation({.tick_s = 0}), std::invalid_argument);
   EXPECT_THROW(Simulation({.max_frame_s = NAN}), std::invalid_argument);
-}
-
-TEST(Memory, SteadyTicksTakeNoneAndAllIsReturned) {
-  CountingMemory memory;
-  for (const int threads : {1, 2}) {
-    Simulation simulation({.threads = threads, .memory = &memory});
-    std::vector<Entity> crowd;
-    for (int i = 0; i < 20; ++i) crowd.push_back(join(simulation, person(i), i % 2 == 0));
-    EXPECT_GT(memory.lent(), 0U);
-    for (int i = 0; i < 5; ++i) simulation.tick();
-    const std::size_t heap = heap_requests, lent = memory.requests;
-    ASSERT_GT(heap, 0U);  // the counter counts
-    for (int i = 0; i < 100; ++i) simulation.advance(1.0 / 60);
-    EXPECT_EQ(heap_requests, heap) << threads << " threads";
-    EXPECT_EQ(memory.requests, lent) << threads << " threads";
-    EXPECT_GE(simulation.ticks(), 104U);
-    for (const Entity human : crowd) EXPECT_EQ(simulation.despawn(human), Status::ok);
-    EXPECT_EQ(rows(simulation.world()), 0U);
-  }
-  EXPECT_EQ(memory.lent(), 0U);
 }
 
 }  // namespace mobil::simulation_test

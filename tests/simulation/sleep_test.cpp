@@ -11,14 +11,14 @@
 
 #include "assets/body/anthropometry.h"
 #include "components/forces.h"
-#include "demo/crowd/crowd_people.h"
-#include "demo/crowd/heap_count.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/rows.h"
 #include "systems/gait/asleep.h"
 #include "systems/gait/gait.h"
 #include "systems/simulation.h"
+#include "tests/engine/counting_heap.h"
 
-namespace mobil {
+namespace mobil::sleep_test {
 namespace {
 
 /// The same people in two simulations: in one of them some sleep.
@@ -134,9 +134,9 @@ TEST(Sleep, WhoHasWokenBeforeWakesWithoutTheHeap) {
   const auto tired = std::span(twins.dozers).first(20);  // tables that shrink by much give memory back
   for (int round = 0; round < 4; ++round) {
     ASSERT_GT(simulation.sleep(tired).value(), 10U);
-    start_heap_count();
+    const std::size_t before = heap_requests;
     const bool woken = simulation.wake(tired).has_value();
-    const std::size_t requests = stop_heap_count();
+    const std::size_t requests = heap_requests - before;
     ASSERT_TRUE(woken);
     if (round > 0) {
       EXPECT_EQ(requests, 0U);
@@ -358,4 +358,4 @@ TEST(Sleep, WhatASleeperCannotFollowWakesThem) {
 }
 
 }  // namespace
-}  // namespace mobil
+}  // namespace mobil::sleep_test

@@ -13,8 +13,11 @@
 #include <string>
 
 #include "systems/snapshot/snapshot_file.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::snapshot_file_test {
 namespace fs = std::filesystem;

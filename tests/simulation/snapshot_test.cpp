@@ -13,10 +13,13 @@
 #include "systems/simulation.h"
 #include "systems/snapshot/snapshot_records.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/reseal.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::snapshot_test {
 using Bytes = std::vector<std::byte>;
@@ -148,20 +151,6 @@ TEST(Snapshot, HandlesOfThoseWhoCameLaterAreStaleAfterGoingBack) {
   EXPECT_TRUE(simulation.world().alive(simulation.muscle(people[3], Muscle::hamstrings, Side::left)));
 }
 
-TEST(Snapshot, WithTheSamePeopleRestoringTakesNoMemoryOfTheCallers) {
-  CountingMemory memory;
-  Simulation simulation({.memory = &memory});
-  few(simulation);
-  const Bytes bytes = saved(simulation);
-  restore(simulation, bytes);
-  const auto before = memory.requests;
-  for (int i = 0; i < 3; ++i) {
-    simulation.tick();
-    restore(simulation, bytes);
-  }
-  EXPECT_EQ(memory.requests, before);
-}
-
 /// Refused in one line, and nothing has changed.
 void expect_refused(Simulation& simulation, std::span<const std::byte> bytes, const std::string& about = "") {
   const std::uint64_t world = hash_world(simulation), state = simulation.state_hash();
@@ -242,78 +231,6 @@ TEST(Snapshot, ResourcesThatComeOutOtherwiseAreRefused) {
   ASSERT_FALSE(done);
   EXPECT_NE(done.error().message.find("otherwise"), std::string::npos) << done.error().message;
   EXPECT_EQ(fresh.people().size(), 0U);
-}
-
-TEST(Snapshot, RestoringWithoutMemoryChangesNothing) {
-  Simulation large;
-  for (int copies = 0; copies < 8; ++copies) few(large);
-  const Bytes more = saved(large);
-  for (const std::size_t granted : {0U, 1U, 3U, 9U}) {
-    CountingMemory memory;
-    Simulation small({.memory = &memory});
-    few(small);
-    ASSERT_EQ(small.despawn(small.people()[2]), Status::ok);
-    memory.refuse_after = granted;
-    expect_refused(small, more, "memory");
-    memory.refuse_after = SIZE_MAX;
-    restore(small, more);
-    EXPECT_EQ(small.state_hash(), large.state_hash());
-  }
-}
-
-// Whoever seals what they made up is refused, or restores people who can be ticked, hashed and saved.
-void survive(Simulation& simulation, const Bytes& good, const Bytes& bad) {
-  const auto done = simulation.restore(bad);
-  if (!done) {
-    EXPECT_EQ(done.error().message.find('\n'), std::string::npos);
-    return;
-  }
-  simulation.tick();
-  simulation.state_hash();
-  saved(simulation);
-  for (const Entity person : simulation.people()) EXPECT_TRUE(simulation.human(person));
-  restore(simulation, good);
-}
-
-TEST(Snapshot, MadeUpBytesWithAGoodSealDoNoHarm) {
-  Simulation simulation;
-  few(simulation);
-  const Bytes good = saved(simulation);
-  const std::uint64_t state = simulation.state_hash();
-  std::uint64_t sizes[3];
-  std::memcpy(sizes, good.data() + 32, sizeof(sizes));
-  std::mt19937_64 random(7);
-  int refused = 0;
-  for (int round = 0; round < 700; ++round) {
-    Bytes bad = good;
-    // Mostly where the lists are, of which single words are changed to small, large and near numbers.
-    const std::size_t lists = 64 + sizes[0] + sizes[1];
-    for (std::uint64_t edit = 0; edit < 1 + random() % 3; ++edit) {
-      const std::size_t end = round % 4 == 0 ? bad.size() - 4 : lists - 4;
-      const std::size_t at = (round % 16 == 1 ? random() % 64 : 64 + random() % (end - 64)) / 4 * 4;
-      std::uint32_t word;
-      std::memcpy(&word, &bad[at], 4);
-      const std::uint32_t choices[] = {0,
-                                       1,
-                                       word + 1,
-                                       word - 1,
-                                       0xffffffff,
-                                       0x7fc00000,
-                                       static_cast<std::uint32_t>(random()),
-                                       word ^ 1U << random() % 32};
-      word = choices[random() % std::size(choices)];
-      std::memcpy(&bad[at], &word, 4);
-    }
-    if (round % 50 == 3) bad.resize(bad.size() - random() % bad.size());
-    reseal_snapshot(bad);
-    const auto done = simulation.restore(bad);
-    refused += done ? 0 : 1;
-    survive(simulation, good, bad);
-    if (done) restore(simulation, good);
-    ASSERT_EQ(simulation.state_hash(), state) << round;
-  }
-  EXPECT_GT(refused, 100);
-  EXPECT_EQ(simulation.state_hash(), state);
 }
 
 /// Control points of reduced muscles are left out, and made again with their bits: also of muscles that have just begun

@@ -10,8 +10,11 @@
 
 #include "systems/simulation.h"
 #include "tests/engine/engine_counting_memory.h"
+#include "tests/labels.h"
 #include "tests/simulation/people.h"
 #include "tests/simulation/simulation_hash.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::spawn_batch_test {
 LegMuscles muscles_of_kind(int kind) {
@@ -167,30 +170,6 @@ TEST(SpawnBatch, WhoIsStaleOrNamedTwiceIsNotSentAway) {
     EXPECT_EQ(hash_world(simulation), before);
     for (const Entity human : made) EXPECT_TRUE(simulation.human(human));
   }
-}
-
-TEST(SpawnBatch, WhereMemoryRunsOutNobodyHasCome) {
-  CountingMemory memory;
-  Simulation simulation({.memory = &memory});
-  std::vector<SpawnRequest> people;
-  for (int i = 0; i < 40; ++i) people.push_back(request(i % 3));
-  std::vector<Entity> first(people.size()), made(people.size());
-  ASSERT_TRUE(simulation.spawn(people, first));
-  const std::uint64_t before = hash_world(simulation);
-  bool done = false;
-  for (std::size_t granted = 0; !done; ++granted) {
-    ASSERT_LT(granted, 1000U);
-    memory.refuse_after = granted;
-    try {
-      done = simulation.spawn(people, made).has_value();
-    } catch (const std::bad_alloc&) {
-    }
-    memory.refuse_after = SIZE_MAX;
-    if (done) break;
-    ASSERT_EQ(hash_world(simulation), before);
-    ASSERT_EQ(simulation.people().size(), first.size());
-  }
-  EXPECT_EQ(simulation.people().size(), 2 * first.size());
 }
 
 TEST(SpawnBatch, PreparingChangesNobodysBits) {

@@ -11,8 +11,11 @@
 #include "engine/row_hash.h"
 #include "systems/simulation.h"
 #include "systems/simulation_world.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_play.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::state_hash_test {
 /// People 0 to count − 1 with muscles, come in that order.
@@ -120,23 +123,6 @@ TEST(Bytes, EveryBitAndTheLengthCount) {
     bytes[at] = static_cast<std::uint8_t>(bytes[at] ^ (1U << *rc::gen::inRange(0, 8)));
     RC_ASSERT(hash_bytes(bytes.data(), bytes.size()) != before);
   });
-}
-
-TEST(Bytes, MessagesOfOneSetBitHaveUnlikeHashes) {
-  std::vector<std::uint8_t> bytes(1100);
-  std::set<std::uint64_t> seen;
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    bytes[bit / 8] = static_cast<std::uint8_t>(1U << bit % 8);
-    EXPECT_TRUE(seen.insert(hash_bytes(bytes.data(), bytes.size())).second);
-    const std::size_t other = (bit * 7919 + 12345) % (8 * bytes.size());
-    if (other / 8 != bit / 8) {
-      bytes[other / 8] = static_cast<std::uint8_t>(1U << other % 8);
-      seen.insert(hash_bytes(bytes.data(), bytes.size()));
-      bytes[other / 8] = 0;
-    }
-    bytes[bit / 8] = 0;
-  }
-  EXPECT_GT(seen.size(), 8 * bytes.size());
 }
 
 }  // namespace mobil::state_hash_test

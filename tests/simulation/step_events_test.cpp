@@ -16,8 +16,11 @@
 #include "systems/people/pose_measures.h"
 #include "systems/people/pose_writer.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_pool.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil::step_events_test {
 using geometry::operator-;

@@ -14,7 +14,10 @@
 #include "engine/geometry.h"
 #include "systems/simulation.h"
 #include "systems/surfaces/surfaces.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::stray_test {
 using namespace geometry;
@@ -103,6 +106,7 @@ std::vector<LegMuscles> every_choice(Method method) {
 
 /// At the ends of what joints allow and between, at rest.
 TEST(Stray, NoMuscleLeavesItsLineInAnyPose) {
+  MOBIL_SLOW();
   for (const Method method :
        {Method::statics, Method::ecd, Method::icd, Method::caa, Method::reduced, Method::finite}) {
     for (const LegMuscles& choice : every_choice(method)) {

@@ -21,12 +21,16 @@
 #include "systems/people/style_limits.h"
 #include "systems/people/walk_limits.h"
 #include "systems/simulation.h"
+#include "tests/labels.h"
 #include "tests/simulation/walk_watch.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::style_limits_test {
 
 /// Some hundred; ten thousand with MOBIL_LONG in the environment.
 TEST(StyleLimits, WalksOfAnyStyleKeepThem) {
+  MOBIL_SLOW();
   const std::size_t count = std::getenv("MOBIL_LONG") != nullptr ? 10000 : 480;
   constexpr std::size_t together = 240;
   Dice dice{std::mt19937(7)};
@@ -60,6 +64,7 @@ RC_GTEST_PROP(StyleLimits, UsualWalksAreLeftAlone, (unsigned seed)) {
 }
 
 TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(5)};
   std::vector<Asked> asked;
   for (int i = 0; i < 160; ++i) {
@@ -78,6 +83,7 @@ TEST(StyleLimits, UsualWalksStopStartAndTurnWithinThem) {
 /// Of any style nearly all do: in steps that turn or change speed it is nearer to the usual one, and styles far from it
 /// keep more clear of limits. Some hundred; 4800 with MOBIL_LONG in the environment.
 TEST(StyleLimits, NearlyAllWalksStopStartAndTurnWithinThem) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(6)};
   std::vector<Asked> asked;
   const std::size_t tens = std::getenv("MOBIL_LONG") != nullptr ? 10 : 1;
@@ -203,6 +209,7 @@ TEST(StyleLimits, CalmStepsAreEven) {
 
 /// Of any style no foot in the air is bent up far, whatever its walker does.
 TEST(StyleLimits, FeetInTheAirAreNotBentUp) {
+  MOBIL_SLOW();
   Dice dice{std::mt19937(6)};
   std::vector<Asked> asked;
   for (unsigned i = 0; i < 240; ++i) asked.push_back(anyone(dice, i % 6, false));
@@ -264,45 +271,6 @@ TEST(StyleLimits, AreTheSameForOneAndForMany) {
     EXPECT_TRUE(same_style(alone.gait_request(one)->style, expected));
   }
   EXPECT_GT(moved, 20U);
-}
-
-/// Nor on how many lanes a walker has in a block, which follows from how many threads there are.
-TEST(StyleLimits, AreTheSameForAnyLanesOfABlock) {
-  Dice dice{std::mt19937(12)};
-  std::size_t moved = 0;
-  for (int round = 0; round < 4; ++round) {
-    constexpr std::size_t together = 64;
-    std::vector<BodySize<float>> sizes;
-    std::vector<Gait<float>> asked;
-    for (unsigned i = 0; i < together; ++i) {
-      const Asked one = anyone(dice, i % 6, i % 4 == 0);
-      const Body body = *make_body(one.body);
-      sizes.push_back(body_size(body));
-      asked.push_back(*resolve_gait(body, one.gait));
-    }
-    const auto kept = [&](std::size_t threads, std::vector<std::vector<StyleChange>>& changes) {
-      Jobs jobs;
-      jobs.threads = threads;
-      StyleWork work;
-      std::vector<Gait<float>> gaits = asked;
-      changes.assign(together, {});
-      keep_walk_limits(jobs, sizes, gaits, work, changes);
-      return gaits;
-    };
-    std::vector<std::vector<StyleChange>> first, changes;
-    const auto expected = kept(1, first);
-    for (const std::size_t threads : {std::size_t{5}, std::size_t{12}, std::size_t{30}, std::size_t{64}}) {
-      const auto gaits = kept(threads, changes);
-      for (std::size_t i = 0; i < together; ++i) {
-        EXPECT_TRUE(same_style(gaits[i].style, expected[i].style)) << "round " << round << ", " << i;
-        EXPECT_EQ(gaits[i].step_length_m, expected[i].step_length_m);
-        ASSERT_EQ(changes[i].size(), first[i].size());
-        for (std::size_t c = 0; c < first[i].size(); ++c) EXPECT_EQ(described(changes[i][c]), described(first[i][c]));
-        moved += first[i].size();
-      }
-    }
-  }
-  EXPECT_GT(moved, 150U);
 }
 
 /// Where all is well with the pelvis' tilt or the double support as usual, no other number is touched.

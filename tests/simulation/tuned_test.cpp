@@ -9,8 +9,11 @@
 
 #include "components/activation.h"
 #include "systems/deformation/belly_motion.h"
+#include "tests/labels.h"
 #include "tests/simulation/leg_muscles.h"
 #include "tests/simulation/people.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::tuned_people_test {
 namespace {
@@ -80,15 +83,6 @@ TEST(TunedPeople, CoarseMeshesPullAsWell) {
       }
     }
   }
-}
-
-TEST(TunedPeople, WhoDoesNotAskIsAsBefore) {
-  Simulation with, without;
-  join_with(with, person(1), pulling(true));
-  const Entity does_not = join_with(with, person(2), pulling(false));
-  const Entity alone = join_with(without, person(2), pulling(false));
-  run(with, 60), run(without, 60);
-  EXPECT_EQ(hash_human(with, does_not), hash_human(without, alone));
 }
 
 /// How far a jolt throws the calf of someone who stands, and what is left of it a quarter of a second later.
@@ -178,26 +172,6 @@ TEST(TunedPeople, NothingJumpsWhereItComesAndGoes) {
     }
     EXPECT_LT(changed_m, 1.1 * usual_m) << "inertia " << inertia;
   }
-}
-
-TEST(TunedPeople, SurviveSnapshots) {
-  Simulation simulation;
-  const Entity human = join_with(simulation, person(7), pulling(true));
-  join_with(simulation, person(8), pulling(true, false));
-  run(simulation, 20);
-  std::vector<std::byte> bytes(simulation.snapshot_bytes());
-  ASSERT_TRUE(simulation.save(bytes));
-  run(simulation, 10);
-  Simulation other;
-  const auto restored = other.restore(bytes, RestoreLimits::none());
-  ASSERT_TRUE(restored) << restored.error().message;
-  run(other, 10);
-  EXPECT_EQ(other.state_hash(), simulation.state_hash());
-  // and who goes on by another method does so from the same place
-  const MuscleMethod to{Method::reduced, pulling(false).reduced};
-  ASSERT_TRUE(simulation.set_method(human, Muscle::hamstrings, to));
-  ASSERT_TRUE(other.set_method(human, Muscle::hamstrings, to));
-  EXPECT_EQ(other.state_hash(), simulation.state_hash());
 }
 
 }  // namespace

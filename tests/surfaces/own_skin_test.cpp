@@ -12,7 +12,10 @@
 #include "assets/skin/own_skin.h"
 #include "assets/surfaces/surface_mesh.h"
 #include "systems/skinning/follow_skin.h"
+#include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::own_skin_test {
 using namespace geometry;

@@ -11,6 +11,9 @@
 #include "assets/body/anthropometry.h"
 #include "assets/skin/skin_atlas.h"
 #include "engine/geometry.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil {
 namespace {

@@ -17,7 +17,10 @@
 #include "engine/geometry.h"
 #include "systems/simulation.h"
 #include "systems/surfaces/surfaces.h"
+#include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::skin_cover_test {
 namespace {

@@ -16,6 +16,9 @@
 #include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/labels.h"
+
+MOBIL_TEST_LABELS("long");
 
 namespace mobil::skin_table_test {
 namespace {

@@ -21,7 +21,10 @@
 #include "systems/skinning/place_skin.h"
 #include "systems/surfaces/skin_writer.h"
 #include "systems/surfaces/surfaces.h"
+#include "tests/labels.h"
 #include "tests/surfaces/skin_placed.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::skin_test {
 using namespace geometry;

@@ -21,7 +21,10 @@
 #include "systems/simulation.h"
 #include "systems/surfaces/body_surfaces.h"
 #include "tests/files/reference_data.h"
+#include "tests/labels.h"
 #include "tests/surfaces/skinned.h"
+
+MOBIL_TEST_LABELS("slow");
 
 namespace mobil::surface_motion_test {
 using namespace geometry;

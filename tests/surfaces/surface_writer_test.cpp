@@ -17,8 +17,11 @@
 #include "systems/surfaces/surfaces.h"
 #include "tests/engine/counting_malloc.h"
 #include "tests/engine/instruction_sets.h"
+#include "tests/labels.h"
 #include "tests/simulation/crowd_pool.h"
 #include "tests/surfaces/skinned.h"
+
+MOBIL_TEST_LABELS("threads;long");
 
 namespace mobil::surface_writer_test {
 using namespace geometry;
@@ -165,69 +168,6 @@ TEST(SurfaceWriter, NormalsAreThoseOfTheTriangles) {
         ASSERT_NEAR(length(n), 1, 2e-6) << part.name << ' ' << v;
         ASSERT_LT(length(n - expected[v]), part.driver ? 1e-4 : 1e-3) << part.name << ' ' << v;
       }
-    }
-  }
-}
-
-TEST(SurfaceWriter, SurfacesAreClosedAndEncloseTheMusclesVolumes) {
-  for (const BodyRequest& body : bodies()) {
-    Simulation simulation;
-    Shown shown = show(simulation, body);
-    simulation.advance(0.3);
-    write(simulation, shown);
-    const auto volumes = member_volumes_m3(shown.human.body);
-    const auto members = member_muscles();
-    int seen = 0;
-    for (const SurfacePart& part : shown.surfaces.part) {
-      std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
-      const auto triangle = shown.triangles(part);
-      for (std::size_t t = 0; t < triangle.size(); ++t) {
-        const std::uint32_t to = triangle[t % 3 == 2 ? t - 2 : t + 1];
-        ++edges[{triangle[t], to}];
-        --edges[{to, triangle[t]}];
-      }
-      EXPECT_TRUE(std::ranges::all_of(edges, [](const auto& e) { return e.second == 0; })) << part.name;
-      const double volume = enclosed_volume({part.name, shown.positions(part), triangle});
-      EXPECT_GT(volume, 0) << part.name;
-      for (std::size_t m = 0; m < members.size(); ++m) {
-        if (part.name != std::string(members[m].name) + "_right" && part.name != std::string(members[m].name) + "_left")
-          continue;
-        ++seen;
-        EXPECT_NEAR(volume, volumes[m], 0.2 * volumes[m]) << part.name;
-      }
-    }
-    EXPECT_EQ(seen, 26);
-  }
-}
-
-TEST(SurfaceWriter, OnePoseOfBothLegsGivesMirrorImages) {
-  Simulation simulation;
-  const Entity person = simulation.spawn_posed({.height_m = 1.7F, .mass_kg = 70}).value();
-  LegMuscles muscles;
-  muscles.method = Method::statics;
-  ASSERT_TRUE(simulation.add_leg_muscles(person, muscles));
-  Pose<float> pose = *simulation.get<Pose>(person);
-  for (const Side side : {Side::right, Side::left}) {  // feet up and forward, so that bellies are bent and drawn out
-    for (const Segment s : {Segment::foot_right, Segment::toes_right}) {
-      pose.position_m[index(on_side(s, side))] =
-          pose.position_m[index(on_side(s, side))] + Vec3<float>{0, 0.02F, 0.03F};
-      pose.rotation[index(on_side(s, side))] = {-0.17364818F, 0, 0, 0.98480775F};
-    }
-  }
-  ASSERT_EQ(simulation.set_pose(person, pose), Status::ok);
-  simulation.tick();
-  Shown shown{person, *simulation.human(person), {}, {}, {}};
-  for (const HumanMuscle& own : shown.human.muscles) shown.muscles.push_back({own.plan.muscle, own.entity});
-  shown.surfaces = bind_surfaces(shown.human.body, choice_of(muscles, false)).value();
-  shown.out.resize(shown.surfaces.vertices);
-  write(simulation, shown);
-  for (std::size_t i = 0; i < shown.surfaces.part.size(); i += 2) {
-    const SurfacePart &r = shown.surfaces.part[i], &l = shown.surfaces.part[i + 1];
-    ASSERT_EQ(r.vertices, l.vertices);
-    for (std::uint32_t v = 0; v < r.vertices; ++v) {
-      const Vertex &a = shown.out[r.first_vertex + v], &b = shown.out[l.first_vertex + v];
-      ASSERT_LT(length(to_double(mirrored(a.position)) - to_double(b.position)), 1e-6) << r.name;
-      ASSERT_LT(length(to_double(mirrored(a.normal)) - to_double(b.normal)), 1e-3) << r.name;
     }
   }
 }

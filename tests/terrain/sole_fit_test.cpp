@@ -1,6 +1,7 @@
 // Where feet come down beside edges.
 
 #include "systems/terrain/sole_fit.h"
+#include "tests/labels.h"
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
@@ -9,6 +10,8 @@
 #include <cmath>
 
 #include "tests/terrain/hike.h"
+
+MOBIL_TEST_LABELS("slow");
 
 namespace mobil {
 namespace {

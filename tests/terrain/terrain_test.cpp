@@ -16,8 +16,11 @@
 #include "systems/relevance/relevance.h"
 #include "systems/simulation.h"
 #include "tests/engine/counting_heap.h"
+#include "tests/labels.h"
 #include "tests/simulation/reseal.h"
 #include "tests/terrain/hike.h"
+
+MOBIL_TEST_LABELS("threads");
 
 namespace mobil {
 namespace {

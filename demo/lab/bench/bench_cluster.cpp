@@ -11,7 +11,7 @@
 #include <thread>
 #include <vector>
 
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/lab/bench/bench.h"
 #include "systems/cluster/cluster.h"
 #include "systems/cluster/local_transport.h"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/measure/measure.h"
 #include "engine/error.h"
 #include "engine/schedule.h"
@@ -18,7 +18,7 @@
 
 namespace mobil {
 
-/// The people of demo/crowd/crowd_people.h.
+/// The people of demo/scene/crowd_people.h.
 class BenchCrowd {
  public:
   static constexpr std::uint64_t seed = 1;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "assets/body/anthropometry.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/measure/measure.h"
 #include "engine/schedule.h"
 #include "systems/gait/gait.h"

@@ -39,7 +39,7 @@ class BenchScene {
   BenchScene(const BenchScene&) = delete;
   BenchScene& operator=(const BenchScene&) = delete;
 
-  /// Until there are so many, the people of demo/crowd/crowd_people.h, and until they walk steadily. Errors: what the
+  /// Until there are so many, the people of demo/scene/crowd_people.h, and until they walk steadily. Errors: what the
   /// simulation refuses.
   Result<void> grow_to(std::size_t humans);
   /// Everybody's muscles otherwise.

@@ -151,16 +151,6 @@ TEST(Paper, RefusalsSayWhatIsKnownAndLeaveNothing) {
                  folder.path);
 }
 
-TEST(Paper, HelpNamesEveryEntry) {
-  const TemporaryFolder folder;
-  const Ran ran = run_mobil("paper --help", folder.path);
-  EXPECT_EQ(ran.status, 0);
-  for (const char* name : {"figure14", "figure15", "figure16", "figure17", "weight", "step-length", "quadriceps",
-                           "stature", "anatomy", "--out", "Examples"}) {
-    EXPECT_NE(ran.out.find(name), std::string::npos) << name;
-  }
-}
-
 TEST(PaperTable, CellsStandUnderTheirHeadsAndTurnedTablesHoldTheSame) {
   const PaperTable table{
       "who", {{"a_mm", "first\nmm", 1}, {"b", "b", 2}}, {{"naïve", {1.25, 2}}, {"x\ny", {-30, NAN}}}};
@@ -175,27 +165,6 @@ TEST(PaperTable, CellsStandUnderTheirHeadsAndTurnedTablesHoldTheSame) {
             "first mm    1.2  -30.0\n"
             "b          2.00\n");
   EXPECT_EQ(table_csv(table), "who,a_mm,b\nnaïve,1.25,2\nx y,-30,\n");
-}
-
-TEST(PaperCycle, AMusclesCycleIsOneOfTheLine) {
-  CycleRequest request{{}, {}, LegMuscles{}, {0.0, 0.5}, {}};
-  const auto cycle = walk_cycle(request);
-  ASSERT_TRUE(cycle) << cycle.error().message;
-  EXPECT_EQ(cycle->shown.recording.frames.size(), 2U);
-  EXPECT_EQ(cycle->shown.mesh_edge.size(), 2U);
-  for (const MuscleCycle& muscle : cycle->muscles) {
-    for (std::size_t i = 0; i < cycle_points; ++i) {
-      // Driven by displacement, a belly is longer by what its line is.
-      EXPECT_NEAR(muscle.elongation_m[i], muscle.length_m[i] - muscle.rest_length_m, 2e-4);
-      EXPECT_NEAR(muscle.thickness_m[i] / muscle.rest_thickness_m, 1, 0.15);
-      // The pull has the sign of the elongation.
-      if (std::abs(muscle.elongation_m[i]) > 1e-3) {
-        EXPECT_GT(muscle.pull_n[i] * muscle.elongation_m[i], 0);
-      }
-    }
-    EXPECT_NEAR(muscle.length_m[0], muscle.length_m[cycle_points - 1], 1e-3);
-  }
-  EXPECT_EQ(&cycle->muscle(Muscle::quadriceps), &cycle->muscles[1]);
 }
 
 }  // namespace mobil::paper_test

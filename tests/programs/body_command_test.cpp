@@ -180,13 +180,4 @@ TEST(BodyCommand, WritesWhatItPrintsAndAPicture) {
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path / "one/two"), {}), 2);
 }
 
-TEST(BodyCommand, HelpTeachesTheOptions) {
-  const TemporaryFolder folder;
-  const Ran ran = run_mobil("body --help", folder.path);
-  EXPECT_EQ(ran.status, 0);
-  for (const char* word : {"--height", "--mass", "--biotype", "--constitution", "--json", "--out", "body.png"}) {
-    EXPECT_NE(ran.out.find(word), std::string::npos) << word;
-  }
-}
-
 }  // namespace mobil::body_command_test

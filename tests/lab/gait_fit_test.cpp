@@ -15,8 +15,6 @@
 namespace mobil::gait_fit_test {
 using namespace step_table;
 
-constexpr double gravity = gravity_m_s2;
-
 const GaitReference& reference() {
   static const GaitReference read = *read_gait_reference(std::nullopt);
   return read;
@@ -27,85 +25,6 @@ StepNode node(std::size_t s, std::size_t l) {
   StepNode made = step_node({&reference()}, s, l);
   made.shape = fitted(step_shapes[s][l]);
   return made;
-}
-
-StepCycle cycle_of(const StepNode& node) {
-  StepCycle cycle;
-  evaluate_step(node.task, node.shape, cycle);
-  return cycle;
-}
-
-double mean(const Samples& samples) {
-  return std::accumulate(samples.begin(), samples.end(), 0.0) / cycle_samples;
-}
-
-TEST(LeastSquaresFit, FindsTheBottomOfACurvedValley) {
-  std::array<double, 2> x = {-1.2, 1};  // Rosenbrock's
-  const std::array<double, 2> scale = {0.1, 1};
-  const double sum = least_squares(
-      [](std::span<const double> at, std::vector<double>& residual) {
-        residual = {10 * (at[1] - at[0] * at[0]), 1 - at[0]};
-      },
-      scale, {200, 0}, x);
-  EXPECT_LT(sum, 1e-12);
-  EXPECT_NEAR(x[0], 1, 1e-5);
-  EXPECT_NEAR(x[1], 1, 1e-5);
-}
-
-TEST(LeastSquaresFit, ReturnsTheSumThatItLeavesAndNeverMore) {
-  std::array<double, 1> x = {3};
-  const std::array<double, 1> scale = {1};
-  const auto residuals = [](std::span<const double> at, std::vector<double>& residual) {
-    residual = {std::atan(at[0]), 0.5};  // Newton's step overshoots from here
-  };
-  EXPECT_NEAR(least_squares(residuals, scale, {50, 0}, x), 0.25, 1e-9);
-}
-
-TEST(UpperBody, WeighsWhatLegsLeaveAndStandsOverTheHips) {
-  EXPECT_NEAR(upper_body.mass + 2 * (arm_body.upper + arm_body.lower), 1 - 2 * (0.1 + 0.0465 + 0.0145), 1e-9);
-  EXPECT_GT(upper_body.up, 0.15);
-  EXPECT_LT(std::abs(upper_body.forward), 0.005);
-  // turned as one piece about the hips it goes as far as it is high
-  EXPECT_NEAR(upper_body.by_chest + upper_body.by_pelvis, upper_body.up, 0.01);
-}
-
-/// What no force can change over a whole stride.
-TEST(StepModel, ForcesBearTheWeightAndNeitherSpeedUpNorTurn) {
-  for (std::size_t s = 0; s < speed_count; ++s) {
-    const StepNode n = node(s, usual);
-    const StepCycle c = cycle_of(n);
-    EXPECT_NEAR(mean(c.total_up), gravity, 1e-9);
-    EXPECT_NEAR(mean(c.total_forward), 0, 1e-9);
-    EXPECT_NEAR(2 * mean(c.up), 1, 1e-3);  // two feet
-    EXPECT_NEAR(mean(c.forward), 0, 1e-3);
-  }
-}
-
-/// The whole body's force is that of its centre of mass, arms and legs included.
-TEST(StepModel, TheGroundPushesTheCentreOfMass) {
-  for (std::size_t s = 0; s < speed_count; ++s) {
-    const StepNode n = node(s, usual);
-    const StepCycle c = cycle_of(n);
-    const double dt = 2 * n.task.step_length_m / n.task.speed_m_s / cycle_samples;
-    for (std::size_t i = 0; i < cycle_samples; ++i) {
-      const double before = c.centre_up[(i + cycle_samples - 1) % cycle_samples],
-                   after = c.centre_up[(i + 1) % cycle_samples];
-      EXPECT_NEAR(c.total_up[i], gravity + (after - 2 * c.centre_up[i] + before) / (dt * dt), 1e-6) << s << ' ' << i;
-    }
-  }
-}
-
-/// Both feet together press where the motion asks for it, at every instant.
-TEST(StepModel, FeetPressWhereTheMotionAsksForIt) {
-  const StepNode n = node(4, usual);
-  const StepCycle c = cycle_of(n);
-  for (std::size_t i = 0; i < cycle_samples; ++i) {
-    const std::size_t left = (i + cycle_samples / 2) % cycle_samples;
-    const double lead = i < cycle_samples / 2 ? -n.task.step_length_m : n.task.step_length_m;
-    const double of_left = c.pressure[left] + lead + c.lacking[i];
-    EXPECT_NEAR(c.share[i] * c.borne[i] + (1 - c.share[i]) * of_left, c.wanted_pressure[i], 1e-12) << i;
-    EXPECT_NEAR(c.share[i] + c.share[left], 1, 1e-12) << i;
-  }
 }
 
 TEST(StepLookup, GivesTheTableAtItsNodes) {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "components/footing.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/town/town_map.h"
 #include "demo/town/town_scene.h"
 #include "tests/program/program.h"

@@ -1,6 +1,6 @@
 // Histories of `mobil muscle` against CalculiX, an independent finite-element code (package calculix-ccx): same mesh,
 // mass matrix and step.
-#include "tests/fem/calculix.h"
+#include "tests/lab/calculix.h"
 
 #include <gtest/gtest.h>
 

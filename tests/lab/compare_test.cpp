@@ -65,15 +65,6 @@ RC_GTEST_PROP(Judge, AShiftedCurveIsInsideAsLongAsTheShiftIsWithinTheDeviation, 
   RC_ASSERT(std::abs(rms_distance(ours, measured.mean) - std::abs(shift)) < 1e-9);
 }
 
-RC_GTEST_PROP(Judge, TheShareInsideIsCountedPointByPoint, ()) {
-  const auto measured = with_sd(random_curve(), between(1, 10));
-  auto ours = measured.mean;
-  const auto out = *rc::gen::inRange<std::size_t>(0, 51);
-  for (std::size_t i = 0; i < out; ++i) ours[(7 * i) % 50] += 2 * measured.sd[0];
-  const CurvePair pair{&ours, &measured};
-  RC_ASSERT(std::abs(inside_bands({&pair, 1}) - (1 - static_cast<double>(out) / 50)) < 1e-12);
-}
-
 RC_GTEST_PROP(Judge, TwoSetsForgiveNoLessThanEachAloneAndNoMoreThanBoth, ()) {
   const auto first = with_sd(random_curve(), between(1, 15)), second = with_sd(random_curve(), between(1, 15));
   const auto ours = random_curve(), other = mapped(ours, 1, between(-10, 10));  // each in its own convention
@@ -108,31 +99,6 @@ RC_GTEST_PROP(Judge, APeakIsFoundBetweenTheSamples, ()) {
   RC_ASSERT(peak.interior);
   RC_ASSERT(std::abs(peak.percent - at) < 0.1);
   RC_ASSERT(std::abs(std::abs(peak.value) - height) < 0.002 * height);
-}
-
-RC_GTEST_PROP(Judge, APeakInTheNextCycleIsTheSamePeak, ()) {
-  const auto curve = random_curve();
-  const int from = *rc::gen::inRange(5, 60), to = from + *rc::gen::inRange(4, 30);
-  const Peak here = find_peak(curve, {"", true, from, to});
-  const Peak next = find_peak(curve, {"", true, from + 100, to + 100});
-  RC_ASSERT(std::abs(next.percent - here.percent - 100) < 1e-9);
-  RC_ASSERT(std::abs(timing_error(next.percent, here.percent)) < 1e-9);
-  RC_ASSERT(next.value == here.value);
-}
-
-TEST(Judge, ASlopeThatRunsOutOfTheWindowIsNoPeak) {
-  CycleCurve slope{};
-  for (std::size_t i = 0; i < cycle_points; ++i) slope[i] = static_cast<double>(i);
-  const Peak peak = find_peak(slope, {"", true, 20, 40});
-  EXPECT_FALSE(peak.interior);
-  EXPECT_EQ(peak.percent, 40);
-}
-
-RC_GTEST_PROP(Judge, TimingGoesTheShorterWayRound, ()) {
-  const double a = between(0, 100), b = between(0, 100);
-  const double error = timing_error(a, b);
-  RC_ASSERT(std::abs(error) <= 50);
-  RC_ASSERT(std::abs(std::remainder(b + error - a, 100)) < 1e-9);
 }
 
 RC_GTEST_PROP(Judge, BetweenTheReferencesNothingIsOff, ()) {
@@ -401,26 +367,6 @@ TEST(Reference, ASecondSetInTheSameFormatJoinsTheBands) {
   EXPECT_FALSE(both->sets[1].measured[compared_class::very_slow] || both->sets[1].measured[compared_class::very_fast]);
   EXPECT_NEAR(both->sets[1].curve[compared_class::fast][index(knee)].mean[20],
               first.sets[0].curve[compared_class::fast][index(knee)].mean[20], 1e-4);
-}
-
-RC_GTEST_PROP(Plot, TicksAreRoundAndWithinTheRange, ()) {
-  const double low = between(-1000, 1000), high = low + std::pow(10, between(-3, 4));
-  const auto ticks = plot_ticks(low, high, false);
-  RC_ASSERT(ticks.size() >= 2U && ticks.size() <= 11U);
-  const double spacing = ticks[1] - ticks[0], decade = std::pow(10, std::floor(std::log10(spacing * 1.0001)));
-  const double lead = std::round(spacing / decade), step = lead * decade;
-  RC_ASSERT(lead == 1 || lead == 2 || lead == 5);
-  RC_ASSERT(std::abs(spacing - step) < 1e-3 * step);
-  for (const double tick : ticks) {
-    RC_ASSERT(tick >= low - 1e-6 * step && tick <= high + 1e-6 * step);
-    RC_ASSERT(std::abs(std::remainder(tick, step)) < 1e-6 * step);
-  }
-}
-
-TEST(Plot, LogarithmicTicksArePowersOfTenOnAWideAxis) {
-  EXPECT_EQ(plot_ticks(0.5, 2e5, true), (std::vector<double>{1, 10, 100, 1000, 1e4, 1e5}));
-  EXPECT_EQ(plot_ticks(1, 20, true), (std::vector<double>{1, 2, 5, 10, 20}));
-  EXPECT_TRUE(plot_ticks(-1, 20, true).empty());
 }
 
 std::size_t count(const std::string& text, std::string_view what) {

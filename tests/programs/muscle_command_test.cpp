@@ -67,36 +67,6 @@ TEST(MuscleCommand, EveryRowIsTheStateAtItsTimeFromRestOn) {
   }
 }
 
-TEST(MuscleCommand, StaticRowsFollowTheLoadAtOnce) {
-  const TemporaryFolder folder;
-  const Csv csv = displacement(folder, "--load load.csv --method static --dt 50ms --seconds 0.2");
-  ASSERT_EQ(csv.rows.size(), 5U);
-  EXPECT_NEAR(csv.number(1, "u_x_m") / csv.number(0, "u_x_m"), 1.5, 1e-3);
-  EXPECT_NEAR(csv.number(1, "u_z_m") / csv.number(0, "u_z_m"), 1, 1e-3);
-  for (std::size_t r = 2; r < 5; ++r) EXPECT_NEAR(csv.number(r, "u_x_m"), 0, 1e-7);  // let go at 0.1 s
-}
-
-TEST(MuscleCommand, MethodsDrawTogetherAsTheirStepShrinksAndLumpedBeatsSlower) {
-  const TemporaryFolder folder;
-  const auto at = [&](const std::string& method, const char* dt) {
-    return displacement(folder, fmt::format("--load load.csv --seconds 0.3 --dt {} --method {}", dt, method));
-  };
-  const double coarse = distance(at("caa", "1.5ms"), at("icd", "1.5ms"));
-  const double fine = distance(at("caa", "0.3ms"), at("icd", "0.3ms"));
-  EXPECT_LT(fine, coarse / 5);  // slower than the square of five: jumps of the load excite every mode
-  EXPECT_LT(distance(at("caa --mass lumped", "0.3ms"), at("ecd", "0.3ms")), 2e-3);
-  EXPECT_GT(distance(at("ecd", "0.3ms"), at("icd", "0.3ms")), 1e-2);
-}
-
-TEST(MuscleCommand, GravityHangsTheBlockByItsWeight) {
-  const TemporaryFolder folder;
-  const Csv csv = displacement(folder,
-                               "--method static --seconds 0.1 --load load.csv --gravity 0,0,1 --poisson 0 "
-                               "--young 10000 --density 1000");
-  // a bar under its own weight: ρ·g·L²/(2E), L = 0.12 m; no load is left at the end
-  EXPECT_NEAR(csv.number(csv.rows.size() - 1, "u_z_m"), 1000 * 0.12 * 0.12 / (2 * 10000), 1e-7);
-}
-
 TEST(MuscleCommand, DefaultMassFollowsTheMethodAndTheSummarySaysSo) {
   const TemporaryFolder folder;
   const auto says = [&](const std::string& options, const std::string& part) {

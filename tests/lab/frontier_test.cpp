@@ -182,44 +182,6 @@ TEST(Frontier, PictureHasTheFrontierInOrderOfCost) {
   EXPECT_NE(svg(figure).find("81 nodes"), std::string::npos);
 }
 
-/// A walk that begins with 2 ms steps and samples every third tick sees what one with even steps sees.
-TEST(Frontier, DrivesAreLinearBetweenTicks) {
-  const auto drives = record_walks(std::vector{Muscle::hamstrings}, std::vector{frontier_walks()[0]}, 0.5);
-  ASSERT_TRUE(drives.has_value());
-  const FrontierDrive& drive = drives->front();
-  EXPECT_EQ(drive.end_m[0][0], 0);  // everything begins at rest
-  for (std::size_t t = drive.first; t < drive.ticks(); ++t) {
-    const double from_s = static_cast<double>(t) * frontier_tick_s;
-    const auto end = drive.end(from_s, from_s + 0.5 * frontier_tick_s);
-    const auto a = static_cast<double>(drive.end_m[t][3]), b = static_cast<double>(drive.end_m[t + 1][3]);
-    EXPECT_NEAR(static_cast<double>(end.from[3]), a, 1e-7);
-    EXPECT_NEAR(static_cast<double>(end.to[3]), 0.5 * (a + b), 1e-7);
-  }
-}
-
-TEST(Frontier, ControlPointsOfAFineMeshAreItsOwnNodes) {
-  const auto points = frontier_mesh(Muscle::quadriceps, frontier_points),
-             fine = frontier_mesh(Muscle::quadriceps, {4, 4, 16});
-  ASSERT_TRUE(points && fine);
-  const auto sampler = FrontierSampler::make(*fine, *points);
-  ASSERT_TRUE(sampler.has_value());
-  std::vector<Lanes<float>> place(3 * fine->node.size()), sampled(point_width);
-  for (std::size_t n = 0; n < fine->node.size(); ++n) {
-    for (std::size_t l = 0; l < lane_count; ++l) {
-      place[3 * n][l] = static_cast<float>(fine->node[n].x);
-      place[3 * n + 1][l] = static_cast<float>(fine->node[n].y);
-      place[3 * n + 2][l] = static_cast<float>(fine->node[n].z);
-    }
-  }
-  sampler->sample(place.data()->lane, 0xFFFF, sampled.data());
-  for (std::size_t n = 0; n < points->node.size(); ++n) {
-    EXPECT_NEAR(static_cast<double>(sampled[3 * n][7]), points->node[n].x, 1e-6);
-    EXPECT_NEAR(static_cast<double>(sampled[3 * n + 1][7]), points->node[n].y, 1e-6);
-    EXPECT_NEAR(static_cast<double>(sampled[3 * n + 2][7]), points->node[n].z, 1e-6);
-  }
-  EXPECT_FALSE(FrontierSampler::make(*frontier_mesh(Muscle::quadriceps, {3, 3, 12}), *points).has_value());
-}
-
 TEST(Frontier, BadUsageIsOneLineAndNothingIsWritten) {
   const TemporaryFolder folder;
   std::ofstream(folder.path / "taken") << "x";
@@ -231,16 +193,6 @@ TEST(Frontier, BadUsageIsOneLineAndNothingIsWritten) {
                   {"--lng", {"--lng", "did you mean --long?"}},
                   {"extra", {"'extra'"}}},
                  folder.path);
-}
-
-TEST(Frontier, HelpTeachesWhatItWrites) {
-  const TemporaryFolder folder;
-  const Ran ran = run_mobil("frontier --help", folder.path);
-  EXPECT_EQ(ran.status, 0);
-  for (const auto* piece : {"--short", "--long", "--out", "frontier.csv", "81 nodes", "uncertain", "Examples"}) {
-    EXPECT_NE(ran.out.find(piece), std::string::npos) << piece;
-  }
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path), {}), 0);
 }
 
 }  // namespace mobil::frontier_test

@@ -1,4 +1,4 @@
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 
 #include <algorithm>
 #include <cmath>

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "demo/bake/baked_file.h"
-#include "demo/crowd/crowd_people.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/crowd/crowd_run.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/crowd/heap_count.h"
@@ -31,18 +31,6 @@ Json report_of(const std::string& arguments) {
 
 // Nobody's muscles need more than their lines: no bases have to be made first.
 const std::string lines_alone = "--tolerance 100mm --near 0 ";
-
-TEST(CrowdCommand, HelpTellsEveryOptionAndExamples) {
-  const TemporaryFolder folder;
-  const Ran ran = run_mobil("crowd --help", folder.path);
-  EXPECT_EQ(ran.status, 0);
-  for (const char* option :
-       {"--humans",   "--seconds",        "--threads", "--tolerance", "--near",   "--budget",         "--effects",
-        "--churn",    "--burst",          "--seed",    "--capture",   "--frames", "--report",         "--raise",
-        "--all-seen", "--near-tolerance", "--alive",   "--in-view",   "--export", "--export-seconds", "Examples:"}) {
-    EXPECT_NE(ran.out.find(option), std::string::npos) << option;
-  }
-}
 
 TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
   const TemporaryFolder folder;
@@ -130,32 +118,6 @@ TEST(CrowdCommand, ReportHasEveryFigureAndTheyAgree) {
   }
 }
 
-TEST(CrowdCommand, MusclesFollowTheSeedAloneOnOneThreadAndOnTwo) {
-  // Within one program, so that bases are made once.
-  const TemporaryFolder folder;
-  CrowdRequest request;
-  request.humans = 24;
-  request.near = 6;
-  request.near_tolerance_m = 0.004;
-  request.tolerance_m = 0.008;
-  request.churn_per_s = 6;
-  std::vector<CrowdRun> runs;
-  for (const int threads : {1, 2}) {
-    request.threads = threads;
-    const auto scene = CrowdScene::make(request, {});
-    ASSERT_TRUE(scene) << scene.error().message;
-    const auto run = run_crowd(**scene, 120, true, {});
-    ASSERT_TRUE(run) << run.error().message;
-    runs.push_back(*run);
-    request.baked = folder.path / "mobil.baked";
-    ASSERT_TRUE(write_baked(request.baked, (*scene)->simulation().bake()));
-  }
-  EXPECT_EQ(runs[0].hashes.size(), 2U);
-  EXPECT_EQ(runs[0].hashes, runs[1].hashes);
-  EXPECT_EQ(runs[0].muscles_by_rung, runs[1].muscles_by_rung);
-  EXPECT_EQ(runs[0].muscles_by_rung[0], 0U);
-}
-
 TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
   const std::string asked = "--humans 20 --seconds 1 --effects none ";
   const Json first = report_of(asked + "--seed 1"), again = report_of(asked + "--seed 1"),
@@ -240,30 +202,6 @@ TEST(CrowdPeople, NumberAndSeedAloneMakeAPersonAndWhatTheyDo) {
     EXPECT_LE(std::max(std::abs(place.across), std::abs(place.along)), 0.5F);
   }
   EXPECT_GT(heights.size(), 990U);
-}
-
-TEST(CrowdPeople, ChangesComeAFewTimesAMinuteAndWhoStopsGoesOn) {
-  double seconds = 0;
-  std::size_t changes = 0, stops = 0;
-  for (std::uint64_t number = 0; number < 200; ++number) {
-    bool stopped = false;
-    for (std::uint32_t k = 0; k < 50; ++k) {
-      const CrowdChange change = crowd_change(1, number, k, stopped);
-      EXPECT_GE(change.after_s, 0);
-      EXPECT_LT(change.after_s, 2048.0F / 60);
-      if (stopped) {
-        EXPECT_GT(change.speed_m_s, 0);
-      }
-      stopped = change.speed_m_s == 0;
-      stops += stopped ? 1 : 0;
-      ++changes;
-      seconds += static_cast<double>(change.after_s);
-    }
-  }
-  EXPECT_GT(60 * static_cast<double>(changes) / seconds, 3);
-  EXPECT_LT(60 * static_cast<double>(changes) / seconds, 6);
-  EXPECT_GT(stops, changes / 20);
-  EXPECT_LT(stops, changes / 4);
 }
 
 }  // namespace mobil::crowd_command_test

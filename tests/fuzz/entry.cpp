@@ -1,0 +1,7 @@
+// What libFuzzer calls, for the target that tests/fuzz/targets.cmake names.
+#include FUZZ_HEADER
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
+  mobil::fuzz::FUZZ({bytes, count});
+  return 0;
+}

@@ -23,6 +23,8 @@ constexpr SubcommandRow rows[] = {
     {"frontier", lab, "What accuracy costs: every way to deform a muscle, error and time"},
     {"effects", lab, "What can be simulated, and what each effect costs here"},
     {"fit-gait", lab, "Fit the table of steps to measured walking, and write it as source"},
+    {"fit-accuracy", lab, "Measure the errors and costs by which methods are chosen, as source"},
+    {"fit-shapes", lab, "Solve the shapes of muscles at finite strain, as source"},
     {"completion", lab, "A script by which a shell completes what is typed"},
     {"man", lab, "Pages of the manual, for man to read"},
 };

@@ -31,6 +31,7 @@ Result<void> write_result(std::string_view option, const std::filesystem::path& 
 
 Subcommand walk_command();
 Subcommand crowd_command();
+Subcommand city_command();
 Subcommand town_command();
 Subcommand view_command();
 Subcommand bake_command();

@@ -9,6 +9,7 @@ constexpr std::string_view crowd = "mobil-crowd", lab = "mobil-lab";
 constexpr SubcommandRow rows[] = {
     {"walk", "mobil", "One person walks: motion.csv, muscles.csv, summary.json, walk.glb, pictures"},
     {"crowd", crowd, "A crowd walks, turns, comes and goes; what a tick of it takes"},
+    {"city", crowd, "A million people, most of whom sleep, under a camera that flies"},
     {"town", crowd, "People go about a small town with kerbs, stairs and a ramp, out of each other's way"},
     {"view", crowd, "A window: a person, a crowd, and sliders for all that can be asked"},
     {"bake", crowd, "Make what the muscles of usual bodies share, for programs to load in milliseconds"},

@@ -33,7 +33,7 @@ namespace mobil {
 namespace {
 
 constexpr Vec3<float> ivory{0.80F, 0.74F, 0.60F};  // linear, as writers have bones
-constexpr int ticks_per_frame = 2;  // 30 pictures a second
+constexpr int ticks_per_frame = 2;                 // 30 pictures a second
 
 using SteadyClock = std::chrono::steady_clock;
 double seconds_since(SteadyClock::time_point start) {

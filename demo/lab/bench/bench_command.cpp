@@ -175,7 +175,7 @@ Subcommand bench_command() {
       "times\n"
       "as many (200000 at most). Its names: crowd.N.us_per_human_tick, crowd.N.seen.us_per_human_tick,\n"
       "crowd.large_over_small, crowd.us_per_spawn, crowd.system.NAME.us_per_human_tick, crowd.threads2_speedup,\n"
-      "crowd.threads2.NAME.speedup.\n"
+      "crowd.threads2.NAME.speedup, crowd.100.METHOD.muscles_us_per_tick, crowd.100.METHOD.ratio_to_bullet.\n"
       "threads: the crowd by 1, 2, 4, … threads, and a model of more; its names: threads.unseen.N.speedup,\n"
       "threads.unseen.N.speedup_predicted, threads.unseen.N.fork_us, threads.unseen.serial_share, threads.compact.….\n"
       "cluster: messages between ranks, ticks with and without exchange, and a model of more ranks; --humans on each.\n"

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "assets/fem/muscle_template.h"
+#include "demo/lab/bench/bench_fem_lanes.h"
 #include "demo/lab/bench/bench_fem_rivals.h"
 #include "engine/jobs.h"
 
@@ -24,7 +25,7 @@ namespace {
 constexpr int fem_rounds = 5;
 
 struct Comparison {
-  Rounds shared, individual;
+  Rounds shared, individual, lanes;
   RivalRounds rivals;
 };
 
@@ -32,13 +33,20 @@ struct Comparison {
 Result<Comparison> compare(const BenchRun& run, const MuscleTemplate& muscle, bool with_rivals) {
   BenchBellies shared(muscle, Stiffness::shared, crowd_blocks);
   BenchBellies individual(muscle, Stiffness::individual, crowd_blocks);
+  BellyScale<Lanes<float>> scale{};
+  for (std::size_t l = 0; l < lane_count; ++l) scale.across[l] = 0.8F + 0.03F * static_cast<float>(l);
+  std::ranges::fill(scale.along.lane, 1.0F);
+  std::vector<OwnStiffness> own(4, OwnStiffness(muscle, scale));
   Comparison found;
   std::optional<double> bullet_dt_s;
   for (int round = 0; round < run.rounds(fem_rounds); ++round) {
     found.shared.add(measure(run.rounds(20), [&] { shared.tick(steps_a_tick, paper_tick_s); }));
     found.individual.add(measure(run.rounds(20), [&] { individual.tick(steps_a_tick, paper_tick_s); }));
+    found.lanes.add(measure(run.rounds(20), [&] {
+      for (OwnStiffness& block : own) step_own(block, steps_a_tick);
+    }));
     if (!with_rivals) continue;
-    if (auto done = found.rivals.add({"eigen"}, run.quick); !done) {
+    if (auto done = found.rivals.add({"eigen", "eigen_individual", "eigen_batched"}, run.quick); !done) {
       return tl::unexpected(done.error());
     }
     if (round > 0 && !bullet_dt_s) continue;  // it was not there
@@ -59,7 +67,8 @@ float far_face_after_check(const MuscleTemplate& muscle) {
 
 void add_rivals(BenchRun& run, const MuscleTemplate& muscle, const Comparison& found) {
   constexpr double steps = static_cast<double>(crowd_blocks * lane_count) * steps_a_tick;
-  const double shared_us = *found.shared.all().cpu_s / steps * 1e6;
+  const Measured shared = found.shared.all(), individual = found.individual.all();
+  const double shared_us = *shared.cpu_s / steps * 1e6, individual_us = *individual.cpu_s / steps * 1e6;
   const auto add = [&](const char* name, const char* figure, double ours_us, bool by_second) {
     const RivalTime* theirs = found.rivals.find(name);
     if (theirs == nullptr) return;
@@ -81,6 +90,8 @@ void add_rivals(BenchRun& run, const MuscleTemplate& muscle, const Comparison& f
         fmt::format("mobil_rivals {}: {}{}", name, theirs->check, theirs->holds ? "" : ", TOO FAR OFF"));
   };
   add("eigen", "fem.ecd81.ratio_to_eigen", shared_us, false);
+  add("eigen_batched", "fem.ecd81.ratio_to_eigen_batched", shared_us, false);
+  add("eigen_individual", "fem.ecd81.individual.ratio_to_eigen", individual_us, false);
   add("bullet", "fem.ecd81.ratio_to_bullet", shared_us, true);
   const float ours_m = far_face_after_check(muscle);
   const double theirs_m = found.rivals.find("eigen")->far_z_m;
@@ -206,12 +217,14 @@ Result<void> bench_fem(BenchRun& run) {
   }
   const auto found = compare(run, *muscle, with_rivals);
   if (!found) return tl::unexpected(found.error());
-  const Measured shared = found->shared.all(), individual = found->individual.all();
+  const Measured shared = found->shared.all(), individual = found->individual.all(), lanes = found->lanes.all();
   constexpr auto muscles = static_cast<double>(crowd_blocks * lane_count);
   add_step_time(run, "fem.ecd81.shared", shared, muscles, steps_a_tick, cells);
   add_step_time(run, "fem.ecd81.individual", individual, muscles, steps_a_tick, cells);
   add_figure(run, "fem.ecd81.individual_over_shared", individual.best_s / shared.best_s, "1",
              "everybody's own length and section against one stiffness for all");
+  add_step_time(run, "fem.ecd81.per_lane", lanes, 4 * lane_count, steps_a_tick, cells).bound +=
+      ", a stiffness of its own in every lane: measured, not used";
   if (with_rivals) add_rivals(run, *muscle, *found);
   if (auto done = bench_two_threads(run, *muscle); !done) return done;
   if (auto done = bench_fem_meshes(run); !done) return done;

@@ -80,6 +80,7 @@ TABLES = {
         ("its share of the core's multiply-adds", "fem.ecd81.shared.peak_fraction", PERCENT),
         ("the same, a stiffness for each", "fem.ecd81.individual.us_per_step", US),
         ("Eigen's sparse product needs", "fem.ecd81.ratio_to_eigen", TIMES),
+        ("Eigen's, of sixteen muscles at once", "fem.ecd81.ratio_to_eigen_batched", TIMES),
         ("Bullet's deformable body needs", "fem.ecd81.ratio_to_bullet", TIMES),
         ("12 vectors of a finer mesh, a tick", "reduced.us_per_tick", US),
         ("and their control points", "reduced.us_per_tick_with_control_points", US),

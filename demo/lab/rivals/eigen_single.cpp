@@ -93,4 +93,19 @@ Rival eigen(double limit_s) {
       block, [&](int) -> const auto& { return block.stiffness; }, [&](int) -> const auto& { return factors; });
 }
 
+Rival eigen_individual(double limit_s) {
+  std::vector<Block> blocks;
+  std::vector<Factors> factors;
+  for (int m = 0; m < muscles; ++m) {
+    const int row = m / 32;
+    const double across = m == 0 ? 1 : 0.8 + 0.5 * (m % 32) / 31, along = m == 0 ? 1 : 0.85 + 0.3 * row / 31;
+    blocks.push_back(make_block(across, along));
+    factors.emplace_back(blocks.back());
+  }
+  return measured(
+      "eigen_individual", limit_s,
+      blocks[0], [&](int m) -> const auto& { return blocks[static_cast<std::size_t>(m)].stiffness; },
+      [&](int m) -> const auto& { return factors[static_cast<std::size_t>(m)]; });
+}
+
 }  // namespace rivals

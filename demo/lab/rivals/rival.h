@@ -35,8 +35,17 @@ struct Rival {
 
 /// Sparse row-major stiffness in double precision, one muscle at a time; all share it.
 Rival eigen(double limit_s);
+/// The same with a stiffness of its own for every muscle: bodies of 0.8–1.3 times the width, 0.85–1.15 times the
+/// length.
+Rival eigen_individual(double limit_s);
+/// 32 muscles as the columns of a matrix in single precision, one shared stiffness.
+Rival eigen_batched(double limit_s);
 /// Bullet's deformable body (linear corotated tetrahedra, explicit) at `dt_s`, or at its largest stable step when 0.
 Rival bullet(double dt_s, double limit_s);
+
+/// The muscles of a crowd, eight a person and so many bodies in all, each pulled otherwise, at 60 ticks a second in the
+/// fewest equal steps that are stable. Times are one body's a tick, `dt_s` the tick.
+Rival bullet_crowd(int bodies, double limit_s);
 
 /// Whether Bullet was found when this program was built.
 bool has_bullet();

@@ -44,8 +44,8 @@ TEST(Outputs, AnInterruptedRunLeavesNothingAndChangesNothing) {
   for (const std::string signal : {"INT", "TERM", "HUP"}) {
     // One of them at every stage of a run; with MOBIL_LONG all.
     const bool all_stages = signal == "TERM" || std::getenv("MOBIL_LONG") != nullptr;
-    for (const std::string after_s : all_stages ? std::vector<std::string>{"0.03", "0.15", "0.4", "0.9", "1.6"}
-                                                : std::vector<std::string>{"0.4"}) {
+    for (const std::string& after_s :
+         all_stages ? std::vector<std::string>{"0.03", "0.15", "0.4", "0.9", "1.6"} : std::vector<std::string>{"0.4"}) {
       const std::string said = signal + " after " + after_s + " s";
       for (const std::string out : {"new", "old"}) {
         // Of --preserve-status: 128 and the signal.

@@ -77,8 +77,8 @@ const std::map<std::string, std::vector<std::string>> order = {
      {"people", "muscles", "relevance", "avoidance", "terrain", "surfaces", "snapshot", no_folder, "skin", "cluster",
       "c"}},
     {"demo",
-     {"examples",   "scene",          "program",    "measure",     "pictures",     "walk",        "body",
-      "anatomy",    "lab/rivals",     "lab/muscle", "lab/compare", "lab/gait_fit", "lab/paper",   "bake",
+     {"examples",   "scene",          "program",    "measure",     "pictures",     "walk",        "anatomy",
+      "lab/rivals", "lab/body",       "lab/muscle", "lab/compare", "lab/gait_fit", "lab/paper",   "bake",
       "crowd",      "town",           "view",       "schedule",    "lab/bench",    "lab/effects", "lab/frontier",
       "lab/stress", "lab/completion", "lab/man",    "lab"}},
 };

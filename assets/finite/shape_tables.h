@@ -7,7 +7,7 @@
 
 namespace mobil {
 
-/// The committed table: assets/finite/tables, which `mobil effects --shapes assets/finite/tables` writes.
+/// The committed table: assets/finite/tables, which `mobil fit-shapes --out assets/finite/tables` writes.
 ShapeTable shape_table(Muscle muscle);
 
 /// The muscle's mesh at the template's size, and what its shapes are solved on.

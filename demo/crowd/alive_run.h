@@ -1,5 +1,5 @@
 #pragma once
-// `mobil crowd --alive`: very many people, most of them asleep, measured and drawn.
+// `mobil city`: very many people, most of them asleep, measured and drawn.
 
 #include "demo/crowd/crowd_options.h"
 #include "engine/error.h"

@@ -9,15 +9,12 @@
 #include "demo/bake/baked_file.h"
 #include "systems/cluster/shard.h"
 #include "systems/cluster/shard_bytes.h"
-#include "systems/gait/asleep.h"
-#include "systems/gait/gait.h"
 
 namespace mobil {
 namespace {
 
 constexpr double ground_m2_each = 1;
 constexpr std::size_t come_together = 1024;
-constexpr std::uint32_t most_draws_alive = 20;
 constexpr std::uint64_t camera_stream = 0x50000, inward_stream = 0x40000;
 constexpr float eye_height_m = 5, flies_m_s = 8, turns_rad_s = 0.35F, half_angle_rad = std::numbers::pi_v<float> / 6;
 constexpr float pixel_rad = 2 * half_angle_rad / 1920;
@@ -109,15 +106,11 @@ Result<void> AliveScene::come(std::size_t first, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i) {
     Walker& walker = walkers_[first + i];
     SpawnRequest& request = requests_[i];
-    for (;; ++walker.draw) {
-      const CrowdPerson person = crowd_person(request_.seed, walker.number, walker.draw);
-      request.body = person.body;
-      request.gait = person.gait;
-      request.gait.style = snapped(person.gait.style);
-      const auto body = make_body(request.body);
-      if (body && resolve_gait(*body, request.gait)) break;
-      if (walker.draw == most_draws_alive) return fail("nobody can be drawn who walks");
-    }
+    const auto person = crowd_walker(request_.seed, walker.number, walker.draw);
+    if (!person) return tl::unexpected(person.error());
+    request.body = person->body;
+    request.gait = person->gait;
+    request.gait.style = snapped(person->gait.style);
     const CrowdPlace place = crowd_place(request_.seed, walker.number);
     request.x_m = place.across * static_cast<float>(side_m_);
     request.z_m = place.along * static_cast<float>(side_m_);

@@ -118,35 +118,35 @@ Result<void> check_places(const CrowdOptions& options) {
 }
 
 /// On each rank; what there is to be said is said by the first one.
-int run_ranks(const CrowdOptions& options) {
+int run_ranks(const std::string& command, const CrowdOptions& options) {
   std::unique_ptr<Transport> by_mpi;
   LocalRanks alone;
   if (started_as_rank()) {
     auto made = mpi_transport();
-    if (!made) return exit_status_of("crowd", tl::unexpected(made.error()));
+    if (!made) return exit_status_of(command, tl::unexpected(made.error()));
     by_mpi = std::move(*made);
   }
   Ranks ranks(by_mpi ? *by_mpi : alone[0], options.silence_s);
   try {
     const auto done = ranks.agree(ranks.first() ? check_places(options) : Result<void>());
     const auto ran = done ? run_city(options, ranks) : done;
-    return ranks.first() ? exit_status_of("crowd", ran) : ran ? 0 : 2;
+    return ranks.first() ? exit_status_of(command, ran) : ran ? 0 : 2;
   } catch (const RanksStopped& why) {  // in one process
-    return exit_status_of("crowd", fail(why.what()));
+    return exit_status_of(command, fail(why.what()));
   } catch (const std::exception& why) {
     if (!by_mpi) throw;
-    ranks.stop(fmt::format("mobil crowd: rank {}: {}", ranks.rank(), why.what()));
+    ranks.stop(fmt::format("mobil {}: rank {}: {}", command, ranks.rank(), why.what()));
   }
 }
 
 int run_command(const CrowdText& text) {
   const auto options = read_crowd_options(text);
-  if (!options) return first_by_environment() ? exit_status_of("crowd", tl::unexpected(options.error())) : 2;
-  if (options->city) return run_ranks(*options);
-  if (auto done = check_places(*options); !done) return exit_status_of("crowd", done);
+  if (!options) return first_by_environment() ? exit_status_of(text.command, tl::unexpected(options.error())) : 2;
+  if (options->city) return run_ranks(text.command, *options);
+  if (auto done = check_places(*options); !done) return exit_status_of(text.command, done);
   const auto done = run(*options);
   if (!done) show("");
-  return exit_status_of("crowd", done);
+  return exit_status_of(text.command, done);
 }
 
 }  // namespace
@@ -170,11 +170,6 @@ Subcommand crowd_command() {
       "those\n"
       "of malloc and its kin on all threads. Of a picture's people those near the camera show their legs' bones and\n"
       "muscles; an exported scene's are all dressed, each with a skeleton and skin of their own.\n"
-      "With --alive most people sleep and take a hundred bytes each. Before the camera sees them they wake, exactly "
-      "where\n"
-      "they would be. They turn, stop and go on asleep as awake. The camera flies at 8 m/s, turns at 20 degrees/s, and "
-      "cuts to\n"
-      "another place every 10 s; --capture then takes three pictures, of three places.\n"
       "Under mpirun the crowd is spread over ranks, one thread each, in --shards that are simulated by themselves. "
       "The\n"
       "state_hash then depends on how many shards there are, and not on ranks, threads or machines; so it does after\n"
@@ -184,10 +179,27 @@ Subcommand crowd_command() {
       "          mobil crowd --humans 10000 --seconds 5 --raise\n"
       "          mobil crowd --humans 2000 --seconds 1 --capture crowd.png\n"
       "          mobil crowd --humans 200 --seconds 0.1 --export crowd.glb --export-seconds 5\n"
-      "          mobil crowd --alive 1000000 --in-view 10000 --seconds 60\n"
       "          mpirun -n 4 mobil crowd --humans 40000 --save run\n"
       "          mpirun -n 2 mobil crowd --humans 40000 --resume run";
   command.options = crowd_options(*text);
+  command.empty_refused = true;
+  command.run = [text] { return run_command(*text); };
+  return command;
+}
+
+Subcommand city_command() {
+  auto text = std::make_shared<CrowdText>();
+  text->command = "city";
+  text->alive = "1000000";
+  Subcommand command{.name = "city"};
+  command.footer =
+      "Most people sleep and take a hundred bytes each. Before the camera sees them they wake, exactly where they "
+      "would\n"
+      "be. They turn, stop and go on asleep as awake. The camera flies at 8 m/s, turns at 20 degrees/s, and cuts to\n"
+      "another place every 10 s. Seeds, state_hash and ranks are as of mobil crowd.\n"
+      "\nExamples: mobil city --people 1000000 --in-view 10000 --seconds 60\n"
+      "          mpirun -n 4 mobil city --people 10000000 --save run";
+  command.options = city_options(*text);
   command.empty_refused = true;
   command.run = [text] { return run_command(*text); };
   return command;

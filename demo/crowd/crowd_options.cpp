@@ -75,32 +75,12 @@ Result<void> read_crowd_exports(const CrowdText& text, CrowdOptions& options) {
   return check_crowd_exports(options.exports);
 }
 
-/// Those who are alive, most of them asleep, have options of their own.
+/// Those of whom most sleep.
 Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
+  if (text.alive.empty()) return {};
   const CrowdText usual;
-  if (text.alive.empty()) {
-    if (text.in_view != usual.in_view) return fail("--in-view: is of those who are alive; give --alive too");
-    return {};
-  }
-  const struct {
-    const char* name;
-    bool given;
-  } others[] = {{"--humans", text.humans != usual.humans},
-                {"--churn", text.churn != usual.churn},
-                {"--burst", text.burst != usual.burst},
-                {"--effects", text.effects != usual.effects && text.effects != "none"},
-                {"--tolerance", text.tolerance != usual.tolerance},
-                {"--near", text.near != usual.near},
-                {"--near-tolerance", text.near_tolerance != usual.near_tolerance},
-                {"--budget", text.budget != usual.budget},
-                {"--frames", text.frames != usual.frames},
-                {"--export", !text.exports.empty()},
-                {"--all-seen", text.all_seen},
-                {"--raise", text.raise}};
-  for (const auto& [name, given] : others)
-    if (given) return fail(fmt::format("{}: is of a crowd that is all awake; leave it out with --alive", name));
   AliveRequest alive;
-  const auto count = read_count("--alive", text.alive, 100, most_alive);
+  const auto count = read_count("--people", text.alive, 100, most_alive);
   if (!count) return tl::unexpected(count.error());
   const auto seen = read_count("--in-view", text.in_view, 1, most_crowd);
   if (!seen) return tl::unexpected(seen.error());
@@ -120,7 +100,7 @@ Result<void> read_alive(const CrowdText& text, CrowdOptions& options) {
 std::string about_run(const CrowdOptions& options) {
   if (options.alive) {
     const AliveRequest& alive = *options.alive;
-    return fmt::format("--alive {} --in-view {} --seed {}{}", alive.alive, alive.in_view, alive.seed,
+    return fmt::format("--people {} --in-view {} --seed {}{}", alive.alive, alive.in_view, alive.seed,
                        alive.muscles ? "" : " --effects none");
   }
   const CrowdRequest& crowd = options.crowd;
@@ -185,51 +165,77 @@ Result<void> read_city(const CrowdText& text, CrowdOptions& options) {
   return {};
 }
 
-}  // namespace
+constexpr const char *of_people = "People", *of_muscles = "Muscles", *of_results = "Results",
+                     *of_ranks = "Several ranks";
 
-std::vector<Option> crowd_options(CrowdText& text) {
-  const char *crowd = "Crowd", *muscles = "Muscles", *results = "Results", *ranks = "Several ranks";
+/// What a crowd and a city have both.
+std::vector<Option> common_options(CrowdText& text) {
   return {
-      {"--humans", &text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), crowd},
-      {"--seconds", &text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", crowd},
-      {"--threads", &text.threads, "Threads that work, 1 to 256; 0: as many as the machine has", crowd},
-      {"--seed", &text.seed, "Who they are and what they do", crowd},
-      {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", crowd},
-      {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", crowd},
-      {"--effects", &text.effects,
-       "LIST of muscles, forces, inertia, line-motion, activation, avoidance; or none: they only walk", muscles},
-      {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", muscles},
-      {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", muscles},
-      {"--near-tolerance", &text.near_tolerance, "The same of those", muscles},
-      {"--alive", &text.alive,
-       fmt::format("Instead: so many live on 1 m2 each, up to {}; who is far from being seen sleeps", most_alive),
-       crowd},
-      {"--in-view", &text.in_view, "How many of those the flying camera sees", crowd},
-      {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", muscles},
-      {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s", muscles},
+      {"--seconds", &text.seconds, "How long is measured, 0.1s to 3600s of the crowd's time", of_people},
+      {"--threads", &text.threads, "Threads that work, 1 to 256; 0: as many as the machine has", of_people},
+      {"--seed", &text.seed, "Who they are and what they do", of_people},
       {"--baked", &text.baked,
        "What `mobil bake` wrote, FILE, instead of making it (a mobil.baked beside the program, or what an earlier run "
        "has kept in ~/.cache/mobil, is taken unasked)",
-       muscles},
+       of_muscles},
       {"--shards", &text.shards,
        fmt::format("Parts of the crowd that are simulated by themselves, 1 to {}; under mpirun {}", most_shards,
                    usual_shards),
-       ranks},
-      {"--save", &text.save, "Snapshots and commands go into this FOLDER, which all ranks must see", ranks},
-      {"--save-every", &text.save_every, "Time between snapshots, 0.1s to 3600s of the crowd's time", ranks},
+       of_ranks},
+      {"--save", &text.save, "Snapshots and commands go into this FOLDER, which all ranks must see", of_ranks},
+      {"--save-every", &text.save_every, "Time between snapshots, 0.1s to 3600s of the crowd's time", of_ranks},
       {"--resume", &text.resume, "Go on from the last snapshot in the FOLDER of a run with --save, and save there",
-       ranks},
+       of_ranks},
       {"--balance-every", &text.balance_every,
-       "Time after which shards may move to ranks with less to do, up to 3600s; 0: they stay", ranks},
-      {"--silence", &text.silence, "A rank that says nothing for so long ends the run of all, 1s to 3600s", ranks},
-      {"--raise", &text.raise,
-       "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", results},
-      {"--report", &text.report, "JSON FILE for all figures", results},
-      {"--capture", &text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", results},
-      {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", results},
-      {"--export", &text.exports,
-       "FILE.glb or .usda: everybody walking, as a scene for other programs, from the end on; again for both", results},
-      {"--export-seconds", &text.export_seconds, "How long that is, 0.1s to 60s, 30 poses a second", results}};
+       "Time after which shards may move to ranks with less to do, up to 3600s; 0: they stay", of_ranks},
+      {"--silence", &text.silence, "A rank that says nothing for so long ends the run of all, 1s to 3600s", of_ranks},
+      {"--report", &text.report, "JSON FILE for all figures", of_results}};
+}
+
+std::vector<Option> with_common(std::vector<Option> own, CrowdText& text) {
+  const auto common = common_options(text);
+  own.insert(own.end(), common.begin(), common.end());
+  return own;
+}
+
+}  // namespace
+
+std::vector<Option> crowd_options(CrowdText& text) {
+  return with_common(
+      {{"--humans", &text.humans, fmt::format("How many walk, 1 to {}, all different", most_crowd), of_people},
+       {"--churn", &text.churn, "How many leave and as many come each second, spread over its ticks", of_people},
+       {"--burst", &text.burst, "How many leave and as many come in a single tick of each second", of_people},
+       {"--effects", &text.effects,
+        "LIST of muscles, forces, inertia, line-motion, activation, avoidance; or none: they only walk", of_muscles},
+       {"--tolerance", &text.tolerance, "How far off, in mm, control points may be: 0.01mm to 1m", of_muscles},
+       {"--near", &text.near, "How many of the nearest are looked at (half of them in small crowds)", of_muscles},
+       {"--near-tolerance", &text.near_tolerance, "The same of those", of_muscles},
+       {"--all-seen", &text.all_seen, "Place everybody's control points, not only of those near", of_muscles},
+       {"--budget", &text.budget, "Processor time, in ms a tick, that all muscles may take: 0.001ms to 10s",
+        of_muscles},
+       {"--raise", &text.raise,
+        "Raise the number of people from --humans until ticks are missed, in runs of --seconds each", of_results},
+       {"--capture", &text.capture, "Picture of the crowd at the end, FILE.png; with --frames a folder", of_results},
+       {"--frames", &text.frames, "So many pictures, 30 a second from the end on, into the folder", of_results},
+       {"--export", &text.exports,
+        "FILE.glb or .usda: everybody walking, as a scene for other programs, from the end on; again for both",
+        of_results},
+       {"--export-seconds", &text.export_seconds, "How long that is, 0.1s to 60s, 30 poses a second", of_results}},
+      text);
+}
+
+std::vector<Option> city_options(CrowdText& text) {
+  return with_common(
+      {{"--people", &text.alive,
+        fmt::format("How many live on 1 m2 each, 100 to {}; who is far from being seen sleeps", most_alive), of_people},
+       {"--in-view", &text.in_view, "How many of those the flying camera sees", of_people},
+       {.name = "--effects",
+        .target = &text.effects,
+        .help = "Those in view have muscles, or only walk",
+        .group = of_muscles,
+        .choices = {"muscles", "none"}},
+       {"--capture", &text.capture, "Three pictures, FILE_1.png and so on, spread over the time", of_results}},
+      text);
 }
 
 Result<CrowdOptions> read_crowd_options(const CrowdText& text) {

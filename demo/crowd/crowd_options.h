@@ -1,5 +1,5 @@
 #pragma once
-// What `mobil crowd` was asked for, checked.
+// What `mobil crowd` or `mobil city` was asked for, checked.
 
 #include <cstddef>
 #include <filesystem>
@@ -23,7 +23,7 @@ struct CrowdOptions {
   std::vector<std::filesystem::path> exports;
   double export_s = 2;
   bool raise = false;
-  std::optional<AliveRequest> alive{};  // instead of the crowd
+  std::optional<AliveRequest> alive{};  // of `mobil city`, instead of the crowd
   /// Several shards, several ranks, or a run that is saved: `run_city` instead of one scene.
   bool city = false;
   ClusterOptions cluster{};
@@ -32,6 +32,7 @@ struct CrowdOptions {
 
 /// The options as text, as the command line hands them over; bound by `crowd_options`.
 struct CrowdText {
+  std::string command = "crowd";
   std::string humans = "1000", seconds = "10", threads = "0", tolerance = "5mm", near = "500", near_tolerance = "1mm";
   std::string budget, effects = "muscles", churn = "0", burst = "0", seed = "1", report, capture, frames = "0", baked;
   std::string alive, in_view = "10000", export_seconds = "2";
@@ -42,7 +43,9 @@ struct CrowdText {
 
 inline constexpr std::size_t most_crowd = 200'000, most_alive = 20'000'000;
 
+/// Of `mobil crowd`, and of `mobil city`, which wants `alive` to be set.
 std::vector<Option> crowd_options(CrowdText& text);
+std::vector<Option> city_options(CrowdText& text);
 
 /// Shards of a crowd on several ranks where nobody says how many.
 inline constexpr std::uint32_t usual_shards = 16, most_shards = 4096;

@@ -7,17 +7,14 @@
 #include <numeric>
 #include <utility>
 
-#include "assets/body/anthropometry.h"
 #include "demo/bake/baked_file.h"
 #include "systems/cluster/shard.h"
 #include "systems/cluster/shard_bytes.h"
-#include "systems/gait/gait.h"
 
 namespace mobil {
 namespace {
 
 constexpr double square_metres_each = 2.5;
-constexpr std::uint32_t most_draws = 20;
 constexpr std::size_t batch = 1000;  // people who are spawned between two looks at the bar
 constexpr double settling_s = 2;     // what the taking up of a muscle excites falls by e⁻⁴ a second
 constexpr std::uint64_t exchange_stream = 0x30000;
@@ -164,18 +161,6 @@ Result<void> CrowdScene::settle(const Progress& progress, bool exchanges) {
 Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
   requests_.assign(slots.size(), {});
   entities_.resize(slots.size());
-  const auto draw = [&](std::size_t i) {
-    CrowdWalker& walker = walkers_[slots[i]];
-    CrowdPerson person = crowd_person(request_.seed, walker.number, walker.draw);
-    SpawnRequest& request = requests_[i];
-    request.body = person.body;
-    request.gait = person.gait;
-    request.x_m = walker.x_m;
-    request.z_m = walker.z_m;
-    request.heading_rad = walker.heading_rad;
-    if (request_.effects.muscles) request.muscles = muscles_;
-    if (relevance_ != nullptr) request.parts = relevance_parts();
-  };
   for (std::size_t i = 0; i < slots.size(); ++i) {
     CrowdWalker& walker = walkers_[slots[i]];
     walker = {.number = walker.number, .place = walker.place};
@@ -183,20 +168,17 @@ Result<void> CrowdScene::come(std::span<const std::uint32_t> slots) {
     walker.x_m = place.across * static_cast<float>(side_m_);
     walker.z_m = place.along * static_cast<float>(side_m_);
     walker.heading_rad = place.heading_rad;
-    draw(i);
+    const auto person = crowd_walker(request_.seed, walker.number, walker.draw);
+    if (!person) return tl::unexpected(person.error());
+    SpawnRequest& request = requests_[i];
+    request = {.body = person->body, .gait = person->gait};
+    request.x_m = walker.x_m;
+    request.z_m = walker.z_m;
+    request.heading_rad = walker.heading_rad;
+    if (request_.effects.muscles) request.muscles = muscles_;
+    if (relevance_ != nullptr) request.parts = relevance_parts();
   }
-  for (auto done = simulation_->spawn(requests_, entities_); !done; done = simulation_->spawn(requests_, entities_)) {
-    std::size_t again = 0;
-    for (std::size_t i = 0; i < slots.size(); ++i) {
-      const auto body = make_body(requests_[i].body);
-      if (body && resolve_gait(*body, requests_[i].gait)) continue;
-      if (++walkers_[slots[i]].draw == most_draws) return done;
-      ++again;
-      draw(i);
-    }
-    if (again == 0) return done;
-    drawn_again_ += again;
-  }
+  if (auto done = simulation_->spawn(requests_, entities_); !done) return done;
   if (relevance_) {
     if (auto done = relevance_->manage(entities_); !done) return done;
   }
@@ -296,7 +278,6 @@ Result<std::vector<std::byte>> CrowdScene::save() const {
   host.put_all(std::span<const CrowdWalker>(walkers_));
   host.put(due_);
   host.put(std::uint64_t{request_.humans});
-  host.put(std::uint64_t{drawn_again_});
   return pack_shard(*simulation_, relevance_.get(), host.bytes());
 }
 
@@ -304,15 +285,13 @@ Result<void> CrowdScene::restore(std::span<const std::byte> saved) {
   const auto host = unpack_shard(saved, *simulation_, relevance_.get());
   if (!host) return tl::unexpected(host.error());
   PlainReader reader(*host);
-  std::uint64_t count = 0, humans = 0, drawn_again = 0;
+  std::uint64_t count = 0, humans = 0;
   reader.take(count);
   walkers_ = reader.take_many<CrowdWalker>(static_cast<std::size_t>(count));
   reader.take(due_);
   reader.take(humans);
-  reader.take(drawn_again);
   if (!reader.whole()) return fail("a crowd's bytes do not agree with themselves");
   request_.humans = static_cast<std::size_t>(humans);
-  drawn_again_ = static_cast<std::size_t>(drawn_again);
   side_m_ = crowd_side_m(request_.humans);
   for (std::size_t slot = 0; slot < walkers_.size(); ++slot) keep_slot(slot);
   distance_.reserve(walkers_.size());

@@ -138,7 +138,6 @@ class CrowdScene {
   std::array<std::size_t, rung_count + 1> muscles_by_rung() const;
   /// What the simulation holds in memory of its people: tables, registers, records.
   std::size_t bytes_of_people() const;
-  std::size_t drawn_again() const { return drawn_again_; }
 
   /// All of it as bytes, and an empty one made of them (systems/cluster/shard.h).
   Result<std::vector<std::byte>> save() const;
@@ -179,7 +178,6 @@ class CrowdScene {
   std::array<std::int32_t, ring> due_{};        // first walker whose change comes in that tick
   std::vector<std::pair<float, std::uint32_t>> distance_;
   CrowdDirector director_;
-  std::size_t drawn_again_ = 0;
 };
 
 }  // namespace mobil

@@ -6,8 +6,9 @@
 namespace mobil {
 
 std::vector<Subcommand> lab_commands() {
-  return {muscle_command(),   bench_command(),   compare_command(),  robustness_command(), paper_command(),
-          frontier_command(), effects_command(), gait_fit_command(), completion_command(), man_command()};
+  return {body_command(),       muscle_command(),     bench_command(),   compare_command(),  robustness_command(),
+          paper_command(),      frontier_command(),   effects_command(), gait_fit_command(), fit_accuracy_command(),
+          fit_shapes_command(), completion_command(), man_command()};
 }
 
 Program mobil_program() {

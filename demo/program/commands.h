@@ -31,13 +31,14 @@ Result<void> write_result(std::string_view option, const std::filesystem::path& 
 
 Subcommand walk_command();
 Subcommand crowd_command();
+Subcommand city_command();
 Subcommand town_command();
 Subcommand view_command();
 Subcommand bake_command();
-Subcommand body_command();
-Subcommand muscle_command();
 Subcommand schedule_command();
 Subcommand anatomy_command();
+Subcommand body_command();
+Subcommand muscle_command();
 Subcommand bench_command();
 Subcommand compare_command();
 Subcommand robustness_command();
@@ -45,6 +46,8 @@ Subcommand paper_command();
 Subcommand frontier_command();
 Subcommand effects_command();
 Subcommand gait_fit_command();
+Subcommand fit_accuracy_command();
+Subcommand fit_shapes_command();
 Subcommand completion_command();
 Subcommand man_command();
 

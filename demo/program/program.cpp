@@ -28,6 +28,16 @@ int run_beside(const SubcommandRow& row, char** argv) {
   return 2;
 }
 
+/// `crowd --alive N` was what `city --people N` is.
+void take_former_words(std::vector<std::string>& arguments) {
+  if (arguments.size() < 2 || arguments[1] != "crowd") return;
+  const auto alive =
+      std::ranges::find_if(arguments, [](const std::string& a) { return a == "--alive" || a.starts_with("--alive="); });
+  if (alive == arguments.end()) return;
+  arguments[1] = "city";
+  alive->replace(0, std::string_view("--alive").size(), "--people");
+}
+
 }  // namespace
 
 Result<Program> make_program(std::string_view name, std::vector<Subcommand> commands) {
@@ -63,6 +73,7 @@ int run_own(std::string_view name, std::vector<Subcommand> commands, int argc, c
     if (row->program != name) return run_beside(*row, argv);
     arguments[1] = row->name;
   }
+  take_former_words(arguments);
   handle_interruption();  // not before another program takes over, which would inherit blocked signals
   const auto program = make_program(name, std::move(commands));
   if (!program) {

@@ -1,10 +1,14 @@
 #include "demo/scene/crowd_people.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "engine/row_hash.h"
+#include "assets/body/anthropometry.h"
+#include "demo/scene/scatter.h"
+#include "systems/gait/gait.h"
 
 namespace mobil {
 namespace {
@@ -16,12 +20,12 @@ constexpr float turning_deg = 50, turn_part = 0.5F, stop_part = 0.125F;
 }  // namespace
 
 CrowdRandom::CrowdRandom(std::uint64_t seed, std::uint64_t person, std::uint64_t stream)
-    : state_(mix64(mix64(mix64(seed) ^ person) ^ stream)) {
+    : state_(scatter(scatter(scatter(seed) ^ person) ^ stream)) {
   next();
 }
 
 std::uint64_t CrowdRandom::next() {
-  return mix64(state_ += 0x9e3779b97f4a7c15);
+  return scatter(state_ += 0x9e3779b97f4a7c15);
 }
 
 float CrowdRandom::unit() {
@@ -67,6 +71,18 @@ CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t
   float& height = person.gait.style.mid_stance_height;
   height = std::lerp(GaitStyle{}.mid_stance_height, height, part_of_it);
   return person;
+}
+
+Result<CrowdPerson> crowd_walker(std::uint64_t seed, std::uint64_t number, std::uint8_t& draw) {
+  constexpr std::uint8_t most_draws = 20;
+  for (;; ++draw) {
+    const CrowdPerson person = crowd_person(seed, number, draw);
+    const auto body = make_body(person.body);
+    const auto gait = body ? resolve_gait(*body, person.gait) : tl::unexpected(body.error());
+    if (gait) return person;
+    if (draw == most_draws)
+      return fail(fmt::format("person {} cannot walk as drawn: {}", number, gait.error().message));
+  }
 }
 
 CrowdPlace crowd_place(std::uint64_t seed, std::uint64_t number) {

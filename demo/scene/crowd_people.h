@@ -7,6 +7,7 @@
 
 #include "components/body.h"
 #include "components/gait.h"
+#include "engine/error.h"
 
 namespace mobil {
 
@@ -39,6 +40,9 @@ struct CrowdPerson {
 /// within a tenth of its default (even), hips in mid-stance within a two-hundredth, asymmetries none. `draw`: another
 /// person for the same number.
 CrowdPerson crowd_person(std::uint64_t seed, std::uint64_t number, std::uint32_t draw);
+
+/// The first such person from that draw on who can walk so. Errors: none in twenty draws.
+Result<CrowdPerson> crowd_walker(std::uint64_t seed, std::uint64_t number, std::uint8_t& draw);
 
 /// m/s, from the crowd's distribution.
 float crowd_speed(CrowdRandom& random);

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "components/avoidance.h"
-#include "demo/scene/crowd_people.h"
 #include "demo/measure/measure.h"
+#include "demo/scene/crowd_people.h"
 #include "demo/town/town_map.h"
 
 namespace mobil {

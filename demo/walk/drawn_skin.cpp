@@ -4,7 +4,7 @@
 #include <span>
 #include <utility>
 
-#include "engine/row_hash.h"
+#include "demo/scene/scatter.h"
 #include "systems/skinning/follow_skin.h"
 #include "systems/skinning/place_skin.h"
 
@@ -25,10 +25,10 @@ constexpr std::array shoes = {Colour{0.16F, 0.15F, 0.15F}, Colour{0.34F, 0.25F, 
 }  // namespace
 
 SkinColours skin_colours(std::uint64_t number) {
-  std::uint64_t draw = mix64(number + 1);
+  std::uint64_t draw = scatter(number + 1);
   const auto choose = [&](const auto& from) {
     const Colour chosen = from[draw % from.size()];
-    draw = mix64(draw);
+    draw = scatter(draw);
     return chosen;
   };
   const Colour skin = choose(skins);

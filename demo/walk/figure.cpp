@@ -4,7 +4,6 @@
 
 #include "assets/fem/muscle_template.h"
 #include "assets/import/fit_anatomy.h"
-#include "assets/surfaces/bone_surfaces.h"
 #include "assets/surfaces/muscle_surfaces.h"
 #include "assets/surfaces/surface_binding.h"
 #include "systems/skin/rest_surfaces.h"
@@ -98,7 +97,9 @@ Result<Figure> real_figure(const Human& human, const SurfaceChoice& choice, cons
   std::array<bool, segment_count> real{};
   for (const auto& bone : fitted->bones) real[index(bone.segment)] = true;
   drawn.bones = std::move(fitted->bones);
-  for (auto& bone : make_bone_surfaces(human.body)) {
+  auto generated = draw_surfaces(human.body, {.bones = true, .simulated = {}, .cells = choice.cells});
+  if (!generated) return tl::unexpected(generated.error());
+  for (auto& bone : generated->bones) {
     if (!real[index(bone.segment)]) drawn.bones.push_back(std::move(bone));
   }
   for (auto& muscle : fitted->muscles) {

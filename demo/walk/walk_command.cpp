@@ -12,7 +12,6 @@
 #include <vector>
 
 #include "assets/body/body_composition.h"
-#include "assets/export/recorded_people.h"
 #include "assets/export/recorded_skin.h"
 #include "assets/files/output_file.h"
 #include "components/fat.h"
@@ -33,7 +32,8 @@
 namespace mobil {
 namespace {
 
-constexpr int ticks_per_frame = 2;  // 30 pictures a second
+constexpr Vec3<float> ivory{0.80F, 0.74F, 0.60F};  // linear, as writers have bones
+constexpr int ticks_per_frame = 2;                 // 30 pictures a second
 
 using SteadyClock = std::chrono::steady_clock;
 double seconds_since(SteadyClock::time_point start) {
@@ -183,7 +183,7 @@ Result<Walked> walk(Simulation& simulation, const Human& human, const Figure& fi
       walked.recording.skin.push_back(
           recorded_own_skin(*own->bare, *own->own, own->own_position, own->own_normal, 1 + skin_parts));
     walked.recording.standing_m = standing_of(*skin);
-    walked.recording.colours = {ivory_colour};
+    walked.recording.colours = {ivory};
     for (const Colour& colour : skin_colours(0)) walked.recording.colours.push_back(linear_colour(colour));
     walked.recording.colours.push_back(walked.recording.colours[1]);  // of a skin of one's own
   }

@@ -7,7 +7,7 @@
 namespace mobil {
 namespace {
 
-// Written by: mobil effects --measure
+// Written by: mobil fit-accuracy
 constexpr AccuracyRow measured_rows[] = {
     // clang-format off
     {Muscle{0}, SpeedClass::slow, false, {0.0286F, 0.00513F, 0.000527F, 0.00025F, 0.000249F, 0.00022F, 0.00021F, 0.000209F, 0.000222F, 0.00018F, 0.00127F}},

@@ -1,6 +1,6 @@
 #pragma once
 // How far off each way to deform a muscle is, and what it costs: measured from walks of the library's own
-// (`mobil effects --measure`), so that a scene can choose the cheapest that is good enough.
+// (`mobil fit-accuracy`), so that a scene can choose the cheapest that is good enough.
 
 #include <array>
 #include <cstddef>

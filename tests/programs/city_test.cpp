@@ -18,8 +18,8 @@ struct City {
   }
 };
 
-City city(const std::string& arguments, const std::filesystem::path& in) {
-  const Ran ran = run_mobil("crowd --quiet --report city.json " + arguments, in);
+City city(const std::string& arguments, const std::filesystem::path& in, const std::string& command = "crowd") {
+  const Ran ran = run_mobil(command + " --quiet --report city.json " + arguments, in);
   EXPECT_EQ(ran.status, 0) << arguments << ": " << ran.err;
   EXPECT_EQ(ran.err, "") << arguments;
   return {Json::parse(read_bytes(in / "city.json"), nullptr, false), ran.out};
@@ -64,10 +64,10 @@ TEST(City, MusclesGoOnWhereTheyWereSaved) {
 
 TEST(City, SleepersGoOnToo) {
   const TemporaryFolder folder;
-  const std::string alive = "--alive 1500 --in-view 150 --effects none --shards 3 --seed 4 ";
-  const std::string whole = city(alive + "--seconds 12", folder.path).hash();
-  city(alive + "--seconds 8 --save run --save-every 3s", folder.path);
-  EXPECT_EQ(city(alive + "--seconds 12 --resume run", folder.path).hash(), whole);
+  const std::string alive = "--people 1500 --in-view 150 --effects none --shards 3 --seed 4 ";
+  const std::string whole = city(alive + "--seconds 12", folder.path, "city").hash();
+  city(alive + "--seconds 8 --save run --save-every 3s", folder.path, "city");
+  EXPECT_EQ(city(alive + "--seconds 12 --resume run", folder.path, "city").hash(), whole);
 }
 
 TEST(City, RefusesWhatDoesNotGoTogetherInOneLine) {

@@ -11,19 +11,19 @@
 #include <vector>
 
 #include "demo/bake/baked_file.h"
-#include "demo/scene/crowd_people.h"
 #include "demo/crowd/crowd_run.h"
 #include "demo/crowd/crowd_scene.h"
 #include "demo/crowd/heap_count.h"
+#include "demo/scene/crowd_people.h"
 #include "tests/program/program.h"
 
 namespace mobil::crowd_command_test {
 using Json = nlohmann::json;
 
 /// The report of a crowd that is asked for so.
-Json report_of(const std::string& arguments) {
+Json report_of(const std::string& arguments, const std::string& command = "crowd") {
   const TemporaryFolder folder;
-  const Ran ran = run_mobil("crowd --quiet --report crowd.json " + arguments, folder.path);
+  const Ran ran = run_mobil(command + " --quiet --report crowd.json " + arguments, folder.path);
   EXPECT_EQ(ran.status, 0) << arguments << ": " << ran.err;
   EXPECT_EQ(ran.err, "") << arguments;
   return Json::parse(read_bytes(folder.path / "crowd.json"), nullptr, false);
@@ -55,12 +55,12 @@ TEST(CrowdCommand, RefusesWhatIsOutOfRangeInOneLine) {
                   {"--capture crowd.jpg", {"--capture", ".png"}},
                   {"--frames 3", {"--frames", "--capture"}},
                   {"--raise --capture crowd.png", {"--raise"}},
-                  {"--alive 10", {"--alive 10", "100 to 20000000"}},
-                  {"--alive 1000 --in-view 300", {"--in-view 300", "quarter"}},
-                  {"--in-view 5", {"--in-view", "--alive"}},
-                  {"--alive 1000 --churn 3", {"--churn", "--alive"}},
-                  {"--alive 1000 --raise", {"--raise", "--alive"}},
                   {"--human 3", {"there is no option --human", "--humans"}}},
+                 folder.path);
+  expect_refused("city",
+                 {{"--people 10", {"--people 10", "100 to 20000000"}},
+                  {"--people 1000 --in-view 300", {"--in-view 300", "quarter"}},
+                  {"--churn 3", {"there is no option --churn"}}},
                  folder.path);
 }
 
@@ -127,8 +127,8 @@ TEST(CrowdCommand, AnotherSeedIsAnotherCrowd) {
 }
 
 TEST(CrowdCommand, MostOfThoseAliveSleepAndDependOnTheSeedAlone) {
-  const std::string asked = "--alive 4000 --in-view 300 --seconds 2 --effects none --seed 5 --threads ";
-  const Json one = report_of(asked + "1"), two = report_of(asked + "2");
+  const std::string asked = "--people 4000 --in-view 300 --seconds 2 --effects none --seed 5 --threads ";
+  const Json one = report_of(asked + "1", "city"), two = report_of(asked + "2", "city");
   ASSERT_TRUE(one.is_object());
   EXPECT_EQ(one["alive"], 4000);
   EXPECT_EQ(one["ticks"], 120);

@@ -11,8 +11,8 @@
 #include <thread>
 #include <vector>
 
-#include "demo/scene/crowd_people.h"
 #include "demo/lab/bench/bench.h"
+#include "demo/scene/crowd_people.h"
 #include "systems/cluster/cluster.h"
 #include "systems/cluster/local_transport.h"
 #include "systems/cluster/mpi_transport.h"

@@ -24,30 +24,23 @@ Result<std::shared_ptr<BenchCrowd>> BenchCrowd::make(std::size_t humans) {
 }
 
 Result<void> BenchCrowd::spawn(std::size_t humans) {
-  constexpr std::uint32_t most_draws = 20;
   ProgressBar progress("spawning", humans);
   std::vector<double> wall;
   double wall_s = 0, cpu_s = 0;
   for (std::size_t i = 0; i < humans; ++i) {
-    for (std::uint32_t draw = 0;; ++draw) {
-      const CrowdPerson person = crowd_person(seed, i, draw);
-      const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
-      const auto entity = simulation_.spawn(person.body, person.gait);
-      const double wall_end = wall_now_s(), cpu_end = thread_cpu_now_s();
-      if (entity) {
-        wall.push_back(wall_end - wall_start);
-        wall_s += wall_end - wall_start;
-        cpu_s += cpu_end - cpu_start;
-        people_.push_back(*entity);
-        asked_.push_back(person);
-        break;
-      }
-      ++drawn_again_;
-      if (draw + 1 == most_draws) {
-        return fail(
-            fmt::format("person {} of the crowd was refused {} times: {}", i, most_draws, entity.error().message));
-      }
-    }
+    std::uint8_t draw = 0;
+    const auto person = crowd_walker(seed, i, draw);
+    if (!person) return tl::unexpected(person.error());
+    const double wall_start = wall_now_s(), cpu_start = thread_cpu_now_s();
+    const auto entity = simulation_.spawn(person->body, person->gait);
+    const double wall_end = wall_now_s(), cpu_end = thread_cpu_now_s();
+    if (!entity) return tl::unexpected(entity.error());
+    wall.push_back(wall_end - wall_start);
+    wall_s += wall_end - wall_start;
+    cpu_s += cpu_end - cpu_start;
+    people_.push_back(*entity);
+    asked_.push_back(*person);
+    drawn_again_ += draw;
     progress.at(i + 1);
   }
   const auto count = static_cast<double>(humans);

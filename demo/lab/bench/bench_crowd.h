@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "demo/scene/crowd_people.h"
 #include "demo/measure/measure.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/error.h"
 #include "engine/schedule.h"
 #include "systems/simulation.h"

@@ -130,7 +130,7 @@ Result<void> beside_rivals(BenchRun& run) {
     LegMuscles choice;
     std::optional<double> muscles_us{}, all_us{};  // a tick of everybody
   };
-  std::array<Ours, 2> ours = {Ours{"ecd81", bench_paper_muscles()}, Ours{"reduced", bench_reduced_muscles(true)}};
+  std::array<Ours, 2> ours = {Ours{"ecd81", LegMuscles{}}, Ours{"reduced", bench_reduced_muscles(true)}};
   RivalRounds rivals;
   const std::string rival = "bullet_crowd", asked = fmt::format("bullet_crowd@{}", humans_beside_rivals);
   std::optional<std::string> missing;

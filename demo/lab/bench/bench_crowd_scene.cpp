@@ -2,25 +2,14 @@
 
 #include <algorithm>
 
-#include "assets/body/anthropometry.h"
-#include "demo/scene/crowd_people.h"
 #include "demo/measure/measure.h"
+#include "demo/scene/crowd_people.h"
 #include "engine/schedule.h"
-#include "systems/gait/gait.h"
 
 namespace mobil {
 namespace {
 
 constexpr int settling_ticks = 90;  // the second step shows that the third is like it
-
-/// Whoever can walk as drawn.
-CrowdPerson walker(std::uint64_t number) {
-  for (std::uint32_t draw = 0;; ++draw) {
-    const CrowdPerson person = crowd_person(BenchScene::seed, number, draw);
-    const auto body = make_body(person.body);
-    if (body && resolve_gait(*body, person.gait)) return person;
-  }
-}
 
 }  // namespace
 
@@ -30,10 +19,6 @@ LegMuscles bench_reduced_muscles(bool seen) {
   choice.reduced.control_points = seen;
   choice.reduced.reported = false;
   return choice;
-}
-
-LegMuscles bench_paper_muscles() {
-  return {};
 }
 
 Jobs BenchScene::jobs() {
@@ -69,8 +54,10 @@ Result<void> BenchScene::grow_to(std::size_t humans) {
   while (people_.size() < humans) {
     requests.clear();
     while (requests.size() < std::min(at_once, humans - people_.size())) {
-      const CrowdPerson person = walker(drawn_++);
-      requests.push_back({.body = person.body, .gait = person.gait, .muscles = choice_});
+      std::uint8_t draw = 0;
+      const auto person = crowd_walker(seed, drawn_++, draw);
+      if (!person) return tl::unexpected(person.error());
+      requests.push_back({.body = person->body, .gait = person->gait, .muscles = choice_});
     }
     entities.resize(requests.size());
     const double start_s = process_cpu_now_s();

@@ -17,9 +17,8 @@
 
 namespace mobil {
 
-/// Twelve vectors of the fine mesh, their control points placed or nobody looking; and the paper's 81 nodes.
+/// Twelve vectors of the fine mesh, their control points placed or nobody looking.
 LegMuscles bench_reduced_muscles(bool seen);
-LegMuscles bench_paper_muscles();
 
 /// One tick: by the wall's clock, by this process' processor time, and of the latter each system's part in the order of
 /// the schedule; the least of all ticks measured, and the median. `serial_share` is the median part of the wall's time

@@ -1,5 +1,5 @@
 #pragma once
-// What every entry of `mobil stress` is made of: hard cases, each a promise with its bound, and what came of it.
+// What every entry of `mobil robustness` is made of: hard cases, each a promise with its bound, and what came of it.
 //
 // An entry is one function, `Result<void> stress_x(StressRun&)`, and one line in the list of stress_command.cpp. It
 // adds rows; a row holds where its measured value is on the promised side of its bound, and never where that is

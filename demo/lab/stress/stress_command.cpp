@@ -73,7 +73,7 @@ constexpr std::array stresses = {
 
 struct StressText {
   std::vector<std::string> names;
-  std::optional<std::string> json;
+  std::optional<std::string> json, csv;
   bool list = false, quick = false;
 };
 
@@ -122,6 +122,20 @@ std::string to_json(const StressRun& run, double seconds) {
   return json.dump(2) + "\n";
 }
 
+std::string quoted(std::string text) {
+  if (text.find_first_of(",\"") == std::string::npos) return text;
+  for (std::size_t at = 0; (at = text.find('"', at)) != std::string::npos; at += 2) text.insert(at, 1, '"');
+  return '"' + text + '"';
+}
+
+std::string to_csv(const StressRun& run) {
+  std::string text = "entry,tried,quantity,promise,bound,value,detail\n";
+  for (const StressRow& row : run.rows)
+    text += fmt::format("{},{},{},{},{:.4g},{:.4g},{}\n", row.entry, quoted(row.tried), quoted(row.quantity),
+                        words(row.promise), row.bound, row.value, quoted(row.detail));
+  return text;
+}
+
 void print_list() {
   for (const Stress& stress : stresses) fmt::print("{:<13} {}\n", stress.name, stress.about);
 }
@@ -145,8 +159,11 @@ void try_one(const Stress& stress, StressRun& run) {
 int stress(const StressText& text) {
   const auto chosen = choose_named(stresses, text.names, "stress");
   if (!chosen) return complain("robustness", chosen.error().message);
-  if (text.json) {
-    if (auto ok = check_result_place("--json", *text.json); !ok) return complain("robustness", ok.error().message);
+  const std::pair<const char*, const std::optional<std::string>&> files[] = {{"--json", text.json},
+                                                                             {"--csv", text.csv}};
+  for (const auto& [option, file] : files) {
+    if (!file) continue;
+    if (auto ok = check_result_place(option, *file); !ok) return complain("robustness", ok.error().message);
   }
   if (text.list) {
     print_list();
@@ -161,8 +178,10 @@ int stress(const StressText& text) {
   const auto broken = std::ranges::count_if(run.rows, [](const StressRow& row) { return !row.held(); });
   fmt::print("{} of {} hold, in {:.0f} s\n", static_cast<std::ptrdiff_t>(run.rows.size()) - broken, run.rows.size(),
              seconds);
-  if (text.json) {
-    if (auto ok = write_result("--json", *text.json, to_json(run, seconds)); !ok) return exit_status_of("robustness", ok);
+  for (const auto& [option, file] : files) {
+    if (!file) continue;
+    const std::string written = std::string_view(option) == "--json" ? to_json(run, seconds) : to_csv(run);
+    if (auto ok = write_result(option, *file, written); !ok) return exit_status_of("robustness", ok);
   }
   return broken == 0 ? 0 : 1;
 }
@@ -176,11 +195,12 @@ Subcommand robustness_command() {
       "A line each: held or BROKE, the entry, what was tried: what is promised with its bound (why that bound): what "
       "was\n"
       "measured. Exit status 0 where all hold, 1 where some do not, 2 for bad usage.\n"
-      "Example: mobil robustness slivers nan --json stress.json";
+      "Example: mobil robustness slivers nan --csv robustness.csv";
   command.options = {named_option(stresses, text->names, "try"),
                      {"--list", &text->list, "Say what there is to try, and try nothing"},
                      {"--quick", &text->quick, "Shorter long runs, some seconds in all"},
-                     {"--json", &text->json, "File for the rows"}};
+                     {"--csv", &text->csv, "File for the rows, one a promise"},
+                     {"--json", &text->json, "The same with the reasons of the bounds"}};
   command.run = [text] { return stress(*text); };
   return command;
 }

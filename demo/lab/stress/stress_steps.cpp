@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "assets/fem/critical_step.h"
+#include "demo/lab/muscle/muscle_options.h"
 #include "demo/lab/stress/stress.h"
 #include "demo/lab/stress/stress_bellies.h"
 #include "demo/lab/stress/stress_limits.h"
-#include "demo/lab/muscle/muscle_options.h"
 
 namespace mobil {
 namespace {

@@ -1,4 +1,4 @@
-#include "demo/body/body_json.h"
+#include "demo/lab/body/body_json.h"
 
 #include <fmt/format.h>
 

@@ -1,10 +1,12 @@
-#include "demo/lab/effects/finite_tables.h"
+// `mobil fit-shapes`: the tables of bellies at finite strain, made again.
 
 #include <fmt/format.h>
 
 #include <array>
 #include <filesystem>
+#include <memory>
 #include <span>
+#include <string>
 #include <utility>
 
 #include "assets/files/output_file.h"
@@ -45,12 +47,11 @@ Result<void> write_table(Muscle muscle, const std::string& folder) {
   return {};
 }
 
-}  // namespace
-
+/// Also prints how near each is to shapes that it was not made from.
 Result<void> write_finite_tables(const std::string& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
-  if (failed) return fail(fmt::format("--shapes {}: {}; give a folder that can be made", folder, failed.message()));
+  if (failed) return fail(fmt::format("--out {}: {}; give a folder that can be made", folder, failed.message()));
   fmt::print(
       "shapes that tables were not made from: displacement across off, rms and worst, %; farthest point off, mm; "
       "volume "
@@ -62,6 +63,20 @@ Result<void> write_finite_tables(const std::string& folder) {
   }
   say_where(fmt::format("look at {}", folder));
   return {};
+}
+
+}  // namespace
+
+Subcommand fit_shapes_command() {
+  auto out = std::make_shared<std::string>("tables");
+  Subcommand command{.name = "fit-shapes"};
+  command.footer =
+      "For those who change the library: a file a muscle, as assets/finite/tables has them. Minutes.\n"
+      "Example: mobil fit-shapes --out assets/finite/tables";
+  command.options = {{"--out", out.get(), "Folder for the tables, made if missing"}};
+  command.empty_refused = true;
+  command.run = [out] { return exit_status_of("fit-shapes", write_finite_tables(*out)); };
+  return command;
 }
 
 }  // namespace mobil

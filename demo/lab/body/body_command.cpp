@@ -9,8 +9,8 @@
 
 #include "assets/body/anthropometry.h"
 #include "assets/files/output_file.h"
-#include "demo/body/body_json.h"
-#include "demo/body/body_picture.h"
+#include "demo/lab/body/body_json.h"
+#include "demo/lab/body/body_picture.h"
 #include "demo/program/body_options.h"
 #include "demo/program/commands.h"
 #include "systems/capture/png.h"

@@ -1,4 +1,4 @@
-#include "demo/body/body_picture.h"
+#include "demo/lab/body/body_picture.h"
 
 #include <algorithm>
 #include <array>

@@ -113,7 +113,6 @@ TEST(WalkFormats, WhatIsRefusedIsOneLine) {
                   {"--export a.glb --export a.glb", {"--export a.glb", "twice"}},
                   {"--export a.glb --churn 5", {"--export", "--churn"}},
                   {"--export a.glb --raise", {"--raise", "--export"}},
-                  {"--export a.glb --alive 1000", {"--export", "--alive"}},
                   {"--humans 100000 --export a.glb --export-seconds 60", {"--export", "800000", "--export-seconds"}},
                   {"--export-seconds 2h", {"--export-seconds", "unknown unit"}}},
                  folder.path);

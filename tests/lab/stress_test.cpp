@@ -31,7 +31,7 @@ std::vector<std::string> listed() {
 
 TEST(Stress, EveryRowHoldsAndSaysSo) {
   const TemporaryFolder folder;
-  const Ran ran = run_mobil("stress --quick --quiet --json stress.json", folder.path);
+  const Ran ran = run_mobil("robustness --quick --quiet --json stress.json", folder.path);
   EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
   EXPECT_EQ(ran.err, "");
   const auto json = nlohmann::json::parse(read_bytes(folder.path / "stress.json"));
@@ -63,7 +63,7 @@ TEST(Stress, EveryRowHoldsAndSaysSo) {
 
 TEST(Stress, TriesWhatIsNamed) {
   const TemporaryFolder folder;
-  const Ran ran = run_mobil("stress --quick nan inverted", folder.path);
+  const Ran ran = run_mobil("robustness --quick nan inverted", folder.path);
   EXPECT_EQ(ran.status, 0) << ran.out << ran.err;
   EXPECT_NE(ran.out.find("held  inverted"), std::string::npos) << ran.out;
   EXPECT_NE(ran.out.find("held  nan"), std::string::npos) << ran.out;
@@ -100,7 +100,7 @@ TEST(Stress, BadInputIsOneLineAndNothingIsTried) {
       {"nan --json taken", {"--json taken", "folder"}},
       {"nan --quik", {"--quik", "did you mean --quick?"}},
   };
-  expect_refused("stress", refused, folder.path);
+  expect_refused("robustness", refused, folder.path);
   EXPECT_EQ(std::distance(fs::directory_iterator(folder.path), fs::directory_iterator()), 1);
 }
 
